@@ -1,0 +1,90 @@
+"""Every error that ``aegis_ot`` raises on purpose, as one tree.
+
+::
+
+    AegisError
+    ├── ConfigurationError       a setting cannot be used; raised inside ``run`` on a robot
+    ├── RehearsalError           the protocol could not be rehearsed
+    │   └── RehearsalTimeout     it did not end in the time allowed
+    ├── RuleError                a rule file is wrong: file, rule and field
+    ├── ProtocolRejected         Layer 1 found errors; nothing has moved
+    ├── RunAborted               Layer 2 ended the run, as configured
+    ├── LinkError                robot and sidecar could not talk
+    │   ├── SidecarUnreachable   no answer in time
+    │   ├── SidecarRefused       the token or the request was refused
+    │   └── SidecarGarbled       the answer made no sense
+    ├── CameraError              no usable frame
+    ├── ModelError               a vision model file cannot be used
+    ├── DatasetError             a trajectory data set is wrong: row and column
+    └── BackendError             an LLM or VLM gave no usable answer
+"""
+
+from __future__ import annotations
+
+
+class AegisError(Exception):
+    """Base of every error raised by this package."""
+
+
+class ConfigurationError(AegisError):
+    """A setting cannot be used as given."""
+
+
+class RehearsalError(AegisError):
+    """The protocol could not be rehearsed.
+
+    Attributes:
+        line: 1-based source line at which it stopped, if known.
+    """
+
+    def __init__(self, message: str, line: int | None = None) -> None:
+        super().__init__(message)
+        self.line = line
+
+
+class RehearsalTimeout(RehearsalError):
+    """The rehearsal did not end in the time allowed."""
+
+
+class RuleError(AegisError):
+    """A rule file cannot be used; the message names file, rule and field."""
+
+
+class ProtocolRejected(AegisError):
+    """Layer 1 found errors. On a robot it is raised before anything moves."""
+
+
+class RunAborted(AegisError):
+    """Layer 2 ended the run, because the failure policy says so."""
+
+
+class LinkError(AegisError):
+    """Robot and sidecar could not talk."""
+
+
+class SidecarUnreachable(LinkError):
+    """The sidecar gave no answer in time."""
+
+
+class SidecarRefused(LinkError):
+    """The sidecar refused the token or the request."""
+
+
+class SidecarGarbled(LinkError):
+    """The sidecar's answer made no sense."""
+
+
+class CameraError(AegisError):
+    """The camera gave no usable frame."""
+
+
+class ModelError(AegisError):
+    """A vision model file is missing, damaged or of another version."""
+
+
+class DatasetError(AegisError):
+    """A trajectory data set is wrong; the message lists every row and column."""
+
+
+class BackendError(AegisError):
+    """An LLM or VLM gave no usable answer."""

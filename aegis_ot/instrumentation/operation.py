@@ -1,0 +1,156 @@
+"""One pipetting operation as it passes through an instrument's core, seen by listeners.
+
+The core of an ``InstrumentContext`` is where every path meets, at every apiLevel: plain calls,
+``transfer`` and its siblings, the liquid-class transfers. An operation is told twice: to
+:meth:`Listener.before` when the robot is about to do it (nothing has moved yet), and to
+:meth:`Listener.after` when it is done.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any, Protocol
+
+from ..vocabulary import WellRef
+
+
+class OperationKind(str, Enum):
+    """What an instrument can do to a tip or a liquid."""
+
+    PICK_UP_TIP = "pick_up_tip"
+    DROP_TIP = "drop_tip"
+    ASPIRATE = "aspirate"
+    DISPENSE = "dispense"
+    BLOW_OUT = "blow_out"
+    AIR_GAP = "air_gap"
+    TOUCH_TIP = "touch_tip"
+    MOVE = "move"
+
+
+@dataclass(frozen=True)
+class Pipette:
+    """One loaded pipette.
+
+    Attributes:
+        key: Unique within a run (the mount).
+        name: Opentrons name, ``"p300_multi_gen2"``.
+        mount: ``"left"`` or ``"right"``.
+        channels: Number of nozzles it has.
+        max_volume: µL.
+    """
+
+    key: str
+    name: str
+    mount: str
+    channels: int
+    max_volume: float
+
+
+@dataclass(frozen=True)
+class Operation:
+    """One operation of one pipette.
+
+    Attributes:
+        kind: What is done.
+        pipette: By which pipette.
+        nozzles: The active nozzles that take part, ``("A1", ..., "H1")``; each holds one tip.
+        wells: The well at each of those nozzles, same order; ``None`` where a nozzle is over
+            no well. All ``None`` for trash, waste chute or a bare coordinate.
+        disposal: Whether the place is a trash bin, a waste chute or trash labware.
+        volume: Per nozzle, µL; 0 where it means nothing. ``BLOW_OUT`` has 0: it empties.
+        from_top: Height of the tip end over the well's top, mm (negative: inside the well);
+            ``None`` if unknown or if there is no well.
+        from_bottom: Height of the tip end over the well's bottom, mm; likewise.
+        position: Tip end on the deck (x, y, z), mm, or ``None``.
+        flow_rate: µL/s, or ``None``.
+        in_place: Whether the core was told not to move first.
+        line: Source line of the protocol that the innermost protocol frame stands on.
+        lines: All protocol lines on the stack, innermost first.
+        call: Name of the ``InstrumentContext`` method that the protocol called:
+            ``"transfer"``, ``"mix"``, ``"aspirate"``, ``"transfer_with_liquid_class"``...
+        mixing: Whether it is part of a mix (``mix``, ``mix_before``, ``mix_after``, or the mix
+            step of a liquid class).
+    """
+
+    kind: OperationKind
+    pipette: Pipette
+    nozzles: tuple[str, ...]
+    wells: tuple[WellRef | None, ...]
+    disposal: bool = False
+    volume: float = 0.0
+    from_top: float | None = None
+    from_bottom: float | None = None
+    position: tuple[float, float, float] | None = None
+    flow_rate: float | None = None
+    in_place: bool = False
+    line: int | None = None
+    lines: tuple[int, ...] = ()
+    call: str = ""
+    mixing: bool = False
+    core: Any = field(default=None, repr=False, compare=False)
+    """The instrument core itself, for listeners that must move or ask it. Never store it."""
+
+    @property
+    def well(self) -> WellRef | None:
+        """The first nozzle's well, or the first there is."""
+        return next((well for well in self.wells if well is not None), None)
+
+    @property
+    def is_air(self) -> bool:
+        """Whether an aspirate draws air: at or above the top of its well, or over no well."""
+        if self.kind is OperationKind.AIR_GAP:
+            return True
+        if self.kind is not OperationKind.ASPIRATE:
+            return False
+        return self.well is None or (self.from_top is not None and self.from_top >= 0)
+
+
+class Listener(Protocol):
+    """Hears of every operation of every instrument of one protocol run, in its thread.
+
+    An exception raised by a listener reaches the protocol: listeners raise only on purpose.
+    """
+
+    def before(self, operation: Operation) -> None:
+        """The operation is about to be done; the robot stands still."""
+
+    def after(self, operation: Operation) -> None:
+        """The operation is done; not called if it raised."""
+
+    def event(self, event: Event) -> None:
+        """Something happened that is not a pipetting operation."""
+
+
+class EventKind(str, Enum):
+    """What else in a protocol changes the meaning of wells and tips."""
+
+    LABWARE_LOADED = "labware_loaded"
+    LABWARE_MOVED = "labware_moved"
+    LIQUID_LOADED = "liquid_loaded"
+    TIPS_RESET = "tips_reset"
+    PAUSED = "paused"
+    COMMENT = "comment"
+    DELAY = "delay"
+    MODULE = "module"
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something besides pipetting: a plate moved, a liquid declared, a pause, a comment.
+
+    Attributes:
+        kind: What happened.
+        line: Source line of the protocol.
+        labware: Key of the labware concerned (see :class:`WellRef`), or ``""``.
+        wells: The wells concerned.
+        text: Message of a pause or comment; name of a liquid; new slot of a moved labware.
+        volume: Declared volume of a loaded liquid, µL, or ``None``.
+    """
+
+    kind: EventKind
+    line: int | None = None
+    labware: str = ""
+    wells: tuple[WellRef, ...] = ()
+    text: str = ""
+    volume: float | None = None

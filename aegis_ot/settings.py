@@ -1,0 +1,1 @@
+"""Settings of the guard: keyword arguments over environment variables over a file."""

@@ -1,0 +1,96 @@
+"""The values that pass between the parts of the vision room.
+
+Images are ``uint8`` arrays of shape ``(height, width, 3)``, channel order BGR, whole camera
+frames. Pixel coordinates have their origin in the top-left corner of the whole frame, x to the
+right, y down, and are floats: the centre of the first pixel is ``(0.5, 0.5)``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..vocabulary import KeyframeKind
+
+Image = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class TipDetection:
+    """Where the pipette tip is in a frame.
+
+    Attributes:
+        x, y, w, h: Box of the whole tip, orifice to collar, px.
+        confidence: 0 to 1.
+        orifice: Lower end of the tip axis (x, y), px.
+        collar: Upper end of the tip axis (x, y), px.
+    """
+
+    x: float
+    y: float
+    w: float
+    h: float
+    confidence: float
+    orifice: tuple[float, float]
+    collar: tuple[float, float]
+
+    @property
+    def length(self) -> float:
+        """Length of the tip axis, px."""
+        return float(np.hypot(self.orifice[0] - self.collar[0], self.orifice[1] - self.collar[1]))
+
+
+class Detector(Protocol):
+    """Finds the tip in a frame; ``None`` where there is none."""
+
+    def detect(self, image: Image) -> TipDetection | None: ...
+
+
+@dataclass(frozen=True)
+class TrajectorySample:
+    """One pipetting cycle as the vision room sees it.
+
+    Attributes:
+        id: Unique within its data set or run.
+        plate: Unit of calibration: one camera pose, lighting and reagent (or one run).
+        well: ``"A1"``.
+        pipette: Short tip class: ``"p20"``, ``"p300"``, ``"p1000"``.
+        reagent: What the liquid is called, if known.
+        volume_ul: Volume that the protocol commanded, µL.
+        expected_ul: Liquid that should be in the tip at each keyframe, µL.
+        frames: The four images.
+        detections: The tip in each; ``None`` where no tip was found.
+        label: ``"normal"``, ``"failure"``, or ``""`` when unknown.
+        failure_type: As in the data set format; empty for normals.
+        retained_fraction: Fraction of the volume left in the tip, if known.
+    """
+
+    id: str
+    plate: str
+    well: str
+    pipette: str
+    volume_ul: float
+    frames: Mapping[KeyframeKind, Image]
+    detections: Mapping[KeyframeKind, TipDetection | None]
+    expected_ul: Mapping[KeyframeKind, float]
+    reagent: str = ""
+    label: str = ""
+    failure_type: str = ""
+    retained_fraction: float | None = None
+    notes: Mapping[str, str] = field(default_factory=dict)
+
+
+class Scorer(Protocol):
+    """Fit on normal trajectories, gives each trajectory an anomaly score (higher is worse)."""
+
+    name: str
+
+    def fit(self, normals: Sequence[TrajectorySample]) -> None:
+        """Learn what normal looks like. Raises :class:`ValueError` on an empty sequence."""
+
+    def score(self, sample: TrajectorySample) -> float:
+        """Anomaly score of one trajectory, in the scorer's own unit, >= 0."""

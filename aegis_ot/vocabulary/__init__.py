@@ -1,0 +1,36 @@
+"""The words that every room shares, as frozen dataclasses. Standard library only.
+
+Whatever crosses from one room to another, or from the robot to the workstation, is one of
+these. They carry no behaviour beyond naming themselves and turning into plain JSON.
+"""
+
+from .findings import Finding, Severity, Site, Undecided, VerdictWord
+from .trajectories import (
+    FailureType,
+    Gate,
+    Keyframe,
+    KeyframeKind,
+    Outcome,
+    Route,
+    Verdict,
+)
+from .wells import WellRef
+from .wire import from_json, to_json
+
+__all__ = [
+    "FailureType",
+    "Finding",
+    "Gate",
+    "Keyframe",
+    "KeyframeKind",
+    "Outcome",
+    "Route",
+    "Severity",
+    "Site",
+    "Undecided",
+    "Verdict",
+    "VerdictWord",
+    "WellRef",
+    "from_json",
+    "to_json",
+]

@@ -1,0 +1,80 @@
+"""What Layer 1 says about a protocol."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from .wells import WellRef
+
+
+class Severity(str, Enum):
+    """How bad a finding is: an error fails the protocol, a warning only warns."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+class VerdictWord(str, Enum):
+    """A protocol's verdict; ``ERROR`` means that it could not be judged at all."""
+
+    PASS = "pass"
+    WARN = "warn"
+    FAIL = "fail"
+    ERROR = "error"
+
+
+@dataclass(frozen=True)
+class Site:
+    """One end of a finding: what happened to which well, caused by which source line.
+
+    Attributes:
+        line: 1-based line in the protocol file, ``None`` where none is known.
+        well: The well concerned, if any.
+        action: What was done there, in plain words: ``"drew template"``.
+    """
+
+    line: int | None
+    well: WellRef | None = None
+    action: str = ""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One violation of one rule.
+
+    Attributes:
+        rule: Rule identifier, ``"PCR-2"``.
+        severity: Severity in force (after the user's configuration).
+        message: One sentence saying what happened in this protocol.
+        sites: Both ends where there are two: where it began, where it did harm.
+        why: Why it ruins the assay.
+        fix: How to mend it.
+        source: Who found it: ``"rules"`` or ``"model"``.
+    """
+
+    rule: str
+    severity: Severity
+    message: str
+    sites: tuple[Site, ...]
+    why: str = ""
+    fix: str = ""
+    source: str = "rules"
+
+    @property
+    def wells(self) -> tuple[WellRef, ...]:
+        """The wells concerned, each once, in the order of the sites."""
+        return tuple(dict.fromkeys(site.well for site in self.sites if site.well is not None))
+
+    @property
+    def lines(self) -> tuple[int, ...]:
+        """The source lines concerned, each once, in the order of the sites."""
+        return tuple(dict.fromkeys(site.line for site in self.sites if site.line is not None))
+
+
+@dataclass(frozen=True)
+class Undecided:
+    """A rule that could not be judged, and what it lacked."""
+
+    rule: str
+    reason: str

@@ -1,0 +1,128 @@
+"""What Layer 2 sees and says: keyframes of a trajectory, and the verdict on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from .wells import WellRef
+
+
+class KeyframeKind(str, Enum):
+    """The four moments of a pipetting cycle at which the robot stands still for the camera."""
+
+    ASPIRATE = "aspirate"
+    TRANSIT = "transit"
+    DISPENSE = "dispense"
+    POST_DISPENSE = "post_dispense"
+
+
+class Outcome(str, Enum):
+    """The verdict on a trajectory. ``UNDECIDED``: flagged, and no gate could settle it."""
+
+    PASS = "pass"
+    FAIL = "fail"
+    UNDECIDED = "undecided"
+
+
+class Route(str, Enum):
+    """Where triage sent a well (paper, "Real-time deployment")."""
+
+    CALIBRATION = "calibration"
+    SILENT_PASS = "silent_pass"
+    GREY_ZONE = "grey_zone"
+    BLANK_FLOOR = "blank_floor"
+    UNCALIBRATED = "uncalibrated"
+    ALWAYS_GATE = "always_gate"
+
+
+class Gate(str, Enum):
+    """Who confirmed or rejected a flagged well."""
+
+    NONE = "none"
+    VOLUMETRIC = "volumetric"
+    VLM = "vlm"
+    OPERATOR = "operator"
+
+
+class FailureType(str, Enum):
+    """What went wrong physically, as far as a verdict can name it."""
+
+    PARTIAL_DISPENSE = "partial_dispense"
+    NO_DISPENSE = "no_dispense"
+    NO_ASPIRATE = "no_aspirate"
+    AIR_BUBBLE = "air_bubble"
+    NO_TIP = "no_tip"
+    OTHER = "other"
+
+
+@dataclass(frozen=True)
+class Keyframe:
+    """A trigger from the robot: it stands still now; grab a frame exposed after this.
+
+    Attributes:
+        run: Identifier of the run, chosen by the robot.
+        sequence: Counts the keyframes of a run from 0; a resent one keeps its number.
+        trajectory: Counts the trajectories of a run from 0.
+        kind: Which of the four moments.
+        pipette: Opentrons pipette name, ``"p1000_single_gen2"``.
+        mount: ``"left"`` or ``"right"``.
+        channels: Number of tips that take part.
+        tip: Tip rack and tip, ``"1:A1"``; of the first channel.
+        sources: Wells drawn from, one per channel (fewer where channels share a well).
+        destinations: Wells delivered to, likewise; empty until known.
+        commanded_ul: Volume per channel that this trajectory moves, µL.
+        expected_ul: Liquid that should be in each tip now, µL, air left out.
+        capacity_ul: Working volume of the tip, µL.
+        reagent: What the liquid is called, if anything is known.
+        position: Tip end on the deck (x, y, z), mm; ``None`` if unknown.
+        robot_time: Seconds since the epoch on the robot's clock.
+        line: Source line of the protocol that caused it.
+    """
+
+    run: str
+    sequence: int
+    trajectory: int
+    kind: KeyframeKind
+    pipette: str
+    mount: str
+    channels: int
+    tip: str
+    sources: tuple[WellRef, ...]
+    destinations: tuple[WellRef, ...]
+    commanded_ul: float
+    expected_ul: float
+    capacity_ul: float
+    reagent: str | None = None
+    position: tuple[float, float, float] | None = None
+    robot_time: float = 0.0
+    line: int | None = None
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The judgement on one trajectory.
+
+    Attributes:
+        run: Identifier of the run.
+        trajectory: Number of the trajectory in the run.
+        outcome: Pass, fail or undecided.
+        route: Where triage sent it.
+        score: The scorer's anomaly score (the scorer's own unit); ``None`` without frames.
+        gate: Who settled it.
+        failure: What went wrong, for a fail.
+        reason: One sentence for the operator.
+        measured_ul: What the volumetric gate read after the dispense, µL.
+        expected_ul: What should have been left after the dispense, µL.
+    """
+
+    run: str
+    trajectory: int
+    outcome: Outcome
+    route: Route
+    score: float | None = None
+    gate: Gate = Gate.NONE
+    failure: FailureType | None = None
+    reason: str = ""
+    measured_ul: float | None = None
+    expected_ul: float | None = None
