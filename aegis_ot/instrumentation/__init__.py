@@ -1,5 +1,21 @@
 """Taps the instruments of one protocol run, so that others can listen. Robot side."""
 
+from .labware import LabwareInfo, WellInfo
+from .names import NameBinding, NameCollector
 from .operation import Event, EventKind, Listener, Operation, OperationKind, Pipette
+from .tap import Tap, tapped
 
-__all__ = ["Event", "EventKind", "Listener", "Operation", "OperationKind", "Pipette"]
+__all__ = [
+    "Event",
+    "EventKind",
+    "LabwareInfo",
+    "Listener",
+    "NameBinding",
+    "NameCollector",
+    "Operation",
+    "OperationKind",
+    "Pipette",
+    "Tap",
+    "WellInfo",
+    "tapped",
+]

@@ -13,6 +13,7 @@ from enum import Enum
 from typing import Any, Protocol
 
 from ..vocabulary import WellRef
+from .labware import LabwareInfo
 
 
 class OperationKind(str, Enum):
@@ -89,7 +90,7 @@ class Operation:
     call: str = ""
     mixing: bool = False
     core: Any = field(default=None, repr=False, compare=False)
-    """The instrument core itself, for listeners that must move or ask it. Never store it."""
+    """The instrument core, from ``before`` to the end of the operation; ``None`` afterwards."""
 
     @property
     def well(self) -> WellRef | None:
@@ -146,6 +147,7 @@ class Event:
         wells: The wells concerned.
         text: Message of a pause or comment; name of a liquid; new slot of a moved labware.
         volume: Declared volume of a loaded liquid, µL, or ``None``.
+        labware_info: What is known of a labware just loaded.
     """
 
     kind: EventKind
@@ -154,3 +156,4 @@ class Event:
     wells: tuple[WellRef, ...] = ()
     text: str = ""
     volume: float | None = None
+    labware_info: LabwareInfo | None = None

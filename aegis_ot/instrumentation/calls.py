@@ -1,0 +1,180 @@
+"""Reads the arguments of an instrument core's methods into an :class:`Operation`."""
+
+from __future__ import annotations
+
+import inspect
+from collections import deque
+from collections.abc import Mapping
+from typing import Any
+
+from ..vocabulary import WellRef
+from .callsite import CallSite
+from .operation import Operation, OperationKind, Pipette
+from .wells import Nozzles, WellResolver
+
+CORE_METHODS: Mapping[str, OperationKind] = {
+    "pick_up_tip": OperationKind.PICK_UP_TIP,
+    "drop_tip": OperationKind.DROP_TIP,
+    "drop_tip_in_disposal_location": OperationKind.DROP_TIP,
+    "aspirate": OperationKind.ASPIRATE,
+    "dispense": OperationKind.DISPENSE,
+    "blow_out": OperationKind.BLOW_OUT,
+    "air_gap_in_place": OperationKind.AIR_GAP,
+    "touch_tip": OperationKind.TOUCH_TIP,
+    "move_to": OperationKind.MOVE,
+    # A probe dips the tip into the liquid: to the tip and the well it is a touch.
+    "detect_liquid_presence": OperationKind.TOUCH_TIP,
+    "liquid_probe_with_recovery": OperationKind.TOUCH_TIP,
+    "liquid_probe_without_recovery": OperationKind.TOUCH_TIP,
+}
+
+_PROBES = frozenset(name for name in CORE_METHODS if "liquid_p" in name)
+_RECENT = 4
+
+
+class CallReader:
+    """Reads the calls of one instrument core; remembers where its last operations went.
+
+    Attributes:
+        busy: Whether an operation is under way; calls from inside it are not read.
+    """
+
+    def __init__(self, core: Any, pipette: Pipette, wells: WellResolver) -> None:
+        self._core = core
+        self._pipette = pipette
+        self._wells = wells
+        self._parameters = {
+            name: tuple(inspect.signature(getattr(core, name)).parameters)
+            for name in CORE_METHODS
+            if hasattr(core, name)
+        }
+        self._move_to = core.move_to
+        self._targets: deque[tuple[Operation, Any, Any]] = deque(maxlen=_RECENT)
+        self.busy = False
+
+    def read(
+        self, name: str, args: tuple[Any, ...], kwargs: Mapping[str, Any], site: CallSite
+    ) -> Operation | None:
+        """The operation that this call is, or ``None`` if the call cannot be understood.
+
+        A call with wrong arguments is left to Opentrons, which has an error for it.
+        """
+        values = dict(zip(self._parameters[name], args, strict=False))
+        values.update(kwargs)
+        try:
+            return self._operation(name, values, site)
+        except (AttributeError, KeyError, TypeError):
+            return None
+
+    def done(self, operation: Operation) -> None:
+        """The operation went through; let go of the core."""
+        object.__setattr__(operation, "core", None)
+
+    def move_above(self, operation: Operation) -> None:
+        """Move to the top of the first well of a recent operation, unheard by listeners.
+
+        Nothing moves where the operation was not aimed at a well.
+        """
+        for recent, location, well_core in reversed(self._targets):
+            if recent is operation and well_core is not None:
+                self._move(location, well_core)
+                return
+
+    def _move(self, location: Any, well_core: Any) -> None:
+        top = type(location)(well_core.get_top(z_offset=0), location.labware)
+        self.busy = True
+        try:
+            self._move_to(
+                top,
+                well_core=well_core,
+                force_direct=False,
+                minimum_z_height=None,
+                speed=None,
+            )
+        finally:
+            self.busy = False
+
+    def _operation(self, name: str, values: dict[str, Any], site: CallSite) -> Operation:
+        kind = CORE_METHODS[name]
+        if kind is OperationKind.ASPIRATE and site.call == "air_gap":
+            kind = OperationKind.AIR_GAP  # before apiLevel 2.22 an air gap is an aspirate
+        location = values.get("location", values.get("loc", values.get("disposal_location")))
+        well_core = values.get("well_core")
+        if well_core is None:
+            well_core = _well_core_of(location)
+        nozzles = Nozzles.of(self._core)
+        wells: tuple[WellRef | None, ...] = (None,) * len(nozzles.names)
+        disposal = name == "drop_tip_in_disposal_location" or _is_disposal(location)
+        from_top = from_bottom = None
+        if well_core is not None:
+            info = self._wells.info_of(well_core)
+            if info.is_trash:
+                disposal = True
+            else:
+                wells = self._wells.covered(well_core, nozzles)
+                from_top = self._height(name, values, location, well_core)
+                if from_top is not None:
+                    from_bottom = from_top + info.wells[str(well_core.get_name())].depth
+        operation = Operation(
+            kind=kind,
+            pipette=self._pipette,
+            nozzles=nozzles.names,
+            wells=wells,
+            disposal=disposal,
+            volume=self._volume(kind, values),
+            from_top=from_top,
+            from_bottom=from_bottom,
+            position=_position(location),
+            flow_rate=values.get("flow_rate"),
+            in_place=bool(values.get("in_place", False)),
+            line=site.line,
+            lines=site.lines,
+            call=site.call,
+            mixing=site.mixing,
+            core=self._core,
+        )
+        aimed = getattr(getattr(location, "labware", None), "is_well", False) and not disposal
+        self._targets.append((operation, location, well_core if aimed else None))
+        return operation
+
+    def _volume(self, kind: OperationKind, values: Mapping[str, Any]) -> float:
+        volume = float(values.get("volume") or 0.0)
+        if kind is OperationKind.DISPENSE:
+            # Older apiLevels clamp a dispense to what is in the tip, air included.
+            held = self._core.get_current_volume()
+            return min(volume, float(held)) if held else volume
+        return volume
+
+    @staticmethod
+    def _height(
+        name: str, values: Mapping[str, Any], location: Any, well_core: Any
+    ) -> float | None:
+        if name == "touch_tip":
+            return float(values["z_offset"])
+        if name in _PROBES:
+            return -0.1  # it goes down until it meets the liquid: inside, how deep is unknown
+        if values.get("meniscus_tracking") is not None:
+            return None
+        point = getattr(location, "point", None)
+        if point is None or not isinstance(getattr(point, "z", None), (int, float)):
+            return None
+        return round(float(point.z) - float(well_core.get_top(z_offset=0).z), 3)
+
+
+def _well_core_of(location: Any) -> Any:
+    labware = getattr(location, "labware", None)
+    if labware is not None and getattr(labware, "is_well", False):
+        return labware.as_well()._core
+    return None
+
+
+def _is_disposal(location: Any) -> bool:
+    return type(location).__name__ in {"TrashBin", "WasteChute"}
+
+
+def _position(location: Any) -> tuple[float, float, float] | None:
+    point = getattr(location, "point", None)
+    try:
+        return (float(point.x), float(point.y), float(point.z))  # type: ignore[union-attr]
+    except (AttributeError, TypeError, ValueError):
+        return None

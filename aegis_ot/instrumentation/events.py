@@ -1,0 +1,118 @@
+"""Hears of what is not pipetting: labware, liquids, pauses, comments, fresh tips."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from .callsite import find_call_site
+from .operation import Event, EventKind, Listener
+from .wells import WellResolver
+
+Make = Callable[[Callable[..., Any]], Callable[..., Any]]
+Replace = Callable[[Any, str, Make], None]
+
+
+class EventTap:
+    """Wraps a protocol core (and the engine client behind it) for events.
+
+    Args:
+        core: The protocol core.
+        wells: Where labware is registered.
+        listeners: Told of each event after it happened.
+        file_name: ``co_filename`` of the protocol's code.
+        replace: Puts a method in front of an instance's own until the tap is removed.
+    """
+
+    def __init__(
+        self,
+        core: Any,
+        wells: WellResolver,
+        listeners: Sequence[Listener],
+        file_name: str,
+        replace: Replace,
+    ) -> None:
+        self._core = core
+        self._wells = wells
+        self._listeners = listeners
+        self._file_name = file_name
+        self._replace = replace
+        self._liquid_names: dict[str, str] = {}
+
+    def install(self) -> None:
+        """Wrap what this core has; the legacy one has less."""
+        for labware_core in self._core.get_labware_cores():
+            self._loaded(labware_core)
+        for name in ("load_labware", "load_adapter", "load_lid"):
+            self._after(self._core, name, lambda result, *_: self._loaded(result))
+        self._after(self._core, "move_labware", self._moved)
+        self._after(self._core, "define_liquid", self._defined)
+        self._after(self._core, "pause", self._said(EventKind.PAUSED))
+        self._after(self._core, "comment", self._said(EventKind.COMMENT))
+        self._after(self._core, "delay", self._said(EventKind.DELAY))
+        client = getattr(self._core, "_engine_client", None)
+        if client is not None:
+            # Liquids are loaded through wells and labware alike; both end here.
+            self._after(client, "execute_command", self._commanded)
+
+    def _after(self, target: Any, name: str, tell: Callable[..., None]) -> None:
+        if not hasattr(target, name):
+            return
+
+        def make(original: Callable[..., Any]) -> Callable[..., Any]:
+            def method(_self: Any, *args: Any, **kwargs: Any) -> Any:
+                result = original(*args, **kwargs)
+                tell(result, args, kwargs)
+                return result
+
+            return method
+
+        self._replace(target, name, make)
+
+    def _tell(self, event: Event) -> None:
+        for listener in self._listeners:
+            listener.event(event)
+
+    def _line(self) -> int | None:
+        return find_call_site(self._file_name, skip=2).line
+
+    def _loaded(self, labware_core: Any) -> None:
+        info = self._wells.register(labware_core)
+        if info.is_tip_rack:
+            self._after(
+                labware_core,
+                "reset_tips",
+                lambda *_: self._tell(Event(EventKind.TIPS_RESET, self._line(), info.key)),
+            )
+        self._tell(
+            Event(EventKind.LABWARE_LOADED, self._line(), info.key, text=info.slot, labware_info=info)
+        )
+
+    def _moved(self, _result: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+        labware_core = kwargs.get("labware_core", args[0] if args else None)
+        info = self._wells.moved(labware_core)
+        slot = self._wells.slot(info.key)
+        self._tell(Event(EventKind.LABWARE_MOVED, self._line(), info.key, text=slot))
+
+    def _defined(self, liquid: Any, *_: Any) -> None:
+        self._liquid_names[str(liquid._id)] = str(liquid.name)
+
+    def _said(self, kind: EventKind) -> Callable[..., None]:
+        def tell(_result: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+            text = kwargs.get("msg", args[-1] if args else "")
+            self._tell(Event(kind, self._line(), text=text if isinstance(text, str) else ""))
+
+        return tell
+
+    def _commanded(self, _result: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+        params = kwargs.get("params", args[0] if args else None)
+        if type(params).__name__ != "LoadLiquidParams":
+            return
+        key = self._wells.key_of_id(params.labwareId)
+        name = self._liquid_names.get(params.liquidId, "")
+        line = self._line()
+        for well, volume in params.volumeByWell.items():
+            ref = self._wells.ref(key, well)
+            self._tell(
+                Event(EventKind.LIQUID_LOADED, line, key, (ref,), text=name, volume=float(volume))
+            )

@@ -1,0 +1,218 @@
+"""From Opentrons' labware and well cores to :class:`WellRef`, nozzle by nozzle.
+
+Two kinds of core exist: the engine's (apiLevel 2.14 and newer), which know their labware by an
+identifier, and the legacy ones, which hold their geometry themselves. Here is the one place
+that knows both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ..vocabulary import WellRef
+from .labware import LabwareInfo, WellInfo
+
+_NOZZLE_PITCH_MM = 9.0
+_SLACK_MM = 0.6
+"""A nozzle this far outside a well's rim still counts as over it (calibration offsets)."""
+
+
+@dataclass(frozen=True)
+class Nozzles:
+    """The active nozzles of a pipette, and where they are from the one that leads.
+
+    Attributes:
+        names: ``("A1", ..., "H1")``.
+        offsets: Deck x and y from the nozzle that is aimed at the target well, mm.
+    """
+
+    names: tuple[str, ...]
+    offsets: tuple[tuple[float, float], ...]
+
+    @classmethod
+    def of(cls, core: Any) -> Nozzles:
+        """Read the active nozzles of an instrument core."""
+        nozzle_map = _nozzle_map(core)
+        if nozzle_map is None:
+            count = int(core.get_channels())
+            names = tuple(f"{chr(ord('A') + row)}1" for row in range(count))
+            return cls(names, tuple((0.0, -_NOZZLE_PITCH_MM * row) for row in range(count)))
+        points = nozzle_map.map_store
+        lead = points[nozzle_map.starting_nozzle]
+        return cls(
+            tuple(points), tuple((point.x - lead.x, point.y - lead.y) for point in points.values())
+        )
+
+
+def _nozzle_map(core: Any) -> Any:
+    try:
+        nozzle_map = core.get_nozzle_map()
+    except Exception:  # the legacy cores refuse it, each version in its own way
+        return None
+    return nozzle_map if hasattr(nozzle_map, "map_store") else None
+
+
+class WellResolver:
+    """Names the labware and wells of one protocol run.
+
+    Labware get keys in the order in which the run first shows them, so that a rehearsal and
+    the live run that follows it give the same labware the same key.
+    """
+
+    def __init__(self, protocol_core: Any) -> None:
+        self._engine_state = getattr(
+            getattr(protocol_core, "_engine_client", None), "state", None
+        )
+        self._keys: dict[Any, str] = {}
+        self._slots: dict[str, str] = {}
+        self._covered: dict[tuple[str, str, Nozzles], tuple[str | None, ...]] = {}
+        self._refs: dict[tuple[str, str], WellRef] = {}
+        self.labware: dict[str, LabwareInfo] = {}
+
+    def register(self, labware_core: Any) -> LabwareInfo:
+        """Take in a labware core, or find it again."""
+        identity = getattr(labware_core, "labware_id", None) or labware_core
+        key = self._keys.get(identity)
+        if key is None:
+            key = self._keys[identity] = f"labware-{len(self._keys) + 1}"
+            self._slots[key] = self._slot_of(labware_core)
+            self.labware[key] = _describe(key, labware_core, self._slots[key])
+        return self.labware[key]
+
+    def key_of_id(self, labware_id: str) -> str:
+        """The key of an engine labware identifier, ``""`` if it was never registered."""
+        return self._keys.get(labware_id, "")
+
+    def moved(self, labware_core: Any) -> LabwareInfo:
+        """Read again where a labware stands, and all that stand on it."""
+        info = self.register(labware_core)
+        self._refs.clear()
+        self._slots[info.key] = self._slot_of(labware_core)
+        return info
+
+    def slot(self, key: str) -> str:
+        """Where the labware with this key stands now; ``""`` off deck."""
+        return self._slots[key]
+
+    def ref(self, key: str, name: str) -> WellRef:
+        """The reference to one well as it stands now."""
+        ref = self._refs.get((key, name))
+        if ref is None:
+            info = self.labware[key]
+            ref = WellRef(key, name, info.label or info.display_name, self._slots[key])
+            self._refs[(key, name)] = ref
+        return ref
+
+    def covered(self, well_core: Any, nozzles: Nozzles) -> tuple[WellRef | None, ...]:
+        """The well at each nozzle when the leading one is aimed at ``well_core``."""
+        info = self.register(self._labware_core_of(well_core))
+        target = str(well_core.get_name())
+        cache_key = (info.key, target, nozzles)
+        names = self._covered.get(cache_key)
+        if names is None:
+            names = self._covered[cache_key] = _wells_under(info, target, nozzles)
+        return tuple(None if name is None else self.ref(info.key, name) for name in names)
+
+    def info_of(self, well_core: Any) -> LabwareInfo:
+        """The labware that a well core belongs to."""
+        return self.register(self._labware_core_of(well_core))
+
+    def _labware_core_of(self, well_core: Any) -> Any:
+        labware_id = getattr(well_core, "labware_id", None)
+        if labware_id is None:
+            return well_core.geometry.parent
+        key = self._keys.get(labware_id)
+        return _Known(labware_id) if key else _EngineLabware(labware_id, self._engine_state)
+
+    def _slot_of(self, labware_core: Any) -> str:
+        labware_id = getattr(labware_core, "labware_id", None)
+        try:
+            if labware_id is not None:
+                slot = self._engine_state.geometry.get_ancestor_slot_name(labware_id)
+                return str(getattr(slot, "id", slot))
+            return str(labware_core.get_geometry().parent.labware.first_parent() or "")
+        except Exception:  # off deck, in the gripper, on a stack: no slot to name
+            return ""
+
+
+@dataclass(frozen=True)
+class _Known:
+    """Stands for an engine labware that is registered already."""
+
+    labware_id: str
+
+
+class _EngineLabware:
+    """The few questions :func:`_describe` asks, for a labware seen first through its wells."""
+
+    def __init__(self, labware_id: str, state: Any) -> None:
+        self.labware_id = labware_id
+        self._state = state
+
+    def get_definition(self) -> Any:
+        return self._state.labware.get_definition(self.labware_id).model_dump(exclude_none=True)
+
+    def get_user_display_name(self) -> Any:
+        return self._state.labware.get_user_specified_display_name(self.labware_id)
+
+
+def _describe(key: str, labware_core: Any, slot: str) -> LabwareInfo:
+    definition = labware_core.get_definition()
+    parameters = definition.get("parameters", {})
+    metadata = definition.get("metadata", {})
+    return LabwareInfo(
+        key=key,
+        load_name=str(parameters.get("loadName", "")),
+        display_name=str(metadata.get("displayName", "")),
+        label=str(labware_core.get_user_display_name() or ""),
+        slot=slot,
+        is_tip_rack=bool(parameters.get("isTiprack", False)),
+        is_trash=metadata.get("displayCategory") == "trash"
+        or parameters.get("format") == "trash"
+        or "fixedTrash" in (parameters.get("quirks") or ()),
+        centers_channels="centerMultichannelOnWells" in (parameters.get("quirks") or ()),
+        wells={name: _describe_well(well) for name, well in definition["wells"].items()},
+    )
+
+
+def _describe_well(well: Any) -> WellInfo:
+    return WellInfo(
+        max_volume=float(well.get("totalLiquidVolume", 0.0)),
+        depth=float(well.get("depth", 0.0)),
+        x=float(well.get("x", 0.0)),
+        y=float(well.get("y", 0.0)),
+        diameter=_float_or_none(well.get("diameter")),
+        x_size=_float_or_none(well.get("xDimension")),
+        y_size=_float_or_none(well.get("yDimension")),
+    )
+
+
+def _float_or_none(value: Any) -> float | None:
+    return None if value is None else float(value)
+
+
+def _wells_under(info: LabwareInfo, target: str, nozzles: Nozzles) -> tuple[str | None, ...]:
+    aim = info.wells[target]
+    shift_x = shift_y = 0.0
+    if info.centers_channels and len(nozzles.offsets) > 1:
+        # The pipette's middle, not its leading nozzle, goes to the middle of the well.
+        shift_x = sum(x for x, _ in nozzles.offsets) / len(nozzles.offsets)
+        shift_y = sum(y for _, y in nozzles.offsets) / len(nozzles.offsets)
+    return tuple(
+        _well_at(info, aim.x + x - shift_x, aim.y + y - shift_y) for x, y in nozzles.offsets
+    )
+
+
+def _well_at(info: LabwareInfo, x: float, y: float) -> str | None:
+    for name, well in info.wells.items():
+        if well.diameter is not None:
+            reach = well.diameter / 2 + _SLACK_MM
+            if (well.x - x) ** 2 + (well.y - y) ** 2 <= reach**2:
+                return name
+        elif (
+            abs(well.x - x) <= (well.x_size or 0.0) / 2 + _SLACK_MM
+            and abs(well.y - y) <= (well.y_size or 0.0) / 2 + _SLACK_MM
+        ):
+            return name
+    return None
