@@ -85,7 +85,9 @@ class EventTap:
                 lambda *_: self._tell(Event(EventKind.TIPS_RESET, self._line(), info.key)),
             )
         self._tell(
-            Event(EventKind.LABWARE_LOADED, self._line(), info.key, text=info.slot, labware_info=info)
+            Event(
+                EventKind.LABWARE_LOADED, self._line(), info.key, text=info.slot, labware_info=info
+            )
         )
 
     def _moved(self, _result: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
@@ -105,7 +107,7 @@ class EventTap:
         return tell
 
     def _commanded(self, _result: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
-        params = kwargs.get("params", args[0] if args else None)
+        params: Any = kwargs.get("params", args[0] if args else None)
         if type(params).__name__ != "LoadLiquidParams":
             return
         key = self._wells.key_of_id(params.labwareId)

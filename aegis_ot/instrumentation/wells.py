@@ -61,7 +61,7 @@ class WellResolver:
     """
 
     def __init__(self, protocol_core: Any) -> None:
-        self._engine_state = getattr(
+        self._engine_state: Any = getattr(
             getattr(protocol_core, "_engine_client", None), "state", None
         )
         self._keys: dict[Any, str] = {}
