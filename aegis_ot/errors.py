@@ -14,6 +14,7 @@
     │   ├── SidecarRefused       the token or the request was refused
     │   └── SidecarGarbled       the answer made no sense
     ├── CameraError              no usable frame
+    ├── StoreError               the sidecar could not keep what it received
     ├── ModelError               a vision model file cannot be used
     ├── DatasetError             a trajectory data set is wrong: row and column
     └── BackendError             an LLM or VLM gave no usable answer
@@ -76,6 +77,10 @@ class SidecarGarbled(LinkError):
 
 class CameraError(AegisError):
     """The camera gave no usable frame."""
+
+
+class StoreError(AegisError):
+    """The sidecar could not keep or read what it received: disk full, not writable, damaged."""
 
 
 class ModelError(AegisError):
