@@ -12,11 +12,12 @@ import traceback
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from ..errors import RehearsalError, RehearsalTimeout
 from ..instrumentation import LabwareInfo, Listener, NameBinding, NameCollector, tapped
+from .script import Script
 from .simulated_context import simulated_context
 
 _REHEARSING: ContextVar[bool] = ContextVar("aegis_ot_rehearsing", default=False)
@@ -42,27 +43,6 @@ class Rehearsal:
     labware: Mapping[str, LabwareInfo]
     robot_type: str
     api_level: str
-
-
-@dataclass(frozen=True)
-class Script:
-    """A protocol as Opentrons loads it: its text, and what it may need.
-
-    Attributes:
-        text: Python source.
-        file_name: As Opentrons names it (bare, without folders).
-        parameters: Values for runtime parameters, by variable name.
-        csv_parameters: Paths for CSV runtime parameters, by variable name.
-        extra_labware: Custom labware definitions, by URI.
-        data_files: Data files, by name.
-    """
-
-    text: str
-    file_name: str
-    parameters: Mapping[str, Any] = field(default_factory=dict)
-    csv_parameters: Mapping[str, Any] = field(default_factory=dict)
-    extra_labware: Mapping[str, Any] = field(default_factory=dict)
-    data_files: Mapping[str, bytes] = field(default_factory=dict)
 
 
 def rehearse(
