@@ -1,0 +1,269 @@
+"""What a score means in this run: the run's own band, and p-values from earlier runs.
+
+The scale of a score drifts by a factor of two between sessions (paper, "Per-run calibration").
+So each run anchors itself on its first wells, which are assumed normal.
+"""
+
+from __future__ import annotations
+
+import bisect
+import json
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import ConfigurationError, ModelError
+
+
+@dataclass(frozen=True)
+class CalibrationSettings:
+    """How a run is calibrated.
+
+    Attributes:
+        wells: Number of calibration wells at the start of a run (paper: 6).
+        multiplier: Half-width m of the band, median ± m·MAD. See :data:`PRESETS`.
+        two_sided: Whether a score below the band leaves it too.
+        score_floor: A score below it means a blank crop (paper: 1e-4).
+        least_spread: Smallest spread taken for real, as a fraction of the median: six scores
+            can agree by chance, and a band of no width would send every well to the gate.
+        alpha: Rate of false alarms asked of the pooled p-values.
+        outlier: Calibration wells farther than this many MADs from the median disagree.
+        widest: Largest MAD, as a fraction of the median, at which the first wells agree.
+        streaming: Whether accepted wells after the calibration update the band.
+        memory: Number of latest wells that a streaming band remembers.
+    """
+
+    wells: int = 6
+    multiplier: float = 5.0
+    two_sided: bool = False
+    score_floor: float = 1e-4
+    least_spread: float = 0.02
+    alpha: float = 0.05
+    outlier: float = 10.0
+    widest: float = 0.8
+    streaming: bool = False
+    memory: int = 48
+
+    def __post_init__(self) -> None:
+        wrong = [
+            name
+            for name, good in (
+                ("wells", self.wells >= 1),
+                ("multiplier", self.multiplier > 0),
+                ("score_floor", self.score_floor >= 0),
+                ("least_spread", self.least_spread >= 0),
+                ("alpha", 0 < self.alpha < 1),
+                ("outlier", self.outlier > 0),
+                ("widest", self.widest > 0),
+                ("memory", self.memory >= self.wells),
+            )
+            if not good
+        ]
+        if wrong:
+            raise ConfigurationError(f"calibration settings out of range: {', '.join(wrong)}")
+
+
+PRESETS = {
+    "default": CalibrationSettings(),
+    "paper": CalibrationSettings(multiplier=0.7, two_sided=True),
+}
+"""Named settings.
+
+``paper`` is median ± 0.7·MAD, two-sided: with six wells it sends about 72 % of exchangeable
+normals to the gate. ``default`` is one-sided with m = 5, which sends 4 % (normal scores) to 8 %
+(lognormal, gamma) there, simulated with six calibration wells; m = 4 would send 6 to 11 %. It is
+one-sided because an anomaly score below the band says that the well is *more* usual than the
+calibration wells; the one low score that matters, a blank crop, is caught as missing tips. See
+``docs/decisions`` and the tests, which repeat the simulation.
+"""
+
+
+class CalibrationState(str, Enum):
+    """How far a run's calibration is."""
+
+    COLLECTING = "collecting"
+    READY = "ready"
+    UNCALIBRATED = "uncalibrated"
+
+
+@dataclass(frozen=True)
+class Standing:
+    """Where one score stands in its run.
+
+    Attributes:
+        z: Distance from the run's median in units of its spread; ``None`` before calibration.
+        band: Lower and upper end of the silent-pass band, in the scorer's unit.
+        p_value: Conformal p-value from earlier runs; ``None`` without a pool.
+        inside: Whether the score may pass silently.
+    """
+
+    z: float | None
+    band: tuple[float, float] | None
+    p_value: float | None
+    inside: bool
+
+
+class NormalPool:
+    """Standardised scores of normal wells of earlier runs.
+
+    The conformal p-value of a standardised score z among n pooled ones is
+    ``(1 + #{pooled >= z}) / (n + 1)`` (Vovk et al., 2005). It is valid, that is, p <= alpha for
+    at most a fraction alpha of normal wells, if the standardised scores of this run's normals
+    are exchangeable with the pooled ones: same scorer, same number of calibration wells, and
+    runs that differ in the location and scale of their scores only. With n calibration wells
+    alone no threshold can promise less than 1/(n+1); pooled normals can.
+
+    Args:
+        scores: Standardised scores, as :meth:`RunCalibration.standing` gives them.
+    """
+
+    def __init__(self, scores: Iterable[float] = ()) -> None:
+        self._sorted = sorted(float(score) for score in scores if math.isfinite(score))
+
+    def __len__(self) -> int:
+        return len(self._sorted)
+
+    def add(self, z: float) -> None:
+        if math.isfinite(z):
+            bisect.insort(self._sorted, float(z))
+
+    def p_value(self, z: float) -> float:
+        """Conformal p-value of a standardised score."""
+        above = len(self._sorted) - bisect.bisect_left(self._sorted, z)
+        return (1 + above) / (len(self._sorted) + 1)
+
+    def supports(self, alpha: float) -> bool:
+        """Whether the pool is large enough for any p-value to reach ``alpha``."""
+        return 1 / (len(self._sorted) + 1) <= alpha
+
+    def save(self, path: str | Path) -> None:
+        text = json.dumps({"format": "aegis-ot-pool", "version": 1, "scores": self._sorted})
+        Path(path).write_text(text + "\n", encoding="utf-8")
+
+    @classmethod
+    def load(cls, path: str | Path) -> NormalPool:
+        """Read what :meth:`save` wrote.
+
+        Raises:
+            ModelError: If the file is missing or is no such pool.
+        """
+        try:
+            data = json.loads(Path(path).read_text(encoding="utf-8"))
+            if data["format"] != "aegis-ot-pool" or data["version"] != 1:
+                raise ValueError("another format or version")
+            return cls([float(score) for score in data["scores"]])
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise ModelError(f"{path}: no pool of normal scores ({error})") from error
+
+
+class RunCalibration:
+    """The band of one run for one scorer.
+
+    Median and MAD tolerate one bad calibration well, and a well that the gate already failed is
+    not added at all. A cluster of bad ones is another matter: if two or more first wells stand
+    far from the others, or if the first wells scatter as widely as their own size, the run is
+    :attr:`CalibrationState.UNCALIBRATED`, and stays so.
+
+    Args:
+        settings: See :class:`CalibrationSettings`.
+        pool: Normals of earlier runs, if any.
+    """
+
+    def __init__(
+        self, settings: CalibrationSettings | None = None, pool: NormalPool | None = None
+    ) -> None:
+        self.settings = settings or PRESETS["default"]
+        self.pool = pool
+        self._first: list[float] = []
+        self._recent: list[float] = []
+        self._median = self._spread = math.nan
+        self.state = CalibrationState.COLLECTING
+        self.reason = ""
+
+    @property
+    def scores(self) -> tuple[float, ...]:
+        """Scores of the calibration wells so far."""
+        return tuple(self._first)
+
+    @property
+    def band(self) -> tuple[float, float] | None:
+        """Silent-pass band; its lower end is minus infinity when one-sided."""
+        if self.state is not CalibrationState.READY:
+            return None
+        width = self.settings.multiplier * self._spread
+        low = self._median - width if self.settings.two_sided else -math.inf
+        return low, self._median + width
+
+    def add(self, score: float) -> CalibrationState:
+        """Take the score of one calibration well; the last one closes the calibration."""
+        if self.state is CalibrationState.COLLECTING:
+            self._first.append(float(score))
+            if len(self._first) >= self.settings.wells:
+                self._close()
+        return self.state
+
+    def give_up(self, reason: str) -> None:
+        """Declare the run uncalibrated, for a reason seen elsewhere (the gates)."""
+        self.state, self.reason = CalibrationState.UNCALIBRATED, reason
+
+    def standing(self, score: float) -> Standing:
+        """Where ``score`` stands; inside nothing while the run is not calibrated."""
+        band = self.band
+        if band is None or not math.isfinite(score):
+            return Standing(None, band, None, False)
+        z = (score - self._median) / self._spread
+        if self.pool is not None and self.pool.supports(self.settings.alpha):
+            p_value = self.pool.p_value(z)
+            return Standing(z, band, p_value, p_value > self.settings.alpha)
+        return Standing(z, band, None, band[0] <= score <= band[1])
+
+    def accept(self, score: float) -> None:
+        """A later well was judged normal: a streaming band learns from it."""
+        if not self.settings.streaming or self.state is not CalibrationState.READY:
+            return
+        self._recent.append(float(score))
+        del self._recent[: -self.settings.memory]
+        # The first wells stay until enough accepted ones replace them: accepted wells are cut
+        # off at the band's edge, and a band learned from them alone would only ever shrink.
+        kept = self._first + self._recent
+        self._median, self._spread = self._anchor(kept[-self.settings.memory :])
+
+    def _anchor(self, scores: Sequence[float]) -> tuple[float, float]:
+        values = np.asarray(scores, dtype=np.float64)
+        median = float(np.median(values))
+        mad = float(np.median(np.abs(values - median)))
+        least = max(self.settings.least_spread * abs(median), np.finfo(np.float64).tiny)
+        return median, max(mad, least)
+
+    def _close(self) -> None:
+        values = np.asarray(self._first)
+        median, spread = self._anchor(self._first)
+        far = int(np.sum(np.abs(values - median) > self.settings.outlier * spread))
+        if len(values) >= 4 and far >= 2:
+            self.give_up(
+                f"{far} of the first {len(values)} wells stand apart from the others; "
+                "are they all normal?"
+            )
+        elif len(values) >= 4 and spread > self.settings.widest * abs(median):
+            self.give_up(f"the first {len(values)} wells disagree too widely to calibrate on")
+        else:
+            self._median, self._spread = median, spread
+            self.state = CalibrationState.READY
+
+
+def preset(name: str, *, multiplier: float | None = None) -> CalibrationSettings:
+    """Named settings, with another multiplier if one is given.
+
+    Raises:
+        ConfigurationError: If there is no such preset.
+    """
+    if name not in PRESETS:
+        raise ConfigurationError(
+            f"there is no calibration preset {name!r}; choose one of {', '.join(PRESETS)}"
+        )
+    chosen = PRESETS[name]
+    return chosen if multiplier is None else replace(chosen, multiplier=multiplier)

@@ -1,0 +1,328 @@
+"""Reading the tables of a data set, with every fault noted by row and column."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+import cv2
+import numpy as np
+
+from ..vocabulary import KeyframeKind
+
+FRAME_COLUMNS = tuple(kind.value for kind in KeyframeKind)
+COLUMNS = (
+    "trajectory_id",
+    "plate",
+    "well",
+    "pipette",
+    "reagent",
+    "label",
+    "failure_type",
+    "retained_fraction",
+    "volume_ul",
+    *FRAME_COLUMNS,
+)
+BOX_COLUMNS = ("frame", "x", "y", "w", "h")
+LABELS = ("normal", "failure")
+FAILURE_TYPES = (
+    "partial_25",
+    "partial_50",
+    "partial_75",
+    "partial_single",
+    "partial_accumulated",
+    "no_dispense",
+    "no_aspirate",
+    "air_bubble",
+    "no_tip",
+)
+_WELL = re.compile(r"[A-Z]{1,2}[1-9][0-9]?")
+_PIPETTE = re.compile(r"p[1-9][0-9]*")
+_MOST_SHOWN = 200
+
+Box = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
+class Record:
+    """One row of the manifest; frame paths are relative to the data set's folder."""
+
+    id: str
+    plate: str
+    well: str
+    pipette: str
+    reagent: str
+    label: str
+    failure_type: str
+    retained_fraction: float | None
+    volume_ul: float
+    frames: Mapping[KeyframeKind, str]
+
+
+class Problems:
+    """Faults of a data set, in the order found."""
+
+    def __init__(self) -> None:
+        self.lines: list[str] = []
+
+    def add(self, file: str, row: int | None, column: str | None, what: str) -> None:
+        """Note one fault; ``row`` is the line of the file, the header being 1."""
+        where = file
+        if row is not None:
+            where += f", row {row}"
+        if column is not None:
+            where += f", column {column}"
+        self.lines.append(f"{where}: {what}")
+
+    def __bool__(self) -> bool:
+        return bool(self.lines)
+
+    def text(self, root: Path) -> str:
+        shown = self.lines[:_MOST_SHOWN]
+        more = len(self.lines) - len(shown)
+        head = f"{root}: {len(self.lines)} fault{'s' if len(self.lines) != 1 else ''}"
+        tail = [f"... and {more} more"] if more else []
+        return "\n  ".join([head, *shown, *tail])
+
+
+def read_manifest(root: Path, problems: Problems) -> list[Record]:
+    """Rows of ``manifest.csv`` that could be read; faults go to ``problems``."""
+    rows = _read_table(root / "manifest.csv", COLUMNS, problems)
+    records: list[Record] = []
+    seen: dict[str, int] = {}
+    frame_rows: dict[str, int] = {}
+    plate_rows: dict[str, int] = {}
+    normal_plates: set[str] = set()
+    for line, row in rows:
+        note = _Note(problems, "manifest.csv", line)
+        for column in ("trajectory_id", "plate", "pipette", "well"):
+            if not row[column]:
+                note(column, "is empty")
+        name = row["trajectory_id"]
+        if name in seen:
+            note("trajectory_id", f"{name!r} stands in row {seen[name]} already")
+        elif name:
+            seen[name] = line
+        if row["well"] and not _WELL.fullmatch(row["well"]):
+            note("well", f"{row['well']!r} is no well name such as A1")
+        if row["pipette"] and not _PIPETTE.fullmatch(row["pipette"]):
+            note("pipette", f"{row['pipette']!r} is no pipette such as p20, p300 or p1000")
+        _check_label(row, note)
+        volume = _number(row["volume_ul"], "volume_ul", note)
+        if volume is not None and volume <= 0:
+            note("volume_ul", f"{row['volume_ul']} must be more than 0")
+        retained = None
+        if row["retained_fraction"]:
+            retained = _number(row["retained_fraction"], "retained_fraction", note)
+            if retained is not None and retained < 0:
+                note("retained_fraction", f"{row['retained_fraction']} must not be negative")
+        for column in FRAME_COLUMNS:
+            _check_frame(root, row[column], column, note)
+            if row[column]:
+                first = frame_rows.setdefault(row[column], line)
+                if first != line:
+                    note(column, f"{row[column]!r} is also named in row {first}")
+        plate_rows.setdefault(row["plate"], line)
+        if row["label"] == "normal":
+            normal_plates.add(row["plate"])
+        records.append(
+            Record(
+                name,
+                row["plate"],
+                row["well"],
+                row["pipette"],
+                row["reagent"],
+                row["label"],
+                row["failure_type"],
+                retained,
+                volume if volume is not None else math.nan,
+                {KeyframeKind(column): row[column] for column in FRAME_COLUMNS},
+            )
+        )
+    for plate, line in plate_rows.items():
+        if plate and plate not in normal_plates:
+            problems.add(
+                "manifest.csv",
+                line,
+                "plate",
+                f"{plate!r} has no normal row, so it has no calibration well",
+            )
+    if not rows and not problems:
+        problems.add("manifest.csv", None, None, "has no rows")
+    return records
+
+
+def read_boxes(
+    root: Path, records: Sequence[Record], problems: Problems
+) -> tuple[dict[str, Box | None], list[str]]:
+    """Boxes by frame, and what is odd about them without being wrong."""
+    path = root / "boxes.csv"
+    boxes: dict[str, Box | None] = {}
+    if not path.exists():
+        return boxes, []
+    lines: dict[str, int] = {}
+    for line, row in _read_table(path, BOX_COLUMNS, problems):
+        note = _Note(problems, "boxes.csv", line)
+        frame = row["frame"]
+        if not frame:
+            note("frame", "is empty")
+            continue
+        if frame in lines:
+            note("frame", f"{frame!r} stands in row {lines[frame]} already")
+            continue
+        lines[frame] = line
+        cells = [row[column] for column in ("x", "y", "w", "h")]
+        if not any(cells):
+            boxes[frame] = None
+            continue
+        numbers = [
+            _number(cell, column, note)
+            for cell, column in zip(cells, ("x", "y", "w", "h"), strict=True)
+        ]
+        for column, number in zip(("w", "h"), numbers[2:], strict=True):
+            if number is not None and number <= 0:
+                note(column, f"{number:g} must be more than 0")
+        x, y, w, h = (0.0 if number is None else number for number in numbers)
+        boxes[frame] = (x, y, w, h)
+    named = {frame for record in records for frame in record.frames.values()}
+    warnings = []
+    if extra := [frame for frame in boxes if frame not in named]:
+        warnings.append(f"boxes.csv: {len(extra)} rows name frames that no trajectory uses")
+    if lacking := [frame for frame in named if frame not in boxes]:
+        warnings.append(f"boxes.csv: {len(lacking)} frames have no row")
+    return boxes, warnings
+
+
+class _Note:
+    """Notes faults of one row."""
+
+    def __init__(self, problems: Problems, file: str, line: int) -> None:
+        self._problems, self._file, self._line = problems, file, line
+
+    def __call__(self, column: str, what: str) -> None:
+        self._problems.add(self._file, self._line, column, what)
+
+
+def _read_table(
+    path: Path, columns: Sequence[str], problems: Problems
+) -> list[tuple[int, dict[str, str]]]:
+    """Rows as (line of the file, cells by column), cells stripped."""
+    try:
+        text = path.read_bytes().decode("utf-8-sig")
+    except FileNotFoundError:
+        problems.add(path.name, None, None, "is missing")
+        return []
+    except (OSError, UnicodeDecodeError) as error:
+        problems.add(path.name, None, None, f"cannot be read as UTF-8 text ({error})")
+        return []
+    reader = csv.reader(io.StringIO(text, newline=""))
+    rows: list[tuple[int, dict[str, str]]] = []
+    header: list[str] | None = None
+    try:
+        for cells in reader:
+            cells = [cell.strip() for cell in cells]
+            if header is None:
+                header = cells
+                if not _check_header(path.name, header, columns, problems):
+                    return []
+                continue
+            if not any(cells):
+                continue
+            if len(cells) != len(columns):
+                problems.add(
+                    path.name,
+                    reader.line_num,
+                    None,
+                    f"has {len(cells)} cells, the header has {len(columns)}",
+                )
+                continue
+            rows.append((reader.line_num, dict(zip(columns, cells, strict=True))))
+    except csv.Error as error:
+        problems.add(path.name, reader.line_num, None, f"is not readable as CSV ({error})")
+    if header is None:
+        problems.add(path.name, None, None, "is empty")
+    return rows
+
+
+def _check_header(
+    file: str, header: Sequence[str], columns: Sequence[str], problems: Problems
+) -> bool:
+    if list(header) == list(columns):
+        return True
+    missing = [column for column in columns if column not in header]
+    unknown = [column for column in header if column not in columns]
+    for column in missing:
+        problems.add(file, 1, column, "is missing from the header")
+    for column in unknown:
+        problems.add(file, 1, column or "(no name)", "is not a column of this table")
+    if not missing and not unknown:
+        problems.add(file, 1, None, f"columns must stand in the order {','.join(columns)}")
+    return False
+
+
+def _check_label(row: Mapping[str, str], note: _Note) -> None:
+    label, failure = row["label"], row["failure_type"]
+    if label not in LABELS:
+        note("label", f"{label!r} must be one of {', '.join(LABELS)}")
+    elif label == "normal" and failure:
+        note("failure_type", f"{failure!r} on a normal row; it must be empty there")
+    elif label == "failure" and failure not in FAILURE_TYPES:
+        note("failure_type", f"{failure!r} must be one of {', '.join(FAILURE_TYPES)}")
+
+
+def _number(cell: str, column: str, note: _Note) -> float | None:
+    try:
+        value = float(cell)
+    except ValueError:
+        note(column, f"{cell!r} is no number" if cell else "is empty")
+        return None
+    if not math.isfinite(value):
+        note(column, f"{cell!r} is no finite number")
+        return None
+    return value
+
+
+def _check_frame(root: Path, cell: str, column: str, note: _Note) -> None:
+    if not cell:
+        note(column, "is empty")
+        return
+    relative = PurePosixPath(cell)
+    if relative.is_absolute() or ".." in relative.parts or "\\" in cell:
+        note(column, f"{cell!r} must be a path inside the data set's folder")
+        return
+    try:
+        data = (root / relative).read_bytes()
+    except FileNotFoundError:
+        note(column, f"{cell!r} does not exist")
+        return
+    except (OSError, ValueError) as error:
+        note(column, f"{cell!r} cannot be read ({error})")
+        return
+    if reason := unreadable(data):
+        note(column, f"{cell!r} {reason}")
+
+
+def unreadable(data: bytes) -> str:
+    """Why ``data`` is no whole JPEG or PNG image; empty if it is one.
+
+    A truncated JPEG still decodes, with its lower part grey, so the end marker is looked for.
+    """
+    if data.startswith(b"\xff\xd8\xff"):
+        if b"\xff\xd9" not in data[-64:]:
+            return "is a truncated JPEG"
+    elif data.startswith(b"\x89PNG\r\n\x1a\n"):
+        if b"IEND" not in data[-64:]:
+            return "is a truncated PNG"
+    else:
+        return "is neither JPEG nor PNG"
+    buffer = np.frombuffer(data, dtype=np.uint8)
+    try:
+        image = cv2.imdecode(buffer, cv2.IMREAD_REDUCED_GRAYSCALE_8)
+    except cv2.error:
+        image = None
+    return "" if image is not None and image.size else "cannot be decoded"

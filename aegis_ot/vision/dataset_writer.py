@@ -1,0 +1,125 @@
+"""Writing data sets: recorded runs and synthetic trajectories in the same format."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import cv2
+
+from ..errors import DatasetError
+from ..vocabulary import KeyframeKind
+from .dataset_checks import BOX_COLUMNS, COLUMNS
+from .types import TrajectorySample
+
+
+class DatasetWriter:
+    """Writes one data set; use it as a context manager.
+
+    Example::
+
+        with DatasetWriter(folder, {"source": "real", "camera": "c920"}) as writer:
+            writer.add(sample, jpegs={kind: data, ...})
+
+    Args:
+        folder: New or empty folder.
+        meta: Content of ``meta.json``; say the source there.
+
+    Raises:
+        DatasetError: If the folder holds a manifest already: nothing is overwritten.
+    """
+
+    def __init__(self, folder: str | Path, meta: Mapping[str, Any]) -> None:
+        self.root = Path(folder)
+        if (self.root / "manifest.csv").exists():
+            raise DatasetError(f"{self.root} holds a data set already; name another folder")
+        (self.root / "frames").mkdir(parents=True, exist_ok=True)
+        text = json.dumps(dict(meta), indent=1, ensure_ascii=False)
+        (self.root / "meta.json").write_text(text + "\n", encoding="utf-8")
+        self._ids: set[str] = set()
+        self._manifest = (self.root / "manifest.csv").open("w", newline="", encoding="utf-8")
+        self._boxes = (self.root / "boxes.csv").open("w", newline="", encoding="utf-8")
+        self._rows = csv.writer(self._manifest, lineterminator="\n")
+        self._box_rows = csv.writer(self._boxes, lineterminator="\n")
+        self._rows.writerow(COLUMNS)
+        self._box_rows.writerow(BOX_COLUMNS)
+
+    def __enter__(self) -> DatasetWriter:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        self._manifest.close()
+        self._boxes.close()
+
+    def add(
+        self, sample: TrajectorySample, jpegs: Mapping[KeyframeKind, bytes] | None = None
+    ) -> None:
+        """Append one trajectory.
+
+        Args:
+            sample: A missing label is written as ``normal`` only if the sample says so.
+            jpegs: The frames as the camera gave them; without, frames are encoded at quality 95.
+
+        Raises:
+            DatasetError: If the id was written before, the label is missing, or a frame is.
+        """
+        if sample.id in self._ids:
+            raise DatasetError(f"trajectory {sample.id!r} was written already")
+        if sample.label not in ("normal", "failure"):
+            raise DatasetError(
+                f"trajectory {sample.id!r} has no label; say whether it is normal or a failure"
+            )
+        lacking = [kind.value for kind in KeyframeKind if kind not in sample.frames]
+        if lacking:
+            raise DatasetError(f"trajectory {sample.id!r} lacks the frames {', '.join(lacking)}")
+        self._ids.add(sample.id)
+        stem = re.sub(r"[^A-Za-z0-9_-]+", "_", sample.id) or "trajectory"
+        paths = {}
+        for kind in KeyframeKind:
+            path = self._free_path(f"{stem}_{kind.value}")
+            data = jpegs.get(kind) if jpegs else None
+            if data is None:
+                ok, encoded = cv2.imencode(".jpg", sample.frames[kind], [1, 95])
+                if not ok:
+                    raise DatasetError(f"trajectory {sample.id!r}: {kind.value} cannot be encoded")
+                data = encoded.tobytes()
+            (self.root / path).write_bytes(data)
+            paths[kind] = path
+            box = sample.detections.get(kind)
+            cells = [f"{v:.1f}" for v in (box.x, box.y, box.w, box.h)] if box else [""] * 4
+            self._box_rows.writerow([path, *cells])
+        retained = sample.retained_fraction
+        self._rows.writerow(
+            [
+                sample.id,
+                sample.plate,
+                sample.well,
+                sample.pipette,
+                sample.reagent,
+                sample.label,
+                sample.failure_type,
+                "" if retained is None else f"{retained:g}",
+                f"{sample.volume_ul:g}",
+                *(paths[kind] for kind in KeyframeKind),
+            ]
+        )
+
+    def _free_path(self, stem: str) -> str:
+        path, number = f"frames/{stem}.jpg", 1
+        while (self.root / path).exists():
+            number += 1
+            path = f"frames/{stem}-{number}.jpg"
+        return path

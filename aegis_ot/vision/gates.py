@@ -1,0 +1,233 @@
+"""Gates: the second look that confirms or rejects a flagged well."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
+from .measuring import ColumnReading
+from .types import TrajectorySample
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a gate gets to see of one well.
+
+    Attributes:
+        sample: Frames, detections and expected volumes.
+        route: Why it is asked.
+        scores: Anomaly scores by scorer name.
+        readings: Liquid columns by keyframe; a keyframe that could not be read is left out.
+        missing: Keyframes in which no tip was found.
+        calibrated: Whether readings rest on this run's own normal wells.
+    """
+
+    sample: TrajectorySample
+    route: Route
+    scores: Mapping[str, float] = field(default_factory=dict)
+    readings: Mapping[KeyframeKind, ColumnReading] = field(default_factory=dict)
+    missing: tuple[KeyframeKind, ...] = ()
+    calibrated: bool = True
+
+
+@dataclass(frozen=True)
+class GateDecision:
+    """What a gate says. ``UNDECIDED`` passes the case on to the next gate."""
+
+    outcome: Outcome
+    gate: Gate
+    reason: str
+    failure: FailureType | None = None
+    measured_ul: float | None = None
+    expected_ul: float | None = None
+
+
+class ConfirmingGate(Protocol):
+    """Anything that can confirm or reject a flagged well: volumes, a VLM, a person."""
+
+    gate: Gate
+
+    def examine(self, case: Case) -> GateDecision:
+        """Judge one case. Must not raise for a case that it cannot judge: ``UNDECIDED``."""
+
+
+@dataclass(frozen=True)
+class VolumetricLimits:
+    """When a measured volume contradicts the protocol.
+
+    Attributes:
+        sigmas: Times the reading's standard uncertainty.
+        fraction: Of the commanded volume; less than that is no failure.
+        least_ul: Smallest difference that counts, µL.
+        blind_fraction: If the tolerance is wider than this fraction of the commanded volume,
+            a pass would be worth nothing: undecided.
+        gross_sigmas, gross_fraction: The same limits for calibration wells, on which the
+            reading itself is not calibrated yet.
+    """
+
+    sigmas: float = 4.0
+    fraction: float = 0.15
+    least_ul: float = 0.5
+    blind_fraction: float = 0.6
+    gross_sigmas: float = 6.0
+    gross_fraction: float = 0.35
+
+
+class VolumetricGate:
+    """Compares the measured columns with the volumes that the protocol expects.
+
+    TRANSIT says what was aspirated, POST_DISPENSE what was left; both are frames in which the
+    tip hangs free. A tip missing in both is a missing tip: no volume is needed to say so.
+    """
+
+    gate = Gate.VOLUMETRIC
+
+    def __init__(self, limits: VolumetricLimits | None = None) -> None:
+        self.limits = limits or VolumetricLimits()
+
+    def examine(self, case: Case) -> GateDecision:
+        sample = case.sample
+        absent = {KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE} <= set(case.missing)
+        if absent:
+            return GateDecision(
+                Outcome.FAIL,
+                self.gate,
+                "No tip is on the pipette, neither in transit nor after the dispense.",
+                FailureType.NO_TIP,
+            )
+        for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE):
+            reading = case.readings.get(kind)
+            if reading is None:
+                continue
+            contradiction = self._contradiction(kind, reading, case)
+            if contradiction is not None:
+                return contradiction
+        return self._agreement(case, sample)
+
+    def tolerance(self, reading: ColumnReading, commanded_ul: float, gross: bool) -> float:
+        """Difference that still agrees, µL."""
+        limits = self.limits
+        sigmas = limits.gross_sigmas if gross else limits.sigmas
+        fraction = limits.gross_fraction if gross else limits.fraction
+        return max(sigmas * reading.sigma_ul, fraction * commanded_ul, limits.least_ul)
+
+    def _contradiction(
+        self, kind: KeyframeKind, reading: ColumnReading, case: Case
+    ) -> GateDecision | None:
+        sample, limits = case.sample, self.limits
+        expected = sample.expected_ul.get(kind, 0.0)
+        gross = case.route is Route.CALIBRATION or not case.calibrated
+        tolerance = self.tolerance(reading, sample.volume_ul, gross)
+        difference = reading.volume_ul - expected
+        measured = reading.volume_ul
+        sigmas = limits.gross_sigmas if gross else limits.sigmas
+        gap_limit = max(sigmas * reading.gap_sigma_ul, 0.02 * sample.volume_ul)
+        if kind is KeyframeKind.TRANSIT and reading.gap_ul > gap_limit:
+            return self._fail(
+                FailureType.AIR_BUBBLE,
+                f"About {reading.gap_ul:.1f} µL of air stand inside the column.",
+                measured,
+                expected,
+            )
+        if abs(difference) <= tolerance:
+            return None
+        if kind is KeyframeKind.TRANSIT:
+            if measured <= max(0.2 * expected, tolerance / 2) and difference < 0:
+                return self._fail(
+                    FailureType.NO_ASPIRATE,
+                    f"The tip holds about {measured:.0f} µL after the aspirate, "
+                    f"expected {expected:.0f}.",
+                    measured,
+                    expected,
+                )
+            failure = FailureType.OTHER if difference < 0 else FailureType.PARTIAL_DISPENSE
+            what = "too little was drawn" if difference < 0 else "more than commanded is in the tip"
+            return self._fail(
+                failure,
+                f"About {measured:.0f} µL in transit, expected {expected:.0f}: {what}.",
+                measured,
+                expected,
+            )
+        if difference < 0:
+            return self._fail(
+                FailureType.OTHER,
+                f"About {measured:.0f} µL are left after the dispense, expected {expected:.0f}: "
+                "too much was delivered.",
+                measured,
+                expected,
+            )
+        nothing = difference >= 0.9 * sample.volume_ul
+        return self._fail(
+            FailureType.NO_DISPENSE if nothing else FailureType.PARTIAL_DISPENSE,
+            f"About {measured:.0f} µL are left in the tip after the dispense, "
+            f"expected {expected:.0f}.",
+            measured,
+            expected,
+        )
+
+    def _fail(
+        self, failure: FailureType, reason: str, measured: float, expected: float
+    ) -> GateDecision:
+        return GateDecision(Outcome.FAIL, self.gate, reason, failure, measured, expected)
+
+    def _agreement(self, case: Case, sample: TrajectorySample) -> GateDecision:
+        last = case.readings.get(KeyframeKind.POST_DISPENSE)
+        seen = [
+            kind
+            for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+            if kind in case.readings
+            and self.tolerance(case.readings[kind], sample.volume_ul, gross=False)
+            <= self.limits.blind_fraction * sample.volume_ul
+        ]
+        measured = last.volume_ul if last else None
+        expected = sample.expected_ul.get(KeyframeKind.POST_DISPENSE)
+        if len(seen) == 2 and case.calibrated:
+            return GateDecision(
+                Outcome.PASS,
+                self.gate,
+                "The measured columns agree with the protocol's volumes.",
+                None,
+                measured,
+                expected,
+            )
+        return GateDecision(
+            Outcome.UNDECIDED,
+            self.gate,
+            "The liquid column cannot be measured well enough in these frames.",
+            None,
+            measured,
+            expected,
+        )
+
+
+class OperatorGate:
+    """A person decides: the robot pauses, and the page shows the frames."""
+
+    gate = Gate.OPERATOR
+
+    def examine(self, case: Case) -> GateDecision:
+        return GateDecision(
+            Outcome.UNDECIDED, self.gate, "No gate could settle this well; please look at it."
+        )
+
+
+def examine_in_turn(gates: Sequence[ConfirmingGate], case: Case) -> GateDecision:
+    """Ask the gates one after another until one decides.
+
+    If none does, the last one's answer stands, with the first one's reason and readings.
+    """
+    decisions: list[GateDecision] = []
+    for gate in gates:
+        decision = gate.examine(case)
+        if decision.outcome is not Outcome.UNDECIDED:
+            return decision
+        decisions.append(decision)
+    if not decisions:
+        return GateDecision(Outcome.UNDECIDED, Gate.NONE, "No gate is configured.")
+    first, last = decisions[0], decisions[-1]
+    reason = first.reason if first is last else f"{first.reason} {last.reason}"
+    return GateDecision(
+        Outcome.UNDECIDED, last.gate, reason, None, first.measured_ul, first.expected_ul
+    )

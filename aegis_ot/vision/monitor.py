@@ -1,0 +1,321 @@
+"""The judge of a live run: frames in as they come, a verdict per trajectory out.
+
+The sidecar calls it through the protocols of ``aegis_ot.sidecar.analysis``, which this module
+matches without importing them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
+from .calibration import CalibrationSettings, CalibrationState, NormalPool
+from .camera import Frame
+from .cascade import Cascade, Triage
+from .gates import (
+    Case,
+    ConfirmingGate,
+    GateDecision,
+    OperatorGate,
+    VolumetricGate,
+    examine_in_turn,
+)
+from .measuring import ColumnReader, ColumnReading, ProfileReader, TipView
+from .run_scorer import RunScorer
+from .tips import pipette_class, tip_for
+from .types import Detector, Image, Scorer, TipDetection, TrajectorySample
+
+MOST_OPEN = 32
+"""Trajectories whose frames are kept at once: one that is never judged must not fill memory."""
+
+Evidence = Mapping[str, Any]
+Judged = tuple[Verdict, Evidence]
+
+
+@dataclass(frozen=True)
+class MonitorSettings:
+    """How a run is judged.
+
+    Attributes:
+        calibration: See :class:`CalibrationSettings`.
+        always_gate: Send every well after calibration to the gates.
+    """
+
+    calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
+    always_gate: bool = False
+
+
+class RunMonitor:
+    """Makes one :class:`RunAnalyser` per run.
+
+    Args:
+        detector: Finds the tip.
+        scorer: World model, fitted on earlier normals; ``None``: a PCA is fitted on each run's
+            own first wells.
+        settings: See :class:`MonitorSettings`.
+        gates: Asked in turn; by default the volumetric gate, then the operator. A VLM gate goes
+            between them.
+        reader: Makes the column reader of a run.
+        pools: Standardised normals of earlier runs by scorer name.
+    """
+
+    def __init__(
+        self,
+        detector: Detector,
+        scorer: Scorer | None = None,
+        settings: MonitorSettings | None = None,
+        gates: Sequence[ConfirmingGate] | None = None,
+        reader: Callable[[], ColumnReader] = ProfileReader,
+        pools: Mapping[str, NormalPool] | None = None,
+    ) -> None:
+        self.detector = detector
+        self.scorer = scorer
+        self.settings = settings or MonitorSettings()
+        self.gates = tuple(gates) if gates is not None else (VolumetricGate(), OperatorGate())
+        self.reader = reader
+        self.pools = pools
+
+    def begin(self, run: str, history: Sequence[Judged] = ()) -> RunAnalyser:
+        """A run starts, or goes on after the sidecar was restarted.
+
+        After a restart the scores in ``history`` restore the band. The column reader and a
+        world model of the run's own are not restored: the reader calibrates anew on the wells
+        that follow, and without a model file so does the band.
+        """
+        analyser = RunAnalyser(run, self)
+        analyser.recall(history)
+        return analyser
+
+
+@dataclass
+class _Open:
+    """A trajectory whose keyframes are coming in."""
+
+    keyframes: dict[KeyframeKind, Keyframe] = field(default_factory=dict)
+    frames: dict[KeyframeKind, Image] = field(default_factory=dict)
+    detections: dict[KeyframeKind, TipDetection | None] = field(default_factory=dict)
+    looks: dict[KeyframeKind, object] = field(default_factory=dict)
+    unusable: list[KeyframeKind] = field(default_factory=list)
+
+
+class RunAnalyser:
+    """Judges the trajectories of one run, one call at a time.
+
+    A multi-channel pipette is judged on the one tip that the detector picks; the evidence says
+    so (``channels``, ``tips_judged``).
+    """
+
+    def __init__(self, run: str, monitor: RunMonitor) -> None:
+        self.run = run
+        self._monitor = monitor
+        settings = monitor.settings
+        self._scorer = RunScorer(monitor.scorer, settings.calibration.wells)
+        self._cascade = Cascade(
+            (self._scorer.name,), settings.calibration, monitor.pools, settings.always_gate
+        )
+        self._reader = monitor.reader()
+        self._learned = 0
+        self._first_wells = 0
+        self._open: dict[int, _Open] = {}
+
+    def observe(self, keyframe: Keyframe, frame: Frame) -> None:
+        """A keyframe was captured: find the tip and measure while the robot moves on."""
+        trajectory = self._open.setdefault(keyframe.trajectory, _Open())
+        while len(self._open) > MOST_OPEN:
+            del self._open[min(self._open)]
+        kind, image = keyframe.kind, frame.image
+        trajectory.keyframes[kind] = keyframe
+        if not _is_image(image):
+            trajectory.unusable.append(kind)
+            return
+        detection = self._monitor.detector.detect(image)
+        trajectory.frames[kind] = image
+        trajectory.detections[kind] = detection
+        if detection is not None:
+            tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
+            view = TipView(kind, image, detection, tip, keyframe.expected_ul)
+            trajectory.looks[kind] = self._reader.look(view)
+
+    def judge(self, trajectory: int) -> Judged:
+        """The trajectory is complete: its verdict, and what stands behind it."""
+        seen = self._open.pop(trajectory, None)
+        if seen is None or not seen.detections:
+            verdict = Verdict(
+                self.run,
+                trajectory,
+                Outcome.UNDECIDED,
+                Route.UNCALIBRATED,
+                gate=Gate.OPERATOR,
+                reason="No usable frame of this trajectory was captured; please look at the tip.",
+            )
+            return verdict, {}
+        sample = self._sample(trajectory, seen)
+        missing = tuple(kind for kind, found in seen.detections.items() if found is None)
+        readings = self._reader.read(seen.looks, sample.expected_ul)
+        scores = self._scorer.scores(sample) if len(seen.detections) == len(KeyframeKind) else {}
+        case = Case(sample, Route.GREY_ZONE, scores, readings, missing, self._learned > 0)
+        volumetric = VolumetricGate().examine(self._routed(case, Route.GREY_ZONE))
+        contradiction = volumetric.reason if volumetric.outcome is Outcome.FAIL else ""
+        triage = self._cascade.triage(scores, missing, contradiction)
+        case = self._routed(case, triage.route)
+        decision = self._decide(case, triage)
+        self._learn(case, seen, decision)
+        main = scores.get(self._scorer.name)
+        verdict = Verdict(
+            self.run,
+            trajectory,
+            decision.outcome,
+            triage.route,
+            main,
+            decision.gate,
+            decision.failure,
+            decision.reason,
+            decision.measured_ul,
+            decision.expected_ul,
+        )
+        return verdict, self._evidence(case, seen, triage, decision)
+
+    def recall(self, history: Sequence[Judged]) -> None:
+        """Restore the band from what was judged before a restart."""
+        if self._monitor.scorer is None:
+            return
+        for _, evidence in history:
+            known = evidence.get("calibration") if isinstance(evidence, Mapping) else None
+            if not isinstance(known, Mapping):
+                continue
+            try:
+                scores = {str(name): float(score) for name, score in known["scores"].items()}
+                missing = [KeyframeKind(kind) for kind in known["missing"]]
+                normal = bool(known["normal"])
+            except (KeyError, TypeError, ValueError, AttributeError):
+                continue
+            self._cascade.learn(scores, missing, normal=normal)
+
+    def _routed(self, case: Case, route: Route) -> Case:
+        return Case(case.sample, route, case.scores, case.readings, case.missing, case.calibrated)
+
+    def _decide(self, case: Case, triage: Triage) -> GateDecision:
+        if triage.route is Route.CALIBRATION:
+            self._first_wells += 1
+            # Assumed normal, but a gross failure is caught even here.
+            gross = VolumetricGate().examine(case)
+            if gross.outcome is Outcome.FAIL:
+                return gross
+            return GateDecision(
+                Outcome.PASS,
+                Gate.NONE,
+                f"Calibration well {self._first_wells} of "
+                f"{self._monitor.settings.calibration.wells}.",
+                None,
+                gross.measured_ul,
+                gross.expected_ul,
+            )
+        if not triage.to_gate:
+            last = case.readings.get(KeyframeKind.POST_DISPENSE)
+            return GateDecision(
+                Outcome.PASS,
+                Gate.NONE,
+                triage.reason,
+                None,
+                None if last is None else last.volume_ul,
+                case.sample.expected_ul.get(KeyframeKind.POST_DISPENSE),
+            )
+        decision = examine_in_turn(self._monitor.gates, case)
+        reason = f"{triage.reason} {decision.reason}"
+        if triage.reason == decision.reason:
+            reason = decision.reason
+        return GateDecision(
+            decision.outcome,
+            decision.gate,
+            reason,
+            decision.failure,
+            decision.measured_ul,
+            decision.expected_ul,
+        )
+
+    def _learn(self, case: Case, seen: _Open, decision: GateDecision) -> None:
+        normal = decision.outcome is Outcome.PASS
+        collecting = self._cascade.state is CalibrationState.COLLECTING
+        if collecting and normal and not self._scorer.ready:
+            # The run's own model: its first wells are scored once they are all there.
+            for scores in self._scorer.learn(case.sample):
+                self._cascade.learn(scores, case.missing, normal=True)
+        elif case.scores or not normal:
+            self._cascade.learn(case.scores, case.missing, normal=normal)
+        if normal and KeyframeKind.TRANSIT in seen.looks:
+            self._reader.learn(seen.looks, case.sample.expected_ul)
+            self._learned += 1
+
+    def _sample(self, trajectory: int, seen: _Open) -> TrajectorySample:
+        last = seen.keyframes[max(seen.keyframes, key=lambda kind: seen.keyframes[kind].sequence)]
+        well = last.destinations[0].name if last.destinations else ""
+        return TrajectorySample(
+            id=f"{self.run}-{trajectory}",
+            plate=self.run,
+            well=well,
+            pipette=pipette_class(last.pipette),
+            volume_ul=last.commanded_ul,
+            frames=seen.frames,
+            detections=seen.detections,
+            expected_ul={kind: frame.expected_ul for kind, frame in seen.keyframes.items()},
+            reagent=last.reagent or "",
+        )
+
+    def _evidence(
+        self, case: Case, seen: _Open, triage: Triage, decision: GateDecision
+    ) -> dict[str, Any]:
+        channels = max(keyframe.channels for keyframe in seen.keyframes.values())
+        band = self._cascade.calibrations[self._scorer.name].band
+        return {
+            "boxes": {
+                kind.value: [found.x, found.y, found.w, found.h]
+                for kind, found in seen.detections.items()
+                if found is not None
+            },
+            "confidence": {
+                kind.value: found.confidence
+                for kind, found in seen.detections.items()
+                if found is not None
+            },
+            "scores": dict(case.scores),
+            "band": None if band is None else list(band),
+            "triage": triage.reason,
+            "measured_ul": dict(_readings(case.readings)),
+            "expected_ul": {kind.value: v for kind, v in case.sample.expected_ul.items()},
+            "unusable_frames": [kind.value for kind in seen.unusable],
+            "channels": channels,
+            "tips_judged": 1,
+            "calibration": {
+                "scores": dict(case.scores),
+                "missing": [kind.value for kind in case.missing],
+                "normal": decision.outcome is Outcome.PASS,
+            },
+        }
+
+
+def _readings(
+    readings: Mapping[KeyframeKind, ColumnReading],
+) -> Iterator[tuple[str, dict[str, float]]]:
+    for kind, reading in readings.items():
+        yield (
+            kind.value,
+            {
+                "volume": round(reading.volume_ul, 2),
+                "uncertainty": round(reading.sigma_ul, 2),
+                "air": round(reading.gap_ul, 2),
+            },
+        )
+
+
+def _is_image(image: object) -> bool:
+    return (
+        isinstance(image, np.ndarray)
+        and image.dtype == np.uint8
+        and image.ndim == 3
+        and image.shape[2] == 3
+        and min(image.shape[:2]) >= 16
+    )

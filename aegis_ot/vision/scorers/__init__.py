@@ -1,0 +1,62 @@
+"""Scorers: fitted on normal trajectories, they say how unusual another one is.
+
+:func:`make_scorer` makes one by name. A scorer that can adapt to a run or plate has a further
+method, see :class:`Calibrating`.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Sequence
+from typing import Protocol, runtime_checkable
+
+from ...errors import ConfigurationError
+from ..types import Scorer, TrajectorySample
+
+_WHERE = {
+    "pca": ("pca", "PcaScorer"),
+    "isolation_forest": ("baselines", "IsolationForestScorer"),
+    "one_class_svm": ("baselines", "OneClassSvmScorer"),
+    "autoencoder": ("baselines", "AutoencoderScorer"),
+    "single_frame_pca": ("baselines", "SingleFramePcaScorer"),
+    "mahalanobis": ("baselines", "MahalanobisScorer"),
+    "column": ("column", "ColumnScorer"),
+    "patches": ("patches", "PatchesScorer"),
+    "ensemble": ("ensemble", "EnsembleScorer"),
+}
+
+SCORERS = tuple(_WHERE)
+"""Names that :func:`make_scorer` knows."""
+
+BASELINES = SCORERS[:6]
+"""The paper's scorers."""
+
+__all__ = ["BASELINES", "SCORERS", "Calibrating", "make_scorer"]
+
+
+@runtime_checkable
+class Calibrating(Protocol):
+    """A scorer that adapts to the run or plate at hand from trajectories assumed normal."""
+
+    def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
+        """Adapt. Called anew for each plate; an empty sequence undoes it."""
+
+
+def make_scorer(name: str) -> Scorer:
+    """A new, unfitted scorer.
+
+    Raises:
+        ConfigurationError: If there is no scorer of this name.
+    """
+    try:
+        module, cls = _WHERE[name]
+    except KeyError:
+        raise ConfigurationError(
+            f"there is no scorer {name!r}; choose one of {', '.join(SCORERS)}"
+        ) from None
+    try:
+        loaded = importlib.import_module(f".{module}", __name__)
+    except ModuleNotFoundError as error:
+        raise ConfigurationError(f"scorer {name!r} cannot be loaded: {error}") from error
+    scorer: Scorer = getattr(loaded, cls)()
+    return scorer
