@@ -1,5 +1,104 @@
-"""The decorator (being built)."""
+"""``guard``: the whole public face of the robot half.
+
+Opentrons executes a protocol's text twice per load, once on the event loop of the robot server,
+so nothing here does I/O or raises at decoration: settings are read, and wrong ones reported,
+when ``run`` is called.
+"""
+
+from __future__ import annotations
+
+import functools
+import inspect
+import sys
+from collections.abc import Callable
+from types import FrameType
+from typing import Any, TypeVar, overload
+
+Run = TypeVar("Run", bound=Callable[..., Any])
+Context = TypeVar("Context")
+
+_MARK = "__aegis_guard__"
 
 
-def guard(function):  # type: ignore[no-untyped-def]
-    return function
+@overload
+def guard(target: Run, /, **settings: Any) -> Run: ...
+@overload
+def guard(target: None = None, /, **settings: Any) -> Callable[[Run], Run]: ...
+def guard(target: Any = None, /, **settings: Any) -> Any:
+    """Guard a protocol.
+
+    Three forms::
+
+        @guard
+        def run(protocol): ...
+
+        @guard(assay="pcr", sidecar="http://192.168.1.20:7645", on_fail="pause")
+        def run(protocol): ...
+
+        def run(protocol):
+            protocol = guard(protocol)
+            ...
+
+    Args:
+        target: The ``run`` function, or the ``ProtocolContext`` inside it.
+        **settings: See :class:`aegis_ot.settings.Settings`; each can also come from an
+            environment variable or a file.
+
+    Returns:
+        A function with the same signature, or the very same context.
+
+    Raises:
+        ConfigurationError: Inside ``run``: a setting cannot be used.
+        ProtocolRejected: Inside ``run``: Layer 1 found errors. On a robot nothing has moved.
+        RunAborted: Inside ``run``: Layer 2 ended the run, as configured.
+    """
+    if target is None:
+        return functools.partial(_decorate, settings=settings)
+    if _is_context(target):
+        return _guard_context(target, settings, sys._getframe(1))
+    return _decorate(target, settings)
+
+
+def _is_context(target: Any) -> bool:
+    return hasattr(target, "load_instrument") and hasattr(target, "_core")
+
+
+def _decorate(function: Any, settings: dict[str, Any]) -> Any:
+    inner, inner_settings = getattr(function, _MARK, (function, {}))
+    merged = {**inner_settings, **settings}
+
+    @functools.wraps(inner)
+    def run(protocol: Any, *args: Any, **kwargs: Any) -> Any:
+        from .guarded_run import run_guarded
+
+        return run_guarded(
+            lambda: inner(protocol, *args, **kwargs), protocol, merged, _file_name_of(inner), inner
+        )
+
+    setattr(run, _MARK, (inner, merged))
+    return run
+
+
+def _file_name_of(function: Any) -> str:
+    code = getattr(inspect.unwrap(function), "__code__", None)
+    return str(code.co_filename) if code is not None else "<protocol>"
+
+
+def _guard_context(protocol: Any, settings: dict[str, Any], caller: FrameType) -> Any:
+    from .guarded_run import guard_rest_of
+
+    guard_rest_of(_outermost(caller), protocol, settings)
+    return protocol
+
+
+def _outermost(frame: FrameType) -> FrameType:
+    """The protocol's ``run``: the outermost function of the caller's file on the stack."""
+    found, seen = frame, frame.f_back
+    while seen is not None:
+        if (
+            seen.f_code.co_filename == frame.f_code.co_filename
+            and seen.f_code.co_name != "<module>"
+        ):
+            found = seen
+        seen = seen.f_back
+    return found
