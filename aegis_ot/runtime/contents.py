@@ -1,0 +1,91 @@
+"""What a tip holds, in layers: the last drawn is next to the orifice and leaves first."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from ..vocabulary import WellRef
+
+TRACE_UL = 1e-3
+"""Less than this is rounding, not liquid, µL."""
+
+
+@dataclass(frozen=True)
+class Layer:
+    """One draw.
+
+    Attributes:
+        volume: Per channel, µL.
+        sources: Wells it was drawn from, each once; empty for air.
+        liquid: ``False`` for air.
+    """
+
+    volume: float
+    sources: tuple[WellRef, ...] = ()
+    liquid: bool = True
+
+
+class Contents:
+    """The layers in the tips of one pipette (all its tips hold the same)."""
+
+    def __init__(self) -> None:
+        self._layers: list[Layer] = []
+
+    @property
+    def liquid(self) -> float:
+        """Liquid without air, per channel, µL."""
+        return liquid_of(self._layers)
+
+    @property
+    def holds_liquid(self) -> bool:
+        """Whether there is more than a rounding error of liquid."""
+        return self.liquid > TRACE_UL
+
+    @property
+    def sources(self) -> tuple[WellRef, ...]:
+        """All wells whose liquid is in the tip, each once, oldest first."""
+        return sources_of(self._layers)
+
+    def draw(self, layer: Layer) -> None:
+        """Take in one layer."""
+        if layer.volume > 0:
+            self._layers.append(layer)
+
+    def peek(self, volume: float | None = None) -> tuple[Layer, ...]:
+        """What would leave if ``volume`` µL were dispensed; everything for ``None``."""
+        left = float("inf") if volume is None else volume
+        leaving: list[Layer] = []
+        for layer in reversed(self._layers):
+            if left <= 0:
+                break
+            leaving.append(replace(layer, volume=min(layer.volume, left)))
+            left -= layer.volume
+        return tuple(leaving)
+
+    def expel(self, volume: float | None = None) -> tuple[Layer, ...]:
+        """Let ``volume`` µL leave and say what it was; everything for ``None``."""
+        leaving = self.peek(volume)
+        left = sum(layer.volume for layer in leaving)
+        while self._layers and left > 0:
+            last = self._layers.pop()
+            if last.volume > left + TRACE_UL / 1000:
+                self._layers.append(replace(last, volume=last.volume - left))
+            left -= last.volume
+        if not self.holds_liquid and any(layer.liquid for layer in self._layers):
+            self._layers = [layer for layer in self._layers if not layer.liquid]
+        return leaving
+
+    def clear(self) -> None:
+        """The tip is gone, or a new one is there."""
+        self._layers.clear()
+
+
+def liquid_of(layers: Iterable[Layer]) -> float:
+    """Liquid in these layers, µL."""
+    return float(sum(layer.volume for layer in layers if layer.liquid))
+
+
+def sources_of(layers: Iterable[Layer]) -> tuple[WellRef, ...]:
+    """Wells whose liquid is in these layers, each once."""
+    return tuple(dict.fromkeys(well for layer in layers for well in layer.sources))

@@ -1,0 +1,352 @@
+"""Which keyframes, boundaries and inserted moves a sequence of operations yields.
+
+A pure state machine: no I/O, no clock, no robot. Fed with every operation of a run, it says
+before each one what has to be done first. What it says depends on the operations and on its
+two settings only, so that analysis and live run insert the same moves.
+
+The table of what each kind of call yields is ``docs/reference/keyframes.md``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..instrumentation import Event, EventKind, Operation, OperationKind
+from ..vocabulary import Keyframe, KeyframeKind, WellRef
+from .contents import Layer, liquid_of
+from .hand import Hand, Place, in_place, unique, wells_of
+from .steps import Abandon, Capture, Hold, Lift, Step, Trajectory
+
+_ORDER = tuple(KeyframeKind)
+_EXPELLING = (OperationKind.DISPENSE, OperationKind.BLOW_OUT)
+
+Capacity = Callable[[Operation], "float | None"]
+
+
+def _no_capacity(_operation: Operation) -> float | None:
+    return None
+
+
+class Tracker:
+    """Follows every pipette of one run.
+
+    Args:
+        run: Identifier of the run, written into each keyframe.
+        hold: ``"boundary"``, ``"well"`` (also right after each POST_DISPENSE) or ``"off"``.
+        lift: Whether moves to the top of a well are inserted for TRANSIT and POST_DISPENSE.
+        capacity: Working volume of the tip at an operation whose core may be asked, µL.
+    """
+
+    def __init__(
+        self,
+        run: str,
+        hold: str = "boundary",
+        lift: bool = True,
+        capacity: Capacity = _no_capacity,
+    ) -> None:
+        self._run = run
+        self._hold = hold
+        self._lift = lift
+        self._capacity = capacity
+        self._hands: dict[str, Hand] = {}
+        self._sequence = 0
+        self._trajectories = 0
+        self._reagents: dict[WellRef, str] = {}
+
+    @property
+    def trajectories(self) -> int:
+        """How many trajectories have begun."""
+        return self._trajectories
+
+    def before(self, operation: Operation) -> list[Step]:
+        """What has to be done before ``operation``, in order."""
+        steps: list[Step] = []
+        hand = self._hand(operation)
+        if not in_place(operation):
+            for other in self._hands.values():
+                if other is not hand:
+                    self._settle(other, steps)
+                    other.displaced()
+        if operation.kind is OperationKind.ASPIRATE and hand.capacity is None:
+            hand.capacity = self._capacity(operation)
+        self._owed_to_destination(hand, operation, steps)
+        self._owed_to_source(hand, operation, steps)
+        self._boundaries(hand, operation, steps)
+        self._arrival(hand, operation, steps)
+        return steps
+
+    def after(self, operation: Operation) -> list[Step]:
+        """Take in what ``operation`` did; trajectories that it ended undelivered."""
+        steps: list[Step] = []
+        hand = self._hand(operation)
+        target = hand.target(operation)
+        kind = operation.kind
+        if kind is OperationKind.PICK_UP_TIP:
+            well = operation.well
+            hand.tip = well.address if well is not None else ""
+        if kind in (OperationKind.PICK_UP_TIP, OperationKind.DROP_TIP):
+            self._give_up(hand, "the tip was dropped before it was delivered", steps)
+            hand.contents.clear()
+            hand.draw = hand.capacity = None
+            if kind is OperationKind.DROP_TIP:
+                hand.tip = ""
+        elif operation.is_air:
+            hand.contents.draw(Layer(operation.volume, liquid=False))
+        elif kind is OperationKind.ASPIRATE:
+            hand.contents.draw(Layer(operation.volume, unique(operation.wells)))
+            if not operation.mixing:
+                hand.draw = operation
+        elif kind in _EXPELLING:
+            self._expelled(hand, operation, steps)
+        self._stand(hand, operation, target)
+        return steps
+
+    def event(self, event: Event) -> list[Step]:
+        """A pause for the operator, or a labware that is taken away, is a boundary."""
+        steps: list[Step] = []
+        if event.kind is EventKind.LIQUID_LOADED:
+            for well in event.wells:
+                self._reagents[well] = event.text
+        elif event.kind is EventKind.PAUSED:
+            for hand in self._hands.values():
+                # No lift: what the protocol does next in place must happen in that place.
+                self._settle(hand, steps, lift=False)
+            self._ask([t for h in self._hands.values() for t in h.awaiting], "a pause", steps)
+        elif event.kind is EventKind.LABWARE_MOVED:
+            concerned: list[Trajectory] = []
+            for hand in self._hands.values():
+                if hand.current and hand.current.delivered and _on(hand.current, event.labware):
+                    self._settle(hand, steps, lift=False)  # the wells are not there any more
+                concerned += [t for t in hand.awaiting if _on(t, event.labware)]
+            self._ask(concerned, "the labware is moved", steps)
+        return steps
+
+    def finish(self) -> list[Step]:
+        """The run has ended by itself: what is still owed, and the last boundary."""
+        steps: list[Step] = []
+        for hand in self._hands.values():
+            hand.draw = None
+            self._settle(hand, steps)
+            self._give_up(hand, "the run ended before it was delivered", steps)
+        waiting = sorted(t.number for h in self._hands.values() for t in h.awaiting)
+        for hand in self._hands.values():
+            hand.awaiting.clear()
+        if waiting:
+            steps.append(Hold(tuple(waiting), "the end of the run", final=True))
+        return steps
+
+    def break_off(self, reason: str) -> list[Step]:
+        """The run failed or was stopped: nothing moves any more, nothing is waited for."""
+        steps: list[Step] = []
+        for hand in self._hands.values():
+            if hand.current is not None:
+                steps.append(Abandon(hand.current.number, reason))
+                hand.current = None
+            hand.awaiting.clear()
+        return steps
+
+    # What is owed before the tip goes on
+
+    def _owed_to_destination(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+        current = hand.current
+        if current is None or not current.delivered:
+            return
+        stays = hand.stays(operation)
+        is_more = operation.kind is OperationKind.DISPENSE and stays and not operation.mixing
+        if current.frames < 3 and not is_more:
+            self._capture(hand, current, steps)
+        if not stays or _draws(operation):
+            self._complete(hand, steps, lift=not in_place(operation))
+
+    def _owed_to_source(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+        if _draws(operation):
+            self._give_up(hand, "more was drawn before it was delivered", steps)
+            return
+        if hand.draw is None or operation.disposal or operation.kind is OperationKind.DROP_TIP:
+            return
+        comes_back = hand.stays(operation) or (
+            operation.kind in (OperationKind.DISPENSE, OperationKind.BLOW_OUT)
+            and hand.brings_home(operation)
+        )
+        # The draws of a consolidate are one: the gap between two of them ends nothing.
+        gap_ends_it = operation.is_air and "consolidate" not in operation.call
+        if gap_ends_it or not (comes_back or operation.is_air):
+            self._begin(hand, steps)
+
+    def _boundaries(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+        ends_tip = operation.kind is OperationKind.DROP_TIP
+        place = hand.target(operation)
+        enters = hand.enters(operation)
+        expels = operation.disposal and operation.kind in _EXPELLING
+        due: list[Trajectory] = []
+        for trajectory in hand.awaiting:
+            elsewhere = place != frozenset(trajectory.destinations)
+            if ends_tip or expels or (enters and elsewhere):
+                due.append(trajectory)
+        if enters and place:
+            for other in self._hands.values():
+                if other is not hand:
+                    due += [t for t in other.awaiting if place & frozenset(t.destinations)]
+        if due:
+            self._ask(due, _describe(operation), steps)
+
+    def _arrival(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+        delivers = hand.delivers(operation)
+        carries = hand.contents.holds_liquid and not hand.brings_home(operation)
+        draws = operation.kind is OperationKind.ASPIRATE and not operation.mixing
+        if not delivers and (draws or not carries or not hand.enters(operation)):
+            return
+        if hand.current is None:
+            self._begin(hand, steps)
+        current = hand.current
+        if current is None or current.delivered:
+            return
+        if delivers:
+            current.commanded_ul = liquid_of(hand.leaving(operation))
+            current.line = operation.line
+        if current.frames >= 2:
+            return
+        current.destinations = hand.destinations(operation)
+        stands_there = hand.above and hand.stays(operation)
+        if self._lift and not in_place(operation) and not stands_there and wells_of(operation):
+            self._raise(hand, operation, steps)
+        self._capture(hand, current, steps)
+
+    # The life of a trajectory
+
+    def _begin(self, hand: Hand, steps: list[Step]) -> None:
+        draw = hand.draw
+        hand.draw = None
+        sources = hand.contents.sources
+        names = dict.fromkeys(name for w in sources if (name := self._reagents.get(w)))
+        hand.current = Trajectory(
+            number=self._trajectories,
+            sources=sources,
+            channels=max(1, hand.channels),
+            commanded_ul=hand.contents.liquid,
+            reagent=" + ".join(names) or None,
+            line=draw.line if draw is not None else None,
+        )
+        self._trajectories += 1
+        self._capture(hand, hand.current, steps)
+
+    def _capture(self, hand: Hand, trajectory: Trajectory, steps: list[Step]) -> None:
+        keyframe = Keyframe(
+            run=self._run,
+            sequence=self._sequence,
+            trajectory=trajectory.number,
+            kind=_ORDER[trajectory.frames],
+            pipette=hand.pipette.name,
+            mount=hand.pipette.mount,
+            channels=trajectory.channels,
+            tip=hand.tip,
+            sources=trajectory.sources,
+            destinations=trajectory.destinations,
+            commanded_ul=round(trajectory.commanded_ul, 3),
+            expected_ul=round(hand.contents.liquid, 3),
+            capacity_ul=hand.capacity or hand.pipette.max_volume,
+            reagent=trajectory.reagent,
+            position=hand.position,
+            line=trajectory.line,
+        )
+        self._sequence += 1
+        trajectory.frames += 1
+        steps.append(Capture(keyframe))
+
+    def _complete(self, hand: Hand, steps: list[Step], lift: bool) -> None:
+        trajectory = hand.current
+        if trajectory is None:
+            return
+        if lift and self._lift and not hand.above and hand.aimed is not None:
+            self._raise(hand, hand.aimed, steps)
+        self._capture(hand, trajectory, steps)
+        hand.current = None
+        hand.awaiting.append(trajectory)
+        if self._hold == "well":
+            self._ask([trajectory], "the well is done", steps)
+
+    def _settle(self, hand: Hand, steps: list[Step], lift: bool = True) -> None:
+        """All that this pipette owes, because something else is about to move."""
+        if hand.draw is not None:
+            self._begin(hand, steps)
+        if hand.current is not None and hand.current.delivered:
+            if hand.current.frames < 3:
+                self._capture(hand, hand.current, steps)
+            self._complete(hand, steps, lift)
+
+    def _give_up(self, hand: Hand, reason: str, steps: list[Step]) -> None:
+        if hand.current is not None and not hand.current.delivered:
+            steps.append(Abandon(hand.current.number, reason))
+            hand.current = None
+
+    def _raise(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+        steps.append(Lift(operation))
+        hand.above = True
+        hand.place = wells_of(operation)
+        if operation.position is None or operation.from_top is None:
+            hand.position = None
+        else:
+            x, y, z = operation.position
+            hand.position = (x, y, round(z - operation.from_top, 3))
+
+    def _ask(self, due: list[Trajectory], reason: str, steps: list[Step]) -> None:
+        if self._hold == "off" or not due:
+            return
+        numbers = {t.number for t in due}
+        for hand in self._hands.values():
+            hand.awaiting = [t for t in hand.awaiting if t.number not in numbers]
+        steps.append(Hold(tuple(sorted(numbers)), reason))
+
+    # What an operation changed
+
+    def _expelled(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
+        delivers = hand.delivers(operation)
+        everything = operation.kind is OperationKind.BLOW_OUT
+        layers = hand.contents.expel(None if everything else operation.volume)
+        current = hand.current
+        if delivers and current is not None:
+            moved = liquid_of(layers)
+            current.commanded_ul = moved + (current.commanded_ul if current.delivered else 0.0)
+            current.delivered = True
+            current.line = operation.line
+            current.destinations = hand.destinations(operation)
+        if not hand.contents.holds_liquid:
+            hand.draw = None
+            self._give_up(hand, "its liquid was thrown away or put back", steps)
+
+    def _stand(self, hand: Hand, operation: Operation, target: Place) -> None:
+        hand.channels = len(operation.nozzles)
+        if wells_of(operation):
+            hand.aimed = operation
+        if operation.position is not None:
+            hand.position = operation.position
+        if in_place(operation):
+            return
+        if not wells_of(operation):
+            hand.aimed = None
+        hand.place = frozenset() if operation.disposal else target
+        hand.above = operation.from_top is not None and operation.from_top >= 0
+
+    def _hand(self, operation: Operation) -> Hand:
+        key = operation.pipette.key
+        if key not in self._hands:
+            self._hands[key] = Hand(operation.pipette)
+        return self._hands[key]
+
+
+def _draws(operation: Operation) -> bool:
+    return (
+        operation.kind is OperationKind.ASPIRATE and not operation.is_air and not operation.mixing
+    )
+
+
+def _on(trajectory: Trajectory, labware: str) -> bool:
+    return any(well.labware == labware for well in trajectory.destinations)
+
+
+def _describe(operation: Operation) -> str:
+    if operation.kind is OperationKind.DROP_TIP:
+        return "the tip is dropped"
+    if operation.disposal:
+        return "the tip is emptied into the trash"
+    return f"the tip enters {operation.well}" if operation.well else "the tip goes on"
