@@ -1,1 +1,17 @@
-"""(being built)"""
+"""The sidecar: the workstation's half of Layer 2. Door: :func:`create_app`, :func:`serve`."""
+
+from .analysis import Analyser, Evidence, Judged, RunAnalyser
+from .app import create_app
+from .config import SidecarConfig
+from .server import running_sidecar, serve
+
+__all__ = [
+    "Analyser",
+    "Evidence",
+    "Judged",
+    "RunAnalyser",
+    "SidecarConfig",
+    "create_app",
+    "running_sidecar",
+    "serve",
+]

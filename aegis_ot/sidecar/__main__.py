@@ -1,0 +1,26 @@
+"""``python -m aegis_ot.sidecar [SETTINGS]``: the sidecar alone, without the command line."""
+
+from __future__ import annotations
+
+import logging
+import sys
+
+from ..errors import AegisError
+from .config import SidecarConfig
+from .server import serve
+
+
+def main(arguments: list[str]) -> int:
+    """Run until stopped. Returns the exit status: 2 if the settings cannot be used."""
+    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s: %(message)s")
+    try:
+        config = SidecarConfig.load(arguments[0] if arguments else None)
+        serve(config, ready=lambda url: logging.info("The sidecar answers at %s", url))
+    except AegisError as error:
+        sys.stderr.write(f"{error}\n")
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

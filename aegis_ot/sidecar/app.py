@@ -1,0 +1,283 @@
+"""The HTTP face: docs/reference/wire.md as a FastAPI application."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import AsyncIterator, Awaitable, Callable
+from typing import Annotated, Any, TypeVar
+
+from fastapi import Depends, FastAPI, Path, Query, Request
+from fastapi.exceptions import RequestValidationError
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
+from starlette.responses import JSONResponse, Response
+
+from .._version import __version__
+from ..errors import AegisError, CameraError, StoreError
+from ..vision.camera import Camera
+from ..vocabulary import Keyframe, to_json
+from .analysis import Analyser, Unscored
+from .cameras import open_camera
+from .config import SidecarConfig
+from .pages import router as pages
+from .security import Doorkeeper
+from .service import Sidecar
+from .wire import (
+    MAX_BODY,
+    MAX_COUNT,
+    MAX_WAIT,
+    WIRE,
+    Abandon,
+    Decision,
+    Finish,
+    Hold,
+    RunStart,
+    WireError,
+    check_run,
+    parse,
+)
+
+T = TypeVar("T")
+
+PAGE_WAIT = 20.0
+"""Longest wait of the page for news, s."""
+
+
+async def _run_name(run: Annotated[str, Path()]) -> str:
+    return check_run(run)
+
+
+Run = Annotated[str, Depends(_run_name)]
+Number = Annotated[int, Path(ge=0, le=MAX_COUNT)]
+Wait = Annotated[float, Query(ge=0, allow_inf_nan=False)]
+
+
+def create_app(
+    config: SidecarConfig, camera: Camera | None = None, analyser: Analyser | None = None
+) -> FastAPI:
+    """Build the sidecar's application. It holds the camera and store until it is shut down.
+
+    Args:
+        config: Settings.
+        camera: Instead of the one that ``config.camera.spec`` names.
+        analyser: What judges wells; without one every well is undecided.
+
+    Returns:
+        The application; ``app.state.sidecar`` is the :class:`~.service.Sidecar` behind it, whose
+        ``close()`` must be called where no server runs the application's lifespan.
+
+    Raises:
+        ConfigurationError: The camera's name makes no sense.
+        StoreError: The data folder cannot be used.
+    """
+    camera = open_camera(config.camera) if camera is None else camera
+    try:
+        sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser)
+    except AegisError:
+        camera.close()
+        raise
+
+    @contextlib.asynccontextmanager
+    async def lifespan(_app: FastAPI) -> AsyncIterator[None]:
+        yield
+        await run_in_threadpool(sidecar.close)
+
+    app = FastAPI(
+        title="aegis-ot sidecar",
+        version=__version__,
+        lifespan=lifespan,
+        # The interactive pages load scripts from elsewhere; wire.md is the reference.
+        openapi_url=None,
+    )
+    app.state.sidecar = sidecar
+    app.add_middleware(Doorkeeper, config=config)
+    _answer_errors(app)
+    _robot_routes(app, sidecar)
+    _reader_routes(app, sidecar)
+    app.include_router(pages)
+    return app
+
+
+def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
+    @app.get("/v1/health")
+    def health() -> dict[str, Any]:
+        camera = sidecar.camera_health()
+        return {
+            "name": "aegis-ot",
+            "version": __version__,
+            "wire": WIRE,
+            "camera": {"kind": sidecar.camera.kind, "ok": camera.ok, "detail": camera.detail},
+        }
+
+    @app.put("/v1/runs/{run}")
+    async def register(run: Run, start: Annotated[RunStart, _body(RunStart)]) -> dict[str, Any]:
+        _must_match(run, start.run)
+        await run_in_threadpool(sidecar.register, start)
+        return {"run": run, "wire": WIRE}
+
+    @app.post("/v1/runs/{run}/keyframes")
+    async def keyframe(
+        run: Run, arrived: Annotated[float, Depends(_now)], request: Request
+    ) -> dict[str, Any]:
+        keyframe = parse(Keyframe, await read_body(request))
+        _must_match(run, keyframe.run)
+        captured = await run_in_threadpool(lambda: sidecar.session(run).capture(keyframe, arrived))
+        return {
+            "sequence": keyframe.sequence,
+            "captured": True,
+            "exposed_after_s": captured.exposed_after_s,
+        }
+
+    @app.get("/v1/runs/{run}/trajectories/{number}/verdict")
+    async def verdict(run: Run, number: Number, wait: Wait = 0.0) -> dict[str, Any]:
+        session = await run_in_threadpool(sidecar.session, run)
+        found = await sidecar.bell.until(lambda: session.verdict(number), min(wait, MAX_WAIT))
+        answer: dict[str, Any] = {"verdict": None if found is None else to_json(found)}
+        if found is None and session.awaiting_operator(number):
+            answer["awaiting"] = "operator"
+        return answer
+
+    @app.post("/v1/runs/{run}/trajectories/{number}/abandon")
+    async def abandon(
+        run: Run, number: Number, body: Annotated[Abandon, _body(Abandon)]
+    ) -> dict[str, Any]:
+        await run_in_threadpool(lambda: sidecar.session(run).abandon(number, body.reason))
+        return {}
+
+    @app.post("/v1/runs/{run}/hold")
+    async def hold(run: Run, body: Annotated[Hold, _body(Hold)]) -> dict[str, Any]:
+        await run_in_threadpool(sidecar.hold, run, body)
+        return {}
+
+    @app.post("/v1/runs/{run}/finish")
+    async def finish(run: Run, body: Annotated[Finish, _body(Finish)]) -> dict[str, Any]:
+        await run_in_threadpool(sidecar.finish, run, body)
+        return {}
+
+
+def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
+    async def news(after: int | None, wait: float) -> None:
+        if after is not None:
+            await sidecar.bell.until(
+                lambda: True if sidecar.bell.rings != after else None, min(wait, PAGE_WAIT)
+            )
+
+    @app.get("/v1/runs")
+    async def runs(after: int | None = None, wait: Wait = 0.0) -> dict[str, Any]:
+        await news(after, wait)
+        version = sidecar.bell.rings
+        return {"runs": await run_in_threadpool(sidecar.runs), "version": version}
+
+    @app.get("/v1/runs/{run}")
+    async def overview(run: Run, after: int | None = None, wait: Wait = 0.0) -> dict[str, Any]:
+        await news(after, wait)
+        return await run_in_threadpool(sidecar.overview, run)
+
+    @app.get("/v1/runs/{run}/frames/{sequence}.jpg")
+    async def frame(run: Run, sequence: Number) -> Response:
+        jpeg = await run_in_threadpool(sidecar.store.frame, run, sequence)
+        if jpeg is None:
+            raise WireError(404, "no_frame", f"Run {run!r} has no frame {sequence}.")
+        return Response(
+            jpeg, media_type="image/jpeg", headers={"Cache-Control": "private, max-age=86400"}
+        )
+
+    @app.post("/v1/runs/{run}/trajectories/{number}/decision")
+    async def decide(
+        run: Run, number: Number, body: Annotated[Decision, _body(Decision)]
+    ) -> dict[str, Any]:
+        decided = await run_in_threadpool(lambda: sidecar.session(run).decide(number, body))
+        return {"verdict": to_json(decided)}
+
+
+async def _now() -> float:
+    """When the request arrived: the robot stands still since before."""
+    return time.monotonic()
+
+
+def _body(shape: type[T]) -> Any:
+    """A dependency that reads the request's body as ``shape``."""
+
+    async def read(request: Request) -> T:
+        return parse(shape, await read_body(request))
+
+    return Depends(read)
+
+
+async def read_body(request: Request, limit: int = MAX_BODY) -> bytes:
+    """The body of a request.
+
+    Raises:
+        WireError: 413 if it is longer than ``limit`` bytes; 400 if it broke off.
+    """
+    too_long = WireError(413, "body", f"The body is longer than {limit} bytes.")
+    announced = request.headers.get("content-length", "0")
+    if not announced.isdecimal() or len(announced) > 12 or int(announced) > limit:
+        raise too_long
+    body = bytearray()
+    try:
+        async for chunk in request.stream():
+            body += chunk
+            if len(body) > limit:
+                raise too_long
+    except ClientDisconnect:
+        raise WireError(400, "body", "The request broke off.") from None
+    return bytes(body)
+
+
+def _must_match(path: str, body: str) -> None:
+    if path != body:
+        raise WireError(422, "run", f"The body names run {body!r}, the address {path!r}.")
+
+
+def _answer_errors(app: FastAPI) -> None:
+    """Every error in the wire's shape."""
+
+    def answer(make: Callable[[Any], WireError]) -> Callable[[Request, Any], Awaitable[Response]]:
+        async def handle(_request: Request, error: Any) -> Response:
+            told = make(error)
+            return JSONResponse(told.body(), told.status)
+
+        return handle
+
+    def invalid(error: RequestValidationError) -> WireError:
+        problems = (f"{'.'.join(map(str, p['loc']))}: {p['msg']}" for p in error.errors())
+        return WireError(422, "request", "; ".join(problems))
+
+    def http(error: HTTPException) -> WireError:
+        if error.status_code == 404:
+            return WireError(404, "no_such_address", "There is nothing at this address.")
+        return WireError(error.status_code, "http", str(error.detail))
+
+    app.add_exception_handler(WireError, answer(lambda error: error))
+    app.add_exception_handler(
+        CameraError,
+        answer(
+            lambda error: WireError(
+                503, "camera", str(error), "Check the camera; the keyframe can be resent."
+            )
+        ),
+    )
+    app.add_exception_handler(
+        StoreError,
+        answer(
+            lambda error: WireError(
+                503, "store", str(error), "Check the workstation; the keyframe can be resent."
+            )
+        ),
+    )
+    app.add_exception_handler(RequestValidationError, answer(invalid))
+    app.add_exception_handler(HTTPException, answer(http))
+    app.add_exception_handler(
+        Exception,
+        answer(
+            lambda error: WireError(
+                500,
+                "internal",
+                f"The sidecar failed: {type(error).__name__}.",
+                "Its log says more; please report it.",
+            )
+        ),
+    )

@@ -1,0 +1,166 @@
+"""A network camera: an MJPEG stream, or an address that gives one picture per request."""
+
+from __future__ import annotations
+
+import base64
+import http.client
+import socket
+import threading
+import time
+import urllib.error
+import urllib.parse
+import urllib.request
+from email.message import Message
+
+from ...errors import CameraError
+from .freerunning import Raw
+
+SOCKET_TIMEOUT = 5.0
+"""A camera that sends nothing for so long is opened again, s."""
+SNAPSHOT_PERIOD = 0.1
+"""Pictures are asked for at most this often, s."""
+LARGEST_FRAME = 32 * 1024 * 1024
+CHUNK = 16 * 1024
+
+
+class HttpSource:
+    """Reads ``url``; its content type tells whether it is a stream or a single picture.
+
+    A user name and password in the address are sent as basic authentication and never shown.
+
+    Args:
+        url: ``http://`` or ``https://``.
+        latency: Longest time from the start of an exposure to the frame's arrival, s.
+
+    Raises:
+        CameraError: No answer, an error status, or something that is no picture.
+    """
+
+    def __init__(self, url: str, latency: float) -> None:
+        self._request, self.shown = _request(url)
+        self._latency = latency
+        self._stop = threading.Event()
+        self._asked = time.monotonic()
+        self._answer = self._open()
+        kind = self._answer.headers.get_content_type()
+        self._boundary: bytes | None = None
+        self._buffer = b""
+        if kind.startswith("multipart/"):
+            self._boundary = _boundary(self._answer.headers)
+        elif not kind.startswith("image/"):
+            self._answer.close()
+            raise CameraError(f"{self.shown} answers with {kind}, which is no picture or stream.")
+
+    def read(self) -> Raw:
+        """The next frame. Raises CameraError when the camera is gone."""
+        try:
+            return self._part() if self._boundary is not None else self._snapshot()
+        except (OSError, http.client.HTTPException) as error:
+            raise CameraError(f"{self.shown} broke off: {_reason(error)}") from error
+
+    def close(self) -> None:
+        """Close the connection."""
+        self._stop.set()
+        self._answer.close()
+
+    def _open(self) -> http.client.HTTPResponse:
+        try:
+            answer: http.client.HTTPResponse = urllib.request.urlopen(
+                self._request, timeout=SOCKET_TIMEOUT
+            )
+        except urllib.error.HTTPError as error:
+            error.close()
+            raise CameraError(f"{self.shown} answers with status {error.code}.") from error
+        except (OSError, http.client.HTTPException, ValueError) as error:
+            raise CameraError(f"{self.shown} cannot be reached: {_reason(error)}") from error
+        return answer
+
+    def _snapshot(self) -> Raw:
+        if self._answer.isclosed():
+            self._stop.wait(max(0.0, self._asked + SNAPSHOT_PERIOD - time.monotonic()))
+            self._asked = time.monotonic()
+            self._answer = self._open()
+        data = self._answer.read(LARGEST_FRAME)
+        self._answer.close()
+        # The picture may have been taken when the request arrived there, or just before.
+        return Raw(self._asked - self._latency, jpeg=data)
+
+    def _part(self) -> Raw:
+        """One part of ``multipart/x-mixed-replace``: boundary line, headers, blank line, JPEG."""
+        assert self._boundary is not None
+        self._until(self._boundary)
+        head = self._until(b"\r\n\r\n")
+        length = _content_length(head)
+        if length is not None:
+            while len(self._buffer) < length:
+                self._more()
+            data, self._buffer = self._buffer[:length], self._buffer[length:]
+            arrived = time.monotonic()
+        else:
+            # Without a length the frame ends where the next boundary begins; leave that there.
+            data = self._until(self._boundary)
+            arrived = time.monotonic()
+            self._buffer = self._boundary + self._buffer
+            data = data[:-2] if data.endswith(b"\r\n") else data
+        return Raw(arrived - self._latency, jpeg=data)
+
+    def _until(self, mark: bytes) -> bytes:
+        start = 0
+        while (at := self._buffer.find(mark, start)) < 0:
+            start = max(0, len(self._buffer) - len(mark))
+            self._more()
+        found, self._buffer = self._buffer[:at], self._buffer[at + len(mark) :]
+        return found
+
+    def _more(self) -> None:
+        if len(self._buffer) > LARGEST_FRAME:
+            raise CameraError(f"{self.shown} sends parts of more than {LARGEST_FRAME} bytes.")
+        # read1 returns what has arrived; read would wait for a full chunk, frames later.
+        chunk = self._answer.read1(CHUNK)
+        if not chunk:
+            raise CameraError(f"{self.shown} ended the stream.")
+        self._buffer += chunk
+
+
+def _request(url: str) -> tuple[urllib.request.Request, str]:
+    """The request for ``url``, and the address as it may be shown: without the password."""
+    try:
+        parts = urllib.parse.urlsplit(url)
+        host = f"[{parts.hostname}]" if ":" in (parts.hostname or "") else parts.hostname
+        place = f"{host}:{parts.port}" if parts.port else f"{host}"
+    except ValueError as error:
+        raise CameraError(f"The camera's address makes no sense: {error}") from error
+    shown = f"{parts.scheme}://{place}{parts.path}"
+    bare = urllib.parse.urlunsplit((parts.scheme, place, parts.path, parts.query, ""))
+    request = urllib.request.Request(bare, headers={"User-Agent": "aegis-ot"})
+    if parts.username is not None:
+        pair = urllib.parse.unquote(f"{parts.username}:{parts.password or ''}")
+        request.add_header("Authorization", "Basic " + base64.b64encode(pair.encode()).decode())
+    return request, shown
+
+
+def _boundary(headers: Message) -> bytes:
+    boundary = headers.get_param("boundary")
+    text = boundary if isinstance(boundary, str) else ""
+    if not text:
+        raise CameraError("The stream does not name the boundary of its parts.")
+    # Some cameras write the two dashes into the parameter as well.
+    return b"--" + text.strip('"').removeprefix("--").encode("latin-1")
+
+
+def _content_length(head: bytes) -> int | None:
+    for line in head.split(b"\r\n"):
+        name, _, value = line.partition(b":")
+        if name.strip().lower() == b"content-length" and value.strip().isdigit():
+            length = int(value)
+            if length > LARGEST_FRAME:
+                raise CameraError(f"The stream announces a frame of {length} bytes.")
+            return length
+    return None
+
+
+def _reason(error: Exception) -> str:
+    reason = getattr(error, "reason", error)
+    if isinstance(reason, (TimeoutError, socket.timeout)):
+        return f"nothing came for {SOCKET_TIMEOUT:g} s"
+    return str(reason) or type(reason).__name__

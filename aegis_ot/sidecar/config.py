@@ -1,0 +1,245 @@
+"""Settings of the sidecar: arguments over environment variables over a JSON or TOML file."""
+
+from __future__ import annotations
+
+import importlib
+import ipaddress
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+from platformdirs import user_data_path
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    SecretStr,
+    ValidationError,
+    field_validator,
+    model_validator,
+)
+
+from ..errors import ConfigurationError
+
+DEFAULT_PORT = 7645
+
+ENVIRONMENT = {
+    "AEGIS_OT_SIDECAR_HOST": ("host",),
+    "AEGIS_OT_SIDECAR_PORT": ("port",),
+    "AEGIS_OT_SIDECAR_TOKEN": ("token",),
+    "AEGIS_OT_SIDECAR_DATA": ("data",),
+    "AEGIS_OT_SIDECAR_CAMERA": ("camera", "spec"),
+    "AEGIS_OT_SIDECAR_NOTIFY": ("notifications", "urls"),
+}
+"""Environment variables and the settings they give; notification URLs are parted by spaces."""
+
+
+class Section(BaseModel):
+    """Base of every section: unknown names are errors, values cannot change later."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+class CameraSettings(Section):
+    """Which camera, and how long to wait for it.
+
+    Attributes:
+        spec: ``usb:0``, ``http://...`` (MJPEG stream or snapshot), ``folder:PATH``,
+            ``pattern`` (test pattern) or ``simulated``.
+        timeout_s: How long a keyframe waits for a frame before it is refused, s.
+        latency_s: Longest time from the start of an exposure to the frame's arrival here, s;
+            a frame counts as exposed that long before it arrived. ``None``: the default of the
+            kind of camera.
+        width, height: What a USB camera is asked for, px; ``None``: its own default.
+        fps: What a USB camera or the test pattern is asked for, frames/s.
+    """
+
+    spec: str = "usb:0"
+    timeout_s: Annotated[float, Field(gt=0, le=30)] = 2.0
+    latency_s: Annotated[float, Field(ge=0, le=5)] | None = None
+    width: Annotated[int, Field(ge=16, le=10_000)] | None = None
+    height: Annotated[int, Field(ge=16, le=10_000)] | None = None
+    fps: Annotated[float, Field(gt=0, le=240)] = 30.0
+
+
+class CascadeSettings(Section):
+    """Which scorer judges, and when a well goes to a gate.
+
+    Attributes:
+        scorer: Name of the scorer.
+        model: Fitted model file of the lab; ``None``: the shipped one.
+        detector: Tip detector (ONNX); ``None``: the shipped one.
+        calibration_wells: How many first wells calibrate a run (paper: 6).
+        band: Half-width of the silent-pass band in MADs (paper: 0.7; wider sends fewer normal
+            wells to the gate, see ``spec/paper.md``).
+        blank_floor: Scores below it are a blank camera view (paper: 1e-4).
+        always_gate: Send every well to the gate.
+        gates: Asked in this order: ``volumetric``, ``vlm``.
+    """
+
+    scorer: str = "ensemble"
+    model: Path | None = None
+    detector: Path | None = None
+    calibration_wells: Annotated[int, Field(ge=2, le=96)] = 6
+    band: Annotated[float, Field(gt=0, le=100)] = 4.0
+    blank_floor: Annotated[float, Field(ge=0)] = 1e-4
+    always_gate: bool = False
+    gates: tuple[str, ...] = ("volumetric",)
+
+    @field_validator("gates")
+    @classmethod
+    def _known_gates(cls, value: tuple[str, ...]) -> tuple[str, ...]:
+        unknown = sorted(set(value) - {"volumetric", "vlm"})
+        if unknown:
+            raise ValueError(f"unknown gate {unknown[0]!r}; use volumetric or vlm")
+        return value
+
+
+class OperatorSettings(Section):
+    """The operator as a gate.
+
+    Attributes:
+        timeout_s: How long an undecided verdict is held back for the operator before the robot
+            is told that it is undecided, s. 0: told at once.
+    """
+
+    timeout_s: Annotated[float, Field(ge=0, le=3600)] = 0.0
+
+
+class NotificationSettings(Section):
+    """Who is told of fails, undecided wells and trouble: Apprise URLs."""
+
+    urls: tuple[SecretStr, ...] = ()
+
+    @field_validator("urls", mode="before")
+    @classmethod
+    def _split(cls, value: Any) -> Any:
+        return tuple(value.split()) if isinstance(value, str) else value
+
+
+class SidecarConfig(Section):
+    """All settings of a sidecar. Use :meth:`load` for errors meant for people.
+
+    Attributes:
+        host: Address to listen on; loopback unless told otherwise.
+        port: TCP port; 0 takes a free one.
+        token: Bearer token; required when ``host`` is not loopback.
+        data: Folder of the store; the user's data folder by default.
+    """
+
+    host: str = "127.0.0.1"
+    port: Annotated[int, Field(ge=0, le=65535)] = DEFAULT_PORT
+    token: SecretStr | None = None
+    data: Path = Field(default_factory=lambda: user_data_path("aegis-ot", appauthor=False))
+    camera: CameraSettings = CameraSettings()
+    cascade: CascadeSettings = CascadeSettings()
+    operator: OperatorSettings = OperatorSettings()
+    notifications: NotificationSettings = NotificationSettings()
+
+    @field_validator("token")
+    @classmethod
+    def _usable_token(cls, value: SecretStr | None) -> SecretStr | None:
+        text = "" if value is None else value.get_secret_value()
+        if value is not None and not text:
+            raise ValueError("the token is empty; leave it out, or give one")
+        # http.client writes headers as latin-1 and refuses control characters.
+        if not all(33 <= ord(character) < 127 for character in text):
+            raise ValueError("the token may hold only printable ASCII characters and no spaces")
+        return value
+
+    @model_validator(mode="after")
+    def _no_open_door(self) -> SidecarConfig:
+        if self.token is None and not is_loopback(self.host):
+            raise ValueError(
+                f"refusing to listen on {self.host} without a token: anyone on the network could "
+                "read frames and decide wells. Set a token (AEGIS_OT_SIDECAR_TOKEN), or listen "
+                "on 127.0.0.1"
+            )
+        return self
+
+    @classmethod
+    def load(
+        cls,
+        path: str | Path | None = None,
+        environ: Mapping[str, str] | None = None,
+        **overrides: Any,
+    ) -> SidecarConfig:
+        """Read a file, then the environment, then ``overrides``; later ones win.
+
+        Args:
+            path: JSON or TOML (by its suffix); ``None``: no file.
+            environ: Defaults to the environment of this process.
+            overrides: Settings by name; sections as mappings; ``None`` means "not given".
+
+        Raises:
+            ConfigurationError: Naming the setting and what is wrong with it.
+        """
+        values = _read_file(Path(path)) if path is not None else {}
+        environ = os.environ if environ is None else environ
+        for variable, place in ENVIRONMENT.items():
+            if environ.get(variable):
+                _merge(values, _nest(place, environ[variable]))
+        _merge(values, {name: value for name, value in overrides.items() if value is not None})
+        try:
+            return cls.model_validate(values)
+        except ValidationError as error:
+            raise ConfigurationError(_explain(error)) from None
+
+
+def is_loopback(host: str) -> bool:
+    """Whether only this machine can reach ``host``. Names other than localhost are not trusted."""
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host.strip("[]")).is_loopback
+    except ValueError:
+        return False
+
+
+def _nest(place: tuple[str, ...], value: Any) -> dict[str, Any]:
+    for name in reversed(place):
+        value = {name: value}
+    return dict(value)
+
+
+def _merge(into: dict[str, Any], new: Mapping[str, Any]) -> None:
+    for name, value in new.items():
+        if isinstance(value, Mapping) and isinstance(into.get(name), dict):
+            _merge(into[name], value)
+        else:
+            into[name] = dict(value) if isinstance(value, Mapping) else value
+
+
+def _explain(error: ValidationError) -> str:
+    lines = []
+    for problem in error.errors(include_url=False, include_input=False):
+        place = ".".join(str(part) for part in problem["loc"])
+        text = problem["msg"].removeprefix("Value error, ")
+        lines.append(f"{place}: {text}" if place else text)
+    return "Sidecar settings: " + "; ".join(lines)
+
+
+def _read_file(path: Path) -> dict[str, Any]:
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigurationError(f"Cannot read the settings file {path}: {error}") from error
+    try:
+        data = _parse_toml(text) if path.suffix == ".toml" else json.loads(text)
+    except ValueError as error:
+        raise ConfigurationError(f"The settings file {path} is damaged: {error}") from error
+    if not isinstance(data, dict):
+        raise ConfigurationError(f"The settings file {path} must hold one object of settings.")
+    return data
+
+
+def _parse_toml(text: str) -> Any:
+    try:
+        tomllib = importlib.import_module("tomllib")
+    except ImportError:  # Python 3.10
+        raise ConfigurationError(
+            "TOML settings need Python 3.11 or newer; write the same settings as JSON."
+        ) from None
+    return tomllib.loads(text)

@@ -1,0 +1,60 @@
+"""A run as plain JSON, for the page and the report."""
+
+from __future__ import annotations
+
+from typing import Any
+from urllib.parse import quote
+
+from ..vocabulary import to_json
+from .store import Store, effective
+
+
+def run_overview(store: Store, run: str) -> dict[str, Any]:
+    """All that the store knows of a run: its start and end, and per trajectory its keyframes,
+    verdict (as it stands, and as it was judged), evidence, decisions, hold.
+
+    Returns:
+        The answer of ``GET /v1/runs/{run}``, without ``version``.
+    """
+    trajectories: dict[int, dict[str, Any]] = {}
+    abandoned, holds, decisions = store.abandoned(run), store.holds(run), store.decisions(run)
+    verdicts = {v.trajectory: (v, evidence, at) for v, evidence, at in store.verdicts(run)}
+
+    def entry(number: int) -> dict[str, Any]:
+        if number not in trajectories:
+            verdict, evidence, judged = verdicts.get(number, (None, {}, None))
+            decided = decisions.get(number, [])
+            now = None if verdict is None else to_json(effective(verdict, decided))
+            trajectories[number] = {
+                "trajectory": number,
+                "well": "",
+                "keyframes": [],
+                "verdict": now,
+                "judged": None if verdict is None else to_json(verdict),
+                "judged_at": judged,
+                "evidence": evidence,
+                "decisions": decided,
+                "hold": holds.get(number),
+                "abandoned": abandoned.get(number),
+            }
+        return trajectories[number]
+
+    for captured in store.keyframes(run):
+        keyframe = captured.keyframe
+        trajectory = entry(keyframe.trajectory)
+        trajectory["keyframes"].append(
+            to_json(keyframe)
+            | {
+                "captured": captured.captured,
+                "exposed_after_s": captured.exposed_after_s,
+                "frame": f"/v1/runs/{quote(run, safe='')}/frames/{keyframe.sequence}.jpg",
+            }
+        )
+        wells = keyframe.destinations or keyframe.sources
+        if wells and (keyframe.destinations or not trajectory["well"]):
+            more = f" and {len(wells) - 1} more" if len(wells) > 1 else ""
+            trajectory["well"] = f"{wells[0]}{more}"
+    for number in (*verdicts, *abandoned, *holds):
+        entry(number)
+    row = store.run(run) or {}
+    return row | {"trajectories": [trajectories[number] for number in sorted(trajectories)]}

@@ -1,0 +1,62 @@
+"""The store's tables, and how an older store becomes a newer one."""
+
+from __future__ import annotations
+
+import sqlite3
+
+from ..errors import StoreError
+
+MIGRATIONS: tuple[str, ...] = (
+    """
+    CREATE TABLE runs (
+        run TEXT PRIMARY KEY, folder TEXT NOT NULL UNIQUE, start TEXT NOT NULL,
+        registered REAL NOT NULL, finished REAL, outcome TEXT, detail TEXT
+    );
+    CREATE TABLE keyframes (
+        run TEXT NOT NULL REFERENCES runs, sequence INTEGER NOT NULL,
+        trajectory INTEGER NOT NULL, keyframe TEXT NOT NULL,
+        exposed_after_s REAL NOT NULL, captured REAL NOT NULL,
+        PRIMARY KEY (run, sequence)
+    );
+    CREATE TABLE verdicts (
+        run TEXT NOT NULL REFERENCES runs, trajectory INTEGER NOT NULL,
+        verdict TEXT NOT NULL, evidence TEXT NOT NULL, judged REAL NOT NULL,
+        PRIMARY KEY (run, trajectory)
+    );
+    CREATE TABLE abandoned (
+        run TEXT NOT NULL REFERENCES runs, trajectory INTEGER NOT NULL,
+        reason TEXT NOT NULL, at REAL NOT NULL,
+        PRIMARY KEY (run, trajectory)
+    );
+    CREATE TABLE holds (
+        run TEXT NOT NULL REFERENCES runs, trajectory INTEGER NOT NULL,
+        seconds REAL NOT NULL, resolution TEXT NOT NULL, policy TEXT, at REAL NOT NULL,
+        PRIMARY KEY (run, trajectory)
+    );
+    CREATE TABLE decisions (
+        id INTEGER PRIMARY KEY, run TEXT NOT NULL REFERENCES runs, trajectory INTEGER NOT NULL,
+        outcome TEXT NOT NULL, "by" TEXT NOT NULL, note TEXT NOT NULL, at REAL NOT NULL
+    );
+    CREATE INDEX decisions_of ON decisions (run, trajectory);
+    """,
+)
+"""One script per version, ``user_version`` counting those done. Only ever append."""
+
+
+def migrate(connection: sqlite3.Connection) -> None:
+    """Bring the database to the newest version, each step whole or not at all.
+
+    Raises:
+        StoreError: If a newer sidecar wrote it.
+    """
+    (version,) = connection.execute("PRAGMA user_version").fetchone()
+    if version > len(MIGRATIONS):
+        raise StoreError(
+            f"The store was written by a newer sidecar (version {version}, this one knows "
+            f"{len(MIGRATIONS)}). Update aegis-ot, or name another data folder."
+        )
+    for number in range(version, len(MIGRATIONS)):
+        # executescript commits what stands before it, so the transaction is part of the script.
+        connection.executescript(
+            f"BEGIN IMMEDIATE;\n{MIGRATIONS[number]}\nPRAGMA user_version = {number + 1};\nCOMMIT;"
+        )

@@ -1,0 +1,141 @@
+"""Who may speak to the sidecar: the bearer token, and browsers that were led astray."""
+
+from __future__ import annotations
+
+import hashlib
+import hmac
+from http.cookies import CookieError, SimpleCookie
+from urllib.parse import parse_qsl, quote, urlencode, urlsplit
+
+from starlette.datastructures import Headers
+from starlette.responses import JSONResponse, RedirectResponse, Response
+from starlette.types import ASGIApp, Receive, Scope, Send
+
+from .config import SidecarConfig, is_loopback
+from .wire import WireError
+
+COOKIE = "aegis_ot"
+OPEN = {"/v1/health", "/login"}
+OPEN_BELOW = "/static/"
+
+
+class Doorkeeper:
+    """ASGI middleware. Lets through what carries the token: bearer header, cookie, or ``?token=``.
+
+    Without a token only this machine can connect, but a web page that its browser shows could
+    still send requests here: so the ``Host`` must be this machine (DNS rebinding) and a foreign
+    ``Origin`` may change nothing (cross-site requests).
+    """
+
+    def __init__(self, app: ASGIApp, config: SidecarConfig) -> None:
+        self._app = app
+        self._token = None if config.token is None else config.token.get_secret_value()
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "lifespan":
+            await self._app(scope, receive, send)
+            return
+        if scope["type"] != "http":
+            return
+        refusal = self._judge(scope)
+        if refusal is None:
+            await self._app(scope, receive, send)
+        else:
+            await refusal(scope, receive, send)
+
+    def _judge(self, scope: Scope) -> Response | None:
+        headers = Headers(scope=scope)
+        path: str = scope["path"]
+        changes = scope["method"] not in ("GET", "HEAD", "OPTIONS")
+        origin = headers.get("origin")
+        if changes and origin is not None and _netloc(origin) != headers.get("host", "").lower():
+            return _refuse(403, "origin", "Another web site sent this request; it is refused.", "")
+        if self._token is None:
+            host = headers.get("host", "")
+            if is_loopback(_host_name(host)):
+                return None
+            return _refuse(
+                403,
+                "host",
+                "Without a token this sidecar answers to 127.0.0.1 and localhost only.",
+                "Use that address, or set a token.",
+            )
+        if path in OPEN or path.startswith(OPEN_BELOW):
+            return None
+        return self._judge_token(scope, headers, self._token)
+
+    def _judge_token(self, scope: Scope, headers: Headers, token: str) -> Response | None:
+        path: str = scope["path"]
+        scheme, _, given = headers.get("authorization", "").partition(" ")
+        if scheme.lower() == "bearer" and same(given.strip(), token):
+            return None
+        if same(_cookie(headers), cookie_value(token)):
+            return None
+        query = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
+        in_query = next((value for name, value in query if name == "token"), "")
+        if same(in_query, token):
+            if path.startswith("/v1/"):
+                return None
+            # Keep the token out of the address bar, the history and the referrer.
+            rest = urlencode([(name, value) for name, value in query if name != "token"])
+            answer = RedirectResponse(
+                quote("/" + path.lstrip("/\\")) + (f"?{rest}" if rest else ""), 303
+            )
+            set_cookie(answer, token)
+            return answer
+        if path.startswith("/v1/"):
+            return _refuse(
+                401,
+                "token",
+                "The token is missing or wrong.",
+                "Give the sidecar's token to the guard (token=..., or AEGIS_OT_TOKEN).",
+            )
+        return RedirectResponse("/login", 303)
+
+
+def same(given: str, wanted: str) -> bool:
+    """Compare in constant time."""
+    return hmac.compare_digest(
+        given.encode("utf-8", "surrogatepass"), wanted.encode("utf-8", "surrogatepass")
+    )
+
+
+def cookie_value(token: str) -> str:
+    """What the browser keeps: proof of the token, not the token."""
+    return hmac.new(token.encode(), b"aegis-ot page", hashlib.sha256).hexdigest()
+
+
+def set_cookie(answer: Response, token: str) -> None:
+    """Let the browser in from now on."""
+    answer.set_cookie(
+        COOKIE, cookie_value(token), max_age=30 * 86400, httponly=True, samesite="strict"
+    )
+
+
+def _cookie(headers: Headers) -> str:
+    jar: SimpleCookie = SimpleCookie()
+    try:
+        jar.load(headers.get("cookie", ""))
+    except CookieError:
+        return ""
+    return jar[COOKIE].value if COOKIE in jar else ""
+
+
+def _netloc(origin: str) -> str:
+    try:
+        return urlsplit(origin).netloc.lower()
+    except ValueError:
+        return ""
+
+
+def _host_name(host: str) -> str:
+    """``Host`` without its port: ``127.0.0.1:7645`` or ``[::1]:7645``."""
+    if host.startswith("["):
+        return host[1:].partition("]")[0]
+    return host.partition(":")[0].lower()
+
+
+def _refuse(status: int, code: str, message: str, hint: str) -> Response:
+    error = WireError(status, code, message, hint)
+    headers = {"WWW-Authenticate": "Bearer"} if status == 401 else None
+    return JSONResponse(error.body(), status, headers)

@@ -1,0 +1,195 @@
+"""One run as the sidecar lives through it: keyframes in, verdicts out."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from ..errors import StoreError
+from ..vision.camera import Frame
+from ..vocabulary import Keyframe, Outcome, Verdict
+from .analysis import Analyser
+from .bell import Bell
+from .store import Captured, Store, effective
+from .wire import Decision, WireError
+from .worker import AnalysisWorker
+
+log = logging.getLogger(__name__)
+
+Grab = Callable[[Keyframe, float], Frame]
+"""Grabs the first frame exposed at or after a moment; raises CameraError."""
+Tell = Callable[[str, str], None]
+"""Sends a notification: title, text."""
+
+
+class Session:
+    """One run in memory. Made from the store, so a restart loses nothing.
+
+    Args:
+        run: Identifier of the run; known to the store.
+        store, analyser, bell: Shared by all sessions.
+        grab: Takes a frame.
+        tell: Sends a notification.
+        operator_timeout: How long an undecided verdict is held back for the operator, s.
+    """
+
+    def __init__(
+        self,
+        run: str,
+        store: Store,
+        analyser: Analyser,
+        bell: Bell,
+        grab: Grab,
+        tell: Tell,
+        operator_timeout: float = 0.0,
+    ) -> None:
+        self.run = run
+        self._store = store
+        self._bell = bell
+        self._grab = grab
+        self._tell = tell
+        self._operator_timeout = operator_timeout
+        self._capturing = threading.Lock()
+        self._state = threading.Lock()
+        self._next = store.next_sequence(run)
+        judged = store.verdicts(run)
+        self._verdicts: dict[int, Verdict] = {v.trajectory: v for v, _, _ in judged}
+        self._decisions = store.decisions(run)
+        self._release: dict[int, float] = {}
+        self._worker = AnalysisWorker(
+            run, analyser, [(v, evidence) for v, evidence, _ in judged], store, self._publish
+        )
+        self._resume()
+
+    @property
+    def idle(self) -> bool:
+        """Whether every capture was analysed."""
+        return self._worker.idle
+
+    def capture(self, keyframe: Keyframe, moment: float) -> Captured:
+        """Take the frame for a keyframe, keep both, and queue them for the analyser.
+
+        Args:
+            keyframe: From the robot.
+            moment: When the request arrived, ``time.monotonic``, s.
+
+        Returns:
+            What was kept, now or when the same keyframe came before.
+
+        Raises:
+            WireError: 409, with the number expected, if one is missing or taken.
+            CameraError: No frame in time; the number is not used up.
+            StoreError: It could not be kept; the number is not used up.
+        """
+        # A resent keyframe waits here for its twin, and is then answered from the store.
+        with self._capturing:
+            if keyframe.sequence < self._next:
+                return self._again(keyframe)
+            if keyframe.sequence > self._next:
+                raise WireError(
+                    409,
+                    "gap",
+                    f"Keyframe {keyframe.sequence} came, but {self._next} is the next.",
+                    "Resend from the expected number.",
+                    expected=self._next,
+                )
+            frame = self._grab(keyframe, moment)
+            captured = Captured(keyframe, max(0.0, frame.exposed_at - moment), time.time())
+            self._store.add_keyframe(captured, frame.jpeg)
+            self._next += 1
+            self._worker.submit(keyframe, frame)
+        self._bell.ring()
+        return captured
+
+    def verdict(self, trajectory: int) -> Verdict | None:
+        """The verdict as the robot may see it now; ``None`` while the operator is waited for."""
+        with self._state:
+            verdict = self._verdicts.get(trajectory)
+            if verdict is None or self._awaited(trajectory):
+                return None
+            return effective(verdict, self._decisions.get(trajectory, []))
+
+    def awaiting_operator(self, trajectory: int) -> bool:
+        """Whether an undecided verdict is being held back for the operator."""
+        with self._state:
+            return self._awaited(trajectory)
+
+    def abandon(self, trajectory: int, reason: str) -> None:
+        """The trajectory will have no further keyframes and needs no verdict."""
+        self._store.abandon(self.run, trajectory, reason)
+        self._worker.drop(trajectory)
+        self._bell.ring()
+
+    def decide(self, trajectory: int, decision: Decision) -> Verdict:
+        """The operator decides a failed or undecided trajectory; deciding again is allowed.
+
+        Raises:
+            WireError: 409 if there is no verdict yet, or it passed.
+        """
+        with self._state:
+            verdict = self._verdicts.get(trajectory)
+            if verdict is None:
+                raise WireError(409, "no_verdict", f"Trajectory {trajectory} has no verdict yet.")
+            if verdict.outcome is Outcome.PASS:
+                raise WireError(409, "passed", f"Trajectory {trajectory} passed by itself.")
+            self._store.add_decision(self.run, trajectory, decision)
+            self._decisions = self._store.decisions(self.run)
+            decided = effective(verdict, self._decisions[trajectory])
+        self._bell.ring()
+        return decided
+
+    def close(self) -> None:
+        """End the worker. Idempotent."""
+        self._worker.close()
+
+    def _awaited(self, trajectory: int) -> bool:
+        release = self._release.get(trajectory)
+        return (
+            release is not None and trajectory not in self._decisions and time.monotonic() < release
+        )
+
+    def _again(self, keyframe: Keyframe) -> Captured:
+        kept = self._store.keyframe(self.run, keyframe.sequence)
+        if kept is None:
+            raise StoreError(f"Keyframe {keyframe.sequence} is missing from the store.")
+        same = (kept.keyframe.trajectory, kept.keyframe.kind)
+        if same != (keyframe.trajectory, keyframe.kind):
+            raise WireError(
+                409,
+                "taken",
+                f"Keyframe {keyframe.sequence} was the {kept.keyframe.kind.value} of trajectory "
+                f"{kept.keyframe.trajectory}; it cannot also be the {keyframe.kind.value} of "
+                f"trajectory {keyframe.trajectory}.",
+                "A run that starts anew needs a new identifier.",
+                expected=self._next,
+            )
+        return kept
+
+    def _resume(self) -> None:
+        """Queue again what a killed sidecar had kept but not judged."""
+        settled = self._verdicts.keys() | self._store.abandoned(self.run).keys()
+        for captured in self._store.keyframes(self.run):
+            if captured.keyframe.trajectory not in settled:
+                self._worker.submit(captured.keyframe, None)
+
+    def _publish(self, verdict: Verdict, evidence: dict[str, Any]) -> None:
+        """Called by the worker. A verdict that cannot be kept still reaches the robot."""
+        try:
+            self._store.add_verdict(verdict, evidence)
+        except StoreError as error:
+            log.error("The verdict on trajectory %d was not kept: %s", verdict.trajectory, error)
+            self._tell("aegis-ot: store trouble", str(error))
+        with self._state:
+            self._verdicts[verdict.trajectory] = verdict
+            if verdict.outcome is Outcome.UNDECIDED and self._operator_timeout > 0:
+                self._release[verdict.trajectory] = time.monotonic() + self._operator_timeout
+        self._bell.ring()
+        if verdict.outcome is not Outcome.PASS:
+            word = verdict.outcome.value.upper()
+            self._tell(
+                f"aegis-ot: {word} in run {self.run}",
+                f"Trajectory {verdict.trajectory}: {verdict.reason or 'no reason given'}",
+            )

@@ -1,0 +1,162 @@
+"""The bodies and errors of docs/reference/wire.md."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Annotated, Any, Literal, TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+
+from ..vocabulary import Keyframe, Outcome, to_json
+
+WIRE = 1
+MAX_BODY = 64 * 1024
+"""Longest body of a request, bytes. A keyframe of an 8-channel pipette takes about 2 kB."""
+MAX_COUNT = 10_000_000
+"""Largest sequence or trajectory number."""
+MAX_WAIT = 1.0
+"""Longest wait of one request for a verdict, s."""
+
+T = TypeVar("T")
+Count = Annotated[int, Field(ge=0, le=MAX_COUNT)]
+Word = Annotated[str, Field(max_length=200)]
+Text = Annotated[str, Field(max_length=5000)]
+
+
+class WireError(Exception):
+    """An answer other than 200, in the wire's shape.
+
+    Attributes:
+        status: HTTP status.
+        code: Word for programs.
+        message: One sentence.
+        hint: What to do.
+        extra: Further members of the answer, beside ``error``.
+    """
+
+    def __init__(self, status: int, code: str, message: str, hint: str = "", **extra: Any) -> None:
+        super().__init__(message)
+        self.status = status
+        self.code = code
+        self.message = message
+        self.hint = hint
+        self.extra = extra
+
+    def body(self) -> dict[str, Any]:
+        """The answer's body."""
+        error = {"code": self.code, "message": self.message, "hint": self.hint}
+        return {"error": error, **self.extra}
+
+
+class Body(BaseModel):
+    """Base of request bodies. Unknown members are ignored: an older sidecar, a newer robot."""
+
+    model_config = ConfigDict(frozen=True, allow_inf_nan=False)
+
+
+class RunStart(Body):
+    """A run registers."""
+
+    run: str
+    protocol: Word = ""
+    robot: Word = ""
+    api_level: Word = ""
+    simulated: bool = False
+    started: float = 0.0
+    package: Word = ""
+
+
+class Abandon(Body):
+    """A trajectory ends without further keyframes."""
+
+    reason: Text = ""
+
+
+class Hold(Body):
+    """How long the robot held, and what ended it."""
+
+    trajectory: Count
+    seconds: Annotated[float, Field(ge=0)]
+    resolution: Word
+    policy: Word | None = None
+
+
+class Finish(Body):
+    """A run ends."""
+
+    outcome: Literal["succeeded", "failed", "stopped", "aborted"]
+    detail: Text = ""
+
+
+class Decision(Body):
+    """The operator decides a flagged trajectory."""
+
+    outcome: Literal[Outcome.PASS, Outcome.FAIL]
+    by: Annotated[str, Field(min_length=1, max_length=200)]
+    note: Text = ""
+
+
+_ADAPTERS: dict[Any, TypeAdapter[Any]] = {}
+
+
+def parse(shape: type[T], body: bytes) -> T:
+    """Read ``body`` as ``shape``, a pydantic model or a standard dataclass. Strict: no coercion.
+
+    Raises:
+        WireError: 422, naming every member that is wrong.
+    """
+    adapter = _ADAPTERS.setdefault(shape, TypeAdapter(shape))
+    try:
+        value: T = adapter.validate_json(body, strict=True)
+    except ValidationError as error:
+        problems = [
+            f"{'.'.join(str(part) for part in p['loc']) or 'body'}: {p['msg']}"
+            for p in error.errors(include_url=False, include_input=False, include_context=False)
+        ]
+        shown = "; ".join(problems[:5])
+        raise WireError(
+            422, "body", f"The body is not a valid {shape.__name__}: {shown}."
+        ) from None
+    if dataclasses.is_dataclass(value):
+        _require_finite(shape.__name__, to_json(value))
+    if isinstance(value, Keyframe):
+        _check_keyframe(value)
+    return value
+
+
+def _require_finite(name: str, value: Any, path: str = "") -> None:
+    if isinstance(value, float) and not math.isfinite(value):
+        raise WireError(422, "body", f"{name}.{path} is not a finite number.")
+    if isinstance(value, dict):
+        for key, item in value.items():
+            _require_finite(name, item, f"{path}.{key}" if path else str(key))
+    if isinstance(value, list):
+        for item in value:
+            _require_finite(name, item, path)
+
+
+def _check_keyframe(keyframe: Keyframe) -> None:
+    for name in ("sequence", "trajectory"):
+        if not 0 <= getattr(keyframe, name) <= MAX_COUNT:
+            raise WireError(422, "body", f"Keyframe.{name} must be from 0 to {MAX_COUNT}.")
+    for name in ("commanded_ul", "expected_ul", "capacity_ul"):
+        if getattr(keyframe, name) < 0:
+            raise WireError(422, "body", f"Keyframe.{name} must not be negative.")
+    if not 1 <= keyframe.channels <= 384:
+        raise WireError(422, "body", "Keyframe.channels must be from 1 to 384.")
+
+
+def check_run(run: str) -> str:
+    """``run`` itself, if it can name a run.
+
+    Raises:
+        WireError: 422, if it is empty, longer than 128 characters, or unprintable.
+    """
+    if not run or len(run) > 128 or not run.isprintable() or "/" in run or run.strip() != run:
+        raise WireError(
+            422,
+            "run",
+            "A run is named by 1 to 128 printable characters, without '/' or outer spaces.",
+        )
+    return run

@@ -1,0 +1,164 @@
+"""The thread that scores one run while its robot moves on."""
+
+from __future__ import annotations
+
+import logging
+import math
+import threading
+from collections import deque
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from ..errors import CameraError, StoreError
+from ..vision.camera import Frame
+from ..vocabulary import Keyframe, KeyframeKind, Verdict
+from .analysis import Analyser, Judged, RunAnalyser, plain, undecided
+from .cameras.codec import decode_jpeg
+from .store import Store
+
+log = logging.getLogger(__name__)
+
+FRAMES_IN_MEMORY = 8
+"""Captured frames that may wait decoded; further ones are read from the store again, so that a
+slow analyser costs time and not memory, and never holds up the robot's answer."""
+
+
+class AnalysisWorker:
+    """Feeds captures to the run's analyser in order, and hands on its verdicts.
+
+    Whatever the analyser raises becomes an undecided verdict that says so.
+
+    Args:
+        run: Identifier of the run.
+        analyser: Makes the run's analyser, in the worker thread.
+        history: What was judged before a restart.
+        store: Where waiting frames are read from.
+        publish: Called with each verdict and its plain evidence.
+    """
+
+    def __init__(
+        self,
+        run: str,
+        analyser: Analyser,
+        history: Sequence[Judged],
+        store: Store,
+        publish: Callable[[Verdict, dict[str, Any]], None],
+    ) -> None:
+        self._run = run
+        self._analyser = analyser
+        self._history = history
+        self._store = store
+        self._publish = publish
+        self._tasks: deque[tuple[Keyframe, Frame | None]] = deque()
+        self._frames_waiting = 0
+        self._news = threading.Condition()
+        self._closed = False
+        self._busy = True
+        self._dropped: set[int] = set()
+        self._failed: dict[int, str] = {}
+        self._thread = threading.Thread(target=self._work, name=f"analysis-{run}", daemon=True)
+        self._thread.start()
+
+    @property
+    def idle(self) -> bool:
+        """Whether everything submitted was dealt with."""
+        with self._news:
+            return not self._tasks and not self._busy
+
+    def submit(self, keyframe: Keyframe, frame: Frame | None) -> None:
+        """Queue a capture; ``None`` reads its frame from the store. Never blocks."""
+        with self._news:
+            if frame is not None and self._frames_waiting >= FRAMES_IN_MEMORY:
+                frame = None
+            self._frames_waiting += frame is not None
+            self._tasks.append((keyframe, frame))
+            self._news.notify()
+
+    def drop(self, trajectory: int) -> None:
+        """The trajectory was abandoned: do not judge it."""
+        with self._news:
+            self._dropped.add(trajectory)
+
+    def close(self, timeout: float = 2.0) -> None:
+        """End after the capture in hand. What waits is in the store. Idempotent."""
+        with self._news:
+            self._closed = True
+            self._news.notify()
+        self._thread.join(timeout)
+
+    def _work(self) -> None:
+        run: RunAnalyser | None = None
+        trouble = ""
+        try:
+            run = self._analyser.begin(self._run, self._history)
+        except Exception as error:
+            log.exception("The analyser could not begin run %s", self._run)
+            trouble = f"The analyser could not begin: {_say(error)}"
+        while True:
+            with self._news:
+                self._busy = False
+                while not self._tasks and not self._closed:
+                    self._news.wait()
+                if self._closed:
+                    return
+                keyframe, frame = self._tasks.popleft()
+                self._frames_waiting -= frame is not None
+                self._busy = True
+            if keyframe.trajectory in self._dropped:
+                continue
+            if run is not None:
+                self._observe(run, keyframe, frame)
+            else:
+                self._failed[keyframe.trajectory] = trouble
+            if keyframe.kind is KeyframeKind.POST_DISPENSE:
+                self._publish(*self._judge(run, keyframe.trajectory))
+
+    def _observe(self, run: RunAnalyser, keyframe: Keyframe, frame: Frame | None) -> None:
+        try:
+            run.observe(keyframe, self._reload(keyframe) if frame is None else frame)
+        except Exception as error:
+            log.exception("Keyframe %d of run %s", keyframe.sequence, self._run)
+            self._failed[keyframe.trajectory] = (
+                f"The {keyframe.kind.value} frame could not be analysed: {_say(error)}"
+            )
+
+    def _judge(self, run: RunAnalyser | None, trajectory: int) -> tuple[Verdict, dict[str, Any]]:
+        failed = self._failed.pop(trajectory, None)
+        if run is None or failed is not None:
+            return undecided(self._run, trajectory, failed or "There is no analyser."), {}
+        try:
+            verdict, evidence = run.judge(trajectory)
+            problem = _problem(verdict, self._run, trajectory)
+            if problem:
+                return undecided(self._run, trajectory, problem), {}
+            return verdict, plain(evidence)
+        except Exception as error:
+            log.exception("Trajectory %d of run %s", trajectory, self._run)
+            return undecided(self._run, trajectory, f"The analyser failed: {_say(error)}"), {}
+
+    def _reload(self, keyframe: Keyframe) -> Frame:
+        jpeg = self._store.frame(keyframe.run, keyframe.sequence)
+        if jpeg is None:
+            raise StoreError("its frame is not in the store")
+        # The exposure's moment on the clock of an earlier process means nothing now.
+        return Frame(jpeg, decode_jpeg(jpeg), 0.0)
+
+
+def _problem(verdict: Any, run: str, trajectory: int) -> str:
+    """What is wrong with an analyser's verdict, or nothing."""
+    if not isinstance(verdict, Verdict):
+        return f"The analyser returned {type(verdict).__name__} and no verdict."
+    if (verdict.run, verdict.trajectory) != (run, trajectory):
+        return f"The analyser judged trajectory {verdict.trajectory} of run {verdict.run} instead."
+    for name in ("score", "measured_ul", "expected_ul"):
+        value = getattr(verdict, name)
+        if value is not None and not math.isfinite(value):
+            return f"The analyser's {name} is {value}, which is no number."
+    return ""
+
+
+def _say(error: Exception) -> str:
+    text = str(error).splitlines()[0] if str(error) else ""
+    if isinstance(error, (CameraError, StoreError)):
+        return text
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
