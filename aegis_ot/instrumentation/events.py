@@ -45,9 +45,10 @@ class EventTap:
             self._loaded(labware_core)
         for name in ("load_labware", "load_adapter", "load_lid"):
             self._after(self._core, name, lambda result, *_: self._loaded(result))
+        self._before(self._core, "move_labware", self._moving)
         self._after(self._core, "move_labware", self._moved)
         self._after(self._core, "define_liquid", self._defined)
-        self._after(self._core, "pause", self._said(EventKind.PAUSED))
+        self._before(self._core, "pause", self._said(EventKind.PAUSED))
         self._after(self._core, "comment", self._said(EventKind.COMMENT))
         self._after(self._core, "delay", self._said(EventKind.DELAY))
         client = getattr(self._core, "_engine_client", None)
@@ -55,10 +56,17 @@ class EventTap:
             # Liquids are loaded through wells and labware alike; both end here.
             self._after(client, "execute_command", self._commanded)
 
-    def _after(self, target: Any, name: str, tell: Callable[..., None]) -> None:
-        if not hasattr(target, name):
-            return
+    def _before(self, target: Any, name: str, tell: Callable[..., None]) -> None:
+        def make(original: Callable[..., Any]) -> Callable[..., Any]:
+            def method(_self: Any, *args: Any, **kwargs: Any) -> Any:
+                tell(None, args, kwargs)
+                return original(*args, **kwargs)
 
+            return method
+
+        self._replace_if_there(target, name, make)
+
+    def _after(self, target: Any, name: str, tell: Callable[..., None]) -> None:
         def make(original: Callable[..., Any]) -> Callable[..., Any]:
             def method(_self: Any, *args: Any, **kwargs: Any) -> Any:
                 result = original(*args, **kwargs)
@@ -67,7 +75,11 @@ class EventTap:
 
             return method
 
-        self._replace(target, name, make)
+        self._replace_if_there(target, name, make)
+
+    def _replace_if_there(self, target: Any, name: str, make: Make) -> None:
+        if hasattr(target, name):
+            self._replace(target, name, make)
 
     def _tell(self, event: Event) -> None:
         for listener in self._listeners:
@@ -90,9 +102,12 @@ class EventTap:
             )
         )
 
+    def _moving(self, _result: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+        info = self._wells.register(kwargs.get("labware_core", args[0] if args else None))
+        self._tell(Event(EventKind.LABWARE_MOVING, self._line(), info.key))
+
     def _moved(self, _result: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
-        labware_core = kwargs.get("labware_core", args[0] if args else None)
-        info = self._wells.moved(labware_core)
+        info = self._wells.moved(kwargs.get("labware_core", args[0] if args else None))
         slot = self._wells.slot(info.key)
         self._tell(Event(EventKind.LABWARE_MOVED, self._line(), info.key, text=slot))
 

@@ -124,9 +124,14 @@ class Listener(Protocol):
 
 
 class EventKind(str, Enum):
-    """What else in a protocol changes the meaning of wells and tips."""
+    """What else in a protocol changes the meaning of wells and tips.
+
+    ``PAUSED`` and ``LABWARE_MOVING`` are told before the robot pauses or the labware leaves;
+    everything else is told after it happened.
+    """
 
     LABWARE_LOADED = "labware_loaded"
+    LABWARE_MOVING = "labware_moving"
     LABWARE_MOVED = "labware_moved"
     LIQUID_LOADED = "liquid_loaded"
     TIPS_RESET = "tips_reset"
