@@ -1,1 +1,29 @@
-"""(being built)"""
+"""The simulation room: a camera that shows a simulated pipette, and planted faults."""
+
+from .camera import SimulatedCamera
+from .dataset import random_frames, write_dataset
+from .dyes import Dye, dye_for
+from .faults import Fault, FaultKind, FaultPlan, PhysicalState, parse_faults
+from .render import FrameTruth, TipTruth, render, render_jpeg
+from .scene import SceneState, SessionParameters, TipContent, place_tip
+
+__all__ = [
+    "Dye",
+    "Fault",
+    "FaultKind",
+    "FaultPlan",
+    "FrameTruth",
+    "PhysicalState",
+    "SceneState",
+    "SessionParameters",
+    "SimulatedCamera",
+    "TipContent",
+    "TipTruth",
+    "dye_for",
+    "parse_faults",
+    "place_tip",
+    "random_frames",
+    "render",
+    "render_jpeg",
+    "write_dataset",
+]
