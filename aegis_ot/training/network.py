@@ -1,0 +1,73 @@
+"""The tip detector's network, in PyTorch: a small encoder-decoder with one group of maps out."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+from torch.nn import functional as F
+
+from ..vision.detection.decode import CHANNELS
+
+
+def _conv(
+    inputs: int, outputs: int, kernel: int, stride: int = 1, groups: int = 1
+) -> nn.Sequential:
+    return nn.Sequential(
+        nn.Conv2d(inputs, outputs, kernel, stride, kernel // 2, groups=groups, bias=False),
+        nn.BatchNorm2d(outputs),
+    )
+
+
+class _Block(nn.Module):  # type: ignore[misc]  # PyTorch may be missing
+    """Depth-wise, then point-wise convolution; with a shortcut where shapes allow."""
+
+    def __init__(self, inputs: int, outputs: int, kernel: int = 3, stride: int = 1) -> None:
+        super().__init__()
+        self.depth = _conv(inputs, inputs, kernel, stride, groups=inputs)
+        self.point = _conv(inputs, outputs, 1)
+        self.shortcut = stride == 1 and inputs == outputs
+
+    def forward(self, x: Tensor) -> Tensor:
+        out: Tensor = self.point(F.relu(self.depth(x)))
+        return F.relu(out + x) if self.shortcut else F.relu(out)
+
+
+class TipNetwork(nn.Module):  # type: ignore[misc]
+    """Maps of :mod:`aegis_ot.vision.detection.decode` for images of any size.
+
+    Input ``uint8`` ``(n, height, width, 3)``, BGR, sides multiples of 16; output ``float32``
+    ``(n, 7, height / 4, width / 4)``, heat before (training) or after (export) the sigmoid.
+    """
+
+    def __init__(self, widths: tuple[int, int, int, int] = (16, 24, 40, 64)) -> None:
+        super().__init__()
+        a, b, c, d = widths
+        self.stem = _conv(3, a, 3, 2)
+        self.at_half = _Block(a, a)
+        self.quarter = nn.Sequential(_Block(a, b, 5, 2), _Block(b, b))
+        self.eighth = nn.Sequential(_Block(b, c, 5, 2), _Block(c, c), _Block(c, c, 5))
+        self.sixteenth = nn.Sequential(
+            _Block(c, d, 5, 2), _Block(d, d, 5), _Block(d, d, 5), _Block(d, d, 5)
+        )
+        self.up_eighth = _conv(d, c, 1)
+        self.at_eighth = _Block(c, c, 5)
+        self.up_quarter = _conv(c, b, 1)
+        self.at_quarter = nn.Sequential(_Block(b, b, 5), _Block(b, 32))
+        self.head = nn.Conv2d(32, CHANNELS, 1)
+        self.probabilities = False
+        with torch.no_grad():
+            self.head.bias[:2] = -4.0
+            self.head.bias[6] = 2.3
+
+    def forward(self, image: Tensor) -> Tensor:
+        x = image.permute(0, 3, 1, 2).float() * (1 / 64) - 2
+        x = self.at_half(F.relu(self.stem(x)))
+        quarter = self.quarter(x)
+        eighth = self.eighth(quarter)
+        deep = self.up_eighth(self.sixteenth(eighth))
+        eighth = self.at_eighth(F.relu(eighth + F.interpolate(deep, scale_factor=2.0)))
+        up = F.interpolate(self.up_quarter(eighth), scale_factor=2.0)
+        out: Tensor = self.head(self.at_quarter(F.relu(quarter + up)))
+        if self.probabilities:
+            return torch.cat([torch.sigmoid(out[:, :2]), out[:, 2:]], dim=1)
+        return out

@@ -1,0 +1,137 @@
+"""The project's own tip detector: a small heat-map network, run with onnxruntime."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ModelError
+from ..types import Image, TipDetection
+from .decode import Candidate, candidates
+from .session import check_image, open_session
+from .views import View, close_up, overview
+
+FORMAT = "aegis-ot-tip-detector/1"
+_WEIGHTS = "tip_detector.onnx"
+_GLANCE = 0.05  # score from which a candidate of the overview is looked at closely
+_LOOKS = 3
+
+
+def load_weights(path: str | Path | None = None) -> tuple[bytes, dict[str, Any]]:
+    """Network and description of a detector made by ``aegis-ot train detector``.
+
+    Args:
+        path: The ``.onnx`` file; its description is the ``.json`` beside it. The shipped
+            detector if not given.
+
+    Raises:
+        ModelError: A file is missing, damaged, or does not belong to the other.
+    """
+    folder = resources.files("aegis_ot.vision").joinpath("weights")
+    model = folder.joinpath(_WEIGHTS) if path is None else Path(path)
+    sidecar = (
+        folder.joinpath(_WEIGHTS.replace(".onnx", ".json"))
+        if path is None
+        else Path(path).with_suffix(".json")
+    )
+    try:
+        weights = model.read_bytes()
+        description = json.loads(sidecar.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ModelError(
+            f"The tip detector cannot be read: {error}. It needs both {model.name} and "
+            f"{sidecar.name}; reinstall aegis_ot or train it anew with 'aegis-ot train detector'."
+        ) from error
+    except ValueError as error:
+        raise ModelError(f"{sidecar.name} is not valid JSON: {error}") from error
+    if not isinstance(description, dict) or description.get("format") != FORMAT:
+        found = description.get("format") if isinstance(description, dict) else description
+        raise ModelError(f"{sidecar.name} describes {found!r}; this version reads {FORMAT!r}.")
+    digest = hashlib.sha256(weights).hexdigest()
+    if digest != description.get("sha256"):
+        raise ModelError(
+            f"{model.name} is damaged or is not the file that {sidecar.name} describes: its "
+            f"SHA-256 is {digest[:12]}..., expected {str(description.get('sha256'))[:12]}..."
+        )
+    return weights, description
+
+
+class HeatmapDetector:
+    """Finds the tip by two looks of one small network.
+
+    The overview of the whole frame proposes up to three places; each is looked at again in a
+    close-up, which measures the axis and decides. The confidence is the geometric mean of the
+    heat of collar and orifice in the close-up and of the overview's score, weighted 3 to 1.
+
+    Args:
+        path: Weights made by ``aegis-ot train detector``; the shipped ones if not given.
+        threshold: Least confidence of a detection; the trained file's own if not given.
+        threads: Threads that onnxruntime may use.
+
+    Raises:
+        ModelError: The weights are missing, damaged or of another version.
+    """
+
+    def __init__(
+        self, path: str | Path | None = None, threshold: float | None = None, threads: int = 1
+    ) -> None:
+        weights, self.description = load_weights(path)
+        self.threshold = (
+            float(self.description.get("threshold", 0.5)) if threshold is None else threshold
+        )
+        self._session = open_session(weights, threads, "The tip detector")
+
+    def detect(self, image: Image) -> TipDetection | None:
+        """The tip in a frame, ``None`` where there is none.
+
+        Args:
+            image: BGR, ``uint8``, shape ``(height, width, 3)``.
+
+        Raises:
+            ValueError: The image has another shape or type.
+        """
+        best = self.best_guess(image)
+        return best if best is not None and best.confidence >= self.threshold else None
+
+    def best_guess(self, image: Image) -> TipDetection | None:
+        """The likeliest tip, however unlikely: what :meth:`detect` compares with its threshold."""
+        check_image(image)
+        first = overview(image)
+        places = candidates(self._maps([first])[0], _GLANCE, _LOOKS)
+        if not places:
+            return None
+        views = [
+            close_up(image, first.to_frame(*c.collar), first.to_frame(*c.orifice)) for c in places
+        ]
+        best: TipDetection | None = None
+        for view, place, maps in zip(views, places, self._maps(views), strict=True):
+            for seen in candidates(maps, 0.01, 1):
+                found = _detection(seen, view, place.score, image.shape[1], image.shape[0])
+                if best is None or found.confidence > best.confidence:
+                    best = found
+        return best
+
+    def _maps(self, views: list[View]) -> NDArray[np.float32]:
+        batch = np.stack([view.image for view in views])
+        maps: NDArray[np.float32] = self._session.run(None, {"image": batch})[0]
+        return maps
+
+
+def _detection(
+    seen: Candidate, view: View, overview_score: float, width: int, height: int
+) -> TipDetection:
+    collar, orifice = view.to_frame(*seen.collar), view.to_frame(*seen.orifice)
+    radius = seen.radius / view.scale_x
+    left = max(0.0, min(collar[0], orifice[0]) - radius)
+    right = min(float(width), max(collar[0], orifice[0]) + radius)
+    top, bottom = max(0.0, collar[1]), min(float(height), orifice[1])
+    confidence = float(min(1.0, seen.score**0.75 * overview_score**0.25))
+    return TipDetection(
+        left, top, max(0.0, right - left), max(0.0, bottom - top), confidence, orifice, collar
+    )

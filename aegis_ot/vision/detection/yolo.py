@@ -1,0 +1,144 @@
+"""A user's own tip detector: a one-stage network exported by YOLOv8 (or alike) to ONNX."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ModelError
+from ..types import Image, TipDetection
+from .edges import axis_in_box
+from .session import check_image, open_session
+
+_GREY = 114  # the letterbox colour that YOLOv8 trains with
+_FREE_SIDE = 640  # for exports whose input size is free: YOLOv8's default
+
+Boxes = NDArray[np.float64]
+
+
+class YoloDetector:
+    """Runs a YOLOv8-style export and finds the tip axis inside its box.
+
+    The file must have one input, ``float32`` ``(1, 3, height, width)``, RGB, 0 to 1,
+    letterboxed with grey 114; and one output, ``float32`` ``(1, 4 + classes, n)``: for each of
+    ``n`` boxes its centre x, centre y, width and height in px of the input, then one score from
+    0 to 1 per class. This is what ``yolo export format=onnx`` writes (without ``nms=True``).
+
+    Args:
+        path: The ``.onnx`` file.
+        tip_class: Index of the class that means "tip".
+        threshold: Least score of a detection.
+        overlap: Intersection over union from which the weaker of two boxes is dropped.
+        threads: Threads that onnxruntime may use.
+
+    Raises:
+        ModelError: The file cannot be read or has another layout.
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        tip_class: int = 0,
+        threshold: float = 0.5,
+        overlap: float = 0.5,
+        threads: int = 1,
+    ) -> None:
+        self._name = Path(path).name
+        try:
+            model = Path(path).read_bytes()
+        except OSError as error:
+            raise ModelError(f"The detector {self._name} cannot be read: {error}") from error
+        self._session = open_session(model, threads, f"The detector {self._name}")
+        self._class, self.threshold, self._overlap = tip_class, threshold, overlap
+        inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
+        if len(inputs) != 1 or len(outputs) != 1 or len(inputs[0].shape) != 4:
+            raise ModelError(
+                f"The detector {self._name} has {len(inputs)} inputs and {len(outputs)} outputs; "
+                "expected one image (1, 3, height, width) and one table (1, 4 + classes, n)."
+            )
+        if inputs[0].type != "tensor(float)":
+            raise ModelError(
+                f"The detector {self._name} takes {inputs[0].type}; expected float32. Export it "
+                "without half precision."
+            )
+        sides = inputs[0].shape[2:]
+        self._input = inputs[0].name
+        self._height, self._width = (
+            side if isinstance(side, int) and side > 0 else _FREE_SIDE for side in sides
+        )
+
+    def detect(self, image: Image) -> TipDetection | None:
+        """The tip in a frame, ``None`` where there is none.
+
+        Args:
+            image: BGR, ``uint8``, shape ``(height, width, 3)``.
+
+        Raises:
+            ModelError: The network's output has another layout than documented.
+            ValueError: The image has another shape or type.
+        """
+        check_image(image)
+        canvas, scale, left, top = self._letterbox(image)
+        boxes, scores = self._boxes(canvas)
+        kept = suppress(boxes, scores, self._overlap)
+        if not kept:
+            return None
+        cx, cy, w, h = boxes[kept[0]]
+        x0 = float(np.clip((cx - w / 2 - left) / scale, 0, image.shape[1]))
+        x1 = float(np.clip((cx + w / 2 - left) / scale, 0, image.shape[1]))
+        y0 = float(np.clip((cy - h / 2 - top) / scale, 0, image.shape[0]))
+        y1 = float(np.clip((cy + h / 2 - top) / scale, 0, image.shape[0]))
+        collar, orifice = axis_in_box(image, x0, y0, x1 - x0, y1 - y0)
+        return TipDetection(x0, y0, x1 - x0, y1 - y0, float(scores[kept[0]]), orifice, collar)
+
+    def _letterbox(self, image: Image) -> tuple[NDArray[np.float32], float, int, int]:
+        height, width = image.shape[:2]
+        scale = min(self._width / width, self._height / height)
+        w, h = max(1, round(width * scale)), max(1, round(height * scale))
+        left, top = (self._width - w) // 2, (self._height - h) // 2
+        canvas = np.full((self._height, self._width, 3), _GREY, np.uint8)
+        mode = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
+        canvas[top : top + h, left : left + w] = cv2.resize(image, (w, h), interpolation=mode)
+        planes = canvas[..., ::-1].transpose(2, 0, 1)[None].astype(np.float32) / np.float32(255)
+        return np.ascontiguousarray(planes), scale, left, top
+
+    def _boxes(self, canvas: NDArray[np.float32]) -> tuple[Boxes, NDArray[np.float64]]:
+        try:
+            table = np.asarray(self._session.run(None, {self._input: canvas})[0])
+        except Exception as error:  # onnxruntime raises its own, unexported exceptions
+            raise ModelError(f"The detector {self._name} failed on an image: {error}") from error
+        if table.ndim != 3 or table.shape[0] != 1 or table.shape[1] < 5 + self._class:
+            raise ModelError(
+                f"The detector {self._name} gave an output of shape {table.shape}; expected "
+                f"(1, 4 + classes, n) with class {self._class} among the classes."
+            )
+        rows = table[0].T.astype(np.float64)
+        scores = rows[:, 4 + self._class]
+        # A box counts for the tip only if no other class claims it more strongly.
+        good = (scores >= self.threshold) & (scores >= rows[:, 4:].max(axis=1, initial=0.0))
+        good &= np.isfinite(rows[:, :4]).all(axis=1) & (rows[:, 2] > 0) & (rows[:, 3] > 0)
+        return rows[good, :4], np.clip(scores[good], 0.0, 1.0)
+
+
+def suppress(boxes: Boxes, scores: NDArray[np.float64], overlap: float) -> list[int]:
+    """Non-maximum suppression: rows to keep, highest score first.
+
+    Args:
+        boxes: Centre x, centre y, width, height, shape ``(n, 4)``.
+        scores: Shape ``(n,)``.
+        overlap: Intersection over union from which the weaker of two boxes is dropped.
+    """
+    low, high = boxes[:, :2] - boxes[:, 2:] / 2, boxes[:, :2] + boxes[:, 2:] / 2
+    area = boxes[:, 2] * boxes[:, 3]
+    kept: list[int] = []
+    left = np.argsort(-scores, kind="stable")
+    while left.size:
+        best, left = int(left[0]), left[1:]
+        kept.append(best)
+        sides = np.minimum(high[left], high[best]) - np.maximum(low[left], low[best])
+        shared = np.prod(np.clip(sides, 0, None), axis=1)
+        left = left[shared / (area[left] + area[best] - shared) < overlap]
+    return kept
