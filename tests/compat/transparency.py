@@ -1,0 +1,214 @@
+"""Runs protocols guarded and unguarded and compares what the robot was told to do.
+
+A plain program, so that it runs in an interpreter that has nothing but ``opentrons``::
+
+    python -m tests.compat.transparency tests/protocols/transparency
+
+prints one JSON object: versions, and per protocol what was found. The guard has a sidecar (a
+stub on loopback that answers every keyframe and passes every well) and acts in simulation, so
+that both layers are at work; its moves above a well are the only commands it may add.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import sys
+import threading
+import traceback
+from contextlib import contextmanager
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+LIQUID = {
+    "pickUpTip", "dropTip", "dropTipInPlace", "aspirate", "aspirateInPlace", "dispense",
+    "dispenseInPlace", "blowout", "blowOutInPlace", "airGapInPlace", "touchTip",
+    "aspirateWhileTracking", "dispenseWhileTracking", "moveToAddressableAreaForDropTip",
+    "liquidProbe", "tryLiquidProbe", "prepareToAspirate", "configureForVolume",
+    "configureNozzleLayout", "moveLabware", "waitForResume", "waitForDuration",
+}  # fmt: skip
+
+
+class _Stub(BaseHTTPRequestHandler):
+    """Answers like a sidecar whose every well passes."""
+
+    protocol_version = "HTTP/1.1"
+
+    def _answer(self, body):
+        data = json.dumps(body).encode()
+        self.send_response(200)
+        self.send_header("Content-Type", "application/json")
+        self.send_header("Content-Length", str(len(data)))
+        self.end_headers()
+        self.wfile.write(data)
+
+    def _body(self):
+        length = int(self.headers.get("Content-Length") or 0)
+        return json.loads(self.rfile.read(length) or b"{}")
+
+    def do_GET(self):
+        found = re.search(r"/runs/([^/]+)/trajectories/(\d+)/verdict", self.path)
+        if not found:
+            self._answer({"name": "aegis-ot", "version": "stub", "wire": 1,
+                          "camera": {"kind": "stub", "ok": True, "detail": ""}})  # fmt: skip
+            return
+        self._answer(
+            {
+                "verdict": {
+                    "run": found.group(1),
+                    "trajectory": int(found.group(2)),
+                    "outcome": "pass",
+                    "route": "silent_pass",
+                }
+            }
+        )
+
+    def do_PUT(self):
+        self._body()
+        self._answer({"run": self.path.rsplit("/", 1)[-1], "wire": 1})
+
+    def do_POST(self):
+        body = self._body()
+        if self.path.endswith("/keyframes"):
+            self.server.keyframes.append(body)
+            self._answer({"sequence": body["sequence"], "captured": True, "exposed_after_s": 0.0})
+        else:
+            self._answer({})
+
+    def log_message(self, *_):
+        pass
+
+
+@contextmanager
+def stub_sidecar():
+    """Serve the stub on loopback; yields its URL and the list of keyframes it got."""
+    server = ThreadingHTTPServer(("127.0.0.1", 0), _Stub)
+    server.keyframes = []
+    server.daemon_threads = True
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    try:
+        yield f"http://127.0.0.1:{server.server_port}", server.keyframes
+    finally:
+        server.shutdown()
+        server.server_close()
+
+
+def guarded_text(text, url):
+    """The same protocol with the guard put around ``run``, line numbers unchanged."""
+    return (
+        f"{text}\n"
+        f"run = __import__('aegis_ot').guard(run, sidecar={url!r}, watch_simulation=True, "
+        f"rules='warn')\n"
+    )
+
+
+def simulate(text, name):
+    """What the protocol did: run log lines, liquid commands, and how it ended."""
+    import opentrons.simulate as simulator
+
+    commands = []
+    try:
+        log, _ = simulator.simulate(io.StringIO(text), name, log_level="none")
+    except Exception as error:
+        return {"log": None, "commands": commands, "error": _error(error)}
+    lines = [entry["payload"].get("text", "") for entry in log]
+    return {
+        "log": [line for line in lines if not line.startswith("aegis")],
+        "commands": commands,
+        "error": None,
+    }
+
+
+def _error(error):
+    return re.sub(r"0x[0-9a-f]+|[0-9a-f]{8}-[0-9a-f-]{27}", "ID", f"{type(error).__name__}: {error}")
+
+
+def engine_commands(text, name):
+    """Liquid commands of an engine run with all their parameters, or ``None`` (legacy core)."""
+    from opentrons.protocol_api.core.engine import ENGINE_CORE_API_VERSION
+    from opentrons.protocol_api._parameter_context import ParameterContext
+    from opentrons.protocols.execution.execute_python import exec_add_parameters, exec_run
+    from opentrons.protocols.parse import parse
+
+    from aegis_ot.preflight.simulated_context import simulated_context
+
+    protocol = parse(text, name)
+    if protocol.api_level < ENGINE_CORE_API_VERSION:
+        return None
+    with simulated_context(protocol.api_level, protocol.robot_type) as context:
+        parameters = exec_add_parameters(
+            protocol, ParameterContext(api_version=protocol.api_level), None, None
+        )
+        error = None
+        try:
+            exec_run(protocol, context, parameters)
+        except Exception as raised:
+            error = _error(raised)
+        state = context._core._engine_client.state
+        found = []
+        ids = {}
+        for command in state.commands.get_all():
+            if command.commandType not in LIQUID:
+                continue
+            params = command.params.model_dump(mode="json", exclude_none=True)
+            params.pop("message", None)
+            text_params = json.dumps(params, sort_keys=True, default=str)
+            for found_id in re.findall(r"[0-9a-f]{8}-[0-9a-f-]{27}", text_params):
+                ids.setdefault(found_id, f"id{len(ids)}")
+            for found_id, plain in ids.items():
+                text_params = text_params.replace(found_id, plain)
+            found.append(f"{command.commandType} {text_params}")
+        return {"commands": found, "error": error}
+
+
+def compare(path, url, keyframes):
+    """Compare one protocol; returns a dict for the report."""
+    text = path.read_text(encoding="utf-8")
+    guarded = guarded_text(text, url)
+    del keyframes[:]
+    plain, watched = simulate(text, path.name), simulate(guarded, path.name)
+    seen = len(keyframes)
+    result = {"file": path.name, "keyframes": seen, "lines": len(plain["log"] or ()), "problems": []}
+    if plain["error"] != watched["error"]:
+        result["problems"].append(f"error {plain['error']!r} became {watched['error']!r}")
+    if plain["log"] != watched["log"]:
+        result["problems"].append(f"run log differs: {_first(plain['log'], watched['log'])}")
+    engine_plain, engine_guarded = engine_commands(text, path.name), engine_commands(guarded, path.name)
+    if engine_plain != engine_guarded:
+        result["problems"].append(
+            "engine commands differ: "
+            + _first(engine_plain["commands"], engine_guarded["commands"])
+            + f" ({engine_plain['error']} / {engine_guarded['error']})"
+        )
+    result["engine_commands"] = len(engine_plain["commands"]) if engine_plain else None
+    result["own_error"] = plain["error"]
+    return result
+
+
+def _first(one, other):
+    for index, (a, b) in enumerate(zip(one or (), other or ())):
+        if a != b:
+            return f"at {index}: {a!r} / {b!r}"
+    return f"lengths {len(one or ())} / {len(other or ())}"
+
+
+def main(folders):
+    import opentrons
+
+    results = []
+    with stub_sidecar() as (url, keyframes):
+        for path in sorted(p for folder in folders for p in Path(folder).glob("*.py")):
+            try:
+                results.append(compare(path, url, keyframes))
+            except Exception:
+                results.append({"file": path.name, "problems": [traceback.format_exc()]})
+    print(json.dumps({"opentrons": opentrons.__version__, "python": sys.version.split()[0],
+                      "protocols": results}))  # fmt: skip
+
+
+if __name__ == "__main__":
+    import logging
+
+    logging.disable(logging.CRITICAL)
+    main(sys.argv[1:])
