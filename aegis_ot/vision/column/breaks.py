@@ -1,0 +1,109 @@
+"""Breaks in a liquid column: air gaps and bubbles that span the bore.
+
+Within a gap the tip looks empty again. So the row's brightness goes back towards what it is
+above the column, and a meniscus stands at either end of it, as a bright bar across the bore.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .profile import TipProfile
+from .strip import Array
+
+_END = 0.94
+
+
+@dataclass(frozen=True)
+class Break:
+    """One break in a column.
+
+    Attributes:
+        top: Upper end, u (0 collar, 1 orifice).
+        bottom: Lower end, u.
+        depth: How far the brightness goes back to the empty tip's, 0 to 1; 0 where it was
+            found by its menisci alone.
+        strength: Signal over the noise within this column.
+    """
+
+    top: float
+    bottom: float
+    depth: float
+    strength: float
+
+
+def find_break(profile: TipProfile, top: float) -> Break | None:
+    """The strongest break of a column that reaches from the orifice up to ``top`` (u).
+
+    ``None`` where the column is too short to have one. A weak "break" is returned as well: how
+    strong it has to be is for the caller to say, against normal columns.
+    """
+    u = profile.u
+    inside = (u > top + 0.035) & (u < _END)
+    if int(inside.sum()) < 12:
+        return None
+    dips = _by_brightness(profile, top, inside)
+    bars = _by_menisci(profile, inside)
+    return max(dips, bars, key=lambda found: found.strength)
+
+
+def _by_brightness(profile: TipProfile, top: float, inside: Array) -> Break:
+    u, brightness = profile.u, profile.brightness.astype(np.float64)
+    rows = np.flatnonzero(inside)
+    above = (u < top - 0.04) & (u > top - 0.15)
+    empty = float(np.median(brightness[above])) if above.any() else 0.0
+    step = float(np.median(brightness[rows])) - empty
+    best = Break(float(u[rows[0]]), float(u[rows[0]]), 0.0, 0.0)
+    if abs(step) < 0.05:
+        return best
+    for width in _widths(profile):
+        dip = -np.sign(step) * _against_flanks(brightness, width)
+        near = dip[rows]
+        noise = 1.48 * float(np.median(np.abs(near - np.median(near)))) + 0.01
+        row = int(rows[np.argmax(near)])
+        depth = float(dip[row] / abs(step))
+        # A gap cannot be deeper than the tip is empty, and a ripple of a bright column is no
+        # gap however quiet the column is.
+        strength = float((dip[row] - np.median(near)) / noise) * min(1.0, max(0.0, depth) / 0.4)
+        if strength > best.strength:
+            half = 0.5 * width * profile.pitch
+            best = Break(
+                float(u[row]) - half, float(u[row]) + half, float(np.clip(depth, 0, 1)), strength
+            )
+    return best
+
+
+def _by_menisci(profile: TipProfile, inside: Array) -> Break:
+    """Bars below the topmost one, where the column is not so bright that they mean nothing."""
+    u = profile.u
+    rows = np.flatnonzero(inside)
+    bars = profile.bar[rows]
+    row = int(rows[np.argmax(bars)])
+    strength = float(bars.max())
+    half = 2 * profile.pitch
+    return Break(float(u[row]) - half, float(u[row]) + half, 0.0, strength)
+
+
+def _widths(profile: TipProfile) -> tuple[int, ...]:
+    """Rows of the gaps to look for: about 2 to 8 % of the tip."""
+    rows = 1.0 / profile.pitch
+    return tuple(sorted({max(2, round(rows * share)) for share in (0.017, 0.025, 0.035, 0.05)}))
+
+
+def _against_flanks(signal: Array, width: int, spare: int = 1) -> Array:
+    """Mean of ``width`` rows less the mean of the rows on both sides of them."""
+    flank = max(4, width)
+    kernel = np.concatenate(
+        [
+            np.full(flank, -0.5 / flank),
+            np.zeros(spare),
+            np.full(width, 1.0 / width),
+            np.zeros(spare),
+            np.full(flank, -0.5 / flank),
+        ]
+    )
+    before = len(kernel) // 2
+    padded = np.pad(signal, (before, len(kernel) - 1 - before), mode="edge")
+    return np.asarray(np.correlate(padded, kernel, mode="valid"))

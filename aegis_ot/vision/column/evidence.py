@@ -1,0 +1,192 @@
+"""How well each height of a tip would explain what is seen, as the top of a liquid column.
+
+All functions give one number per row of a :class:`~.profile.TipProfile`: a log-likelihood ratio
+between "a column reaches from the orifice up to this row" and "there is none". The ratios of
+frames that show the same column add up, row by row, because every profile of a tip class has
+the same rows. Each ratio is bounded: no single glint, and no single wrong assumption about a
+dye, decides alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from .profile import TipProfile
+from .strip import Array
+
+IMPOSSIBLE = -50.0
+"""Log-likelihood ratio of rows at which no column can end."""
+
+_EDGE_EXPECTED = 2.2
+_EDGE_RANGE = (-1.5, 8.0)
+_COLOUR_EXPECTED = 5.0
+_COLOUR_RANGE = (-12.0, 25.0)
+_ANY_COLOUR = 0.05
+_STEP_EXPECTED = 3.0
+_STEP_RANGE = (-2.0, 12.0)
+
+
+@dataclass(frozen=True)
+class Dye:
+    """The colour that a full column adds to a tip, as :attr:`TipProfile.colour` measures it.
+
+    Attributes:
+        red: Change of the red difference.
+        blue: Change of the blue difference.
+        sd: Standard deviation of either.
+    """
+
+    red: float
+    blue: float
+    sd: float
+
+    @property
+    def vector(self) -> Array:
+        """``(2,)``, shrunk towards nothing as far as it may be noise."""
+        raw = np.array([self.red, self.blue], dtype=np.float32)
+        power = float(raw @ raw)
+        kept = max(0.0, 1.0 - 2 * self.sd**2 / power) if power > 0 else 0.0
+        return np.asarray(raw * kept, dtype=np.float32)
+
+
+def mean_dye(dyes: list[Dye]) -> Dye | None:
+    """Mean of several observations of one dye, weighted by their precision."""
+    if not dyes:
+        return None
+    weights = np.array([1.0 / max(dye.sd, 1e-4) ** 2 for dye in dyes])
+    total = float(weights.sum())
+    red = float(weights @ np.array([dye.red for dye in dyes])) / total
+    blue = float(weights @ np.array([dye.blue for dye in dyes])) / total
+    return Dye(red, blue, float(1.0 / np.sqrt(total)))
+
+
+@dataclass(frozen=True)
+class Step:
+    """A signal's mean below a row minus its mean above, for every row.
+
+    Attributes:
+        size: ``(rows,)``.
+        sd: ``(rows,)`` its standard deviation, the rows' correlation counted; infinite where
+            too few rows lie on one side.
+    """
+
+    size: Array
+    sd: Array
+
+
+def long_step(u: Array, signal: Array, top: float, bottom: float) -> Step:
+    """Steps against all rows between ``top`` and ``bottom`` (u) on either side."""
+    size = np.zeros(len(u), dtype=np.float32)
+    sd = np.full(len(u), np.inf, dtype=np.float32)
+    inside = np.flatnonzero((u > top) & (u < bottom))
+    if len(inside) < 16:
+        return Step(size, sd)
+    x = signal[inside].astype(np.float64)
+    n = len(x)
+    sums = np.concatenate(([0.0], np.cumsum(x)))
+    k = np.arange(1, n)
+    above, below = sums[k] / k, (sums[-1] - sums[k]) / (n - k)
+    jump = below - above
+    best = int(np.argmax((np.abs(jump) * np.sqrt(k * (n - k)))[5:-4])) + 5
+    rest = x - np.where(np.arange(n) <= best, above[best], below[best])
+    noise = 1.48 * float(np.median(np.abs(rest - np.median(rest)))) + 1e-4
+    spread = _correlation_length(np.clip(rest, -3 * noise, 3 * noise))
+    size[inside[k]] = jump
+    sd[inside[k]] = noise * np.sqrt(spread * (1.0 / k + 1.0 / (n - k)))
+    sd[inside[:6]] = np.inf
+    sd[inside[-4:]] = np.inf
+    return Step(size, sd)
+
+
+def _correlation_length(rest: Array) -> float:
+    """Rows per independent sample: the integrated autocorrelation, at least 1."""
+    rest = rest - rest.mean()
+    power = float((rest * rest).mean()) + 1e-12
+    total = 1.0
+    for lag in range(1, min(40, len(rest) // 2)):
+        share = float((rest[lag:] * rest[:-lag]).mean()) / power
+        if share < 0.05:
+            break
+        total += 2 * share
+    return total
+
+
+def colour_evidence(
+    profile: TipProfile, dye: Dye | None, *, floor: float, top: float, bottom: float = 0.97
+) -> Array:
+    """Ratio from colour.
+
+    Args:
+        profile: The tip.
+        dye: Colour of a full column; ``None`` if nothing is known of the reagent, then any
+            colour counts, and much of it must be seen.
+        floor: What an empty tip's colour step varies by of itself (labware behind it, light).
+        top: Where the free bore begins, u.
+        bottom: Where the tip's end begins, u.
+    """
+    steps = [long_step(profile.u, profile.colour[:, i], top, bottom) for i in (0, 1)]
+    variances = [step.sd.astype(np.float64) ** 2 + floor**2 for step in steps]
+    if dye is None:
+        ratio = np.zeros(len(profile.u))
+        for step, variance in zip(steps, variances, strict=True):
+            wider = variance + _ANY_COLOUR**2
+            ratio += 0.5 * step.size**2 * (1 / variance - 1 / wider)
+            ratio -= 0.5 * np.log(np.where(np.isfinite(variance), wider / variance, 1.0))
+        return np.asarray(np.clip(ratio, *_COLOUR_RANGE), dtype=np.float32)
+    # Behind another background a column colours the tip less than behind the dark one.
+    vector = 0.75 * dye.vector
+    strength = np.sqrt(sum(v**2 / w for v, w in zip(vector, variances, strict=True)))
+    if not np.any(strength > 0):
+        return np.zeros_like(profile.u)
+    seen = sum(v * s.size / w for v, s, w in zip(vector, steps, variances, strict=True))
+    seen = seen / np.maximum(strength, 1e-6)
+    expected = np.minimum(strength, _COLOUR_EXPECTED)
+    return np.asarray(np.clip(expected * (seen - 0.5 * expected), *_COLOUR_RANGE), dtype=np.float32)
+
+
+def edge_evidence(profile: TipProfile, slack: int = 2) -> Array:
+    """Ratio from the bright bar of a meniscus, found within ``slack`` rows."""
+    near = cv2.dilate(profile.bar[:, None], np.ones((2 * slack + 1, 1), np.uint8))[:, 0]
+    ratio = _EDGE_EXPECTED * (near - 0.5 * _EDGE_EXPECTED)
+    return np.asarray(np.clip(ratio, *_EDGE_RANGE), dtype=np.float32)
+
+
+def step_evidence(profile: TipProfile, reach: int = 8) -> Array:
+    """Ratio from a step of brightness along the tip, either way, against ``reach`` rows."""
+    size, noise = brightness_step(profile, reach)
+    seen = np.abs(size) / noise
+    ratio = _STEP_EXPECTED * (seen - 0.5 * _STEP_EXPECTED) / 2.0
+    return np.asarray(np.clip(ratio, *_STEP_RANGE), dtype=np.float32)
+
+
+def brightness_step(profile: TipProfile, reach: int = 8) -> tuple[Array, Array]:
+    """Mean log brightness of the ``reach`` rows below each row minus that above, and its noise.
+
+    What the background's own step lets through the tip counts as noise.
+    """
+    kernel = np.concatenate([np.full(reach, -1.0), [0.0], np.full(reach, 1.0)]) / reach
+    kernel = kernel.astype(np.float32)[:, None]
+
+    def step(rows: Array) -> Array:
+        return np.asarray(
+            cv2.filter2D(rows[:, None], cv2.CV_32F, kernel, borderType=cv2.BORDER_REPLICATE)[:, 0],
+            dtype=np.float32,
+        )
+
+    size = step(profile.brightness)
+    behind = cv2.dilate(np.abs(step(profile.background))[:, None], np.ones((5, 1), np.uint8))[:, 0]
+    inside = (profile.u > 0.2) & (profile.u < 0.95)
+    noise = 1.48 * float(np.median(np.abs(size[inside] - np.median(size[inside])))) + 0.01
+    return size, np.hypot(noise, 0.7 * behind)
+
+
+def combine(first: Array, second: Array, bonus: float = 6.0) -> Array:
+    """Ratio of two frames that show the same column.
+
+    Their sum, but never more than ``bonus`` above twice the weaker one: a glint in one frame
+    alone is no column.
+    """
+    return np.minimum(first + second, bonus + 2 * np.minimum(first, second))

@@ -1,0 +1,215 @@
+"""One frame, one column: where it ends, what breaks it, how much liquid that is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ..tips import TipGeometry, pipette_class, tip_for
+from ..types import Image, TipDetection
+from .breaks import Break, find_break
+from .evidence import (
+    IMPOSSIBLE,
+    Dye,
+    colour_evidence,
+    edge_evidence,
+    long_step,
+    step_evidence,
+)
+from .profile import TipProfile, tip_profile
+from .strip import SHAPES, Array, TipShape, rectify
+
+_LOWEST_TOP = 0.935
+"""A column shorter than this leaves too little to see, u."""
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What is known about this run's tips beforehand; every part may be missing.
+
+    Attributes:
+        dye: Colour of a full column of this reagent.
+        colour_floor: By how much an empty tip's colour step varies of itself.
+        height_scale: How high columns stand in the frame, over what the geometry says: it is
+            not published (see :mod:`~aegis_ot.vision.tips`), and the camera looks at an angle.
+        height_sd: Standard deviation of where a meniscus stands, tip lengths.
+    """
+
+    dye: Dye | None = None
+    colour_floor: float = 0.008
+    height_scale: float = 1.0
+    height_sd: float = 0.08
+
+
+@dataclass(frozen=True)
+class ColumnMeasurement:
+    """The liquid column in one frame. ``u`` runs along the tip: 0 collar, 1 orifice.
+
+    Attributes:
+        profile: The signals that it was read from.
+        evidence: ``(rows,)`` log-likelihood ratio of a column that ends at each row.
+        presence: Largest ratio: above about 5 there is a column, below 0 there is none to see.
+        top: Upper meniscus, u; 1 where there is no column.
+        top_sd: Its standard uncertainty, u.
+        bottom: Lower end of the column, u.
+        gap: The strongest break in it, however weak; ``None`` where none can be told.
+        length_mm: Retained length, orifice to upper meniscus, mm.
+        length_sd_mm: Its standard uncertainty, mm.
+        volume_ul: Liquid in the tip, through the tip's geometry, µL.
+        volume_sd_ul: Its standard uncertainty, µL.
+        dye: Colour of this column against the empty tip above it.
+        collar, orifice: Ends of the refined axis, px of the frame.
+    """
+
+    profile: TipProfile = field(repr=False)
+    evidence: Array = field(repr=False)
+    presence: float
+    top: float
+    top_sd: float
+    bottom: float
+    gap: Break | None
+    length_mm: float
+    length_sd_mm: float
+    volume_ul: float
+    volume_sd_ul: float
+    dye: Dye
+    collar: tuple[float, float]
+    orifice: tuple[float, float]
+
+    def point(self, u: float) -> tuple[float, float]:
+        """Place of ``u`` on the tip axis in the frame, px."""
+        return (
+            self.collar[0] + u * (self.orifice[0] - self.collar[0]),
+            self.collar[1] + u * (self.orifice[1] - self.collar[1]),
+        )
+
+
+def shape_for(pipette: str, capacity_ul: float | None = None) -> TipShape:
+    """Outline of the tip that a pipette most likely carries."""
+    tip = tip_for(pipette, capacity_ul)
+    known = {"ot2_1000": "p1000", "ot2_300": "p300", "ot2_200": "p300"}
+    name = known.get(tip.name, "p20" if tip.name.startswith("ot2_") else "")
+    if name:
+        return SHAPES[name]
+    radius = (max(tip.profile[-1][1], tip.nozzle_radius_mm) + tip.wall_mm) / tip.length_mm
+    return TipShape(
+        pipette_class(pipette),
+        240 if tip.nominal_ul >= 500 else 160,
+        radius,
+        (tip.profile[0][1] + tip.wall_mm) / tip.length_mm,
+        tip.overlap_mm / tip.length_mm,
+    )
+
+
+def view_tip(
+    image: Image, detection: TipDetection, pipette: str, capacity_ul: float | None = None
+) -> tuple[TipProfile, tuple[float, float], tuple[float, float]]:
+    """Straighten the tip and read its signals; returns profile, collar and orifice (px)."""
+    shape = shape_for(pipette, capacity_ul)
+    strip = rectify(image, detection, shape)
+    return tip_profile(strip, shape), strip.collar, strip.orifice
+
+
+def measure_column(
+    image: Image,
+    detection: TipDetection,
+    pipette: str,
+    *,
+    expected_ul: float = 0.0,
+    reference: Reference | None = None,
+    capacity_ul: float | None = None,
+) -> ColumnMeasurement:
+    """Measure the liquid column in one frame (about 6 ms).
+
+    Args:
+        image: Whole frame, ``(height, width, 3)`` uint8, BGR.
+        detection: The tip in it.
+        pipette: Opentrons pipette name or short class.
+        expected_ul: Liquid that should be in the tip, µL: where to look first. 0: anything.
+        reference: What is known of this run.
+        capacity_ul: Working volume of the tip, if known.
+    """
+    profile, collar, orifice = view_tip(image, detection, pipette, capacity_ul)
+    tip = tip_for(pipette, capacity_ul)
+    found = read_column(profile, tip, expected_ul, reference or Reference())
+    return replace(found, collar=collar, orifice=orifice)
+
+
+def read_column(
+    profile: TipProfile, tip: TipGeometry, expected_ul: float, reference: Reference
+) -> ColumnMeasurement:
+    """The same from signals that were read before, in the light of another reference."""
+    evidence = column_evidence(profile, tip, reference)
+    if expected_ul > 0:
+        evidence = evidence + step_evidence(profile)
+        where = expected_top(tip, expected_ul, reference)
+        off = (profile.u - where) / max(reference.height_sd, 0.01)
+        ranked = evidence - np.minimum(0.5 * off**2, 8.0)
+    else:
+        ranked = evidence
+    row = int(np.argmax(ranked))
+    presence = float(evidence[row])
+    top, top_sd = _summit(profile.u, ranked, row)
+    there = presence > 0
+    top = top if there else 1.0
+    height = (1.0 - top) * tip.length_mm / reference.height_scale
+    height_sd = top_sd * tip.length_mm / reference.height_scale
+    volume = float(tip.volume_of(max(height, 0.0)))
+    per_mm = float(tip.volume_of(max(height, 0.0) + 1.0)) - volume
+    return ColumnMeasurement(
+        profile=profile,
+        evidence=evidence,
+        presence=presence,
+        top=top,
+        top_sd=top_sd,
+        bottom=1.0,
+        gap=find_break(profile, top) if there else None,
+        length_mm=(1.0 - top) * tip.length_mm,
+        length_sd_mm=height_sd,
+        volume_ul=volume,
+        volume_sd_ul=float(np.hypot(per_mm * height_sd, 0.05 * volume)),
+        dye=_dye_at(profile, tip, row),
+        collar=(0.0, 0.0),
+        orifice=(0.0, 0.0),
+    )
+
+
+def column_evidence(profile: TipProfile, tip: TipGeometry, reference: Reference) -> Array:
+    """Ratio from colour and edges for a column that ends at each row."""
+    ceiling = _ceiling(tip)
+    ratio = colour_evidence(
+        profile, reference.dye, floor=reference.colour_floor, top=ceiling
+    ) + edge_evidence(profile)
+    possible = (profile.u > ceiling + 0.02) & (profile.u < _LOWEST_TOP)
+    return np.where(possible, ratio, IMPOSSIBLE).astype(np.float32)
+
+
+def expected_top(tip: TipGeometry, volume_ul: float, reference: Reference) -> float:
+    """Where the meniscus of a volume should stand, u."""
+    height = float(tip.height_of(volume_ul))
+    return 1.0 - reference.height_scale * height / tip.length_mm
+
+
+def _ceiling(tip: TipGeometry) -> float:
+    """Where the free bore begins: a little below the nozzle, u."""
+    return tip.overlap_mm / tip.length_mm + 0.06
+
+
+def _summit(u: Array, ranked: Array, row: int) -> tuple[float, float]:
+    """Mean and standard deviation of the posterior around its highest row."""
+    near = slice(max(0, row - 6), row + 7)
+    weight = np.exp(ranked[near].astype(np.float64) - float(ranked[row]))
+    weight = weight / weight.sum()
+    mean = float(weight @ u[near])
+    spread = float(np.sqrt(weight @ (u[near] - mean) ** 2))
+    # Half a row of rounding, and about a pixel of where the tip's ends are.
+    return mean, float(np.hypot(spread, 0.006))
+
+
+def _dye_at(profile: TipProfile, tip: TipGeometry, row: int) -> Dye:
+    red, blue = (
+        long_step(profile.u, profile.colour[:, i], _ceiling(tip), 0.97) for i in (0, 1)
+    )
+    sd = float(max(red.sd[row], blue.sd[row]))
+    return Dye(float(red.size[row]), float(blue.size[row]), sd if np.isfinite(sd) else 1.0)

@@ -1,0 +1,145 @@
+"""What each row of a straightened tip shows: brightness, colour, and edges across the bore.
+
+Three physical signals, none of which needs the other:
+
+- **Colour.** A dye absorbs (Beer-Lambert), so the rows of a column differ in colour from the
+  empty tip above it. Colour is taken relative to the background beside the tip, over a width
+  that holds what JPEG's chroma subsampling smears out.
+- **Edges.** A meniscus is a curved mirror: it shows as a thin bright bar across the whole bore,
+  with any liquid. A speck (a caustic, a droplet outside) does not span the bore, so the bar is
+  a trimmed mean across it.
+- **Brightness.** Liquid guides or absorbs light; only steps of it along the tip are used.
+
+Brightness is relative to the pipette's own nozzle inside the collar, which is white and lit as
+the tip is: that cancels exposure and white balance.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from .strip import Array, Strip, TipShape
+
+LANES = np.linspace(-2.6, 2.6, 53).astype(np.float32)
+"""Positions across the axis at which rows are read, in outer radii of that row."""
+
+_INSIDE = np.abs(LANES) < 0.7
+_WIDE = np.abs(LANES) < 1.3
+_BESIDE = np.abs(LANES) > 1.65
+_FLOOR = 1e-3
+
+
+@dataclass(frozen=True)
+class TipProfile:
+    """Signals along one tip, one value per row; ``u`` runs from collar (0) to orifice (1).
+
+    Attributes:
+        u: ``(rows,)``.
+        colour: ``(rows, 2)`` red and blue difference against the background beside the tip,
+            as a fraction of the row's brightness.
+        brightness: ``(rows,)`` natural logarithm, relative to the nozzle.
+        background: ``(rows,)`` the same beside the tip.
+        bar: ``(rows,)`` a thin bright bar across the bore, in standard deviations of the rows
+            of this tip.
+        length: Length of the tip in the frame, px.
+        clarity: See :class:`~aegis_ot.vision.column.strip.Strip`.
+    """
+
+    u: Array
+    colour: Array
+    brightness: Array
+    background: Array
+    bar: Array
+    length: float
+    clarity: float
+
+    @property
+    def pitch(self) -> float:
+        """Tip lengths per row."""
+        return float(self.u[1] - self.u[0])
+
+
+def tip_profile(strip: Strip, shape: TipShape) -> TipProfile:
+    """Read the signals of a straightened tip."""
+    cone = unroll(strip, shape)
+    u = strip.u
+    nozzle = (u > 0.1 * shape.nozzle_end) & (u < 0.85 * shape.nozzle_end)
+    white = np.median(cone[nozzle][:, _INSIDE], axis=(0, 1))
+    white = np.maximum(white, 4.0)
+    luminance = np.log(np.maximum((cone / white).mean(axis=2), 0.02))
+    brightness = np.median(luminance[:, _INSIDE], axis=1)
+    background = np.median(luminance[:, _BESIDE], axis=1)
+    return TipProfile(
+        u=u,
+        colour=_colour(cone),
+        brightness=brightness.astype(np.float32),
+        background=background.astype(np.float32),
+        bar=_bar(luminance, background, u),
+        length=strip.length,
+        clarity=strip.clarity,
+    )
+
+
+def unroll(strip: Strip, shape: TipShape) -> Array:
+    """Stretch each row so that the tip's outline becomes straight.
+
+    Returns:
+        ``(rows, lanes, 3)`` float32, BGR; lane positions are :data:`LANES`.
+    """
+    radius = shape.radius(strip.u)
+    step = strip.u[1] - strip.u[0]
+    x = LANES[None, :] * radius[:, None] / step + (len(strip.v) // 2)
+    y = np.repeat(np.arange(len(strip.u), dtype=np.float32)[:, None], len(LANES), axis=1)
+    return np.asarray(
+        cv2.remap(
+            strip.pixels,
+            x.astype(np.float32),
+            y,
+            cv2.INTER_LINEAR,
+            borderMode=cv2.BORDER_REPLICATE,
+        ),
+        dtype=np.float32,
+    )
+
+
+def _colour(cone: Array) -> Array:
+    inside = cone[:, _WIDE].mean(axis=1)
+    beside = np.median(cone[:, _BESIDE], axis=1)
+    luma = np.array([0.114, 0.587, 0.299], dtype=np.float32)
+    bright = np.maximum(inside @ luma, 4.0)
+    dim = beside @ luma
+    red = 0.713 * ((inside[:, 2] - bright) - (beside[:, 2] - dim))
+    blue = 0.564 * ((inside[:, 0] - bright) - (beside[:, 0] - dim))
+    return np.asarray(np.stack([red, blue], axis=1) / bright[:, None], dtype=np.float32)
+
+
+def _bar(luminance: Array, background: Array, u: Array) -> Array:
+    """Thin bright bars across the bore, standardised over the tip."""
+    inner, wide = 3, 5
+    surround = np.zeros(2 * (inner + wide) + 1, dtype=np.float32)
+    surround[:wide] = surround[-wide:] = 0.5 / wide
+
+    def peak(rows: Array) -> Array:
+        smooth = cv2.GaussianBlur(rows, (1, 7), 0, sigmaY=1.2, borderType=cv2.BORDER_REPLICATE)
+        around = cv2.filter2D(
+            rows, cv2.CV_32F, surround[:, None], borderType=cv2.BORDER_REPLICATE
+        )
+        return np.asarray(smooth - around, dtype=np.float32)
+
+    lanes = np.sort(peak(luminance[:, _INSIDE].astype(np.float32)), axis=1)
+    n = lanes.shape[1]
+    cut = int(0.3 * n)
+    bar = lanes[:, cut // 2 : n - cut].mean(axis=1)
+    behind = peak(background[:, None].astype(np.float32))[:, 0]
+    inside = (u > 0.2) & (u < 0.95)
+    # The background shows through the tip: take out what follows it, and trust rows less
+    # where it has an edge of its own.
+    through = float((behind[inside] * bar[inside]).sum() / ((behind[inside] ** 2).sum() + 1e-6))
+    rest = bar - np.clip(through, 0.0, 1.0) * behind
+    rest = rest - np.median(rest[inside])
+    noise = 1.48 * float(np.median(np.abs(rest[inside]))) + _FLOOR
+    disturbed = cv2.dilate(np.abs(behind)[:, None], np.ones((7, 1), np.uint8))[:, 0]
+    return np.asarray(rest / np.hypot(noise, 0.5 * disturbed), dtype=np.float32)
