@@ -6,19 +6,19 @@ does on every load: nothing that the live protocol has at module level is touche
 
 from __future__ import annotations
 
-import ctypes
-import threading
-import traceback
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import RehearsalError, RehearsalTimeout
+from ..errors import AegisError, RehearsalError
 from ..instrumentation import LabwareInfo, Listener, NameBinding, NameCollector, tapped
+from .loading import interrupted_after, line_of, load, runtime_parameters
 from .script import Script
 from .simulated_context import simulated_context
+
+Run = Callable[[Any], Any]
 
 _REHEARSING: ContextVar[bool] = ContextVar("aegis_ot_rehearsing", default=False)
 
@@ -64,24 +64,23 @@ def rehearse(
         RehearsalError: It cannot be parsed or raised by itself; with its line.
         RehearsalTimeout: It did not end in time.
     """
-    protocol = _parse(script)
-    parameters = live_parameters
-    if parameters is None:
-        parameters = _parameters(protocol, script)
+    protocol = load(script)
     token = _REHEARSING.set(True)
     try:
         with (
-            simulated_context(
-                protocol.api_level,
-                protocol.robot_type,
-                extra_labware=protocol.extra_labware,
-                bundled_labware=protocol.bundled_labware,
-                bundled_data=protocol.bundled_data,
-            ) as context,
+            _stage(protocol, script, live_parameters) as context,
             tapped(context, listeners, script.file_name) as tap,
         ):
             names = NameCollector(tap.wells, script.file_name)
-            _execute(protocol, context, parameters, names, script.file_name, timeout_s)
+
+            def watched(run: Run) -> Run:
+                def run_with_names(given: Any) -> None:
+                    with names.watching():
+                        run(given)
+
+                return run_with_names
+
+            names.look(_perform(protocol, context, watched, timeout_s), "<module>", 1)
             return Rehearsal(
                 names.bindings,
                 dict(tap.wells.labware),
@@ -92,130 +91,55 @@ def rehearse(
         _REHEARSING.reset(token)
 
 
-def _parse(script: Script) -> Any:
-    from opentrons.protocols.parse import parse
-    from opentrons.protocols.types import ApiDeprecationError, PythonProtocol
+def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.0) -> None:
+    """Run ``script`` in the simulator with ``wrap`` around its ``run``, as no rehearsal.
 
-    try:
-        compile(script.text, script.file_name, "exec", dont_inherit=True)
-    except (SyntaxError, ValueError) as error:
-        line = getattr(error, "lineno", None)
-        reason = getattr(error, "msg", None) or str(error)
-        where = f"{script.file_name}, line {line}" if line else script.file_name
-        raise RehearsalError(f"{where}: not valid Python: {reason}", line) from error
-    try:
-        protocol = parse(
-            script.text,
-            script.file_name,
-            extra_labware=dict(script.extra_labware),
-            extra_data=dict(script.data_files),
-        )
-    except ApiDeprecationError as error:
-        raise RehearsalError(
-            f"{script.file_name} uses an apiLevel that this opentrons no longer runs: {error}"
-        ) from error
-    except Exception as error:  # opentrons raises its own zoo, and plain RuntimeErrors
-        raise RehearsalError(f"Opentrons cannot load {script.file_name}: {error}") from error
-    if not isinstance(protocol, PythonProtocol):
-        raise RehearsalError(
-            f"{script.file_name} is a JSON protocol; only Python protocols can be rehearsed."
-        )
-    return protocol
+    A guard in it does its work. Used to try a protocol with both layers on one machine.
+
+    Raises:
+        RehearsalError: It cannot be parsed or raised by itself; with its line.
+        AegisError: Whatever ``wrap`` raises on purpose, unchanged.
+    """
+    protocol = load(script)
+    with _stage(protocol, script, None) as context:
+        _perform(protocol, context, wrap, timeout_s)
 
 
-def _parameters(protocol: Any, script: Script) -> Any:
-    from opentrons.protocol_api._parameter_context import ParameterContext
-    from opentrons.protocols.execution.execute_python import exec_add_parameters
+@contextmanager
+def _stage(protocol: Any, script: Script, live_parameters: Any) -> Iterator[Any]:
+    """A simulated context that is ready for this protocol."""
+    parameters = live_parameters
+    if parameters is None:
+        parameters = runtime_parameters(protocol, script)
+    with simulated_context(
+        protocol.api_level,
+        protocol.robot_type,
+        extra_labware=protocol.extra_labware,
+        bundled_labware=protocol.bundled_labware,
+        bundled_data=protocol.bundled_data,
+    ) as context:
+        if parameters:
+            context._params = parameters
+        yield context
 
-    known = dict(script.parameters)
-    try:
-        return exec_add_parameters(
-            protocol,
-            ParameterContext(api_version=protocol.api_level),
-            known or None,
-            dict(script.csv_parameters) or None,
-        )
-    except Exception as error:
-        raise RehearsalError(
-            f"The runtime parameters of {script.file_name} cannot be set: {error}",
-            _line_of(error, script.file_name),
-        ) from error
 
-
-def _execute(
-    protocol: Any,
-    context: Any,
-    parameters: Any,
-    names: NameCollector,
-    file_name: str,
-    timeout_s: float,
-) -> None:
+def _perform(
+    protocol: Any, context: Any, wrap: Callable[[Run], Run], timeout_s: float
+) -> dict[str, Any]:
+    """Execute a loaded protocol and its ``run``; returns its module's names."""
+    file_name = protocol.filename
     namespace: dict[str, Any] = {}
-    if parameters:
-        context._params = parameters
     try:
-        with _interrupted_after(timeout_s, file_name):
+        with interrupted_after(timeout_s, file_name):
             exec(protocol.contents, namespace)
             run = namespace.get("run")
             if not callable(run):
                 raise RehearsalError(f"{file_name} defines no function run(protocol).")
-            with names.watching():
-                run(context)
-    except RehearsalError:
+            wrap(run)(context)
+    except AegisError:
         raise
     except Exception as error:
-        line = _line_of(error, file_name)
+        line = line_of(error, file_name)
         where = f"{file_name}, line {line}" if line else file_name
         raise RehearsalError(f"{where}: {type(error).__name__}: {error}", line) from error
-    finally:
-        names.look(namespace, "<module>", 1)
-
-
-def _line_of(error: BaseException, file_name: str) -> int | None:
-    """The innermost line of the protocol in a traceback."""
-    seen: BaseException | None = error
-    while seen is not None:
-        for entry in reversed(traceback.extract_tb(seen.__traceback__)):
-            if entry.filename == file_name:
-                return entry.lineno
-        seen = seen.__cause__
-    return getattr(error, "lineno", None)
-
-
-@contextmanager
-def _interrupted_after(timeout_s: float, file_name: str) -> Iterator[None]:
-    """Raise :class:`RehearsalTimeout` in this thread after ``timeout_s`` seconds.
-
-    An endless loop in plain Python never comes back to a listener, so it is interrupted from a
-    timer thread. A call that blocks inside C code is interrupted when it returns.
-    """
-    thread = threading.get_ident()
-    lock = threading.Lock()
-    state = {"open": True, "fired": False}
-
-    def interrupt() -> None:
-        with lock:
-            if state["open"]:
-                state["fired"] = True
-                ctypes.pythonapi.PyThreadState_SetAsyncExc(
-                    ctypes.c_ulong(thread), ctypes.py_object(_Interrupted)
-                )
-
-    timer = threading.Timer(timeout_s, interrupt)
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
-    except _Interrupted as error:
-        raise RehearsalTimeout(
-            f"{file_name} did not end within {timeout_s:g} s of rehearsal.",
-            _line_of(error, file_name),
-        ) from None
-    finally:
-        with lock:
-            state["open"] = False
-        timer.cancel()
-
-
-class _Interrupted(BaseException):
-    """Not an ``Exception``, so that a protocol's own ``except Exception`` lets it pass."""
+    return namespace
