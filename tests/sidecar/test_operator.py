@@ -1,0 +1,101 @@
+"""The operator as a gate."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.sidecar.config import OperatorSettings
+
+from .helpers import Robot, StubAnalyser, StubCamera
+
+
+def decide(robot: Robot, trajectory: int, outcome: str, by: str = "Ada") -> int:
+    body = {"outcome": outcome, "by": by}
+    return robot.post(f"trajectories/{trajectory}/decision", body).status_code
+
+
+@pytest.fixture
+def judged(robot: Robot) -> Robot:
+    for trajectory in range(3):
+        robot.cycle(trajectory)
+        assert robot.verdict(trajectory)["verdict"] is not None
+    return robot
+
+
+def test_a_fail_can_be_overruled(judged: Robot) -> None:
+    assert decide(judged, 1, "pass") == 200
+    verdict = judged.verdict(1)["verdict"]
+    assert (verdict["outcome"], verdict["gate"], verdict["failure"]) == ("pass", "operator", None)
+    assert "Ada decided pass" in verdict["reason"]
+    assert "52 µL stayed" in verdict["reason"]
+    trajectory = judged.overview()["trajectories"][1]
+    assert trajectory["judged"]["outcome"] == "fail"
+    assert trajectory["judged"]["measured_ul"] == 52.0
+
+
+def test_the_last_decision_counts_and_all_are_kept(judged: Robot) -> None:
+    assert decide(judged, 2, "pass") == 200
+    assert decide(judged, 2, "fail", by="Grace") == 200
+    assert judged.verdict(2)["verdict"]["outcome"] == "fail"
+    decisions = judged.overview()["trajectories"][2]["decisions"]
+    assert [d["by"] for d in decisions] == ["Ada", "Grace"]
+
+
+def test_what_passed_or_was_never_judged_is_not_decided(judged: Robot) -> None:
+    assert decide(judged, 0, "fail") == 409
+    assert decide(judged, 9, "pass") == 409
+    assert decide(judged, 1, "undecided") == 422
+    assert decide(judged, 1, "pass", by="") == 422
+
+
+def test_a_decision_outlives_a_restart(config: SidecarConfig) -> None:
+    with (
+        running_sidecar(config, StubCamera(), StubAnalyser(unsure=[0])) as url,
+        Robot(url) as robot,
+    ):
+        robot.register()
+        robot.cycle(0)
+        robot.verdict(0)
+        assert decide(robot, 0, "fail") == 200
+    with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+        assert robot.verdict(0)["verdict"]["outcome"] == "fail"
+
+
+@pytest.fixture
+def patient(config: SidecarConfig) -> Iterator[Robot]:
+    """A sidecar that holds undecided verdicts back for the operator."""
+    patient = config.model_copy(update={"operator": OperatorSettings(timeout_s=0.6)})
+    analyser = StubAnalyser(fails=[1], unsure=[0])
+    with running_sidecar(patient, StubCamera(), analyser) as url, Robot(url) as robot:
+        robot.register()
+        yield robot
+
+
+def test_an_undecided_verdict_waits_for_the_operator(patient: Robot) -> None:
+    patient.cycle(0)
+    assert patient.verdict(0, wait=0.2) == {"verdict": None, "awaiting": "operator"}
+    assert patient.overview()["trajectories"][0]["awaiting"] == "operator"
+    timer = threading.Timer(0.1, decide, (patient, 0, "pass"))
+    timer.start()
+    verdict = patient.verdict(0, wait=1.0)["verdict"]
+    timer.join()
+    assert (verdict["outcome"], verdict["gate"]) == ("pass", "operator")
+
+
+def test_an_operator_who_does_not_come_leaves_it_undecided(patient: Robot) -> None:
+    begun = time.monotonic()
+    patient.cycle(0)
+    verdict = patient.verdict(0, wait=1.0)["verdict"]
+    assert verdict["outcome"] == "undecided"
+    assert time.monotonic() - begun < 1.5
+
+
+def test_a_fail_is_never_held_back(patient: Robot) -> None:
+    patient.cycle(0)
+    patient.cycle(1)
+    assert patient.verdict(1, wait=0.5)["verdict"]["outcome"] == "fail"
