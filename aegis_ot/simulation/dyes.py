@@ -7,8 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-REFERENCE_PATH_MM = 4.0
-"""Path of light at which a dye's transmission is stated, mm: a p1000 column at about 300 µL."""
+REFERENCE_PATH_MM = 3.6
+"""Path of light at which a dye's transmission is stated, mm.
+
+A p1000 column at 300 µL is 4 mm wide; light that the tip's front wall scatters never enters the
+liquid, so the measured transmissions belong to a shorter path. With this one, finished frames
+show them.
+"""
 
 
 @dataclass(frozen=True)

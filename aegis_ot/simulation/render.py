@@ -122,7 +122,9 @@ def render_jpeg(
     if touched:
         _refresh(light, scene, touched, parameters)
     gain = frame_gain(parameters, rng)
-    image = expose(light * still.light * np.float32(gain), parameters, rng)
+    light *= still.light
+    light *= np.float32(gain)
+    image = expose(light, parameters, rng)
     truth = FrameTruth(
         kind=state.kind,
         tips=tuple(sorted(tips, key=lambda item: item.channel)),

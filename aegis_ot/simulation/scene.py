@@ -61,7 +61,8 @@ class SessionParameters:
         overexposed_chance, overexposed_gain: A frame now and then, and how far over.
         white_balance: Gain of B, G, R.
         blur_px: Standard deviation of the lens blur, px.
-        noise: Standard deviation of a finished frame's noise at mid grey, grey levels.
+        noise: Standard deviation of the sensor's noise at mid grey, grey levels; JPEG takes about
+            half of it away.
         jpeg_quality: 1 to 100.
         frost: Haze of the tip's wall, 0 (clear) to 1.
         rim: Strength of the bright lines along the tip's edges.
@@ -69,6 +70,7 @@ class SessionParameters:
         glint_side: Where across the tip it lies, -1 to 1.
         lens: How strongly a filled tip bends what is behind it, 0 to 1.
         piping: How far light from bright labware glows up a filled column, 0 to 1.
+        specks: Mean number of bright specks in a tip: scratches, caustics, dried droplets.
         film: Liquid that stays on the wall after a dispense, fraction of the volume.
         drop_chance: Chance of a hanging drop after a dispense.
         shaft, body: Colours of the pipette's nozzle shaft and body.
@@ -101,7 +103,7 @@ class SessionParameters:
     overexposed_gain: float = 2.2
     white_balance: Colour = (1.0, 1.0, 1.0)
     blur_px: float = 1.0
-    noise: float = 1.7
+    noise: float = 3.1
     jpeg_quality: int = 92
     frost: float = 0.35
     rim: float = 0.5
@@ -109,6 +111,7 @@ class SessionParameters:
     glint_side: float = -0.45
     lens: float = 0.6
     piping: float = 0.1
+    specks: float = 0.0
     film: float = 0.004
     drop_chance: float = 0.08
     shaft: Colour = (175.0, 174.0, 172.0)
@@ -216,14 +219,15 @@ class SessionParameters:
             overexposed_gain=u(1.6, 2.8),
             white_balance=(u(0.92, 1.08), 1.0, u(0.92, 1.08)),
             blur_px=u(0.5, 1.5) * (size[1] / 480.0) ** 0.5,
-            noise=u(0.8, 4.0),
+            noise=u(1.5, 5.5),
             jpeg_quality=int(u(70, 97)),
             frost=u(0.08, 0.6),
             rim=u(0.15, 0.9),
             glint=u(0.1, 0.9),
             glint_side=float(rng.choice([-1.0, 1.0])) * u(0.2, 0.7),
             lens=u(0.3, 0.9),
-            piping=u(0.0, 0.35) ** 1.5 * 2.0,
+            piping=u(0.0, 0.3) if rng.random() < 0.75 else u(0.3, 1.1),
+            specks=0.0 if rng.random() < 0.6 else u(0.5, 8.0),
             film=u(0.001, 0.008),
             drop_chance=u(0.0, 0.15),
             shaft=_tint(rng, grey, 0.03),

@@ -77,15 +77,16 @@ def shade_tip(
         bent = _refract(image, view, parameters.lens)
         dim = 1 - 0.25 * parameters.lens * np.clip(u / np.maximum(inner, 1e-3), 0, 1) ** 4
         through = image + wet[..., None] * (bent * dim[..., None] - image)
-    back = through * (1 - 0.5 * opacity[..., None]) + haze * (0.5 * opacity[..., None])
+    back = through * (1 - 0.75 * opacity[..., None]) + haze * (0.75 * opacity[..., None])
     back = back + _piping(view, wet, parameters)[..., None] * np.asarray(view.under, np.float32)
     path = wet * chord + _film_path(view, tip, content, inner, wet)
     back = back * _transmission(dye, path)
-    front = back * (1 - 0.42 * opacity[..., None]) + haze * (0.42 * opacity[..., None])
+    front = back * (1 - 0.15 * opacity[..., None]) + haze * (0.15 * opacity[..., None])
 
     lines = _edges(u, inner, outer, wet, view, parameters)
     lines = lines + _glints(view, inner, outer, wet, parameters)
     lines = lines + _menisci(view, tip, content, inner, parameters)
+    lines = lines + _specks(view, tip, parameters)
     lit = front + lines[..., None] * (0.9 * np.asarray(parameters.shaft, np.float32) - 0.25 * front)
     image = image + inside[..., None] * (lit - image)
     if content.drop_ul > 0:
@@ -211,8 +212,22 @@ def _menisci(
             spread = p.meniscus_edge if last and end == top else 0.35
             width = np.maximum(0.22 * inner * (0.5 + spread), 0.6 * view.mm_per_px)
             off = (view.along - _meniscus_height(end, u, inner)) / width
-            lines += 0.30 / (0.6 + spread) * (np.exp(-(off**2)) - 0.7 * np.exp(-((off - 1.5) ** 2)))
+            lines += 0.16 / (0.6 + spread) * (np.exp(-(off**2)) - 0.5 * np.exp(-((off - 1.5) ** 2)))
     return np.asarray(lines * (u < inner) * (0.4 + p.glint), np.float32)
+
+
+def _specks(view: TipView, tip: TipGeometry, p: SessionParameters) -> Plane:
+    """Bright points anywhere in the tip, about a pixel in size."""
+    total = np.zeros_like(view.across)
+    if p.specks <= 0:
+        return total
+    for _ in range(int(view.scatter.poisson(p.specks))):
+        at = view.scatter.uniform(0.0, tip.free_mm)
+        side = view.scatter.uniform(-0.9, 0.9) * float(tip.inner_radius(at))
+        size = view.mm_per_px * view.scatter.uniform(0.4, 0.9)
+        away = ((view.along - at) ** 2 + (view.across - side) ** 2) / size**2
+        total += np.float32(view.scatter.uniform(0.2, 1.2)) * np.exp(-away / 2)
+    return np.asarray(total, np.float32)
 
 
 def _drop(image: Plane, view: TipView, drop_ul: float, dye: Dye, p: SessionParameters) -> Plane:
