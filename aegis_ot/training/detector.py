@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 
 from .._version import __version__
-from ..vision.detection.heatmap import FORMAT
+from ..vision.detection.heatmap import FORMAT, HeatmapDetector
 from .examples import Example, close_up_example, overview_example, targets
+from .figures import measure
 from .network import TipNetwork
 from .recorded import FramePool, RecordedFrame, read_frames
 from .scenes import draw_frame
@@ -219,15 +220,11 @@ def train(
         DatasetError: A data set cannot be read.
     """
     chosen = settings or DetectorSettings()
-    frames: list[RecordedFrame] = []
-    for folder in datasets:
-        frames += [
-            frame
-            for frame in read_frames(Path(folder))
-            if frame.plate.rpartition("/")[2] not in set(hold_out)
-        ]
-    network = fit(FramePool(frames) if frames else None, seed, chosen, progress)
     path = Path(out)
+    by_set = {Path(folder).name: read_frames(Path(folder)) for folder in datasets}
+    held = set(hold_out)
+    learnt = [f for frames in by_set.values() for f in frames if _plate(f) not in held]
+    network = fit(FramePool(learnt) if learnt else None, seed, chosen, progress)
     export(network, path)
     description = {
         "format": FORMAT,
@@ -237,11 +234,27 @@ def train(
         "seed": seed,
         "settings": asdict(chosen),
         "data": {
-            "sets": [Path(folder).name for folder in datasets],
-            "recorded_frames": len(frames),
-            "held_out_plates": list(hold_out),
+            "sets": list(by_set),
+            "recorded_frames": len(learnt),
+            "held_out_plates": sorted(held),
         },
         "made_with": {"aegis_ot": __version__, "torch": torch.__version__, "numpy": np.__version__},
     }
-    path.with_suffix(".json").write_text(json.dumps(description, indent=2) + "\n", encoding="utf-8")
+    _write(path, description)
+    if held:
+        detector = HeatmapDetector(path)
+        description["held_out_figures"] = {
+            name: asdict(measure(detector, [f for f in frames if _plate(f) in held]))
+            for name, frames in by_set.items()
+        }
+        _write(path, description)
     return path
+
+
+def _plate(frame: RecordedFrame) -> str:
+    return frame.plate.rpartition("/")[2]
+
+
+def _write(path: Path, description: dict[str, object]) -> None:
+    text = json.dumps(description, indent=2) + "\n"
+    path.with_suffix(".json").write_text(text, encoding="utf-8")

@@ -17,7 +17,7 @@ def draw_pipette(
     height = image.shape[0]
     shaft = radius * rng.uniform(0.7, 1.5)
     nozzle = min(shaft, radius * rng.uniform(0.6, 1.0))
-    stem = rng.uniform(1, 12) * radius
+    stem = float(np.exp(rng.uniform(0, np.log(40)))) * radius
     bare = rng.uniform(0, 5) * radius if rng.random() < 0.5 else 0.0
     body = radius * rng.uniform(2, 7)
     shift = rng.uniform(-0.5, 0.5) * body
@@ -77,7 +77,8 @@ def draw_tip(
     t = np.linspace(0, 1, 25)
     outline = axis.strip(t * length, np.interp(t, at, half))
     dark_edges = rng.random() < 0.25
-    paint(image, outline, random_colour(rng, 60, 255, 0.12), rng.uniform(0.03, 0.5))
+    faint = 0.35 if rng.random() < 0.2 else 1.0  # a clean tip before a plain ground
+    paint(image, outline, random_colour(rng, 60, 255, 0.12), faint * rng.uniform(0.02, 0.5))
     paint(
         image,
         axis.strip([0, at[1] * length], [half[0], half[1]]),
@@ -106,7 +107,7 @@ def draw_tip(
     for side, strength in ((-1, rng.uniform(0.1, 0.9)), (1, rng.uniform(0.1, 0.9))):
         wall = max(0.6, radius * rng.uniform(0.06, 0.2))
         inner = side * (np.interp(t, at, half) - wall / 2)
-        paint(image, axis.strip(t * length, wall / 2, inner), shine, strength)
+        paint(image, axis.strip(t * length, wall / 2, inner), shine, faint * strength)
     for _ in range(int(rng.integers(0, 3))):  # long glints
         u, a, b = rng.uniform(-0.8, 0.8), *np.sort(rng.random(2))
         span = np.linspace(a, b, 8)

@@ -31,6 +31,8 @@ def draw_room(rng: np.random.Generator, width: int, height: int) -> Image:
     image: Image = np.clip(canvas, 0, 255).astype(np.uint8)
     for _ in range(int(rng.integers(0, 10)) if rng.random() < 0.6 else 0):
         _clutter(rng, image)
+    if rng.random() < 0.5:  # out of focus, behind the pipette
+        image = cv2.GaussianBlur(image, (0, 0), rng.uniform(0.5, 6))
     if rng.random() < 0.85:
         _deck(rng, image)
     return image

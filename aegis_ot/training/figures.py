@@ -1,0 +1,124 @@
+"""How well a detector does on labelled frames that it has not seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from ..errors import DatasetError
+from ..vision.detection import HeatmapDetector
+from .recorded import RecordedFrame
+
+Box = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
+class DetectorFigures:
+    """A detector's figures on a set of frames.
+
+    Attributes:
+        tip_frames, empty_frames: Frames with and without a tip.
+        found: Share of the tip frames with a detection whose box overlaps the true one by more
+            than half (intersection over union).
+        false_alarms: Detections in frames without a tip.
+        map50: Average precision at that overlap, over all confidences; one class, so also the
+            mean average precision.
+        mean_overlap: Mean intersection over union in tip frames, 0 where nothing was detected.
+        orifice_px, collar_px: Median and 95th percentile of the distance from the true end, px.
+        lowest_tip, highest_empty: The margin: the first percentile of the confidence in tip
+            frames, and the greatest confidence in frames without a tip.
+    """
+
+    tip_frames: int
+    empty_frames: int
+    found: float
+    false_alarms: int
+    map50: float
+    mean_overlap: float
+    orifice_px: tuple[float, float]
+    collar_px: tuple[float, float]
+    lowest_tip: float
+    highest_empty: float
+
+
+def overlap(a: Box, b: Box) -> float:
+    """Intersection over union of two boxes ``x, y, w, h``."""
+    w = min(a[0] + a[2], b[0] + b[2]) - max(a[0], b[0])
+    h = min(a[1] + a[3], b[1] + b[3]) - max(a[1], b[1])
+    if w <= 0 or h <= 0:
+        return 0.0
+    return w * h / (a[2] * a[3] + b[2] * b[3] - w * h)
+
+
+def average_precision(confidences: Sequence[float], hits: Sequence[bool], positives: int) -> float:
+    """Area under the interpolated precision-recall curve (all points, as in Pascal VOC 2010).
+
+    Args:
+        confidences: Of each detection.
+        hits: Whether each detection is right.
+        positives: Number of true objects.
+    """
+    if not positives or not confidences:
+        return 0.0
+    order = np.argsort(-np.asarray(confidences), kind="stable")
+    right = np.cumsum(np.asarray(hits, dtype=float)[order])
+    precision = right / np.arange(1, len(right) + 1)
+    envelope = np.maximum.accumulate(precision[::-1])[::-1]
+    recall = np.concatenate([[0.0], right / positives])
+    return float((np.diff(recall) * envelope).sum())
+
+
+def measure(detector: HeatmapDetector, frames: Sequence[RecordedFrame]) -> DetectorFigures:
+    """Run a detector over frames and compare.
+
+    Raises:
+        DatasetError: An image cannot be read.
+    """
+    guesses: list[tuple[float, bool]] = []
+    overlaps, orifices, collars, tips, empties = [], [], [], [], []
+    found = false_alarms = 0
+    for frame in frames:
+        image = cv2.imread(str(frame.path), cv2.IMREAD_COLOR)
+        if image is None:
+            raise DatasetError(f"{frame.path.name} is not an image that can be read.")
+        guess = detector.best_guess(image)
+        confidence = guess.confidence if guess else 0.0
+        sure = confidence >= detector.threshold
+        if frame.box is None or frame.label is None:
+            empties.append(confidence)
+            false_alarms += sure
+            if guess:
+                guesses.append((confidence, False))
+            continue
+        tips.append(confidence)
+        shared = overlap((guess.x, guess.y, guess.w, guess.h), frame.box) if guess else 0.0
+        if guess:
+            guesses.append((confidence, shared > 0.5))
+        overlaps.append(shared if sure else 0.0)
+        found += sure and shared > 0.5
+        if guess and sure:
+            orifices.append(float(np.hypot(*np.subtract(guess.orifice, frame.label.orifice))))
+            collars.append(float(np.hypot(*np.subtract(guess.collar, frame.label.collar))))
+    return DetectorFigures(
+        len(tips),
+        len(empties),
+        round(found / max(1, len(tips)), 4),
+        false_alarms,
+        round(
+            average_precision([c for c, _ in guesses], [hit for _, hit in guesses], len(tips)), 4
+        ),
+        round(float(np.mean(overlaps)) if overlaps else 0.0, 3),
+        _spread(orifices),
+        _spread(collars),
+        round(float(np.percentile(tips, 1)) if tips else 0.0, 3),
+        round(max(empties, default=0.0), 3),
+    )
+
+
+def _spread(errors: Sequence[float]) -> tuple[float, float]:
+    if not errors:
+        return (0.0, 0.0)
+    return (round(float(np.median(errors)), 2), round(float(np.percentile(errors, 95)), 2))
