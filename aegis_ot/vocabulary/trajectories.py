@@ -78,6 +78,8 @@ class Keyframe:
         position: Tip end on the deck (x, y, z), mm; ``None`` if unknown.
         robot_time: Seconds since the epoch on the robot's clock.
         line: Source line of the protocol that caused it.
+        late: Sent after the robot had moved on (the link was down): the frame does not show the
+            moment, and must not be judged as if it did.
     """
 
     run: str
@@ -97,6 +99,7 @@ class Keyframe:
     position: tuple[float, float, float] | None = None
     robot_time: float = 0.0
     line: int | None = None
+    late: bool = False
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,221 @@
+"""Brings keyframes to the sidecar, each counted once, whatever happens to the link."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+from ..errors import LinkError, SidecarRefused
+from ..vocabulary import Keyframe, Verdict
+from .link import RunUnknown, SequenceGap, SidecarLink
+from .slices import SLICE_S
+
+_FIRST_RETRY_S = 0.1
+_SLOWEST_RETRY_S = 1.0
+_GLANCE_S = 0.25
+"""How long one cheap look for a lost sidecar may take, s."""
+_FIRST_REST_S = 1.0
+_LONGEST_REST_S = 30.0
+_POLL_S = 0.15
+_MOST_MENDS = 3
+_REQUEST_S = 2.0
+"""Longest wait for an answer that needs no camera, s."""
+
+
+class Courier:
+    """Sends in order, resends what was not acknowledged, fills gaps, registers anew.
+
+    Args:
+        link: To the sidecar.
+        run: Identifier of the run.
+        about: Body of the registration.
+        rest: Sleeps in short slices and raises when the run is being stopped.
+
+    Attributes:
+        away: Whether the sidecar is given up for now; then only cheap looks are taken.
+        stale: Trajectories of which a keyframe was, or will be, sent too late.
+        acknowledged: Keyframes that the sidecar has.
+    """
+
+    def __init__(
+        self,
+        link: SidecarLink,
+        run: str,
+        about: Mapping[str, Any],
+        rest: Callable[[float], None],
+    ) -> None:
+        self._link = link
+        self._run = run
+        self._about = about
+        self._rest = rest
+        self._sent: list[Keyframe] = []
+        self._pending: deque[Keyframe] = deque()
+        self._messages: deque[Callable[[], None]] = deque()
+        self._next_look = 0.0
+        self._pause_s = _FIRST_REST_S
+        self._registered = False
+        self.away = False
+        self.stale: set[int] = set()
+
+    @property
+    def acknowledged(self) -> int:
+        """How many keyframes the sidecar has acknowledged."""
+        return len(self._sent)
+
+    def offer(self, keyframe: Keyframe) -> None:
+        """Queue a keyframe; :meth:`deliver` sends it."""
+        self._pending.append(keyframe)
+
+    def deliver(self, timeout_s: float) -> None:
+        """Send all that is queued while the robot stands still.
+
+        Raises:
+            LinkError: The last trouble, after retries for ``timeout_s``; the rest stays queued.
+        """
+        self._insist(self._send_all, timeout_s)
+
+    def move_on(self) -> None:
+        """The robot moves on without acknowledgement: what is queued is late now."""
+        self._pending = deque(self._late(keyframe) for keyframe in self._pending)
+
+    def give_up(self) -> None:
+        """Treat the sidecar as lost until a cheap look finds it again."""
+        self.away = True
+        self._pause_s = _FIRST_REST_S
+        self._next_look = time.monotonic() + self._pause_s
+        self.move_on()
+
+    def look(self, timeout_s: float) -> bool:
+        """If it is time, see whether a lost sidecar is back, and send what it missed.
+
+        Takes 0.25 s at most while it is away, and nothing between looks.
+
+        Returns:
+            Whether the sidecar is there again.
+        """
+        if not self.away or time.monotonic() < self._next_look:
+            return not self.away
+        try:
+            self._link.health(_GLANCE_S)
+            self.deliver(timeout_s)
+            self._flush_messages(time.monotonic() + _REQUEST_S)
+        except LinkError:
+            self._pause_s = min(_LONGEST_REST_S, self._pause_s * 2)
+            self._next_look = time.monotonic() + self._pause_s
+            return False
+        self.away = False
+        return True
+
+    def register(self, timeout_s: float) -> None:
+        """Say which run this is."""
+        self._insist(self._register, timeout_s)
+
+    def verdict(self, number: int) -> Verdict | None:
+        """Ask once, for 0.15 s at most, for a verdict."""
+        try:
+            return self._link.verdict(self._run, number, _POLL_S, _REQUEST_S)
+        except RunUnknown:
+            self._register(time.monotonic() + _REQUEST_S)
+            return None
+
+    def abandon(self, number: int, reason: str) -> None:
+        """Tell, now or when the sidecar is back, that a trajectory is given up."""
+        self._tell(lambda: self._link.abandon(self._run, number, reason, _REQUEST_S))
+
+    def report_hold(self, number: int, seconds: float, ended_by: str, policy: str | None) -> None:
+        """Tell likewise how a hold went."""
+        body = {
+            "trajectory": number,
+            "seconds": round(seconds, 4),
+            "resolution": ended_by,
+            "policy": policy,
+        }
+        self._tell(lambda: self._link.report_hold(self._run, body, _REQUEST_S))
+
+    def finish(self, outcome: str, detail: str, timeout_s: float) -> None:
+        """Tell how the run ended; the last thing that is said."""
+        deadline = time.monotonic() + timeout_s
+        self._flush_messages(deadline)
+        left = max(0.1, deadline - time.monotonic())
+        self._link.finish(self._run, outcome, detail[:2000], left)
+
+    def close(self) -> None:
+        """Drop the connection."""
+        self._link.close()
+
+    def _tell(self, message: Callable[[], None]) -> None:
+        """Messages are for people's eyes: they never hold the robot up."""
+        self._messages.append(message)
+        if not self.away:
+            try:
+                self._flush_messages(time.monotonic() + _REQUEST_S)
+            except LinkError:
+                return
+
+    def _flush_messages(self, deadline: float) -> None:
+        while self._messages and time.monotonic() < deadline:
+            try:
+                self._messages[0]()
+            except RunUnknown:
+                self._register(deadline)
+                self._messages[0]()
+            self._messages.popleft()
+
+    def _insist(self, attempt: Callable[[float], None], timeout_s: float) -> None:
+        deadline = time.monotonic() + timeout_s
+        wait = _FIRST_RETRY_S
+        while True:
+            try:
+                attempt(deadline)
+                return
+            except SidecarRefused:
+                raise  # asking again changes nothing
+            except LinkError:
+                if time.monotonic() + wait >= deadline:
+                    raise
+                self._rest(wait)
+                wait = min(_SLOWEST_RETRY_S, wait * 2)
+
+    def _send_all(self, deadline: float) -> None:
+        if not self._registered:
+            self._register(deadline)
+        mended = 0
+        while self._pending:
+            keyframe = self._pending[0]
+            try:
+                self._link.keyframe(keyframe, max(SLICE_S, deadline - time.monotonic()))
+            except (RunUnknown, SequenceGap) as trouble:
+                mended += 1
+                if mended > _MOST_MENDS:
+                    raise
+                if isinstance(trouble, SequenceGap):
+                    self._close_gap(trouble, keyframe)
+                else:
+                    self._register(deadline)
+                continue
+            self._sent.append(self._pending.popleft())
+
+    def _close_gap(self, gap: SequenceGap, keyframe: Keyframe) -> None:
+        if gap.expected > keyframe.sequence:
+            raise SidecarRefused(
+                f"{gap} It has other keyframes under these numbers: run {self._run!r} was used "
+                "before. Give the run a new run_id."
+            )
+        self._queue_again(gap.expected)
+
+    def _queue_again(self, sequence: int) -> None:
+        """The sidecar lost what it had acknowledged. The moments are over: they go late."""
+        again = self._sent[sequence:]
+        del self._sent[sequence:]
+        self._pending.extendleft(self._late(keyframe) for keyframe in reversed(again))
+
+    def _register(self, deadline: float) -> None:
+        self._link.start(self._run, self._about, max(SLICE_S, deadline - time.monotonic()))
+        self._registered = True
+
+    def _late(self, keyframe: Keyframe) -> Keyframe:
+        self.stale.add(keyframe.trajectory)
+        return replace(keyframe, late=True)

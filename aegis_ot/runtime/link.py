@@ -1,0 +1,258 @@
+"""The robot's side of ``docs/reference/wire.md``, with the standard library alone.
+
+One connection is kept open. Every request may be sent again without harm: the sidecar
+recognises a keyframe by run and sequence number and counts it once.
+"""
+
+from __future__ import annotations
+
+import http.client
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+from urllib.parse import quote, urlsplit
+
+from ..errors import LinkError, SidecarGarbled, SidecarRefused, SidecarUnreachable
+from ..vocabulary import Keyframe, Verdict, from_json, to_json
+from .slices import CheckStop, SlicedSocket, Waiter, connect
+
+WIRE_VERSION = 1
+_LONGEST_ANSWER = 4_000_000
+
+
+class RunUnknown(LinkError):
+    """404: the sidecar does not know the run (it was restarted without its store)."""
+
+
+class SequenceGap(LinkError):
+    """409: keyframes are missing on the sidecar's side.
+
+    Attributes:
+        expected: The sequence number to go on from.
+    """
+
+    def __init__(self, message: str, expected: int) -> None:
+        super().__init__(message)
+        self.expected = expected
+
+
+class CameraSilent(LinkError):
+    """503: the sidecar is there, its camera gave no frame; the keyframe may be sent again."""
+
+
+@dataclass(frozen=True)
+class Captured:
+    """Acknowledgement of one keyframe.
+
+    Attributes:
+        sequence: Which one.
+        exposed_after_s: Time from the request to the exposure, s; ``None`` if not said.
+    """
+
+    sequence: int
+    exposed_after_s: float | None
+
+
+class SidecarLink:
+    """Speaks to one sidecar about one run.
+
+    Args:
+        url: ``http://host:port`` or ``https://host:port``.
+        token: Bearer token, or ``None``.
+        check_stop: Called at least every 0.15 s during every wait; whatever it raises ends the
+            request and reaches the caller.
+
+    Every method raises :class:`SidecarUnreachable`, :class:`SidecarRefused` or
+    :class:`SidecarGarbled`, with the address, what happened and what to do.
+    """
+
+    def __init__(self, url: str, token: str | None, check_stop: CheckStop) -> None:
+        parts = urlsplit(url)
+        self.url = url
+        self._host = parts.hostname or ""
+        self._tls = parts.scheme == "https"
+        self._port = parts.port or (443 if self._tls else 80)
+        self._path = parts.path.rstrip("/")
+        self._headers = {"Accept": "application/json", "Connection": "keep-alive"}
+        if token:
+            self._headers["Authorization"] = f"Bearer {token}"
+        self._waiter = Waiter(check_stop)
+        self._sock: SlicedSocket | None = None
+
+    def health(self, timeout_s: float) -> dict[str, Any]:
+        """What the sidecar says of itself."""
+        return self._request("GET", "/v1/health", None, timeout_s)
+
+    def start(self, run: str, about: Mapping[str, Any], timeout_s: float) -> None:
+        """Register the run; the same run twice is the same run."""
+        answer = self._request("PUT", f"/v1/runs/{quote(run, safe='')}", dict(about), timeout_s)
+        wire = answer.get("wire")
+        if wire != WIRE_VERSION:
+            raise self._garbled(
+                f"it speaks wire version {wire!r}, this robot {WIRE_VERSION}",
+                "install the same version of aegis-ot on both machines",
+            )
+
+    def keyframe(self, keyframe: Keyframe, timeout_s: float) -> Captured:
+        """Have one keyframe captured.
+
+        Raises:
+            CameraSilent: The camera gave no frame in time.
+            SequenceGap: Earlier keyframes have to be sent first.
+            RunUnknown: The run has to be registered again.
+        """
+        path = f"/v1/runs/{quote(keyframe.run, safe='')}/keyframes"
+        answer = self._request("POST", path, to_json(keyframe), timeout_s)
+        if answer.get("captured") is not True or answer.get("sequence") != keyframe.sequence:
+            raise self._garbled(f"it did not acknowledge keyframe {keyframe.sequence}")
+        delay: Any = answer.get("exposed_after_s")
+        known = isinstance(delay, (int, float)) and not isinstance(delay, bool)
+        return Captured(keyframe.sequence, float(delay) if known else None)
+
+    def verdict(self, run: str, number: int, wait_s: float, timeout_s: float) -> Verdict | None:
+        """The verdict on one trajectory, ``None`` if it is not in after ``wait_s``."""
+        path = f"{_trajectory(run, number)}/verdict?wait={wait_s:g}"
+        answer = self._request("GET", path, None, timeout_s)
+        if "verdict" not in answer:
+            raise self._garbled(f"its answer for trajectory {number} holds no verdict field")
+        if answer["verdict"] is None:
+            return None
+        try:
+            verdict = from_json(Verdict, answer["verdict"])
+        except ValueError as error:
+            raise self._garbled(f"its verdict on trajectory {number} is wrong ({error})") from None
+        if (verdict.run, verdict.trajectory) != (run, number):
+            raise self._garbled(f"it sent another trajectory's verdict for trajectory {number}")
+        return verdict
+
+    def abandon(self, run: str, number: int, reason: str, timeout_s: float) -> None:
+        """Say that a trajectory will have no further keyframes."""
+        self._request("POST", f"{_trajectory(run, number)}/abandon", {"reason": reason}, timeout_s)
+
+    def report_hold(self, run: str, hold: Mapping[str, Any], timeout_s: float) -> None:
+        """Say how long the robot held, and what ended it."""
+        self._request("POST", f"/v1/runs/{quote(run, safe='')}/hold", dict(hold), timeout_s)
+
+    def finish(self, run: str, outcome: str, detail: str, timeout_s: float) -> None:
+        """Say how the run ended."""
+        body = {"outcome": outcome, "detail": detail}
+        self._request("POST", f"/v1/runs/{quote(run, safe='')}/finish", body, timeout_s)
+
+    def close(self) -> None:
+        """Drop the connection; the next request opens another."""
+        if self._sock is not None:
+            self._sock.close()
+            self._sock = None
+
+    def _request(
+        self, method: str, path: str, body: dict[str, Any] | None, timeout_s: float
+    ) -> dict[str, Any]:
+        self._waiter.begin(timeout_s)
+        fresh = self._sock is None
+        try:
+            try:
+                status, data = self._exchange(method, path, body)
+            except (OSError, http.client.HTTPException):
+                # A kept connection may have been closed meanwhile: once more on a new one.
+                if fresh or self._waiter.left <= 0:
+                    raise
+                self.close()
+                status, data = self._exchange(method, path, body)
+        except TimeoutError as error:
+            self.close()
+            raise self._unreachable(f"gave no answer within {timeout_s:g} s") from error
+        except (http.client.RemoteDisconnected, http.client.IncompleteRead) as error:
+            self.close()
+            raise self._unreachable("closed the connection without an answer") from error
+        except http.client.HTTPException as error:
+            self.close()
+            raise self._garbled(f"its answer is no HTTP ({type(error).__name__})") from error
+        except OSError as error:
+            self.close()
+            raise self._unreachable(f"cannot be reached ({error.strerror or error})") from error
+        except BaseException:
+            self.close()
+            raise
+        return self._understand(status, data)
+
+    def _exchange(self, method: str, path: str, body: dict[str, Any] | None) -> tuple[int, bytes]:
+        if self._sock is None:
+            self._sock = connect(self._host, self._port, self._tls, self._waiter)
+        connection = http.client.HTTPConnection(self._host, self._port)
+        connection.auto_open = 0
+        connection.sock = self._sock
+        headers = dict(self._headers)
+        payload = None
+        if body is not None:
+            payload = json.dumps(body).encode()
+            headers["Content-Type"] = "application/json"
+        connection.request(method, self._path + path, body=payload, headers=headers)
+        response = connection.getresponse()
+        data = response.read(_LONGEST_ANSWER + 1)
+        if len(data) > _LONGEST_ANSWER:
+            raise http.client.HTTPException("endless answer")
+        if response.will_close:
+            self.close()
+        return response.status, data
+
+    def _understand(self, status: int, data: bytes) -> dict[str, Any]:
+        try:
+            answer = json.loads(data)
+        except ValueError:
+            answer = None
+        said = _error_text(answer)
+        if status == 401 or status == 403:
+            raise SidecarRefused(
+                f"The sidecar at {self.url} refused the token{said}. Set the guard's token "
+                "(AEGIS_OT_TOKEN) to the one that the sidecar was started with."
+            )
+        if status == 404:
+            raise RunUnknown(f"The sidecar at {self.url} does not know this run{said}.")
+        if status == 409:
+            raise self._gap(answer, said)
+        if status == 503:
+            raise CameraSilent(
+                f"The sidecar at {self.url} got no frame from its camera{said}. Look at the "
+                "camera's cable and at the sidecar's page."
+            )
+        if status in (400, 405, 413, 415, 422):
+            raise SidecarRefused(
+                f"The sidecar at {self.url} refused the request with status {status}{said}. "
+                "Install the same version of aegis-ot on both machines."
+            )
+        if status != 200 and status != 201:
+            raise self._garbled(f"it answered with status {status}{said}")
+        if not isinstance(answer, dict):
+            raise self._garbled("its answer is no JSON object")
+        return answer
+
+    def _gap(self, answer: Any, said: str) -> LinkError:
+        expected = answer.get("expected") if isinstance(answer, dict) else None
+        if expected is None and isinstance(answer, dict) and isinstance(answer.get("error"), dict):
+            expected = answer["error"].get("expected")
+        if not isinstance(expected, int) or isinstance(expected, bool) or expected < 0:
+            return self._garbled(f"it reports a gap without saying where{said}")
+        return SequenceGap(f"The sidecar at {self.url} misses keyframe {expected}.", expected)
+
+    def _unreachable(self, what: str) -> SidecarUnreachable:
+        return SidecarUnreachable(
+            f"The sidecar at {self.url} {what}. Check that it runs, that the address is right, "
+            "and that robot and workstation are in the same network."
+        )
+
+    def _garbled(
+        self, what: str, remedy: str = "check that the address is that of an aegis-ot sidecar"
+    ) -> SidecarGarbled:
+        return SidecarGarbled(f"The sidecar at {self.url} makes no sense: {what}; {remedy}.")
+
+
+def _trajectory(run: str, number: int) -> str:
+    return f"/v1/runs/{quote(run, safe='')}/trajectories/{number}"
+
+
+def _error_text(answer: Any) -> str:
+    error = answer.get("error") if isinstance(answer, dict) else None
+    if isinstance(error, dict):
+        error = error.get("message")
+    return f" ({str(error)[:200].rstrip('.')})" if error else ""

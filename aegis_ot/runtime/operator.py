@@ -1,0 +1,120 @@
+"""Asks a person: by the run's own pause where somebody can resume it, else at the console."""
+
+from __future__ import annotations
+
+import select
+import sys
+import time
+from collections.abc import Callable
+from enum import Enum
+from typing import Any
+
+from ..errors import RunAborted
+from .runstate import can_be_resumed
+
+_REMIND_S = 60.0
+_POLL_S = 0.15
+
+
+class Answer(Enum):
+    """What the operator, or the mended cause, says."""
+
+    RESUME = "resume"
+    ABORT = "abort"
+
+
+Poll = Callable[[], "Answer | None"]
+
+
+class Operator:
+    """The person who watches one run.
+
+    Args:
+        protocol: The context; its ``pause`` and ``comment`` are used.
+        simulating: In simulation a pause is only reported.
+        rest: Sleeps in short slices and raises when the run is being stopped.
+    """
+
+    def __init__(self, protocol: Any, simulating: bool, rest: Callable[[float], None]) -> None:
+        self._protocol = protocol
+        self._simulating = simulating
+        self._rest = rest
+        self.busy = False
+        """Whether the guard itself is pausing or commenting just now."""
+
+    def comment(self, text: str) -> None:
+        """Write into the run log."""
+        self.busy = True
+        try:
+            self._protocol.comment(f"aegis_ot: {text}")
+        finally:
+            self.busy = False
+
+    def pause(self, text: str, poll: Poll) -> None:
+        """Wait until the operator resumes the run, or cancels it.
+
+        Args:
+            text: What happened and what to do.
+            poll: Asked now and then where the run cannot be resumed from outside
+                (``opentrons_execute``, notebooks): an answer given on the sidecar's page.
+
+        Raises:
+            RunAborted: The operator chose so at the console or on the sidecar's page.
+            Exception: Whatever Opentrons raises when the run is cancelled during its pause.
+        """
+        if self._simulating:
+            self.comment(f"{text} (Simulation: on a robot the run would pause here.)")
+            return
+        if not can_be_resumed():
+            self._ask_at_console(text, poll)
+            return
+        self.busy = True
+        try:
+            self._protocol.pause(f"aegis_ot: {text}")
+        finally:
+            self.busy = False
+
+    def _ask_at_console(self, text: str, poll: Poll) -> None:
+        # pause() would hang for ever here: nothing can send the "play" that it waits for.
+        has_console = _is_terminal()
+        how = (
+            "Type 'c' and Enter to continue, 'a' and Enter to abort"
+            if has_console
+            else "Decide on the sidecar's page, or interrupt the program"
+        )
+        _say(f"{text}\n{how}.")
+        reminded = time.monotonic()
+        while True:
+            self._rest(_POLL_S)
+            answer = poll() or (_typed() if has_console else None)
+            if answer is Answer.RESUME:
+                return
+            if answer is Answer.ABORT:
+                raise RunAborted(f"The operator ended the run. {text}")
+            if time.monotonic() - reminded > _REMIND_S:
+                reminded = time.monotonic()
+                _say(f"Still waiting. {how}.")
+
+
+def _say(text: str) -> None:
+    print(f"aegis_ot: {text}", file=sys.stderr, flush=True)  # noqa: T201
+
+
+def _is_terminal() -> bool:
+    try:
+        return sys.stdin is not None and sys.stdin.isatty()
+    except (OSError, ValueError):
+        return False
+
+
+def _typed() -> Answer | None:
+    try:
+        ready, _, _ = select.select([sys.stdin], [], [], 0)
+        word = sys.stdin.readline().strip().lower() if ready else ""
+    except (OSError, ValueError):
+        return None
+    if word in ("c", "continue", "resume"):
+        return Answer.RESUME
+    if word in ("a", "abort", "stop"):
+        return Answer.ABORT
+    return None

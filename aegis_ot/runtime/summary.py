@@ -1,0 +1,71 @@
+"""What Layer 2 has to say at the end of a run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ..vocabulary import Outcome, Verdict
+
+
+@dataclass
+class WatchSummary:
+    """Counts of one run.
+
+    Attributes:
+        watching: Whether Layer 2 acted at all (it does not in an analysis).
+        verdicts: Verdict by trajectory, as far as one is in and counts.
+        places: Destination of each trajectory in plain words.
+        lost: Trajectories without a verdict that counts, and why.
+        abandoned: Trajectories that were never delivered.
+        keyframes: Keyframes acknowledged.
+        hold_s: Time spent at boundaries, s.
+        longest_hold_s: The longest of them, s.
+        outages: How often the sidecar was lost.
+    """
+
+    watching: bool = False
+    verdicts: dict[int, Verdict] = field(default_factory=dict)
+    places: dict[int, str] = field(default_factory=dict)
+    lost: dict[int, str] = field(default_factory=dict)
+    abandoned: set[int] = field(default_factory=set)
+    keyframes: int = 0
+    hold_s: float = 0.0
+    longest_hold_s: float = 0.0
+    outages: int = 0
+
+    def of(self, outcome: Outcome) -> tuple[int, ...]:
+        """Trajectories with this outcome, rising."""
+        return tuple(sorted(n for n, v in self.verdicts.items() if v.outcome is outcome))
+
+    @property
+    def watched(self) -> int:
+        """Trajectories that ended with a verdict or without one, the abandoned left out."""
+        return len(self.verdicts.keys() | self.lost.keys())
+
+    def held(self, seconds: float) -> None:
+        """Count one hold."""
+        self.hold_s += seconds
+        self.longest_hold_s = max(self.longest_hold_s, seconds)
+
+    def text(self) -> str:
+        """One line for a comment in the run log."""
+        if not self.watching:
+            return "Layer 2 does not watch this simulation."
+        failed = self.of(Outcome.FAIL)
+        undecided = self.of(Outcome.UNDECIDED)
+        parts = [f"{len(self.of(Outcome.PASS))} passed"]
+        if failed:
+            parts.append(f"{len(failed)} failed ({self._wells(failed)})")
+        if undecided:
+            parts.append(f"{len(undecided)} undecided ({self._wells(undecided)})")
+        if self.lost:
+            parts.append(f"{len(self.lost)} not judged ({self._wells(tuple(sorted(self.lost)))})")
+        return (
+            f"Layer 2 watched {self.watched} deliveries: {', '.join(parts)}; "
+            f"held {self.hold_s:.1f} s in all, {self.longest_hold_s:.2f} s at most."
+        )
+
+    def _wells(self, numbers: tuple[int, ...], most: int = 6) -> str:
+        named = [self.places.get(n) or f"trajectory {n}" for n in numbers[:most]]
+        rest = len(numbers) - most
+        return ", ".join(named) + (f" and {rest} more" if rest > 0 else "")
