@@ -52,6 +52,7 @@ class SessionParameters:
         row_offset: Spread of the volume offset between rows of wells, fraction of capacity.
         meniscus_edge: 10-90 % width of the meniscus before blur, in inner radii: its curvature
             and the ellipse that a camera looking down sees.
+        dye_strength: Concentration of the dyes, as a multiple of what :data:`DYES` says.
         wall, backdrop_top, deck: Colours of the panel behind the deck, its upper end, the deck.
         clutter: Strength of a blurred laboratory behind, 0 (a plain panel) to 1.
         brightness_fall: Fraction of brightness lost from the bottom to the top of the frame.
@@ -90,6 +91,7 @@ class SessionParameters:
     meniscus_jitter_px: float = 0.3
     row_offset: float = 0.015
     meniscus_edge: float = 1.0
+    dye_strength: float = 1.0
     wall: Colour = (34.0, 33.0, 32.0)
     backdrop_top: Colour = (34.0, 33.0, 32.0)
     deck: Colour = (78.0, 76.0, 74.0)
@@ -206,6 +208,7 @@ class SessionParameters:
             meniscus_jitter_px=u(0.19, 0.45),
             row_offset=u(0.0, 0.02),
             meniscus_edge=u(0.4, 1.5),
+            dye_strength=float(np.exp(u(np.log(0.7), np.log(3.0)))),
             wall=wall,
             backdrop_top=_tint(rng, level * u(0.7, 1.25), 0.08),
             deck=_tint(rng, u(35.0, 150.0), 0.06),

@@ -80,7 +80,7 @@ def shade_tip(
     back = through * (1 - 0.75 * opacity[..., None]) + haze * (0.75 * opacity[..., None])
     back = back + _piping(view, wet, parameters)[..., None] * np.asarray(view.under, np.float32)
     path = wet * chord + _film_path(view, tip, content, inner, wet)
-    back = back * _transmission(dye, path)
+    back = back * _transmission(dye, path, parameters)
     front = back * (1 - 0.15 * opacity[..., None]) + haze * (0.15 * opacity[..., None])
 
     lines = _edges(u, inner, outer, wet, view, parameters)
@@ -172,10 +172,10 @@ def _film_path(
     return np.asarray(path * (1 - wet) * (np.abs(view.across) < inner), np.float32)
 
 
-def _transmission(dye: Dye, path: Plane) -> Plane:
+def _transmission(dye: Dye, path: Plane, p: SessionParameters) -> Plane:
     if dye.is_clear:
         return np.ones((*path.shape, 3), np.float32)
-    logs = np.log(np.clip(dye.transmission, 1e-3, 1.0)).astype(np.float32)
+    logs = p.dye_strength * np.log(np.clip(dye.transmission, 1e-3, 1.0)).astype(np.float32)
     return np.asarray(np.exp(path[..., None] * (logs / np.float32(REFERENCE_PATH_MM))), np.float32)
 
 
@@ -183,18 +183,28 @@ def _edges(
     u: Plane, inner: Plane, outer: Plane, wet: Plane, view: TipView, p: SessionParameters
 ) -> Plane:
     """Bright rims: the outer silhouette, and the bore, which liquid nearly hides."""
-    soft = max(view.mm_per_px * 0.6, 0.08)
+    # The lines are thin: on a tip of a few pixels they fade instead of covering it.
+    width = 0.07 * outer
+    soft = np.maximum(view.mm_per_px * 0.6, width)
+    fade = width / soft
     rim = np.exp(-(((outer - u) / soft) ** 2) / 2)
     bore = np.exp(-(((inner - u) / soft) ** 2) / 2)
-    return np.asarray(p.rim * (0.35 * rim + 0.30 * bore * (1 - 0.75 * wet)), np.float32)
+    return np.asarray(
+        p.rim * fade * (0.45 * rim + 0.38 * bore * (1 - 0.75 * wet)),
+        np.float32,
+    )
 
 
 def _glints(view: TipView, inner: Plane, outer: Plane, wet: Plane, p: SessionParameters) -> Plane:
     """The lamp's image along the outside, and the one that a liquid column adds inside."""
-    soft = np.maximum(0.10 * outer, view.mm_per_px * 0.5)
+    width = 0.08 * outer
+    soft = np.maximum(width, view.mm_per_px * 0.5)
     outside = np.exp(-(((view.across - p.glint_side * outer) / soft) ** 2) / 2)
     caustic = np.exp(-(((view.across + 0.45 * p.glint_side * inner) / soft) ** 2) / 2)
-    return np.asarray(p.glint * (0.45 * outside + 0.22 * caustic * wet), np.float32)
+    return np.asarray(
+        p.glint * width / soft * (0.55 * outside + 0.28 * caustic * wet),
+        np.float32,
+    )
 
 
 def _menisci(
@@ -235,7 +245,7 @@ def _drop(image: Plane, view: TipView, drop_ul: float, dye: Dye, p: SessionParam
     away = np.hypot(view.across, view.along + 0.8 * radius)
     cover = _cover(radius - away, view)
     path = np.asarray(2 * np.sqrt(np.maximum(radius**2 - away**2, 0)), np.float32)
-    body = (0.85 * image + 0.12 * np.asarray(p.shaft, np.float32)) * _transmission(dye, path)
+    body = (0.85 * image + 0.12 * np.asarray(p.shaft, np.float32)) * _transmission(dye, path, p)
     spot = np.hypot(view.across - p.glint_side * 0.5 * radius, view.along + 0.4 * radius)
     body = body + 90 * p.glint * np.exp(-((spot / (0.3 * radius)) ** 2))[..., None]
     rim = np.exp(-(((away - radius) / max(0.15 * radius, 0.5 * view.mm_per_px)) ** 2))

@@ -17,7 +17,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,8 +112,9 @@ class TipGeometry:
         return (self._radii[i + 1] - self._radii[i]) / (self._heights[i + 1] - self._heights[i])
 
 
-def _like(given: Any, result: Any) -> Any:
-    return float(result) if np.ndim(given) == 0 else result
+def _like(given: _T, result: Any) -> _T:
+    """Give back a float for a scalar and an array for an array."""
+    return cast(_T, float(result) if np.ndim(given) == 0 else result)
 
 
 def _catalogue(*tips: TipGeometry) -> Mapping[str, TipGeometry]:
