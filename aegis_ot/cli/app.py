@@ -1,0 +1,51 @@
+"""Puts the commands together and turns errors into messages and exit codes."""
+
+from __future__ import annotations
+
+import sys
+
+import typer
+
+from .. import __version__
+from ..errors import AegisError
+
+CLEAN, FINDINGS, BROKEN = 0, 1, 2
+
+app = typer.Typer(
+    name="aegis-ot",
+    help="Guards Opentrons robots: checks protocols before they run, watches tips while they do.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"aegis-ot {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _root(
+    _version_asked: bool = typer.Option(
+        False, "--version", callback=_version, is_eager=True, help="Print the version."
+    ),
+) -> None:
+    """Options before the command."""
+
+
+def run() -> None:
+    """Run the app; an error raised on purpose becomes one message and exit code 2."""
+    try:
+        app()
+    except AegisError as error:
+        typer.echo(f"aegis-ot: {error}", err=True)
+        sys.exit(BROKEN)
+    except KeyboardInterrupt:
+        typer.echo("aegis-ot: interrupted", err=True)
+        sys.exit(130)
+
+
+# Each module adds its commands to the app.
+from . import demo, dryruns, sidecars  # noqa: E402, F401

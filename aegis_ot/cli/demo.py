@@ -1,0 +1,65 @@
+"""``aegis-ot demo``: what the guard does, on three small stories, in about a minute."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import aegis_ot
+
+from ..dryrun import DryRun, DryRunSettings, read_script
+from ..vocabulary import Outcome
+from .app import BROKEN, app
+from .dryruns import console, run_and_show, write_report
+
+_REJECTED = "pcr_setup_contaminated.py"
+_LONG = "normalisation_plate.py"
+_FAULT = "partial:50@3:D4"
+"""Half of the dye stays in the tip at D4 of the plate in slot 3; 16 more wells would follow."""
+
+
+@app.command()
+def demo(
+    out: Annotated[Path, typer.Option(help="Folder for the report.")] = Path("out"),
+) -> None:
+    """Show a protocol rejected, a run watched, and a run paused at the failed well."""
+    console.rule("1. Layer 1 rejects a contaminated PCR set-up")
+    rejected = _run(_REJECTED)
+    console.rule("2. Layer 2 watches a whole normal run (simulated frames)")
+    watched = _run(_LONG)
+    console.rule(f"3. The same run with a planted fault: {_FAULT} (simulated frames)")
+    paused = _run(_LONG, faults=(_FAULT,), on_fail="stop")
+    console.rule("What was caught")
+    report = out / "demo-report.html"
+    write_report(report, [rejected, watched, paused])
+    told = [
+        (rejected.outcome == "rejected", f"{_REJECTED}: rejected before anything moved"),
+        (
+            watched.outcome == "succeeded" and not watched.flagged,
+            f"{_LONG}: {len(watched.wells)} wells, {_passed(watched)} passed, no false alarm",
+        ),
+        (
+            paused.outcome == "stopped"
+            and [row.well.split()[0] for row in paused.flagged] == ["D4"]
+            and not paused.touched_after_failure,
+            f"{_LONG} with {_FAULT}: paused at D4, no further well touched",
+        ),
+    ]
+    for as_told, line in told:
+        console.print(("  caught  " if as_told else "  MISSED  ") + line, markup=False)
+    if not all(as_told for as_told, _ in told):
+        raise typer.Exit(BROKEN)
+
+
+def _passed(result: DryRun) -> int:
+    return sum(row.outcome is Outcome.PASS for row in result.wells)
+
+
+def _run(name: str, **settings: object) -> DryRun:
+    package = Path(aegis_ot.__file__).parent
+    # In the wheel, and in a checkout.
+    places = (package / "demo_protocols" / name, package.parent / "examples" / "demo" / name)
+    script = read_script(next((place for place in places if place.exists()), places[0]))
+    return run_and_show(script, DryRunSettings(**settings))  # type: ignore[arg-type]

@@ -1,0 +1,42 @@
+"""``aegis-ot sidecar``: the workstation's half of Layer 2 as a process."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..sidecar import SidecarConfig, make_analyser, serve
+from .app import app
+
+
+@app.command()
+def sidecar(
+    camera: Annotated[
+        str | None,
+        typer.Option(help="usb:0, http://..., folder:PATH, pattern or simulated."),
+    ] = None,
+    host: Annotated[str | None, typer.Option(help="Address to listen on.")] = None,
+    port: Annotated[int | None, typer.Option(help="Port; 0 takes a free one.")] = None,
+    token: Annotated[
+        str | None,
+        typer.Option(help="Bearer token; better given as AEGIS_OT_SIDECAR_TOKEN."),
+    ] = None,
+    data: Annotated[Path | None, typer.Option(help="Folder for runs and frames.")] = None,
+    config: Annotated[Path | None, typer.Option(help="Settings file, JSON or TOML.")] = None,
+) -> None:
+    """Watch the robot's tips: capture, score, judge, and show a page."""
+    settings = SidecarConfig.load(
+        config,
+        host=host,
+        port=port,
+        token=token,
+        data=data,
+        camera=None if camera is None else {"spec": camera},
+    )
+
+    def ready(url: str) -> None:
+        typer.echo(f"aegis-ot sidecar: {url} (camera {settings.camera.spec}, data {settings.data})")
+
+    serve(settings, analyser=make_analyser(settings.cascade), ready=ready)

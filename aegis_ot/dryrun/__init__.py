@@ -1,0 +1,10 @@
+"""A dry run: both layers at work on one machine, with no robot, no camera and no key.
+
+Door: :func:`dry_run`, which gives a :class:`DryRun`.
+"""
+
+from .runner import DryRunSettings, Progress, dry_run
+from .scripts import read_script
+from .summary import DryRun, WellRow
+
+__all__ = ["DryRun", "DryRunSettings", "Progress", "WellRow", "dry_run", "read_script"]

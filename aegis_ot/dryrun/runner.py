@@ -1,0 +1,229 @@
+"""Runs a protocol in the simulator with the guard, a real sidecar and a simulated camera."""
+
+from __future__ import annotations
+
+import json
+import secrets
+import tempfile
+import time
+import urllib.request
+import uuid
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import AegisError, RehearsalError, RunAborted
+from ..guard import guard
+from ..instrumentation import Event, Operation, OperationKind, tapped
+from ..preflight import Recorder, check_recording
+from ..preflight.rehearsal import play, rehearse
+from ..preflight.script import Script
+from ..runtime import Planner
+from ..settings import load_settings
+from ..sidecar import Analyser, Judged, RunAnalyser, SidecarConfig, running_sidecar
+from ..simulation import SimulatedCamera
+from ..vision.camera import Frame
+from ..vocabulary import Keyframe
+from .summary import DryRun, rows_of
+
+_LOOPBACK = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+
+
+@dataclass(frozen=True)
+class DryRunSettings:
+    """How to run.
+
+    Attributes:
+        faults: Planted faults, ``"partial:50@B3"``.
+        on_fail: ``"continue"``: a pause is reported and the run goes on; ``"stop"``.
+        seed: Of the simulated camera.
+        rules: ``"on"``, ``"warn"`` or ``"off"``.
+        hold: As for the guard.
+        timeout_s: Longest rehearsal, s.
+    """
+
+    faults: tuple[str, ...] = ()
+    on_fail: str = "continue"
+    seed: int = 0
+    rules: str = "on"
+    hold: str = "boundary"
+    timeout_s: float = 120.0
+
+
+class Progress:
+    """Told how far a dry run is. This one says nothing."""
+
+    def checked(self, report: Any) -> None:
+        """Layer 1 is done."""
+
+    def begin(self, wells: int) -> None:
+        """The run starts; so many wells will be watched."""
+
+    def judged(self, judged: Judged) -> None:
+        """A verdict is in (called from the sidecar's worker)."""
+
+
+def dry_run(
+    script: Script,
+    settings: DryRunSettings,
+    analyser: Analyser,
+    progress: Progress | None = None,
+) -> DryRun:
+    """Check, then run, one protocol. Every result of Layer 2 is on simulated frames.
+
+    Raises:
+        RehearsalError: The protocol cannot be loaded, or raises by itself.
+        ConfigurationError: A fault cannot be planted in this protocol.
+    """
+    progress = progress or Progress()
+    recorder, planner = Recorder(), Planner()
+    rehearsal = rehearse(script, [recorder, planner], timeout_s=settings.timeout_s)
+    planner.finish()
+    report = None
+    if settings.rules != "off":
+        guard_settings = load_settings(rules=settings.rules)
+        report = check_recording(
+            recorder, rehearsal.names, script.text, script.file_name, guard_settings
+        )
+        progress.checked(report)
+        if report.failed and settings.rules == "on":
+            return DryRun(script.file_name, report, (), "rejected", report.rejection())
+    camera = SimulatedCamera(seed=settings.seed, faults=settings.faults)
+    camera.expect(planner.keyframes)
+    progress.begin(planner.trajectories)
+    begun = time.monotonic()
+    outcome, detail, told, overview, frames = _run(script, settings, analyser, camera, progress)
+    wells = rows_of(overview, frames)
+    touched = _touched_after(told, wells) if outcome == "stopped" else ()
+    return DryRun(
+        script.file_name, report, wells, outcome, detail, touched, time.monotonic() - begun
+    )
+
+
+def _run(
+    script: Script,
+    settings: DryRunSettings,
+    analyser: Analyser,
+    camera: SimulatedCamera,
+    progress: Progress,
+) -> tuple[str, str, list[Operation], dict[str, Any], dict[int, bytes]]:
+    run, token = uuid.uuid4().hex, secrets.token_urlsafe(16)
+    robot = _Robot()
+    outcome, detail = "succeeded", ""
+    with tempfile.TemporaryDirectory(prefix="aegis-ot-") as data:
+        config = SidecarConfig(port=0, token=token, data=Path(data))
+        told = _Telling(analyser, progress.judged)
+        with running_sidecar(config, camera, told) as url:
+
+            def wrap(function: Callable[[Any], Any]) -> Callable[[Any], Any]:
+                guarded = guard(
+                    function,
+                    rules="off",
+                    sidecar=url,
+                    token=token,
+                    run_id=run,
+                    watch_simulation=True,
+                    hold=settings.hold,
+                    on_fail="abort" if settings.on_fail == "stop" else "continue",
+                    on_undecided="abort" if settings.on_fail == "stop" else "continue",
+                    on_link_loss="abort",
+                )
+                return robot.under(guarded, script.file_name)
+
+            try:
+                play(script, wrap)
+            except RunAborted as error:
+                outcome, detail = "stopped", str(error)
+            except RehearsalError:
+                raise
+            except AegisError as error:
+                outcome, detail = "failed", str(error)
+            overview = json.loads(_get(f"{url}/v1/runs/{run}", token))
+            frames = {
+                keyframe["sequence"]: _get(url + keyframe["frame"], token)
+                for entry in overview["trajectories"]
+                for keyframe in entry["keyframes"]
+            }
+    return outcome, detail, robot.operations, overview, frames
+
+
+def _get(url: str, token: str) -> bytes:
+    request = urllib.request.Request(url, headers={"Authorization": f"Bearer {token}"})
+    with _LOOPBACK.open(request, timeout=10) as answer:
+        return bytes(answer.read())
+
+
+class _Robot:
+    """Hears, below the guard, what the simulated robot really did."""
+
+    def __init__(self) -> None:
+        self.operations: list[Operation] = []
+
+    def under(self, guarded: Callable[[Any], Any], file_name: str) -> Callable[[Any], Any]:
+        def run(protocol: Any) -> Any:
+            with tapped(protocol, [self], file_name):
+                return guarded(protocol)
+
+        return run
+
+    def before(self, operation: Operation) -> None:
+        """Only what was done counts."""
+
+    def after(self, operation: Operation) -> None:
+        self.operations.append(operation)
+
+    def event(self, event: Event) -> None:
+        """Of no interest here."""
+
+
+def _touched_after(operations: Sequence[Operation], wells: Sequence[Any]) -> tuple[str, ...]:
+    """Wells entered after the last dispense into the first flagged well."""
+    flagged = next((row for row in wells if row.flagged), None)
+    if flagged is None:
+        return ()
+    last = max(
+        (
+            index
+            for index, operation in enumerate(operations)
+            if operation.kind is OperationKind.DISPENSE
+            and operation.well is not None
+            and flagged.well.startswith(str(operation.well))
+        ),
+        default=len(operations),
+    )
+    return tuple(
+        dict.fromkeys(
+            str(operation.well)
+            for operation in operations[last + 1 :]
+            if operation.kind is not OperationKind.MOVE
+            and operation.well is not None
+            and str(operation.well) != flagged.well
+        )
+    )
+
+
+class _Telling:
+    """An analyser that tells of each verdict."""
+
+    def __init__(self, inner: Analyser, tell: Callable[[Judged], None]) -> None:
+        self._inner = inner
+        self._tell = tell
+
+    def begin(self, run: str, history: Sequence[Judged] = ()) -> RunAnalyser:
+        """As the inner one."""
+        return _TellingRun(self._inner.begin(run, history), self._tell)
+
+
+class _TellingRun:
+    def __init__(self, inner: RunAnalyser, tell: Callable[[Judged], None]) -> None:
+        self._inner = inner
+        self._tell = tell
+
+    def observe(self, keyframe: Keyframe, frame: Frame) -> None:
+        self._inner.observe(keyframe, frame)
+
+    def judge(self, trajectory: int) -> Judged:
+        judged = self._inner.judge(trajectory)
+        self._tell(judged)
+        return judged

@@ -1,0 +1,224 @@
+"""What the guard does around a protocol's ``run``.
+
+In analysis and simulation the run itself is the rehearsal: it is recorded, judged at its end,
+and rejected there. On a robot the protocol is rehearsed and judged first, before anything
+moves; then it runs with the watcher on its instruments.
+"""
+
+from __future__ import annotations
+
+import dis
+import sys
+from collections.abc import Callable
+from contextlib import ExitStack, nullcontext
+from contextvars import ContextVar
+from types import FrameType
+from typing import TYPE_CHECKING, Any
+
+from .errors import ProtocolRejected, RehearsalError
+from .instrumentation import NameCollector, Tap, tapped
+from .settings import Settings, load_settings
+
+if TYPE_CHECKING:
+    from .preflight import Recorder
+    from .runtime import Watcher
+
+_GUARDED: ContextVar[bool] = ContextVar("aegis_ot_guarded", default=False)
+
+
+def run_guarded(
+    call: Callable[[], Any], protocol: Any, keywords: dict[str, Any], file_name: str, run: Any
+) -> Any:
+    """Call ``call()``, which runs the user's protocol, with both layers around it.
+
+    Args:
+        call: The user's ``run``, bound to its context.
+        protocol: The context.
+        keywords: The guard's keyword arguments.
+        file_name: ``co_filename`` of the protocol's code.
+        run: The user's function, for its module's names.
+    """
+    from .preflight.rehearsal import is_rehearsing
+
+    if is_rehearsing() or _GUARDED.get():
+        return call()
+    settings = load_settings(**keywords)
+    token = _GUARDED.set(True)
+    try:
+        if protocol.is_simulating():
+            return _rehearse_by_running(call, protocol, settings, file_name, run)
+        layer1 = _preflight(protocol, settings, file_name)
+        return _watched(call, protocol, settings, file_name, layer1)
+    finally:
+        _GUARDED.reset(token)
+
+
+def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> None:
+    """Guard what is left of the protocol function that ``frame`` runs.
+
+    Used for ``protocol = guard(protocol)``. There is no call to wrap, so the protocol is
+    rehearsed here, in simulation too, and the end of the run is seen by a profile hook on the
+    return of this very frame.
+    """
+    from .preflight.rehearsal import is_rehearsing
+
+    if is_rehearsing() or _GUARDED.get():
+        return
+    settings = load_settings(**keywords)
+    file_name = frame.f_code.co_filename
+    layer1 = _preflight(protocol, settings, file_name)
+    ending = ExitStack()
+    ending.callback(_GUARDED.reset, _GUARDED.set(True))
+    watcher = _new_watcher(protocol, settings, file_name)
+    if watcher is not None:
+        tap = Tap(protocol, [watcher], file_name)
+        watcher.begin(tap.lift)
+        ending.callback(tap.remove)
+        tap.install()
+    _at_return_of(frame, lambda by_itself: _end(by_itself, protocol, layer1, watcher, ending))
+
+
+def _rehearse_by_running(
+    call: Callable[[], Any], protocol: Any, settings: Settings, file_name: str, run: Any
+) -> Any:
+    from .preflight import Recorder
+
+    recorder = Recorder() if settings.rules != "off" else None
+    watcher = _new_watcher(protocol, settings, file_name)
+    listeners = [listener for listener in (recorder, watcher) if listener is not None]
+    if not listeners:
+        return call()
+    with tapped(protocol, listeners, file_name) as tap:
+        names = NameCollector(tap.wells, file_name)
+        with names.watching() if recorder is not None else nullcontext():
+            result = _call_watched(call, watcher, tap)
+        names.look(getattr(run, "__globals__", {}), "<module>", 1)
+    layer1 = ""
+    if recorder is not None:
+        layer1 = _judge(recorder, names.bindings, protocol, settings, file_name)
+    _say(protocol, layer1, watcher)
+    return result
+
+
+def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
+    """Rehearse and judge before anything moves; what there is to say of it."""
+    if settings.rules == "off":
+        return ""
+    from .preflight import Recorder
+    from .preflight.rehearsal import rehearse
+    from .preflight.script import find_script
+
+    script = find_script(file_name, protocol)
+    if script is None:
+        return "Layer 1 could not find the protocol's text, so it was not checked."
+    recorder = Recorder()
+    try:
+        rehearsal = rehearse(
+            script,
+            [recorder],
+            live_parameters=protocol.params,
+            timeout_s=settings.rehearsal_timeout_s,
+        )
+    except RehearsalError as error:
+        # A protocol that fails by itself fails with its own error; that is not the guard's to
+        # change.
+        return f"Layer 1 could not rehearse the protocol: {error}"
+    return _judge(recorder, rehearsal.names, protocol, settings, file_name)
+
+
+def _watched(
+    call: Callable[[], Any], protocol: Any, settings: Settings, file_name: str, layer1: str
+) -> Any:
+    watcher = _new_watcher(protocol, settings, file_name)
+    if watcher is None:
+        result = call()
+    else:
+        with tapped(protocol, [watcher], file_name) as tap:
+            result = _call_watched(call, watcher, tap)
+    _say(protocol, layer1, watcher)
+    return result
+
+
+def _call_watched(call: Callable[[], Any], watcher: Watcher | None, tap: Tap) -> Any:
+    if watcher is None:
+        return call()
+    watcher.begin(tap.lift)
+    try:
+        result = call()
+    except BaseException as error:
+        watcher.end(error)
+        raise
+    watcher.end(None)
+    return result
+
+
+def _end(
+    by_itself: bool, protocol: Any, layer1: str, watcher: Watcher | None, ending: ExitStack
+) -> None:
+    try:
+        if watcher is not None:
+            watcher.end(None if by_itself else RuntimeError("the protocol raised"))
+    finally:
+        ending.close()
+    if by_itself:
+        _say(protocol, layer1, watcher)
+
+
+def _at_return_of(frame: FrameType, action: Callable[[bool], None]) -> None:
+    """Call ``action`` when ``frame`` returns, with whether it returned by itself.
+
+    An exception raised by ``action`` becomes the exception of that function.
+    """
+    previous = sys.getprofile()
+
+    def hook(seen: FrameType, event: str, argument: Any) -> None:
+        if previous is not None:
+            previous(seen, event, argument)
+        if seen is frame and event == "return":
+            sys.setprofile(previous)
+            # An exception is told as a return too; the instruction tells them apart.
+            opcode = dis.opname[seen.f_code.co_code[seen.f_lasti]]
+            action(opcode.startswith(("RETURN_", "INSTRUMENTED_RETURN")))
+
+    sys.setprofile(hook)
+
+
+def _new_watcher(protocol: Any, settings: Settings, file_name: str) -> Watcher | None:
+    """Layer 2, where a sidecar is configured.
+
+    In an analysis it only moves as it will in the live run, so that both show the Opentrons App
+    the same sequence of commands.
+    """
+    if settings.sidecar is None:
+        return None
+    from .runtime import Watcher
+
+    return Watcher(protocol, settings, file_name)
+
+
+def _judge(
+    recorder: Recorder, names: Any, protocol: Any, settings: Settings, file_name: str
+) -> str:
+    """Layer 1's summary.
+
+    Raises:
+        ProtocolRejected: It found errors, and ``rules="on"``.
+    """
+    from .preflight import check_recording
+    from .preflight.script import find_script
+
+    script = find_script(file_name, protocol)
+    text = script.text if script is not None else ""
+    report = check_recording(recorder, names, text, file_name, settings)
+    if settings.rules == "on" and report.failed:
+        raise ProtocolRejected(report.rejection())
+    return report.summary()
+
+
+def _say(protocol: Any, layer1: str, watcher: Watcher | None) -> None:
+    """One closing comment in analysis and live alike."""
+    parts = [layer1] if layer1 else []
+    if watcher is not None:
+        parts.append(watcher.summary())
+    if parts:
+        protocol.comment(f"aegis_ot: {' '.join(parts)}")
