@@ -15,7 +15,9 @@ metadata = {
 @guard(assay="pcr")
 def run(protocol):
     tips20 = protocol.load_labware("opentrons_96_filtertiprack_20ul", 1)
-    reagents = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 2, label="Reagents")
+    reagents = protocol.load_labware(
+        "opentrons_24_tuberack_nest_1.5ml_snapcap", 2, label="Reagents"
+    )
     plate = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 3, label="PCR plate")
     p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[tips20])
 
@@ -24,7 +26,9 @@ def run(protocol):
     template = reagents["B1"]
     master_mix.load_liquid(protocol.define_liquid("Master mix", "with primers", "#33cc33"), 500)
     water.load_liquid(protocol.define_liquid("Water", "nuclease-free", "#66bbff"), 500)
-    template.load_liquid(protocol.define_liquid("Template DNA", "genomic, 10 ng/uL", "#ffaa00"), 200)
+    template.load_liquid(
+        protocol.define_liquid("Template DNA", "genomic, 10 ng/uL", "#ffaa00"), 200
+    )
 
     replicates = plate.columns()[0][:7]
     ntc = plate["H1"]
