@@ -22,6 +22,7 @@ from .figures import measure
 from .network import TipNetwork
 from .recorded import FramePool, RecordedFrame, read_frames
 from .scenes import draw_frame
+from .simulated import SimulatedFrames
 
 log = logging.getLogger(__name__)
 
@@ -35,7 +36,9 @@ class DetectorSettings:
     Attributes:
         frames: Training frames, each seen ``epochs`` times.
         epochs: Passes over them.
-        drawn_share: Share of procedurally drawn frames; the rest comes from the data sets.
+        drawn_share: Share of procedurally drawn frames.
+        simulated_share: Share of frames of the simulated camera; the rest comes from the data
+            sets, or is drawn where there are none.
         close_ups: Close-ups cut from each frame.
         batch: Overviews in a batch (close-ups: twice as many).
         learning_rate: Highest rate of the one-cycle schedule.
@@ -43,9 +46,10 @@ class DetectorSettings:
         threads: CPU threads.
     """
 
-    frames: int = 4000
+    frames: int = 3600
     epochs: int = 5
-    drawn_share: float = 0.55
+    drawn_share: float = 0.35
+    simulated_share: float = 0.3
     close_ups: int = 2
     batch: int = 16
     learning_rate: float = 4e-3
@@ -54,11 +58,15 @@ class DetectorSettings:
 
 
 def _collect(
-    settings: DetectorSettings, pool: FramePool | None, rng: np.random.Generator
+    settings: DetectorSettings, pool: FramePool | None, seed: int, rng: np.random.Generator
 ) -> tuple[list[Example], list[Example]]:
     wide, close = [], []
+    simulated = SimulatedFrames(seed)
     for number in range(settings.frames):
-        if pool is None or rng.random() < settings.drawn_share:
+        pick = rng.random() - settings.simulated_share
+        if pick < 0:
+            image, label, decoy = simulated.draw(rng)
+        elif pool is None or pick < settings.drawn_share:
             image, label, decoy = draw_frame(rng)
         else:
             image, label, decoy = pool.draw(rng)
@@ -138,7 +146,7 @@ def fit(
     torch.use_deterministic_algorithms(True)
     rng = np.random.default_rng(seed)
     start = time.monotonic()
-    wide, close = _collect(settings, pool, rng)
+    wide, close = _collect(settings, pool, seed, rng)
     tell(
         f"{len(wide)} overviews and {len(close)} close-ups made in {time.monotonic() - start:.0f} s"
     )

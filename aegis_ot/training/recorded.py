@@ -167,7 +167,7 @@ class FramePool:
         room = self._rooms.get(self._frames[i].plate)
         if label is not None and room is not None and rng.random() < 0.3:
             image, decoy, label = _without_tip(image, label, room), label, None
-        return _other_camera(rng, image, label, decoy)
+        return other_camera(rng, image, label, decoy)
 
 
 def _without_tip(image: Image, label: TipLabel, room: Image) -> Image:
@@ -181,10 +181,10 @@ def _without_tip(image: Image, label: TipLabel, room: Image) -> Image:
     return out
 
 
-def _other_camera(
+def other_camera(
     rng: np.random.Generator, image: Image, label: TipLabel | None, decoy: TipLabel | None
 ) -> tuple[Image, TipLabel | None, TipLabel | None]:
-    """The frame zoomed, stretched, turned and shifted into a frame of another size."""
+    """A frame and its labels zoomed, stretched, turned and shifted into a frame of another size."""
     height, width = image.shape[:2]
     out_w, out_h = ((640, 480), (960, 540), (640, 360), (800, 600))[int(rng.integers(4))]
     known = label or decoy
@@ -218,7 +218,8 @@ def _other_camera(
         np.hstack([linear, offset[:, None]]),
         (out_w, out_h),
         flags=cv2.INTER_LINEAR,
-        borderMode=cv2.BORDER_REPLICATE if rng.random() < 0.5 else cv2.BORDER_REFLECT_101,
+        # Mirrored borders would show the pipette twice.
+        borderMode=cv2.BORDER_REPLICATE,
     )
 
     def carried(old: TipLabel | None) -> TipLabel | None:

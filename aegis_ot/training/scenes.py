@@ -28,8 +28,9 @@ def draw_frame(
         tip: Whether the frame shows a tip; drawn (two in three) if not given.
 
     Returns:
-        A BGR image of one of :data:`SIZES`; the tip's label, ``None`` for a bare nozzle or an
-        empty frame; the label that a tip would have had, ``None`` unless the nozzle is bare.
+        A BGR image of one of :data:`SIZES`; the tip's label, ``None`` for a bare nozzle, an
+        empty frame or one so overexposed that nothing is left to see; the label that a tip
+        would have had, ``None`` unless the nozzle is bare.
     """
     width, height = SIZES[int(rng.integers(len(SIZES)))]
     if tip is None:
@@ -61,15 +62,40 @@ def draw_frame(
     label = TipLabel((float(collar[0]), float(collar[1])), (float(end[0]), float(end[1])), radius)
     if tip:
         draw_tip(rng, image, axis, length, radius, seat)
-        if rng.random() < 0.15:  # the end is behind a wall or a rim
-            rim = axis.at(length * rng.uniform(0.9, 1.0), 0.0)[0]
-            span = rng.uniform(3, 25) * radius
-            box = [
-                [rim[0] - span, rim[1]],
-                [rim[0] + span, rim[1]],
-                [rim[0] + span, rim[1] + 80],
-                [rim[0] - span, rim[1] + 80],
-            ]
-            paint(image, np.array(box), random_colour(rng, 30, 235, 0.3), rng.uniform(0.2, 0.8))
+        if rng.random() < 0.3:
+            _hide_end(rng, image, axis, length, radius)
     shown = photograph(rng, image)
+    if not _visible(shown, label):
+        return shown, None, None
     return (shown, label, None) if tip else (shown, None, label)
+
+
+def _hide_end(
+    rng: np.random.Generator, image: Image, axis: Axis, length: float, radius: float
+) -> None:
+    """Put the lower end behind the wall or the rim of what it dips into."""
+    rim = axis.at(length * rng.uniform(0.75, 1.0), 0.0)[0]
+    left, right = rng.uniform(2, 40, 2) * radius
+    drop = rng.uniform(0.05, 0.5) * length
+    corners = [
+        [-left, 0.0],
+        [right, rng.uniform(-0.05, 0.05) * right],
+        [right, drop],
+        [-left, drop],
+    ]
+    seen_through = rng.random() < 0.3
+    paint(
+        image,
+        rim + np.array(corners),
+        random_colour(rng, 30, 235, 0.3),
+        rng.uniform(0.2, 0.8) if seen_through else 1.0,
+    )
+
+
+def _visible(image: Image, label: TipLabel) -> bool:
+    """Whether anything at all is to be seen where the tip is: exposure may have burnt it out."""
+    (cx, cy), (ox, oy) = label.collar, label.orifice
+    reach = 2 * label.radius
+    x0, x1 = int(max(0, min(cx, ox) - reach)), int(max(1, max(cx, ox) + reach))
+    part = image[int(max(0, cy)) : int(max(1, oy)), x0:x1]
+    return bool(part.size and np.ptp(part.astype(np.float32).mean(axis=(0, 2))) > 2.0)

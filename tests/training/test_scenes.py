@@ -26,15 +26,18 @@ def test_other_seeds_draw_other_frames() -> None:
 
 
 def test_drawn_tips_lie_in_the_frame_and_hang() -> None:
-    rng = np.random.default_rng(7)
+    rng, shown = np.random.default_rng(7), 0
     for _ in range(30):
         image, label, decoy = draw_frame(rng, tip=True)
         assert (image.shape[1], image.shape[0]) in SIZES
-        assert label is not None
         assert decoy is None
+        if label is None:  # burnt out
+            continue
+        shown += 1
         assert label.orifice[1] > label.collar[1]
         assert 0 <= label.collar[1] < image.shape[0]
         assert label.radius > 0
+    assert shown > 25
 
 
 def test_a_frame_without_a_tip_has_no_label() -> None:
