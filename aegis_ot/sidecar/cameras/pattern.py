@@ -12,10 +12,14 @@ from .freerunning import Raw
 
 WIDTH, HEIGHT = 640, 480
 DISTINCT = 30
+EXPOSURE = 0.01
+"""What a webcam takes under bench lighting, s."""
 
 
 class PatternSource:
     """Frames of 640x480 px at a fixed rate, a bar moving through them. Not a pipette.
+
+    A frame is exposed for :data:`EXPOSURE` seconds and handed out at the end of it.
 
     Args:
         fps: Frames per second.
@@ -29,15 +33,14 @@ class PatternSource:
         self._stop = threading.Event()
 
     def read(self) -> Raw:
-        """The next frame: exposed over one period, handed out at the end of it."""
-        begun = self._due
+        """The next frame, when it is due."""
         self._due += self._period
         late = time.monotonic() - self._due
         if late > 1.0:  # the machine slept
             self._due += late
-        self._stop.wait(max(0.0, self._due - time.monotonic()))
+        self._stop.wait(max(0.0, self._due + EXPOSURE - time.monotonic()))
         self._number += 1
-        return Raw(begun, jpeg=self._frames[self._number % DISTINCT])
+        return Raw(self._due, jpeg=self._frames[self._number % DISTINCT])
 
     def close(self) -> None:
         """Stop waiting."""

@@ -193,7 +193,10 @@ async function cameraHealth() {
 
 async function live() {
   for (;;) {
-    try { await refresh(state.version); await pause(300); } catch (error) { await pause(2000); }
+    try { await refresh(state.version); await pause(300); } catch (error) {
+      console.error(error);
+      await pause(2000);
+    }
   }
 }
 
