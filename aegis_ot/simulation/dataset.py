@@ -137,7 +137,7 @@ def write_dataset(
             order = counts[well.plate]
             counts[well.plate] += 1
             name = f"{'ABCDEFGH'[order % 8]}{order // 8 + 1}"
-            sample, jpegs = _trajectory(
+            sample, jpegs = render_trajectory(
                 f"p{well.plate:02d}_{name}", name, well, short, tip, volumes[well.plate],
                 sessions[well.plate], rng,
             )  # fmt: skip
@@ -190,7 +190,7 @@ def contents_of(
     return states, kept if kept > 0 else (1.0 if failure == "no_dispense" else None)
 
 
-def _trajectory(
+def render_trajectory(
     identifier: str,
     name: str,
     well: PlannedWell,
@@ -200,6 +200,18 @@ def _trajectory(
     session: SessionParameters,
     rng: np.random.Generator,
 ) -> tuple[TrajectorySample, dict[KeyframeKind, bytes]]:
+    """One trajectory with its true detections, and its four frames as JPEG.
+
+    Args:
+        identifier: Its id.
+        name: Name of its well, ``"A1"``.
+        well: Plate, reagent and failure type.
+        pipette: Short class, ``"p1000"``.
+        tip: The tip it carries.
+        volume: Commanded volume, µL.
+        session: Camera, light and deck.
+        rng: Source of randomness.
+    """
     states, kept = contents_of(well.failure, volume, rng, session.film)
     drops = rng.random() < session.drop_chance and well.failure != "no_tip"
     column = 1 + int(rng.integers(12))
