@@ -5,28 +5,38 @@ from .evidence import Dye, combine, mean_dye
 from .measure import (
     ColumnMeasurement,
     Reference,
+    TipLook,
     expected_top,
+    look_at_tip,
     measure_column,
     read_column,
     shape_for,
-    view_tip,
 )
 from .profile import TipProfile
 from .strip import TipShape, rectify
+from .trajectory import RunReference, Signs, TipModel, learn_run, learn_tip, place, weigh
 
 __all__ = [
     "Break",
     "ColumnMeasurement",
     "Dye",
     "Reference",
+    "RunReference",
+    "Signs",
+    "TipLook",
+    "TipModel",
     "TipProfile",
     "TipShape",
     "combine",
     "expected_top",
+    "learn_run",
+    "learn_tip",
+    "look_at_tip",
     "mean_dye",
     "measure_column",
+    "place",
     "read_column",
     "rectify",
     "shape_for",
-    "view_tip",
+    "weigh",
 ]

@@ -13,7 +13,17 @@ import numpy as np
 from .profile import TipProfile
 from .strip import Array
 
-_END = 0.94
+_FROM_TOP = (0.03, 6.0)
+_FROM_END = (0.06, 9.0)
+"""What is left out next to the meniscus and the orifice, tip lengths and px."""
+
+_BRIGHT = 0.4
+"""A column that is brighter than the empty tip by this much (log) guides light: its own
+ripples are bars too, and only a dip is a break."""
+
+
+_BAR_WEIGHT = 0.6
+"""The highest of some fifty bars of noise is higher than the deepest of some fifty dips."""
 
 
 @dataclass(frozen=True)
@@ -41,20 +51,28 @@ def find_break(profile: TipProfile, top: float) -> Break | None:
     strong it has to be is for the caller to say, against normal columns.
     """
     u = profile.u
-    inside = (u > top + 0.035) & (u < _END)
+    length = max(profile.length, 1.0)
+    start = top + max(_FROM_TOP[0], _FROM_TOP[1] / length)
+    inside = (u > start) & (u < 1.0 - max(_FROM_END[0], _FROM_END[1] / length))
     if int(inside.sum()) < 12:
         return None
-    dips = _by_brightness(profile, top, inside)
+    step = _brightness_step(profile, top, inside)
+    dips = _by_brightness(profile, step, inside)
     bars = _by_menisci(profile, inside)
-    return max(dips, bars, key=lambda found: found.strength)
+    return dips if step > _BRIGHT or dips.strength > bars.strength else bars
 
 
-def _by_brightness(profile: TipProfile, top: float, inside: Array) -> Break:
+def _brightness_step(profile: TipProfile, top: float, inside: Array) -> float:
+    """How much brighter (log) the column is than the empty tip above it."""
+    above = (profile.u < top - 0.04) & (profile.u > top - 0.15)
+    if not above.any():
+        return 0.0
+    return float(np.median(profile.brightness[inside]) - np.median(profile.brightness[above]))
+
+
+def _by_brightness(profile: TipProfile, step: float, inside: Array) -> Break:
     u, brightness = profile.u, profile.brightness.astype(np.float64)
     rows = np.flatnonzero(inside)
-    above = (u < top - 0.04) & (u > top - 0.15)
-    empty = float(np.median(brightness[above])) if above.any() else 0.0
-    step = float(np.median(brightness[rows])) - empty
     best = Break(float(u[rows[0]]), float(u[rows[0]]), 0.0, 0.0)
     if abs(step) < 0.05:
         return best
@@ -81,7 +99,7 @@ def _by_menisci(profile: TipProfile, inside: Array) -> Break:
     rows = np.flatnonzero(inside)
     bars = profile.bar[rows]
     row = int(rows[np.argmax(bars)])
-    strength = float(bars.max())
+    strength = _BAR_WEIGHT * float(bars.max())
     half = 2 * profile.pitch
     return Break(float(u[row]) - half, float(u[row]) + half, 0.0, strength)
 

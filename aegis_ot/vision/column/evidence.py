@@ -23,10 +23,10 @@ IMPOSSIBLE = -50.0
 _EDGE_EXPECTED = 2.2
 _EDGE_RANGE = (-1.5, 8.0)
 _COLOUR_EXPECTED = 5.0
-_COLOUR_RANGE = (-12.0, 25.0)
+_COLOUR_RANGE = (-12.0, 50.0)
 _ANY_COLOUR = 0.05
 _STEP_EXPECTED = 3.0
-_STEP_RANGE = (-2.0, 12.0)
+_STEP_RANGE = (-2.0, 8.0)
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,8 @@ def colour_evidence(
         for step, variance in zip(steps, variances, strict=True):
             wider = variance + _ANY_COLOUR**2
             ratio += 0.5 * step.size**2 * (1 / variance - 1 / wider)
-            ratio -= 0.5 * np.log(np.where(np.isfinite(variance), wider / variance, 1.0))
+            known = np.isfinite(variance)
+            ratio[known] -= 0.5 * np.log(wider[known] / variance[known])
         return np.asarray(np.clip(ratio, *_COLOUR_RANGE), dtype=np.float32)
     # Behind another background a column colours the tip less than behind the dark one.
     vector = 0.75 * dye.vector
@@ -183,7 +184,7 @@ def brightness_step(profile: TipProfile, reach: int = 8) -> tuple[Array, Array]:
     return size, np.hypot(noise, 0.7 * behind)
 
 
-def combine(first: Array, second: Array, bonus: float = 6.0) -> Array:
+def combine(first: Array, second: Array, bonus: float = 10.0) -> Array:
     """Ratio of two frames that show the same column.
 
     Their sum, but never more than ``bonus`` above twice the weaker one: a glint in one frame

@@ -17,11 +17,11 @@ from .evidence import (
     long_step,
     step_evidence,
 )
-from .profile import TipProfile, tip_profile
+from .profile import TipProfile, tip_profile, unroll
 from .strip import SHAPES, Array, TipShape, rectify
 
-_LOWEST_TOP = 0.935
-"""A column shorter than this leaves too little to see, u."""
+_SHORTEST = (0.06, 9.0)
+"""Shortest column that is looked for, tip lengths and px: the orifice's own rim glints."""
 
 
 @dataclass(frozen=True)
@@ -102,13 +102,31 @@ def shape_for(pipette: str, capacity_ul: float | None = None) -> TipShape:
     )
 
 
-def view_tip(
+@dataclass(frozen=True)
+class TipLook:
+    """What is kept of one frame: enough for every scorer, without the frame.
+
+    Attributes:
+        profile: Signals along the tip.
+        cone: ``(rows, lanes, 3)`` the tip with its outline made straight, see
+            :func:`~.profile.unroll`.
+        collar, orifice: Ends of the refined axis, px of the frame.
+    """
+
+    profile: TipProfile
+    cone: Array = field(repr=False)
+    collar: tuple[float, float]
+    orifice: tuple[float, float]
+
+
+def look_at_tip(
     image: Image, detection: TipDetection, pipette: str, capacity_ul: float | None = None
-) -> tuple[TipProfile, tuple[float, float], tuple[float, float]]:
-    """Straighten the tip and read its signals; returns profile, collar and orifice (px)."""
+) -> TipLook:
+    """Straighten the tip and read its signals: all that takes time, done once per frame."""
     shape = shape_for(pipette, capacity_ul)
     strip = rectify(image, detection, shape)
-    return tip_profile(strip, shape), strip.collar, strip.orifice
+    cone = unroll(strip, shape)
+    return TipLook(tip_profile(strip, shape, cone), cone, strip.collar, strip.orifice)
 
 
 def measure_column(
@@ -130,10 +148,10 @@ def measure_column(
         reference: What is known of this run.
         capacity_ul: Working volume of the tip, if known.
     """
-    profile, collar, orifice = view_tip(image, detection, pipette, capacity_ul)
+    look = look_at_tip(image, detection, pipette, capacity_ul)
     tip = tip_for(pipette, capacity_ul)
-    found = read_column(profile, tip, expected_ul, reference or Reference())
-    return replace(found, collar=collar, orifice=orifice)
+    found = read_column(look.profile, tip, expected_ul, reference or Reference())
+    return replace(found, collar=look.collar, orifice=look.orifice)
 
 
 def read_column(
@@ -169,7 +187,7 @@ def read_column(
         length_sd_mm=height_sd,
         volume_ul=volume,
         volume_sd_ul=float(np.hypot(per_mm * height_sd, 0.05 * volume)),
-        dye=_dye_at(profile, tip, row),
+        dye=dye_at(profile, tip, row),
         collar=(0.0, 0.0),
         orifice=(0.0, 0.0),
     )
@@ -178,10 +196,11 @@ def read_column(
 def column_evidence(profile: TipProfile, tip: TipGeometry, reference: Reference) -> Array:
     """Ratio from colour and edges for a column that ends at each row."""
     ceiling = _ceiling(tip)
+    lowest = 1.0 - max(_SHORTEST[0], _SHORTEST[1] / max(profile.length, 1.0))
     ratio = colour_evidence(
         profile, reference.dye, floor=reference.colour_floor, top=ceiling
     ) + edge_evidence(profile)
-    possible = (profile.u > ceiling + 0.02) & (profile.u < _LOWEST_TOP)
+    possible = (profile.u > ceiling + 0.02) & (profile.u < lowest)
     return np.where(possible, ratio, IMPOSSIBLE).astype(np.float32)
 
 
@@ -207,7 +226,8 @@ def _summit(u: Array, ranked: Array, row: int) -> tuple[float, float]:
     return mean, float(np.hypot(spread, 0.006))
 
 
-def _dye_at(profile: TipProfile, tip: TipGeometry, row: int) -> Dye:
+def dye_at(profile: TipProfile, tip: TipGeometry, row: int) -> Dye:
+    """Colour step at a row."""
     red, blue = (
         long_step(profile.u, profile.colour[:, i], _ceiling(tip), 0.97) for i in (0, 1)
     )

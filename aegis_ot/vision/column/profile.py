@@ -62,9 +62,9 @@ class TipProfile:
         return float(self.u[1] - self.u[0])
 
 
-def tip_profile(strip: Strip, shape: TipShape) -> TipProfile:
-    """Read the signals of a straightened tip."""
-    cone = unroll(strip, shape)
+def tip_profile(strip: Strip, shape: TipShape, cone: Array | None = None) -> TipProfile:
+    """Read the signals of a straightened tip (``cone``: what :func:`unroll` made of it)."""
+    cone = unroll(strip, shape) if cone is None else cone
     u = strip.u
     nozzle = (u > 0.1 * shape.nozzle_end) & (u < 0.85 * shape.nozzle_end)
     white = np.median(cone[nozzle][:, _INSIDE], axis=(0, 1))

@@ -1,0 +1,205 @@
+"""The liquid column as a scorer: what the tip holds against what the protocol expects."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ModelError
+from ...vocabulary import KeyframeKind
+from ..column import RunReference, Signs, TipModel, learn_run, learn_tip, weigh
+from ..models import ModelFile
+from ..tips import pipette_class, tip_for
+from ..types import TrajectorySample
+from .looks import looks
+from .surprise import Tail, fit_tail
+
+NO_TIP = 40.0
+"""Score of a trajectory in which no tip is seen when it hangs free, nats."""
+
+_DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+
+PRIORS: Mapping[str, Tail] = {
+    "retained": Tail(2.5, 1.2),
+    "gap_aspirate": Tail(1.0, 0.8),
+    "gap_transit": Tail(2.5, 1.5),
+    "misfill_aspirate": Tail(1.2, 0.8),
+    "misfill_transit": Tail(1.2, 0.8),
+    "absent": Tail(-4.0, 2.0),
+}
+"""Tails before any normal is known, by sign. Wide: a fit narrows them by half at most."""
+
+
+@dataclass(frozen=True)
+class ColumnReport:
+    """Why a trajectory has its score.
+
+    Attributes:
+        score: Sum of the surprises, nats.
+        surprises: By sign, nats.
+        signs: The measurements behind them.
+    """
+
+    score: float
+    surprises: Mapping[str, float]
+    signs: Signs
+
+
+class ColumnScorer:
+    """Surprise of the measured column, in nats; near 0 for most normals.
+
+    Six signs, each judged by the normals' own tail: a column left after the dispense (both
+    frames together), a break in the loaded column and a column that ends elsewhere than its
+    volume says (ASPIRATE, TRANSIT), and a dye that should be there and is not.
+    """
+
+    name = "column"
+
+    def __init__(self) -> None:
+        self.models: dict[str, TipModel] = {}
+        self.tails: dict[str, dict[str, Tail]] = {}
+        self.run = RunReference()
+
+    def fit(self, normals: Sequence[TrajectorySample]) -> None:
+        """Learn tip model and tails for each tip class.
+
+        Tails are learned as the scorer is used: each plate's normals are scored in the light
+        of one other normal of the same plate, wherever a plate has two.
+
+        Raises:
+            ValueError: On an empty sequence.
+        """
+        if not normals:
+            raise ValueError("no normal trajectories to learn from")
+        self.run = RunReference()
+        self.models, self.tails = {}, {}
+        classes: dict[str, list[TrajectorySample]] = defaultdict(list)
+        for sample in normals:
+            classes[pipette_class(sample.pipette)].append(sample)
+        for name, samples in classes.items():
+            tip = tip_for(name)
+            pairs = [(_profiles(sample), sample.expected_ul) for sample in samples]
+            model = learn_tip(pairs, tip)
+            self.models[name] = model
+            values: dict[str, list[float]] = defaultdict(list)
+            for sample, run in _as_in_use(samples, model):
+                for sign, value in _values(_weigh(sample, model, run), model).items():
+                    if value is not None:
+                        values[sign].append(value)
+            self.tails[name] = {
+                sign: fit_tail(values[sign], prior) for sign, prior in PRIORS.items()
+            }
+
+    def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
+        """Take the reagent's colour and the menisci's places from a run's own normal wells."""
+        self.run = RunReference()
+        if not normals:
+            return
+        model = self._model(normals[0].pipette)
+        self.run = learn_run([_weigh(sample, model, RunReference()) for sample in normals], model)
+
+    def score(self, sample: TrajectorySample) -> float:
+        """Surprise of one trajectory, nats, >= 0."""
+        if any(sample.detections.get(kind) is None for kind in _DECISIVE):
+            return NO_TIP
+        return self.report(sample).score
+
+    def report(self, sample: TrajectorySample) -> ColumnReport:
+        """Score and everything behind it, from as many frames as there are."""
+        name = pipette_class(sample.pipette)
+        model = self._model(sample.pipette)
+        signs = _weigh(sample, model, self.run)
+        tails = self.tails.get(name, PRIORS)
+        surprises = {
+            sign: tails[sign].surprise(value) for sign, value in _values(signs, model).items()
+        }
+        return ColumnReport(float(sum(surprises.values())), surprises, signs)
+
+    def _model(self, pipette: str) -> TipModel:
+        return self.models.get(pipette_class(pipette), TipModel())
+
+    def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
+        """Arrays and settings for a model file."""
+        arrays: dict[str, NDArray[Any]] = {}
+        for name, model in self.models.items():
+            arrays[f"{name}/model"] = np.array(
+                [
+                    model.height_scale,
+                    model.colour_floor,
+                    *(model.offset[kind] for kind in KeyframeKind),
+                    *(model.spread[kind] for kind in KeyframeKind),
+                ]
+            )
+            tails = self.tails[name]
+            arrays[f"{name}/tails"] = np.array(
+                [(tails[sign].start, tails[sign].scale) for sign in PRIORS]
+            )
+        return arrays, {"signs": list(PRIORS), "pipettes": list(self.models)}
+
+    @classmethod
+    def from_model(cls, model: ModelFile) -> ColumnScorer:
+        """A scorer from a model file.
+
+        Raises:
+            ModelError: If arrays are missing or their shapes do not fit.
+        """
+        scorer = cls()
+        kinds = list(KeyframeKind)
+        try:
+            signs = [str(sign) for sign in model.settings["signs"]]
+            for name in model.settings["pipettes"]:
+                row = np.asarray(model.arrays[f"{name}/model"], dtype=float)
+                tails = np.asarray(model.arrays[f"{name}/tails"], dtype=float)
+                if row.shape != (2 + 2 * len(kinds),) or tails.shape != (len(signs), 2):
+                    raise ValueError(f"the shape of {name}'s arrays")
+                scorer.models[name] = TipModel(
+                    float(row[0]),
+                    dict(zip(kinds, row[2 : 2 + len(kinds)].tolist(), strict=True)),
+                    dict(zip(kinds, row[2 + len(kinds) :].tolist(), strict=True)),
+                    float(row[1]),
+                )
+                found = {s: Tail(*map(float, t)) for s, t in zip(signs, tails, strict=True)}
+                scorer.tails[name] = {**PRIORS, **found}
+        except (KeyError, TypeError, ValueError) as error:
+            raise ModelError(f"the column model lacks or garbles {error}; fit it anew") from error
+        return scorer
+
+
+def _profiles(sample: TrajectorySample) -> dict[KeyframeKind, Any]:
+    return {kind: look.profile for kind, look in looks(sample).items()}
+
+
+def _weigh(sample: TrajectorySample, model: TipModel, run: RunReference) -> Signs:
+    return weigh(_profiles(sample), tip_for(sample.pipette), sample.expected_ul, model, run)
+
+
+def _as_in_use(
+    samples: Sequence[TrajectorySample], model: TipModel
+) -> list[tuple[TrajectorySample, RunReference]]:
+    """Each normal with a run reference from another normal of its plate."""
+    plates: dict[str, list[TrajectorySample]] = defaultdict(list)
+    for sample in samples:
+        plates[sample.plate].append(sample)
+    used: list[tuple[TrajectorySample, RunReference]] = []
+    for members in plates.values():
+        for i, sample in enumerate(members):
+            if len(members) > 1:
+                other = members[(i + 1) % len(members)]
+                used.append((sample, learn_run([_weigh(other, model, RunReference())], model)))
+    return used or [(sample, RunReference()) for sample in samples]
+
+
+def _values(signs: Signs, model: TipModel) -> dict[str, float | None]:
+    """One number per sign of :data:`PRIORS`; larger is worse."""
+    values: dict[str, float | None] = {"retained": signs.retained, "absent": signs.absent}
+    for kind in (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT):
+        miss = signs.misfill.get(kind)
+        spread = model.spread.get(kind, 0.03)
+        values[f"gap_{kind.value}"] = signs.gap.get(kind)
+        values[f"misfill_{kind.value}"] = None if miss is None else abs(miss) / spread
+    return values

@@ -1,0 +1,51 @@
+"""How surprising a value is among normals, when there are only a few dozen of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+MOST = 15.0
+"""Surprise of one sign is cut off here, nats: beyond it the tail is an extrapolation."""
+
+
+@dataclass(frozen=True)
+class Tail:
+    """Upper tail of a sign among normals: exponential beyond a start value.
+
+    An empirical p-value cannot fall below 1/(n+1); with an exponential tail the surprise,
+    ``-log p`` up to a constant, goes on rising with the evidence, in the same unit (nats) for
+    every sign, so that signs add up and plates compare.
+
+    Attributes:
+        start: Where the tail begins: the upper quartile.
+        scale: Mean excess over it.
+    """
+
+    start: float
+    scale: float
+
+    def surprise(self, value: float | None) -> float:
+        """Nats above the start, 0 to :data:`MOST`; 0 for a sign that could not be told."""
+        if value is None or not np.isfinite(value):
+            return 0.0
+        return float(np.clip((value - self.start) / self.scale, 0.0, MOST))
+
+
+def fit_tail(values: Sequence[float], prior: Tail, prior_weight: float = 4.0) -> Tail:
+    """Tail of the normals' values, drawn towards ``prior`` as if by ``prior_weight`` values.
+
+    The scale never falls under half the prior's: a few normals that happen to agree must not
+    make the next one an alarm.
+    """
+    known = np.array([value for value in values if np.isfinite(value)], dtype=float)
+    if len(known) == 0:
+        return prior
+    share = len(known) / (len(known) + prior_weight)
+    start = share * float(np.quantile(known, 0.75)) + (1 - share) * prior.start
+    over = known[known > start] - start
+    total = float(over.sum()) + prior_weight / 4 * prior.scale
+    scale = total / (len(over) + prior_weight / 4)
+    return Tail(start, max(scale, 0.5 * prior.scale))
