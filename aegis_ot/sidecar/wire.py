@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
+from collections.abc import Callable
 from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
@@ -104,7 +105,7 @@ def _adapter(shape: Any) -> TypeAdapter[Any]:
     return TypeAdapter(shape)
 
 
-def parse(shape: type[T], body: bytes) -> T:
+def parse(shape: Callable[..., T], body: bytes) -> T:
     """Read ``body`` as ``shape``, a pydantic model or a standard dataclass. Strict: no coercion.
 
     Raises:

@@ -60,22 +60,21 @@ class Browser:
         """Go to an address."""
         self.call("Page.navigate", url=url)
 
-    def until(self, script: str, seconds: float = 15) -> Any:
-        """The value of an expression, evaluated at every change of the page until it is true."""
+    def until(self, script: str, seconds: float = 15) -> None:
+        """Return as soon as an expression is true; it is looked at after every change."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
             # A navigation throws the waiting promise away; then ask again.
             with contextlib.suppress(RuntimeError):
-                value = self.run(
+                if self.run(
                     "new Promise((done) => { const look = () => { let found = null; "
-                    f"try {{ found = {script}; }} catch (error) {{ }} "
+                    f"try {{ found = Boolean({script}); }} catch (error) {{ }} "
                     "if (found) { watch.disconnect(); done(found); } }; "
                     "const watch = new MutationObserver(look); "
                     "watch.observe(document, {subtree: true, childList: true, attributes: true,"
-                    " characterData: true}); look(); setTimeout(() => done(null), 1000); })"
-                )
-                if value:
-                    return value
+                    " characterData: true}); look(); setTimeout(() => done(false), 1000); })"
+                ):
+                    return
         raise AssertionError(f"never true: {script}; errors: {self.errors}")
 
     def screenshot(self, path: Path) -> None:
