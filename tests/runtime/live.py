@@ -1,0 +1,168 @@
+"""A live run on Opentrons' own engine and hardware simulator, with play, pause and stop.
+
+As on a robot, the protocol runs in a worker thread, ``is_simulating()`` is false, and stop and
+pause come from the event loop.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from opentrons.hardware_control import API
+from opentrons.protocol_engine import Config, DeckType, error_recovery_policy
+from opentrons.protocol_engine.create_protocol_engine import create_protocol_engine
+from opentrons.protocol_reader import ProtocolReader
+from opentrons.protocol_runner import RunOrchestrator, create_protocol_runner
+from opentrons.protocol_runner.protocol_runner import LiveRunner
+from opentrons.protocols.parse import PythonParseMode
+from opentrons.types import Mount
+
+from aegis_ot.instrumentation.tap import tapped
+from aegis_ot.runtime import Watcher
+from aegis_ot.settings import Settings
+
+_TEXT = """
+metadata = {{"apiLevel": "{api}"}}
+
+def run(protocol):
+    import sys
+    sys.modules["{module}"].RUNNING["{key}"](protocol)
+"""
+
+RUNNING: dict[str, Callable[[Any], None]] = {}
+
+
+class LiveRun:
+    """One live run under a watcher.
+
+    Attributes:
+        watcher: Once the protocol has begun.
+        error: What the protocol raised, as the protocol saw it.
+        ended_at: ``time.monotonic`` at which the run was over.
+    """
+
+    def __init__(
+        self, protocol: Callable[[Any], None], settings: Settings, api: str = "2.15"
+    ) -> None:
+        self._protocol = protocol
+        self._settings = settings
+        self._api = api
+        self._ready = threading.Event()
+        self._thread = threading.Thread(target=lambda: asyncio.run(self._main()), daemon=True)
+        self.watcher: Watcher | None = None
+        self.error: BaseException | None = None
+        self.crash: BaseException | None = None
+        self.ended_at = 0.0
+        self.commands: list[Any] = []
+
+    def start(self) -> LiveRun:
+        self._thread.start()
+        assert self._ready.wait(30)
+        return self
+
+    def play(self) -> None:
+        self._loop.call_soon_threadsafe(self._orchestrator.play)
+
+    def pause(self) -> None:
+        self._loop.call_soon_threadsafe(self._orchestrator.pause)
+
+    def stop(self) -> float:
+        """Press stop; the time at which it was pressed."""
+        pressed = time.monotonic()
+        asyncio.run_coroutine_threadsafe(self._orchestrator.stop(), self._loop)
+        return pressed
+
+    @property
+    def status(self) -> str:
+        return str(self._orchestrator.get_run_status().value)
+
+    def wait_for_status(self, status: str, timeout: float = 10.0) -> None:
+        until = time.monotonic() + timeout
+        while self.status != status:
+            assert time.monotonic() < until, f"{self.status!r} instead of {status!r}"
+            time.sleep(0.01)
+
+    def join(self, timeout: float = 30.0) -> LiveRun:
+        self._thread.join(timeout)
+        assert not self._thread.is_alive(), "the run did not end"
+        if self.crash is not None:
+            raise self.crash
+        return self
+
+    def _guarded(self, protocol: Any) -> None:
+        self.watcher = Watcher(protocol, self._settings, "live.py")
+        code_file = self._protocol.__code__.co_filename
+        try:
+            with tapped(protocol, [self.watcher], code_file) as tap:
+                self.watcher.begin(tap.lift)
+                try:
+                    self._protocol(protocol)
+                except BaseException as error:
+                    self.watcher.end(error)
+                    raise
+                self.watcher.end(None)
+        except BaseException as error:
+            self.error = error
+            raise
+        finally:
+            self.ended_at = time.monotonic()
+
+    async def _main(self) -> None:
+        try:
+            await self._run()
+        except BaseException as error:
+            self.crash = error
+        finally:
+            self._ready.set()
+
+    async def _run(self) -> None:
+        key = f"{id(self)}"
+        RUNNING[key] = self._guarded
+        sys.modules.setdefault("aegis_ot_live_harness", sys.modules[__name__])
+        instruments = {
+            Mount.LEFT: {"model": "p300_single_v2.1", "id": "left", "name": "p300_single_gen2"}
+        }
+        hardware = await API.build_hardware_simulator(attached_instruments=instruments)
+        hardware._em_simulate = False  # wait and be cancelled as on a robot
+        engine = await create_protocol_engine(
+            hardware_api=hardware,
+            config=Config(
+                robot_type="OT-2 Standard",
+                deck_type=DeckType.OT2_STANDARD,
+                use_simulated_deck_config=True,
+            ),
+            error_recovery_policy=error_recovery_policy.never_recover,
+            load_fixed_trash=True,
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "live.py"
+            path.write_text(_TEXT.format(api=self._api, module="aegis_ot_live_harness", key=key))
+            source = await ProtocolReader().read_saved([path], directory=None)
+            runner = create_protocol_runner(
+                protocol_config=source.config, protocol_engine=engine, hardware_api=hardware
+            )
+            others = [LiveRunner(protocol_engine=engine, hardware_api=hardware) for _ in range(3)]
+            self._orchestrator = RunOrchestrator(
+                hardware_api=hardware,
+                protocol_engine=engine,
+                json_or_python_protocol_runner=runner,
+                fixit_runner=others[0],
+                setup_runner=others[1],
+                protocol_live_runner=others[2],
+            )
+            self._loop = asyncio.get_running_loop()
+            await runner.load(source, PythonParseMode.NORMAL, None, None)
+            self._ready.set()
+            try:
+                result = await self._orchestrator.run(deck_configuration=[])
+                self.commands = result.commands
+            finally:
+                RUNNING.pop(key, None)
+                await hardware.clean_up()

@@ -1,0 +1,299 @@
+"""The link against a real server on loopback that is absent, late, wrong, or dying."""
+
+from __future__ import annotations
+
+import itertools
+import socket
+import threading
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from aegis_ot.errors import LinkError, SidecarGarbled, SidecarRefused, SidecarUnreachable
+from aegis_ot.runtime.link import CameraSilent, RunUnknown, SequenceGap, SidecarLink
+from aegis_ot.vocabulary import Keyframe, KeyframeKind, Outcome, WellRef
+
+from .fake_sidecar import FakeSidecar, Handler, free_port, once
+
+
+class Stop(Exception):
+    pass
+
+
+def keyframe(sequence: int = 0, trajectory: int = 0) -> Keyframe:
+    well = WellRef("plate", "A1", "my plate", "2")
+    return Keyframe(
+        "run", sequence, trajectory, list(KeyframeKind)[sequence % 4], "p300_single_gen2", "left",
+        1, "1:A1", (well,), (), 50.0, 50.0, 300.0,
+    )  # fmt: skip
+
+
+@pytest.fixture
+def sidecar() -> Iterator[FakeSidecar]:
+    with FakeSidecar() as server:
+        yield server
+
+
+@pytest.fixture
+def link(sidecar: FakeSidecar) -> Iterator[SidecarLink]:
+    made = SidecarLink(sidecar.url, None, lambda: None)
+    yield made
+    made.close()
+
+
+def test_a_whole_conversation_on_one_connection(sidecar: FakeSidecar, link: SidecarLink) -> None:
+    assert link.health(1.0)["name"] == "aegis-ot"
+    link.start("run", {"run": "run"}, 1.0)
+    for n in range(4):
+        assert link.keyframe(keyframe(n), 1.0).sequence == n
+    verdict = link.verdict("run", 0, 0.15, 1.0)
+    assert verdict is not None
+    assert verdict.outcome is Outcome.PASS
+    link.abandon("run", 1, "dropped", 1.0)
+    link.finish("run", "succeeded", "", 1.0)
+    assert sidecar.abandoned == [1]
+    assert sidecar.finished == [{"outcome": "succeeded", "detail": ""}]
+    assert len(sidecar.connections) == 1
+    assert sidecar.stored()[0]["sources"][0]["name"] == "A1"
+
+
+def test_small_requests_are_not_held_back(sidecar: FakeSidecar, link: SidecarLink) -> None:
+    link.start("run", {}, 1.0)
+    began = time.monotonic()
+    for n in range(20):
+        link.keyframe(keyframe(n), 1.0)
+    assert (time.monotonic() - began) / 20 < 0.03  # 40 ms each with Nagle and delayed ACK
+
+
+def test_absent() -> None:
+    port = free_port()
+    link = SidecarLink(f"http://127.0.0.1:{port}", None, lambda: None)
+    with pytest.raises(SidecarUnreachable, match=rf"127\.0\.0\.1:{port}.*refused.*Check that"):
+        link.health(1.0)
+
+
+def test_unknown_host() -> None:
+    link = SidecarLink("http://no-such-host.invalid:7645", None, lambda: None)
+    with pytest.raises(SidecarUnreachable, match=r"no-such-host\.invalid"):
+        link.health(5.0)
+
+
+def test_token() -> None:
+    with FakeSidecar(token="secret") as sidecar:
+        good = SidecarLink(sidecar.url, "secret", lambda: None)
+        good.start("run", {}, 1.0)
+        good.close()
+        bad = SidecarLink(sidecar.url, "wrong", lambda: None)
+        with pytest.raises(SidecarRefused, match=r"token.*AEGIS_OT_TOKEN") as caught:
+            bad.start("run", {}, 1.0)
+        assert "wrong" not in str(caught.value).replace("Wrong token", "")
+        assert bad.health(1.0)["wire"] == 1
+        bad.close()
+
+
+GARBAGE = {
+    "no http": b"SSH-2.0-OpenSSH_9.6\r\n",
+    "no json": b"HTTP/1.1 200 OK\r\nContent-Length: 5\r\n\r\nhello",
+    "a list": b"HTTP/1.1 200 OK\r\nContent-Length: 2\r\n\r\n[]",
+    "broken json": b'HTTP/1.1 200 OK\r\nContent-Length: 9\r\n\r\n{"wire": ',
+    "bytes": b"HTTP/1.1 200 OK\r\nContent-Length: 3\r\n\r\n\xff\xfe\x00",
+    "another page": b"HTTP/1.1 200 OK\r\nContent-Length: 13\r\n\r\n<html></html>",
+    "server error": b"HTTP/1.1 500 Oops\r\nContent-Length: 0\r\n\r\n",
+    "redirect": b"HTTP/1.1 302 Found\r\nLocation: /login\r\nContent-Length: 0\r\n\r\n",
+    "other wire": b'HTTP/1.1 200 OK\r\nContent-Length: 11\r\n\r\n{"wire": 9}',
+    "bad length": b"HTTP/1.1 200 OK\r\nContent-Length: many\r\n\r\n{}",
+    "endless headers": b"HTTP/1.1 200 OK\r\n" + b"X: y\r\n" * 200,
+    "cut short": b'HTTP/1.1 200 OK\r\nContent-Length: 99\r\n\r\n{"wire": 1',
+    "nothing": b"",
+}
+
+
+@pytest.mark.parametrize("what", sorted(GARBAGE))
+def test_garbage_is_always_a_link_error_for_people(
+    what: str, sidecar: FakeSidecar, link: SidecarLink
+) -> None:
+    def fault(handler: Handler) -> bool:
+        handler.raw(GARBAGE[what])
+        return True
+
+    sidecar.fault = fault
+    with pytest.raises(LinkError) as caught:
+        link.start("run", {}, 1.0)
+    assert sidecar.url in str(caught.value)
+    assert isinstance(caught.value, (SidecarGarbled, SidecarUnreachable))
+    sidecar.fault = None
+    link.start("run", {}, 1.0)  # and the link has recovered
+
+
+@pytest.mark.parametrize(
+    "verdict",
+    [5, {}, {"run": "run", "trajectory": 0, "outcome": "maybe", "route": "grey_zone"},
+     {"run": "other", "trajectory": 0, "outcome": "pass", "route": "grey_zone"},
+     {"run": "run", "trajectory": 1, "outcome": "pass", "route": "grey_zone"}],
+)  # fmt: skip
+def test_a_verdict_that_is_none(verdict: Any, sidecar: FakeSidecar, link: SidecarLink) -> None:
+    link.start("run", {}, 1.0)
+    sidecar.fault = once("/verdict", lambda handler: handler.answer(200, {"verdict": verdict}))
+    with pytest.raises(SidecarGarbled):
+        link.verdict("run", 0, 0.1, 1.0)
+
+
+def test_an_acknowledgement_of_another_keyframe(sidecar: FakeSidecar, link: SidecarLink) -> None:
+    link.start("run", {}, 1.0)
+    sidecar.fault = once("/keyframes", lambda h: h.answer(200, {"sequence": 7, "captured": True}))
+    with pytest.raises(SidecarGarbled, match="keyframe 0"):
+        link.keyframe(keyframe(), 1.0)
+
+
+def test_late(sidecar: FakeSidecar, link: SidecarLink) -> None:
+    release = threading.Event()
+
+    def fault(handler: Handler) -> bool:
+        release.wait(5)
+        handler.drop()
+        return True
+
+    sidecar.fault = fault
+    began = time.monotonic()
+    with pytest.raises(SidecarUnreachable, match=r"within 0\.3 s"):
+        link.health(0.3)
+    release.set()
+    assert 0.25 < time.monotonic() - began < 1.0
+
+
+def test_an_answer_that_drips_byte_by_byte_still_ends_in_time(
+    sidecar: FakeSidecar, link: SidecarLink
+) -> None:
+    release = threading.Event()
+
+    def fault(handler: Handler) -> bool:
+        handler.wfile.write(b"HTTP/1.1 200 OK\r\nContent-Length: 1000\r\n\r\n")
+        while not release.wait(0.02):
+            try:
+                handler.wfile.write(b" ")
+            except OSError:
+                break
+        handler.drop()
+        return True
+
+    sidecar.fault = fault
+    began = time.monotonic()
+    with pytest.raises(SidecarUnreachable):
+        link.health(0.3)
+    release.set()
+    assert time.monotonic() - began < 1.0
+
+
+def test_a_stop_ends_any_wait_at_once(sidecar: FakeSidecar) -> None:
+    release, stopping = threading.Event(), threading.Event()
+    calls: list[float] = []
+
+    def check() -> None:
+        calls.append(time.monotonic())
+        if stopping.is_set():
+            raise Stop
+
+    def fault(handler: Handler) -> bool:
+        threading.Timer(0.25, stopping.set).start()
+        release.wait(5)
+        handler.drop()
+        return True
+
+    sidecar.fault = fault
+    link = SidecarLink(sidecar.url, None, check)
+    began = time.monotonic()
+    with pytest.raises(Stop):
+        link.health(5.0)
+    took = time.monotonic() - began
+    release.set()
+    assert took < 0.25 + 0.2
+    assert max(b - a for a, b in itertools.pairwise(calls)) < 0.15
+
+
+def test_a_stop_ends_a_connect_to_nowhere() -> None:
+    # A listener whose queue is full leaves further connections hanging.
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        listener.listen(0)
+        fillers = [socket.socket() for _ in range(4)]
+        for filler in fillers:
+            filler.setblocking(False)
+            filler.connect_ex(listener.getsockname())
+        until = time.monotonic() + 0.2
+
+        def check() -> None:
+            if time.monotonic() > until:
+                raise Stop
+
+        link = SidecarLink(f"http://127.0.0.1:{listener.getsockname()[1]}", None, check)
+        began = time.monotonic()
+        with pytest.raises(Stop):
+            link.health(5.0)
+        assert time.monotonic() - began < 0.5
+        for filler in fillers:
+            filler.close()
+
+
+def test_dropped_after_reading_is_sent_again_and_counted_once(
+    sidecar: FakeSidecar, link: SidecarLink
+) -> None:
+    link.start("run", {}, 1.0)
+
+    def store_and_drop(handler: Handler) -> None:
+        sidecar.stored().append(handler.body)
+        handler.drop()
+
+    sidecar.fault = once("/keyframes", store_and_drop)
+    assert link.keyframe(keyframe(), 1.0).sequence == 0
+    sent = [r for r in sidecar.requests if r[1].endswith("/keyframes")]
+    assert len(sent) == 2
+    assert len(sidecar.stored()) == 1
+
+
+def test_a_connection_that_was_closed_meanwhile_is_opened_again(
+    sidecar: FakeSidecar, link: SidecarLink
+) -> None:
+    link.start("run", {}, 1.0)
+    sidecar.connections[0].shutdown(socket.SHUT_RDWR)
+    assert link.keyframe(keyframe(), 1.0).sequence == 0
+
+
+def test_it_dies_and_comes_back(sidecar: FakeSidecar, link: SidecarLink) -> None:
+    link.start("run", {}, 1.0)
+    sidecar.die()
+    with pytest.raises(SidecarUnreachable):
+        link.keyframe(keyframe(), 0.5)
+    with FakeSidecar(port=sidecar.port) as reborn:
+        with pytest.raises(RunUnknown):
+            link.keyframe(keyframe(), 1.0)
+        link.start("run", {}, 1.0)
+        with pytest.raises(SequenceGap) as caught:
+            link.keyframe(keyframe(3), 1.0)
+        assert caught.value.expected == 0
+        link.close()
+        assert reborn.stored() == []
+
+
+def test_a_silent_camera(sidecar: FakeSidecar, link: SidecarLink) -> None:
+    link.start("run", {}, 1.0)
+    error = {"code": "camera", "message": "No frame within 2 s.", "hint": "Look."}
+    sidecar.fault = once("/keyframes", lambda h: h.answer(503, {"error": error}))
+    with pytest.raises(CameraSilent, match=r"No frame within 2 s\)\. Look"):
+        link.keyframe(keyframe(), 1.0)
+    assert link.keyframe(keyframe(), 1.0).sequence == 0
+
+
+def test_a_refused_body(sidecar: FakeSidecar, link: SidecarLink) -> None:
+    error = {"code": "body", "message": "volume must not be negative.", "hint": ""}
+    sidecar.fault = once("/run", lambda h: h.answer(422, {"error": error}))
+    with pytest.raises(SidecarRefused, match="volume must not be negative"):
+        link.start("run", {}, 1.0)
+
+
+def test_proxies_are_ignored(
+    sidecar: FakeSidecar, link: SidecarLink, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("http_proxy", f"http://127.0.0.1:{free_port()}")
+    assert link.health(1.0)["wire"] == 1
