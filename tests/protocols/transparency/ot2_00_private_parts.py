@@ -10,6 +10,8 @@ def run(protocol):
     state = p20.hw_pipette
     protocol.comment('%s, working volume %s' % (state['name'], state['working_volume']))
     protocol.comment('core %s' % type(p20._core).__name__)
+    core = getattr(p20, '_implementation', p20._core)
+    protocol.comment('channels %d' % core.get_channels())
     assert p20.name == 'p20_single_gen2' and p20.mount == 'right' and p20.type == 'single'
     assert protocol.loaded_instruments['right'] is p20
 
