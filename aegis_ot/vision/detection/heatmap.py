@@ -21,6 +21,7 @@ FORMAT = "aegis-ot-tip-detector/1"
 _WEIGHTS = "tip_detector.onnx"
 _GLANCE = 0.05  # score from which a candidate of the overview is looked at closely
 _LOOKS = 3
+_RIVAL = 0.4
 
 
 def load_weights(path: str | Path | None = None) -> tuple[bytes, dict[str, Any]]:
@@ -106,6 +107,8 @@ class HeatmapDetector:
         places = candidates(self._maps([first])[0], _GLANCE, _LOOKS)
         if not places:
             return None
+        # A place much less likely than the best would not win in its close-up either.
+        places = [place for place in places if place.score >= _RIVAL * places[0].score]
         views = [
             close_up(image, first.to_frame(*c.collar), first.to_frame(*c.orifice)) for c in places
         ]
