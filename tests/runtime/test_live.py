@@ -1,0 +1,221 @@
+"""Holds and pauses on Opentrons' own engine, live on its hardware simulator."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+from aegis_ot.errors import RunAborted
+from aegis_ot.runtime import operator as operator_module
+from aegis_ot.settings import Settings
+
+from .fake_sidecar import FakeSidecar, Handler
+from .live import LiveRun
+
+MOVES = ("aspirate", "dispense", "dropTip", "moveToWell")
+
+
+def two_wells(context: Any) -> None:
+    tips = context.load_labware("opentrons_96_tiprack_300ul", "1")
+    plate = context.load_labware("corning_96_wellplate_360ul_flat", "2")
+    pipette = context.load_instrument("p300_single_gen2", "left", [tips])
+    pipette.transfer(50, plate.wells()[:2], plate.wells()[8:10])
+
+
+@pytest.fixture
+def sidecar() -> Iterator[FakeSidecar]:
+    with FakeSidecar() as server:
+        yield server
+
+
+def settings(sidecar: FakeSidecar, **more: Any) -> Settings:
+    return Settings(**{"sidecar": sidecar.url, "run_id": "run", **more})
+
+
+def in_time(condition: Callable[[], bool], seconds: float = 10.0) -> None:
+    until = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < until
+        time.sleep(0.01)
+
+
+def test_a_good_run_is_whole(sidecar: FakeSidecar) -> None:
+    run = LiveRun(two_wells, settings(sidecar)).start().join()
+    assert run.error is None
+    assert [f["sequence"] for f in sidecar.stored()] == list(range(8))
+    assert {h["resolution"] for h in sidecar.holds} == {"verdict"}
+    assert sidecar.finished == [{"outcome": "succeeded", "detail": ""}]
+    assert run.watcher is not None
+    assert "2 passed" in run.watcher.summary()
+
+
+@pytest.mark.parametrize("api", ["2.15", "2.13"])
+def test_a_stop_during_a_hold_ends_the_run_within_half_a_second(
+    api: str, sidecar: FakeSidecar
+) -> None:
+    sidecar.outcomes[0] = None  # no verdict ever
+    # On the legacy core the hardware simulator makes is_simulating() true.
+    run = LiveRun(two_wells, settings(sidecar, watch_simulation=True), api).start()
+    assert sidecar.asked.wait(10)
+    pressed = run.stop()
+    run.join()
+    assert run.ended_at - pressed < 0.5
+    assert type(run.error).__name__ in ("RunStoppedError", "ExecutionCancelledError")
+    assert [f["outcome"] for f in sidecar.finished] == ["stopped"]
+
+
+@pytest.mark.parametrize("path", ["/keyframes", "/verdict", "/run"])
+def test_a_stop_while_the_sidecar_hangs(path: str, sidecar: FakeSidecar) -> None:
+    hanging, release = threading.Event(), threading.Event()
+
+    def hang(handler: Handler) -> bool:
+        if not handler.path.split("?")[0].endswith(path):
+            return False
+        hanging.set()
+        release.wait(10)
+        handler.drop()
+        return True
+
+    sidecar.fault = hang
+    run = LiveRun(two_wells, settings(sidecar)).start()
+    assert hanging.wait(10)
+    pressed = run.stop()
+    run.join()
+    release.set()
+    assert run.ended_at - pressed < 0.5
+
+
+def test_a_stop_while_the_sidecar_is_absent(sidecar: FakeSidecar) -> None:
+    sidecar.die()
+    run = LiveRun(two_wells, settings(sidecar, capture_timeout_s=30.0)).start()
+    run.wait_for_status("running")
+    time.sleep(0.2)
+    pressed = run.stop()
+    run.join()
+    assert run.ended_at - pressed < 0.5
+
+
+def test_a_failed_well_pauses_before_the_next_is_touched_and_play_goes_on(
+    sidecar: FakeSidecar,
+) -> None:
+    sidecar.outcomes[0] = "fail"
+    run = LiveRun(two_wells, settings(sidecar)).start()
+    run.wait_for_status("paused")
+    in_time(lambda: bool(sidecar.holds))
+    assert sidecar.holds[0]["policy"] == "pause"
+    assert len(sidecar.stored()) == 4
+    run.play()
+    run.join()
+    assert run.error is None
+    kinds = [command.commandType for command in run.commands]
+    pause = kinds.index("waitForResume")
+    assert [k for k in kinds[:pause] if k in MOVES] == [
+        "aspirate", "moveToWell", "dispense", "moveToWell",
+    ]  # fmt: skip
+    message = run.commands[pause].params.message
+    assert "A2 of Corning 96 Well Plate" in message
+    assert "partial dispense" in message
+    assert "the column is too long" in message
+    assert len(sidecar.stored()) == 8
+
+
+def test_a_stop_during_the_pause_ends_as_opentrons_ends_it(sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0] = "undecided"
+    run = LiveRun(two_wells, settings(sidecar)).start()
+    run.wait_for_status("paused")
+    pressed = run.stop()
+    run.join()
+    assert run.ended_at - pressed < 0.5
+    assert run.error is not None
+    assert not isinstance(run.error, RunAborted)
+    assert [f["outcome"] for f in sidecar.finished] == ["stopped"]
+
+
+def test_an_operators_pause_during_a_hold_waits_for_play(sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0] = None
+    run = LiveRun(two_wells, settings(sidecar, verdict_timeout_s=0.6)).start()
+    assert sidecar.asked.wait(10)
+    run.pause()
+    run.wait_for_status("paused")
+    time.sleep(0.8)  # longer than the verdict may take, were it not for the pause
+    sidecar.outcomes[0] = "pass"
+    in_time(lambda: bool(sidecar.holds))
+    assert sidecar.holds[0]["resolution"] == "verdict"
+    assert run.status == "paused"
+    run.play()
+    run.join()
+    assert run.error is None
+
+
+def test_abort_ends_the_run_with_the_reason(sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[1] = "fail"
+    run = LiveRun(two_wells, settings(sidecar, on_fail="abort")).start().join()
+    assert isinstance(run.error, RunAborted)
+    assert "B2" in str(run.error)
+    assert sidecar.finished[0]["outcome"] == "aborted"
+
+
+def test_continue_comments_and_goes_on(sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0] = "fail"
+    run = LiveRun(two_wells, settings(sidecar, on_fail="continue")).start().join()
+    assert run.error is None
+    comments = [c.params.message for c in run.commands if c.commandType == "comment"]
+    assert len(comments) == 1
+    assert "The run goes on, as configured" in comments[0]
+    assert run.watcher is not None
+    assert "1 failed (A2 of" in run.watcher.summary()
+
+
+def test_a_lost_sidecar_pauses_and_nothing_is_lost_when_it_is_back(sidecar: FakeSidecar) -> None:
+    sidecar.fault = lambda handler: sidecar.fault is not None and _die_at(handler, sidecar, 2)
+    run = LiveRun(two_wells, settings(sidecar, capture_timeout_s=0.4)).start()
+    run.wait_for_status("paused")
+    with FakeSidecar(port=sidecar.port) as reborn:
+        reborn.keyframes = sidecar.keyframes  # it kept its store
+        run.play()
+        run.join()
+        assert run.error is None
+        assert [f["sequence"] for f in reborn.stored()] == list(range(8))
+        assert not any(f["late"] for f in reborn.stored())
+    assert run.watcher is not None
+    assert run.watcher.result.outages == 1
+    assert "2 passed" in run.watcher.summary()
+
+
+def _die_at(handler: Handler, sidecar: FakeSidecar, count: int) -> bool:
+    if handler.path.endswith("/keyframes") and len(sidecar.stored()) == count:
+        sidecar.fault = None
+        threading.Thread(target=sidecar.die, daemon=True).start()
+        handler.drop()
+        return True
+    return False
+
+
+def test_where_nobody_can_resume_the_operator_decides_on_the_page(
+    sidecar: FakeSidecar, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(operator_module, "can_be_resumed", lambda: False)
+    sidecar.outcomes.update({0: "fail", 1: "fail"})
+    run = LiveRun(two_wells, settings(sidecar)).start()
+    in_time(lambda: bool(sidecar.holds))
+    sidecar.decided[0] = "pass"
+    in_time(lambda: len(sidecar.holds) == 2)
+    sidecar.decided[1] = "fail"
+    run.join()
+    assert isinstance(run.error, RunAborted)
+    assert "waitForResume" not in [c.commandType for c in run.commands]
+
+
+def test_a_protocol_that_fails_by_itself_fails_with_its_own_error(sidecar: FakeSidecar) -> None:
+    def broken(context: Any) -> None:
+        two_wells(context)
+        raise KeyError("plate map")
+
+    run = LiveRun(broken, settings(sidecar)).start().join()
+    assert type(run.error) is KeyError
+    assert sidecar.finished[0]["outcome"] == "failed"
+    assert "plate map" in sidecar.finished[0]["detail"]
