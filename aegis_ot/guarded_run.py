@@ -20,7 +20,7 @@ from .instrumentation import NameCollector, Tap, tapped
 from .settings import Settings, load_settings
 
 if TYPE_CHECKING:
-    from .preflight import Recorder
+    from .preflight.recorder import Recorder
     from .runtime import Watcher
 
 _GUARDED: ContextVar[bool] = ContextVar("aegis_ot_guarded", default=False)
@@ -81,7 +81,7 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
 def _rehearse_by_running(
     call: Callable[[], Any], protocol: Any, settings: Settings, file_name: str, run: Any
 ) -> Any:
-    from .preflight import Recorder
+    from .preflight.recorder import Recorder
 
     recorder = Recorder() if settings.rules != "off" else None
     watcher = _new_watcher(protocol, settings, file_name)
@@ -104,7 +104,7 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
     """Rehearse and judge before anything moves; what there is to say of it."""
     if settings.rules == "off":
         return ""
-    from .preflight import Recorder
+    from .preflight.recorder import Recorder
     from .preflight.rehearsal import rehearse
     from .preflight.script import find_script
 
@@ -204,15 +204,15 @@ def _judge(
     Raises:
         ProtocolRejected: It found errors, and ``rules="on"``.
     """
-    from .preflight import check_recording
+    from .preflight.checking import check_recording, is_rejected, rejection, summary
     from .preflight.script import find_script
 
     script = find_script(file_name, protocol)
     text = script.text if script is not None else ""
     report = check_recording(recorder, names, text, file_name, settings)
-    if settings.rules == "on" and report.failed:
-        raise ProtocolRejected(report.rejection())
-    return report.summary()
+    if settings.rules == "on" and is_rejected(report):
+        raise ProtocolRejected(rejection(report))
+    return summary(report)
 
 
 def _say(protocol: Any, layer1: str, watcher: Watcher | None) -> None:

@@ -14,6 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..dryrun import DryRun, DryRunSettings, Progress, WellRow, dry_run, read_script
+from ..preflight.checking import summary
 from ..reports import dry_run_html
 from ..sidecar import Judged, make_analyser
 from ..vocabulary import Outcome
@@ -101,7 +102,7 @@ class _Shown(Progress):
 def show(result: DryRun) -> None:
     """Print a finished dry run."""
     if result.report is not None:
-        console.print(Text(f"Layer 1: {result.report.summary()}"))
+        console.print(Text(f"Layer 1: {summary(result.report)}"))
     if result.outcome == "rejected":
         console.print(Text(result.detail, style="red"))
         console.print(f"{result.protocol}: rejected before anything moved.")

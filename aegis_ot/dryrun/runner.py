@@ -16,7 +16,8 @@ from typing import Any
 from ..errors import AegisError, RehearsalError, RunAborted
 from ..guard import guard
 from ..instrumentation import Event, Operation, OperationKind, tapped
-from ..preflight import Recorder, check_recording
+from ..preflight.checking import check_recording, is_rejected, rejection
+from ..preflight.recorder import Recorder
 from ..preflight.rehearsal import play, rehearse
 from ..preflight.script import Script
 from ..runtime import Planner
@@ -87,8 +88,8 @@ def dry_run(
             recorder, rehearsal.names, script.text, script.file_name, guard_settings
         )
         progress.checked(report)
-        if report.failed and settings.rules == "on":
-            return DryRun(script.file_name, report, (), "rejected", report.rejection())
+        if is_rejected(report) and settings.rules == "on":
+            return DryRun(script.file_name, report, (), "rejected", rejection(report))
     camera = SimulatedCamera(seed=settings.seed, faults=settings.faults)
     camera.expect(planner.keyframes)
     progress.begin(planner.trajectories)

@@ -9,6 +9,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from .. import __version__
+from ..preflight.checking import summary
 from ..vocabulary import KeyframeKind
 
 _TITLES = {
@@ -25,6 +26,7 @@ def dry_run_html(results: Sequence[Any]) -> str:
         loader=PackageLoader("aegis_ot.reports"), autoescape=True, undefined=StrictUndefined
     )
     environment.filters["data_url"] = _data_url
+    environment.filters["summary"] = summary
     template = environment.get_template("dryrun.html")
     return template.render(results=results, titles=_TITLES, version=__version__)
 

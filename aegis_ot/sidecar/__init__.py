@@ -3,6 +3,7 @@
 from .analysis import Analyser, Evidence, Judged, RunAnalyser
 from .app import create_app
 from .config import SidecarConfig
+from .judging import make_analyser
 from .server import running_sidecar, serve
 
 __all__ = [
@@ -12,6 +13,7 @@ __all__ = [
     "RunAnalyser",
     "SidecarConfig",
     "create_app",
+    "make_analyser",
     "running_sidecar",
     "serve",
 ]

@@ -1,0 +1,77 @@
+"""From a recording and the guard's settings to a report, and the report in plain words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..instrumentation import NameBinding
+from ..settings import Settings
+from ..vocabulary import Finding, Severity, VerdictWord
+from .judge import Options, Recording, Report, judge
+from .recorder import Recorder
+from .rulefiles import load_database
+
+
+def check_recording(
+    recorder: Recorder,
+    names: Sequence[NameBinding],
+    text: str,
+    file_name: str,
+    settings: Settings,
+) -> Report:
+    """Judge what a rehearsal recorded.
+
+    Args:
+        recorder: Heard the rehearsal.
+        names: Names that held wells.
+        text: Source of the protocol; ``""`` if unknown.
+        file_name: Its name.
+        settings: The guard's.
+
+    Raises:
+        RuleError: A rule file cannot be used.
+        ConfigurationError: A setting names a rule, role or family that does not exist.
+    """
+    database = load_database([settings.rules_path] if settings.rules_path else [])
+    options = Options(
+        assay=(settings.assay,) if settings.assay else (),
+        roles=settings.roles,
+        select=settings.select,
+        ignore=settings.ignore,
+    )
+    recording = Recording(file_name, text, recorder.log, recorder.labware, tuple(names))
+    return judge(recording, database, options)
+
+
+def is_rejected(report: Report) -> bool:
+    """Whether the guard refuses to run this protocol."""
+    return report.verdict is VerdictWord.FAIL
+
+
+def rejection(report: Report) -> str:
+    """Why a protocol is refused: every error with its rule, wells and lines."""
+    errors = [finding for finding in report.findings if finding.severity is Severity.ERROR]
+    count = "an error" if len(errors) == 1 else f"{len(errors)} errors"
+    lines = [f"Layer 1 found {count} in {report.file}; nothing has moved."]
+    lines += [_tell(finding) for finding in errors]
+    return "\n".join(lines)
+
+
+def summary(report: Report) -> str:
+    """One line for the run log."""
+    errors = sum(finding.severity is Severity.ERROR for finding in report.findings)
+    warnings = len(report.findings) - errors
+    parts = [f"{errors} errors", f"{warnings} warnings", f"{len(report.undecided)} undecided"]
+    if report.waived:
+        parts.append(f"{len(report.waived)} waived")
+    rules = ", ".join(dict.fromkeys(finding.rule for finding in report.findings))
+    told = f" ({rules})" if rules else ""
+    return f"Layer 1: {report.verdict.value}{told}: {', '.join(parts)}."
+
+
+def _tell(finding: Finding) -> str:
+    lines = ", ".join(str(line) for line in finding.lines)
+    wells = ", ".join(str(well) for well in finding.wells)
+    where = f" Lines {lines}; wells {wells}." if lines and wells else ""
+    fix = f" Fix: {finding.fix}" if finding.fix else ""
+    return f"{finding.rule}: {finding.message}{where}{fix}"
