@@ -4,8 +4,9 @@ Standard library and ``opentrons`` only; see ``docs/reference/keyframes.md``.
 """
 
 from .link import SidecarLink
+from .planner import Planner
 from .summary import WatchSummary
 from .tracker import Tracker
 from .watch import Watcher
 
-__all__ = ["SidecarLink", "Tracker", "WatchSummary", "Watcher"]
+__all__ = ["Planner", "SidecarLink", "Tracker", "WatchSummary", "Watcher"]
