@@ -1,5 +1,6 @@
 """The liquid column in a tip, measured along the tip's axis in frame coordinates."""
 
+from .axis import rectify
 from .breaks import Break
 from .evidence import Dye, combine, mean_dye
 from .measure import (
@@ -13,7 +14,7 @@ from .measure import (
     shape_for,
 )
 from .profile import TipProfile
-from .strip import TipShape, rectify
+from .strip import TipShape
 from .trajectory import RunReference, Signs, TipModel, learn_run, learn_tip, place, weigh
 
 __all__ = [

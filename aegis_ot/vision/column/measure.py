@@ -8,6 +8,7 @@ import numpy as np
 
 from ..tips import TipGeometry, pipette_class, tip_for
 from ..types import Image, TipDetection
+from .axis import rectify
 from .breaks import Break, find_break
 from .evidence import (
     IMPOSSIBLE,
@@ -18,7 +19,7 @@ from .evidence import (
     step_evidence,
 )
 from .profile import TipProfile, tip_profile, unroll
-from .strip import SHAPES, Array, TipShape, rectify
+from .strip import SHAPES, Array, TipShape
 
 _SHORTEST = (0.06, 9.0)
 """Shortest column that is looked for, tip lengths and px: the orifice's own rim glints."""
@@ -120,11 +121,18 @@ class TipLook:
 
 
 def look_at_tip(
-    image: Image, detection: TipDetection, pipette: str, capacity_ul: float | None = None
+    image: Image,
+    detection: TipDetection,
+    pipette: str,
+    capacity_ul: float | None = None,
+    length: float | None = None,
 ) -> TipLook:
-    """Straighten the tip and read its signals: all that takes time, done once per frame."""
+    """Straighten the tip and read its signals: all that takes time, done once per frame.
+
+    ``length``: of the tip in px, where other frames of the trajectory show it better.
+    """
     shape = shape_for(pipette, capacity_ul)
-    strip = rectify(image, detection, shape)
+    strip = rectify(image, detection, shape, length=length)
     cone = unroll(strip, shape)
     return TipLook(tip_profile(strip, shape, cone), cone, strip.collar, strip.orifice)
 

@@ -1,0 +1,151 @@
+"""The axis of a tip in a frame, refined from a detection.
+
+A detection is good to a few pixels, now and then to a few dozen; a column of 25 µL in a p1000
+tip is nine pixels long, and in a p20 tip the whole bore is two pixels wide. So the axis is
+refined on the tip's own outline, and its ends on two marks: the lower end of the nozzle, which
+shows through the tip as a sharp step in every frame, and the orifice, where the tip ends.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+
+from ..types import Image, TipDetection
+from .strip import Array, Point, Strip, TipShape, resample
+
+_STRAYED = 0.03
+"""If the nozzle is farther than this from where the detection has it, in tip lengths, the whole
+detection is off."""
+
+
+def rectify(
+    image: Image, detection: TipDetection, shape: TipShape, *, length: float | None = None
+) -> Strip:
+    """Lay the detected tip straight.
+
+    Args:
+        image: Whole frame, ``(height, width, 3)`` uint8, BGR.
+        detection: The tip in it. Errors across the axis up to a tip's width are mended, along
+            it up to a fifth of the tip at the collar and a few per cent at the orifice.
+        shape: Outline of the tip class.
+        length: Length of the tip in px, where it is known better than from this detection.
+    """
+    collar = np.array(detection.collar, dtype=np.float64)
+    orifice = np.array(detection.orifice, dtype=np.float64)
+    collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
+    shift = _nozzle_shift(image, collar, orifice, shape, 0.2)
+    if abs(shift) > _STRAYED:
+        along = orifice - collar
+        collar, orifice = collar + along * shift, orifice + along * shift
+        collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
+        shift = _nozzle_shift(image, collar, orifice, shape, 0.05)
+    collar = collar + (orifice - collar) * shift
+    if length is not None:
+        along = orifice - collar
+        orifice = collar + along * (length / max(float(np.hypot(*along)), 1.0))
+        collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
+    orifice = orifice + (orifice - collar) * _orifice_shift(image, collar, orifice, shape)
+    pixels, u, v = resample(image, collar, orifice, shape.rows, shape.half_width)
+    return Strip(
+        pixels,
+        u,
+        v,
+        (float(collar[0]), float(collar[1])),
+        (float(orifice[0]), float(orifice[1])),
+        clarity,
+    )
+
+
+def _onto_outline(
+    image: Image,
+    collar: Point,
+    orifice: Point,
+    shape: TipShape,
+) -> tuple[Point, Point, float]:
+    """Shift both ends across the axis until the tip's outline lies on the steepest steps."""
+    clarity = 0.0
+    for reach, fine in ((0.06, 1.0), (0.02, 0.25)):
+        rows = 96
+        pixels, u, v = resample(image, collar, orifice, rows, shape.half_width + 2 * reach)
+        grey = cv2.GaussianBlur(pixels.mean(axis=2), (1, 5), 0)
+        step = np.abs(np.gradient(grey, axis=1))
+        noise = np.median(step) + 1e-3
+        step = np.minimum(step / noise, 12.0)
+        inside = (u > 0.0) & (u < 1.0)
+        grid = np.arange(-reach, reach + 1e-9, fine / rows)
+        rows_u = u[inside].astype(np.float64)
+        radius = shape.radius(u[inside]).astype(np.float64)
+        table = step[inside]
+        total = np.zeros((grid.size, grid.size))
+        height, width = table.shape
+        index = np.arange(height)[:, None]
+        for i, top in enumerate(grid):
+            # (height, grid): centre of the axis per row for every shift of the lower end
+            centre = top * (1 - rows_u)[:, None] + grid[None, :] * rows_u[:, None]
+            for side in (-1.0, 1.0):
+                at = (centre + side * radius[:, None] - v[0]) * rows
+                low = np.clip(at.astype(np.int64), 0, width - 2)
+                part = np.clip(at - low, 0.0, 1.0)
+                total[i] += (table[index, low] * (1 - part) + table[index, low + 1] * part).sum(0)
+        best = np.unravel_index(int(np.argmax(total)), total.shape)
+        along = orifice - collar
+        across = np.array([along[1], -along[0]])
+        collar = collar + across * grid[best[0]]
+        orifice = orifice + across * grid[best[1]]
+        clarity = float(total[best] / (2 * height))
+    return collar, orifice, clarity
+
+
+def _nozzle_shift(
+    image: Image, collar: Point, orifice: Point, shape: TipShape, reach: float
+) -> float:
+    """How far down the axis the nozzle ends from where it should, tip lengths; 0 if unseen."""
+    grey, u, v = _grey(image, collar, orifice, shape, 0.25 if reach > 0.1 else 0.1)
+    bore = grey[:, np.abs(v) < 0.6 * shape.collar_radius].mean(axis=1)
+    found = _step(u, -bore, shape.nozzle_end, reach, 3)
+    return 0.0 if found is None else found - shape.nozzle_end
+
+
+def _orifice_shift(image: Image, collar: Point, orifice: Point, shape: TipShape) -> float:
+    """How far down the axis the tip ends from where it should, tip lengths; 0 if unclear.
+
+    Beyond the orifice the middle of the strip looks like its sides.
+    """
+    grey, u, v = _grey(image, collar, orifice, shape, 0.12)
+    tip = np.abs(v) < 1.2 * shape.orifice_radius
+    side = (np.abs(v) > 2.5 * shape.orifice_radius) & (np.abs(v) < shape.collar_radius)
+    beside = np.median(grey[:, side], axis=1)
+    contrast = np.abs(grey[:, tip].mean(axis=1) - grey[:, side].mean(axis=1))
+    contrast = cv2.GaussianBlur(contrast[:, None], (1, 3), 0)[:, 0]
+    end = _step(u, -contrast, 1.0, 0.04, 4)
+    if end is None:
+        return 0.0
+    # An edge in the background beside the tip may be what ends there.
+    behind = np.ptp(beside[np.abs(u - 1.0) < 0.06])
+    return 0.0 if behind > 0.5 * np.max(contrast[np.abs(u - 0.97) < 0.03]) else end - 1.0
+
+
+def _grey(
+    image: Image, collar: Point, orifice: Point, shape: TipShape, margin: float
+) -> tuple[Array, Array, Array]:
+    pixels, u, v = resample(image, collar, orifice, shape.rows, shape.half_width, margin)
+    return np.asarray(pixels.mean(axis=2), dtype=np.float32), u, v
+
+
+def _step(u: Array, profile: Array, expected: float, reach: float, width: int) -> float | None:
+    """Sub-row position of the steepest rise of a profile near ``expected``, or ``None``."""
+    kernel = np.concatenate([np.full(width, -1.0), np.full(width, 1.0)]) / width
+    rise = np.correlate(profile.astype(np.float64), kernel, mode="same")
+    near = np.flatnonzero(np.abs(u - expected) <= reach)
+    # A weak prior on the detection: a step twice as far off has to be clearly steeper.
+    weight = np.exp(-0.5 * ((u[near] - expected) / reach) ** 2)
+    best = int(near[np.argmax(rise[near] * weight)])
+    noise = 1.48 * float(np.median(np.abs(rise - np.median(rise)))) + 1e-6
+    if rise[best] < 4.0 * noise or best in (0, len(u) - 1):
+        return None
+    left, mid, right = rise[best - 1], rise[best], rise[best + 1]
+    bend = left - 2 * mid + right
+    shift = 0.5 * (left - right) / bend if bend < 0 else 0.0
+    # correlate(mode="same") puts an even kernel's centre half a row above the row it names
+    return float(u[best] + (np.clip(shift, -0.5, 0.5) - 0.5) * (u[1] - u[0]))
