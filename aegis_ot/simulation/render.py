@@ -86,7 +86,7 @@ class FrameTruth:
 class _Still:
     camera: Pinhole
     backdrop: Plane
-    blurred: Plane
+    lit: Plane
     light: Plane
 
 
@@ -94,7 +94,8 @@ class _Still:
 def _still(parameters: SessionParameters) -> _Still:
     camera = Pinhole(parameters)
     backdrop = draw_backdrop(parameters, camera)
-    return _Still(camera, backdrop, _blur(backdrop, parameters), light_field(parameters))
+    light = light_field(parameters)
+    return _Still(camera, backdrop, _blur(backdrop, parameters) * light, light)
 
 
 def render(state: SceneState, parameters: SessionParameters, rng: np.random.Generator) -> Image:
@@ -107,7 +108,6 @@ def render_jpeg(
 ) -> tuple[bytes, FrameTruth]:
     """One camera frame as JPEG bytes, and what is in it."""
     still = _still(parameters)
-    light = still.blurred.copy()
     tips = []
     order = range(len(state.contents))
     near = sorted(order, key=lambda i: -_depth(state, i, still.camera))
@@ -119,11 +119,10 @@ def render_jpeg(
         tips.append(tip)
         if patch is not None:
             touched.append(patch)
-    if touched:
-        _refresh(light, scene, touched, parameters)
     gain = frame_gain(parameters, rng)
-    light *= still.light
-    light *= np.float32(gain)
+    light = still.lit * np.float32(gain)
+    if touched:
+        _refresh(light, scene, touched, still.light, gain, parameters)
     image = expose(light, parameters, rng)
     truth = FrameTruth(
         kind=state.kind,
@@ -154,6 +153,8 @@ def _refresh(
     light: Plane,
     scene: Plane,
     touched: list[tuple[int, int, int, int]],
+    field: Plane,
+    gain: float,
     parameters: SessionParameters,
 ) -> None:
     """Blur what was drawn anew, with a margin, and put it in the finished picture."""
@@ -165,7 +166,8 @@ def _refresh(
     y1 = min(max(t[3] for t in touched) + pad, height)
     a0, b0 = max(x0 - pad, 0), max(y0 - pad, 0)
     wide = _blur(scene[b0 : y1 + pad, a0 : x1 + pad], parameters)
-    light[y0:y1, x0:x1] = wide[y0 - b0 : y1 - b0, x0 - a0 : x1 - a0]
+    new = wide[y0 - b0 : y1 - b0, x0 - a0 : x1 - a0]
+    light[y0:y1, x0:x1] = new * field[y0:y1, x0:x1] * np.float32(gain)
 
 
 def _draw(

@@ -5,7 +5,7 @@ All is done in grey levels, where the dyes' transmissions were measured, not in 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -50,8 +50,25 @@ def shade_tip(
 ) -> Plane:
     """Draw shaft, tip and liquid over what lies behind: float32 ``(h, w, 3)`` to the same."""
     image = _shaft(behind, view, tip, content.present, parameters)
-    if not content.present:
-        return _hide(image, behind, view)
+    if content.present:
+        # The shaft above takes half of the patch: leave it out of the costly part.
+        part = np.flatnonzero(view.along.min(axis=1) < tip.length_mm + 1)
+        if part.size:
+            rows = slice(int(part[0]), int(part[-1]) + 1)
+            low = replace(view, across=view.across[rows], along=view.along[rows])
+            image[rows] = _tip(image[rows], low, tip, content, dye, parameters)
+    return _hide(image, behind, view)
+
+
+def _tip(
+    image: Plane,
+    view: TipView,
+    tip: TipGeometry,
+    content: TipContent,
+    dye: Dye,
+    parameters: SessionParameters,
+) -> Plane:
+    """Tip and liquid over what lies behind, the shaft's end included."""
     h, u = view.along, np.abs(view.across)
     # Outside the ends the radii are those of the ends.
     inner = tip.inner_radius(h.astype(np.float64)).astype(np.float32)
@@ -67,9 +84,8 @@ def shade_tip(
 
     # Haze of the wall: lit from the front, so it brightens what is dark and dims what is bright.
     opacity = 1 - np.exp(-(0.10 + 0.55 * parameters.frost) * wall / (2 * tip.wall_mm + 0.2))
-    side = np.clip(view.across / outer, -1, 1) * np.sign(parameters.glint_side)
-    haze_level = 0.55 * (1 + 0.25 * side) * np.mean(parameters.shaft)
-    haze = np.asarray(haze_level, np.float32)[..., None] * np.ones(3, np.float32)
+    side = np.clip(view.across / outer, -1, 1) * float(np.sign(parameters.glint_side))
+    haze = (0.55 * (1 + 0.25 * side) * float(np.mean(parameters.shaft)))[..., None]
 
     # A filled tip is a strong lens: what is behind is swapped left to right and drawn apart.
     through = image
@@ -77,21 +93,24 @@ def shade_tip(
         bent = _refract(image, view, parameters.lens)
         dim = 1 - 0.25 * parameters.lens * np.clip(u / np.maximum(inner, 1e-3), 0, 1) ** 4
         through = image + wet[..., None] * (bent * dim[..., None] - image)
-    back = through * (1 - 0.75 * opacity[..., None]) + haze * (0.75 * opacity[..., None])
-    back = back + _piping(view, wet, parameters)[..., None] * np.asarray(view.under, np.float32)
-    path = wet * chord + _film_path(view, tip, content, inner, wet)
-    back = back * _transmission(dye, path, parameters)
-    front = back * (1 - 0.15 * opacity[..., None]) + haze * (0.15 * opacity[..., None])
+    milky = opacity[..., None]
+    back = through + 0.75 * milky * (haze - through)
+    if parameters.piping > 0 and view.hidden_below > 0:
+        back += _piping(view, wet, parameters)[..., None] * np.asarray(view.under, np.float32)
+    if not dye.is_clear:
+        path = wet * chord + _film_path(view, tip, content, inner, wet)
+        back *= _transmission(dye, path, parameters)
+    front = back + 0.15 * milky * (haze - back)
 
     lines = _edges(u, inner, outer, wet, view, parameters)
     lines = lines + _glints(view, inner, outer, wet, parameters)
     lines = lines + _menisci(view, tip, content, inner, parameters)
     lines = lines + _specks(view, tip, parameters)
-    lit = front + lines[..., None] * (0.9 * np.asarray(parameters.shaft, np.float32) - 0.25 * front)
-    image = image + inside[..., None] * (lit - image)
+    front += lines[..., None] * (0.9 * np.asarray(parameters.shaft, np.float32) - 0.25 * front)
+    image = image + inside[..., None] * (front - image)
     if content.drop_ul > 0:
         image = _drop(image, view, content.drop_ul, dye, parameters)
-    return _hide(image, behind, view)
+    return np.asarray(image, np.float32)
 
 
 def column_edges(tip: TipGeometry, content: TipContent) -> tuple[tuple[float, float], ...]:
@@ -146,8 +165,6 @@ def _refract(image: Plane, view: TipView, strength: float) -> Plane:
 
 def _piping(view: TipView, wet: Plane, p: SessionParameters) -> Plane:
     """Light from the labware below that runs up the column."""
-    if p.piping <= 0 or view.hidden_below <= 0:
-        return np.zeros_like(wet)
     reach = np.exp(-np.maximum(view.along - view.hidden_below, 0) / 22.0)
     return np.asarray(p.piping * wet * reach, np.float32)
 

@@ -267,7 +267,7 @@ def test_the_same_seed_gives_the_same_frame() -> None:
 @pytest.mark.parametrize("pipette", ["p20", "p300_multi_gen2", "flex_1channel_1000"])
 def test_drawn_sessions_keep_the_tip_in_view(pipette: str) -> None:
     tip = tip_for(pipette)
-    for seed in range(12):
+    for seed in range(6):
         session = SessionParameters.draw(np.random.default_rng(seed), pipette=pipette)
         again = SessionParameters.draw(np.random.default_rng(seed), pipette=pipette)
         assert session == again
