@@ -12,12 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..instrumentation import Event, EventKind, Operation, OperationKind
-from ..vocabulary import Keyframe, KeyframeKind, WellRef
 from .contents import Layer, liquid_of
 from .hand import Hand, Place, in_place, unique, wells_of
+from .ledger import Ledger
 from .steps import Abandon, Capture, Hold, Lift, Step, Trajectory
 
-_ORDER = tuple(KeyframeKind)
 _EXPELLING = (OperationKind.DISPENSE, OperationKind.BLOW_OUT)
 
 Capacity = Callable[[Operation], "float | None"]
@@ -44,19 +43,16 @@ class Tracker:
         lift: bool = True,
         capacity: Capacity = _no_capacity,
     ) -> None:
-        self._run = run
+        self._ledger = Ledger(run)
         self._hold = hold
         self._lift = lift
         self._capacity = capacity
         self._hands: dict[str, Hand] = {}
-        self._sequence = 0
-        self._trajectories = 0
-        self._reagents: dict[WellRef, str] = {}
 
     @property
     def trajectories(self) -> int:
         """How many trajectories have begun."""
-        return self._trajectories
+        return self._ledger.trajectories
 
     def before(self, operation: Operation) -> list[Step]:
         """What has to be done before ``operation``, in order."""
@@ -106,7 +102,7 @@ class Tracker:
         steps: list[Step] = []
         if event.kind is EventKind.LIQUID_LOADED:
             for well in event.wells:
-                self._reagents[well] = event.text
+                self._ledger.reagents[well] = event.text
         elif event.kind is EventKind.PAUSED:
             for hand in self._hands.values():
                 # No lift: what the protocol does next in place must happen in that place.
@@ -215,43 +211,12 @@ class Tracker:
     # The life of a trajectory
 
     def _begin(self, hand: Hand, steps: list[Step]) -> None:
-        draw = hand.draw
+        hand.current = self._ledger.begin(hand)
         hand.draw = None
-        sources = hand.contents.sources
-        names = dict.fromkeys(name for w in sources if (name := self._reagents.get(w)))
-        hand.current = Trajectory(
-            number=self._trajectories,
-            sources=sources,
-            channels=max(1, hand.channels),
-            commanded_ul=hand.contents.liquid,
-            reagent=" + ".join(names) or None,
-            line=draw.line if draw is not None else None,
-        )
-        self._trajectories += 1
         self._capture(hand, hand.current, steps)
 
     def _capture(self, hand: Hand, trajectory: Trajectory, steps: list[Step]) -> None:
-        keyframe = Keyframe(
-            run=self._run,
-            sequence=self._sequence,
-            trajectory=trajectory.number,
-            kind=_ORDER[trajectory.frames],
-            pipette=hand.pipette.name,
-            mount=hand.pipette.mount,
-            channels=trajectory.channels,
-            tip=hand.tip,
-            sources=trajectory.sources,
-            destinations=trajectory.destinations,
-            commanded_ul=round(trajectory.commanded_ul, 3),
-            expected_ul=round(hand.contents.liquid, 3),
-            capacity_ul=hand.capacity or hand.pipette.max_volume,
-            reagent=trajectory.reagent,
-            position=hand.position,
-            line=trajectory.line,
-        )
-        self._sequence += 1
-        trajectory.frames += 1
-        steps.append(Capture(keyframe))
+        steps.append(Capture(self._ledger.keyframe(hand, trajectory)))
 
     def _complete(self, hand: Hand, steps: list[Step], lift: bool) -> None:
         trajectory = hand.current

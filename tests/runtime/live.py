@@ -161,8 +161,8 @@ class LiveRun:
             await runner.load(source, PythonParseMode.NORMAL, None, None)
             self._ready.set()
             try:
-                result = await self._orchestrator.run(deck_configuration=[])
-                self.commands = result.commands
+                await self._orchestrator.run(deck_configuration=[])
             finally:
+                self.commands = engine.state_view.commands.get_all()
                 RUNNING.pop(key, None)
                 await hardware.clean_up()

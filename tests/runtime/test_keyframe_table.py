@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
-from .calls import CASES, aspirate_and_dispense, transfer_with_extras
+from .calls import CASES, aspirate_and_dispense, deck, transfer_with_extras
 from .recorded import record
 from .table import rows
 
@@ -31,3 +33,27 @@ def test_other_api_levels_yield_the_same_steps(api: str) -> None:
 def test_extras_at_other_api_levels(api: str) -> None:
     steps = [word for word in TABLE["transfer with extras"].split() if ":" not in word]
     assert record(transfer_with_extras, api).line.split() == steps
+
+
+def test_loaded_liquids_name_the_reagent() -> None:
+    def protocol(context: Any) -> None:
+        plate, pipette = deck(context)
+        water = context.define_liquid("water", "", "#0000ff")
+        plate["A1"].load_liquid(water, 200)
+        pipette.transfer(50, plate["A1"], plate["A2"])
+        pipette.transfer(50, plate["B1"], plate["B2"])
+
+    reagents = [frame.reagent for frame in record(protocol, "2.15").keyframes]
+    assert reagents == ["water"] * 4 + [None] * 4
+
+
+def test_a_multi_channel_keyframe_names_every_well_once() -> None:
+    def protocol(context: Any) -> None:
+        plate, pipette = deck(context, "p300_multi_gen2")
+        trough = context.load_labware("nest_12_reservoir_15ml", "3")
+        pipette.transfer(50, trough["A1"], plate["A2"])
+
+    frame = record(protocol, "2.15").keyframes[-1]
+    assert frame.channels == 8
+    assert [well.name for well in frame.sources] == ["A1"]
+    assert [well.name for well in frame.destinations] == [f"{row}2" for row in "ABCDEFGH"]

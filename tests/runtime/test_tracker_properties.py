@@ -63,7 +63,7 @@ def captures(happened: list[Any]) -> list[Any]:
     return [step.keyframe for step in happened if isinstance(step, Capture)]
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(SEQUENCES, st.sampled_from(["boundary", "well", "off"]))
 def test_numbers_have_no_gaps_and_kinds_come_in_order(sequence: list[Any], hold: str) -> None:
     happened = run(sequence, hold=hold)
@@ -84,7 +84,7 @@ def test_numbers_have_no_gaps_and_kinds_come_in_order(sequence: list[Any], hold:
         assert whole == (number in held)
 
 
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=150, deadline=None)
 @given(SEQUENCES)
 def test_no_other_well_is_entered_before_the_verdict(sequence: list[Any]) -> None:
     open_wells: dict[int, tuple[str, frozenset[WellRef]]] = {}

@@ -1,0 +1,63 @@
+"""Numbers trajectories and keyframes, and writes on each what the robot knows."""
+
+from __future__ import annotations
+
+from ..vocabulary import Keyframe, KeyframeKind, WellRef
+from .hand import Hand
+from .steps import Trajectory
+
+_ORDER = tuple(KeyframeKind)
+
+
+class Ledger:
+    """Counts of one run; both numbers rise from 0 without gaps.
+
+    Attributes:
+        trajectories: How many have begun.
+        reagents: Name of the liquid that was loaded into a well.
+    """
+
+    def __init__(self, run: str) -> None:
+        self._run = run
+        self._sequence = 0
+        self.trajectories = 0
+        self.reagents: dict[WellRef, str] = {}
+
+    def begin(self, hand: Hand) -> Trajectory:
+        """A new trajectory for what this pipette holds."""
+        sources = hand.contents.sources
+        names = dict.fromkeys(name for well in sources if (name := self.reagents.get(well)))
+        trajectory = Trajectory(
+            number=self.trajectories,
+            sources=sources,
+            channels=max(1, hand.channels),
+            commanded_ul=hand.contents.liquid,
+            reagent=" + ".join(names) or None,
+            line=hand.draw.line if hand.draw is not None else None,
+        )
+        self.trajectories += 1
+        return trajectory
+
+    def keyframe(self, hand: Hand, trajectory: Trajectory) -> Keyframe:
+        """The next of the four keyframes, as things stand now."""
+        keyframe = Keyframe(
+            run=self._run,
+            sequence=self._sequence,
+            trajectory=trajectory.number,
+            kind=_ORDER[trajectory.frames],
+            pipette=hand.pipette.name,
+            mount=hand.pipette.mount,
+            channels=trajectory.channels,
+            tip=hand.tip,
+            sources=trajectory.sources,
+            destinations=trajectory.destinations,
+            commanded_ul=round(trajectory.commanded_ul, 3),
+            expected_ul=round(hand.contents.liquid, 3),
+            capacity_ul=hand.capacity or hand.pipette.max_volume,
+            reagent=trajectory.reagent,
+            position=hand.position,
+            line=trajectory.line,
+        )
+        self._sequence += 1
+        trajectory.frames += 1
+        return keyframe
