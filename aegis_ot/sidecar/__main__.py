@@ -7,6 +7,7 @@ import sys
 
 from ..errors import AegisError
 from .config import SidecarConfig
+from .judging import make_analyser
 from .server import serve
 
 
@@ -15,7 +16,12 @@ def main(arguments: list[str]) -> int:
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s: %(message)s")
     try:
         config = SidecarConfig.load(arguments[0] if arguments else None)
-        serve(config, ready=lambda url: logging.info("The sidecar answers at %s", url))
+        analyser = make_analyser(config.cascade)
+        serve(
+            config,
+            analyser=analyser,
+            ready=lambda url: logging.info("The sidecar answers at %s", url),
+        )
     except AegisError as error:
         sys.stderr.write(f"{error}\n")
         return 2

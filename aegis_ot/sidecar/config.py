@@ -8,7 +8,7 @@ import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from platformdirs import user_data_path
 from pydantic import (
@@ -65,26 +65,27 @@ class CameraSettings(Section):
 
 
 class CascadeSettings(Section):
-    """Which scorer judges, and when a well goes to a gate.
+    """Which models judge, and when a well goes to a gate.
 
     Attributes:
-        scorer: Name of the scorer.
-        model: Fitted model file of the lab; ``None``: the shipped one.
+        model: Fitted scorer of the lab, from ``aegis-ot fit``; ``None``: a PCA is fitted on each
+            run's own first wells.
         detector: Tip detector (ONNX); ``None``: the shipped one.
-        calibration_wells: How many first wells calibrate a run (paper: 6).
-        band: Half-width of the silent-pass band in MADs (paper: 0.7; wider sends fewer normal
-            wells to the gate, see ``spec/paper.md``).
-        blank_floor: Scores below it are a blank camera view (paper: 1e-4).
-        always_gate: Send every well to the gate.
-        gates: Asked in this order: ``volumetric``, ``vlm``.
+        preset: Calibration to start from: ``default``, or ``paper``.
+        calibration_wells: How many first wells calibrate a run; ``None``: the preset's (6).
+        band: Half-width of the silent-pass band in MADs; ``None``: the preset's (paper: 0.7,
+            which sends most normal wells to the gate; the default is wider).
+        blank_floor: Scores below it are a blank view; ``None``: the preset's (1e-4).
+        always_gate: Send every well after calibration to the gates.
+        gates: Asked in this order, the operator after them: ``volumetric``, ``vlm``.
     """
 
-    scorer: str = "ensemble"
     model: Path | None = None
     detector: Path | None = None
-    calibration_wells: Annotated[int, Field(ge=2, le=96)] = 6
-    band: Annotated[float, Field(gt=0, le=100)] = 4.0
-    blank_floor: Annotated[float, Field(ge=0)] = 1e-4
+    preset: Literal["default", "paper"] = "default"
+    calibration_wells: Annotated[int, Field(ge=2, le=48)] | None = None
+    band: Annotated[float, Field(gt=0, le=100)] | None = None
+    blank_floor: Annotated[float, Field(ge=0)] | None = None
     always_gate: bool = False
     gates: tuple[str, ...] = ("volumetric",)
 

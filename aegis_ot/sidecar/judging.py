@@ -1,25 +1,74 @@
-"""Puts together what judges wells, as the settings say."""
+"""From settings to the analyser: detector, scorer, calibration, gates of the vision room."""
 
 from __future__ import annotations
 
-from ..vision.calibration import CalibrationSettings
+import dataclasses
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ..errors import ConfigurationError, ModelError
+from ..vision.calibration import PRESETS
 from ..vision.column_reader import MeasuredColumns
 from ..vision.detection import load_detector
+from ..vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
+from ..vision.models import load_model
 from ..vision.monitor import MonitorSettings, RunMonitor
+from ..vision.scorers import make_scorer
+from ..vision.types import Scorer
 from .analysis import Analyser
 from .config import CascadeSettings
 
 
-def make_analyser(cascade: CascadeSettings | None = None) -> Analyser:
+def make_analyser(
+    cascade: CascadeSettings | None = None, gates: Mapping[str, ConfirmingGate] | None = None
+) -> Analyser:
     """The vision room's monitor with detector, world model, cascade and gates.
 
+    Args:
+        cascade: Which models and limits; the defaults if left out.
+        gates: Gates by name that the vision room cannot make itself (``"vlm"``).
+
     Raises:
+        ConfigurationError: A gate is asked for that nobody gave, or a limit is out of range.
         ModelError: A model file is missing, damaged or of another version.
     """
     cascade = cascade or CascadeSettings()
-    detector = load_detector("default" if cascade.detector is None else cascade.detector)
-    settings = MonitorSettings(
-        CalibrationSettings(wells=cascade.calibration_wells, multiplier=cascade.band),
-        always_gate=cascade.always_gate,
+    known: dict[str, ConfirmingGate] = {"volumetric": VolumetricGate(), **(gates or {})}
+    missing = [name for name in cascade.gates if name not in known]
+    if missing:
+        raise ConfigurationError(
+            f"The gate {missing[0]!r} is asked for, but none is set up. Configure a model for it, "
+            "or leave it out of cascade.gates."
+        )
+    given: dict[str, Any] = {
+        "wells": cascade.calibration_wells,
+        "multiplier": cascade.band,
+        "score_floor": cascade.blank_floor,
+    }
+    calibration = dataclasses.replace(
+        PRESETS[cascade.preset],
+        **{name: value for name, value in given.items() if value is not None},
     )
-    return RunMonitor(detector, settings=settings, reader=MeasuredColumns)
+    return RunMonitor(
+        load_detector("default" if cascade.detector is None else cascade.detector),
+        None if cascade.model is None else load_scorer(cascade.model),
+        MonitorSettings(calibration, cascade.always_gate),
+        [*(known[name] for name in cascade.gates), OperatorGate()],
+        MeasuredColumns,
+    )
+
+
+def load_scorer(path: Path) -> Scorer:
+    """A fitted scorer from the model file that ``aegis-ot fit`` wrote.
+
+    Raises:
+        ModelError: The file is damaged, or holds no scorer.
+    """
+    model = load_model(path)
+    try:
+        kind: Any = type(make_scorer(model.kind))
+        scorer: Scorer = kind.from_model(model)
+    except (ConfigurationError, AttributeError) as error:
+        raise ModelError(f"{path}: holds a {model.kind!r} model, which is no scorer.") from error
+    return scorer
