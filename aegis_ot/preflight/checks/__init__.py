@@ -1,0 +1,56 @@
+"""The vocabulary of checks: predicates over trace and roles that rules are made of.
+
+A rule file names a check and gives its parameters; no rule has code of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ...errors import RuleError
+from ..reading import read_dataclass
+from .base import Case, Check, Doubt, Result, Violation
+from .carry import Carry, DoseOrder
+from .dilution import SeriesDirection, SeriesFilledFirst, SeriesFilledFrom, SeriesMixed, SeriesTip
+from .order import MixedAfter, ReceivedBefore, RisingOrder
+from .receiving import NeverReceives, Receives, UniformVolume
+from .volumes import VolumeBookkeeping
+
+CHECKS: dict[str, type[Check]] = {
+    check.name: check
+    for check in (
+        Carry,
+        DoseOrder,
+        Receives,
+        NeverReceives,
+        UniformVolume,
+        MixedAfter,
+        ReceivedBefore,
+        RisingOrder,
+        SeriesMixed,
+        SeriesDirection,
+        SeriesFilledFirst,
+        SeriesFilledFrom,
+        SeriesTip,
+        VolumeBookkeeping,
+    )
+}
+
+
+def make_check(data: Mapping[str, Any], where: str) -> Check:
+    """Build a check from its description in a rule file.
+
+    Raises:
+        RuleError: If there is no such check, or its parameters are wrong.
+    """
+    parameters = dict(data)
+    name = parameters.pop("check", None)
+    if not isinstance(name, str) or name not in CHECKS:
+        raise RuleError(
+            f"{where}: check: there is no check {name!r}; known are {', '.join(CHECKS)}"
+        )
+    return read_dataclass(CHECKS[name], parameters, where)
+
+
+__all__ = ["CHECKS", "Case", "Check", "Doubt", "Result", "Violation", "make_check"]

@@ -1,0 +1,201 @@
+"""What every check is, and what it may ask."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from ...vocabulary import Site, WellRef
+from ..roles import Roles, Usage
+from ..rulefiles import Common, Family
+from ..series import Series, find_series
+from ..tips import Met
+from ..trace import Trace, Visit
+from ..wells import Well
+
+RoleSet = frozenset[str]
+
+
+@dataclass(frozen=True)
+class Violation:
+    """One place where a rule is broken, before places of one cause are joined.
+
+    Attributes:
+        message: One sentence in plain words about this place.
+        sites: Both ends; the well that suffers stands last.
+        well: The well that suffers.
+        cause: Violations of one cause become one finding.
+    """
+
+    message: str
+    sites: tuple[Site, ...]
+    well: Well
+    cause: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """A place that a check cannot judge, and why."""
+
+    reason: str
+
+
+Result = Violation | Doubt
+
+
+@dataclass
+class Case:
+    """One protocol, read with one family's eyes.
+
+    Attributes:
+        trace: What happened.
+        roles: What the wells are for.
+        usage: How each well is used.
+        common: Words of no family.
+        confident: Whether the family is more than a guess.
+    """
+
+    trace: Trace
+    roles: Roles
+    usage: Mapping[WellRef, Usage]
+    common: Common
+    confident: bool = True
+    waste: frozenset[WellRef] = frozenset()
+    loose_volumes: bool = False
+    _meant: dict[Well, dict[Well, int]] | None = None
+    _dests: dict[Well, dict[Well, int]] | None = None
+    _series: list[Series] | None = None
+    _of: dict[WellRef, RoleSet] = field(default_factory=dict)
+
+    @property
+    def family(self) -> Family:
+        """The family whose rules are judged."""
+        return self.roles.family
+
+    def of(self, well: Well) -> RoleSet:
+        """All roles of a well."""
+        found = self._of.get(well.ref)
+        if found is None:
+            found = self._of[well.ref] = self.roles.of(well.ref)
+        return found
+
+    def has(self, well: Well, wanted: RoleSet) -> bool:
+        """Whether a well has any of these roles."""
+        return not wanted.isdisjoint(self.of(well))
+
+    def wells(self, wanted: RoleSet) -> list[Well]:
+        """The wells with any of these roles, in order of first use."""
+        return [well for well in self.trace.wells.values() if self.has(well, wanted)]
+
+    @property
+    def meant(self) -> Mapping[Well, Mapping[Well, int]]:
+        """For each well the liquids that measured volumes brought to it, with first index."""
+        if self._meant is None:
+            self._follow()
+        assert self._meant is not None
+        return self._meant
+
+    @property
+    def destinations(self) -> Mapping[Well, Mapping[Well, int]]:
+        """For each well the wells that it was drawn for, with the last index."""
+        if self._dests is None:
+            self._follow()
+        assert self._dests is not None
+        return self._dests
+
+    def _follow(self) -> None:
+        meant: dict[Well, dict[Well, int]] = {}
+        dests: dict[Well, dict[Well, int]] = {}
+        for visit in self.trace.visits:
+            for source, volume, liquid, _ in visit.parts:
+                if source is None or source is visit.well or volume <= 0:
+                    continue
+                into = meant.setdefault(visit.well, {})
+                for origin in liquid:
+                    into.setdefault(origin, visit.index)
+                dests.setdefault(source, {})[visit.well] = visit.index
+        self._meant, self._dests = meant, dests
+
+    @property
+    def series(self) -> list[Series]:
+        """The dilution series of the protocol."""
+        if self._series is None:
+            self._series = find_series(self.trace, self.roles, self.usage)
+        return self._series
+
+    def same_liquid(self, one: Well, other: Well) -> bool:
+        """Whether two wells hold the same liquid, as far as roles and names say."""
+        if one is other or one.ref == other.ref:
+            return True
+        if one.liquids and one.liquids == other.liquids:
+            if any(c.isdigit() for c in one.liquids[0]):
+                return True
+        mine, theirs = self.roles.by_well.get(one.ref), self.roles.by_well.get(other.ref)
+        if mine is None or theirs is None or mine.role != theirs.role:
+            return False
+        return self.family.roles[mine.role].one_liquid
+
+    def title(self, well: Well) -> str:
+        """What a well is, in words, for the middle of a sentence."""
+        return self.roles.title(well.ref)
+
+    def level(self, well: Well) -> float | None:
+        """Concentration or dose of a well, if known."""
+        return self.roles.level(well.ref)
+
+
+def place(well: Well) -> str:
+    """A well in a message: "A1 of PCR plate (slot 4)"."""
+    return str(well.ref)
+
+
+def at(line: int | None) -> str:
+    """ "at line 14", or nothing."""
+    return f"at line {line}" if line else "somewhere in the protocol"
+
+
+def carried_liquids(visit: Visit) -> Iterator[tuple[Well, Met]]:
+    """The liquids that the tip had met before this visit, with the first contact."""
+    left = visit.carried
+    for origin, met in visit.tip.origins.items():
+        if left <= 0:
+            return
+        left -= 1
+        yield origin, met
+
+
+def delivered(visit: Visit) -> Iterator[tuple[Well, float, Well, int | None]]:
+    """``(origin, µL, well drawn from, line of the draw)`` of liquid brought from elsewhere."""
+    for source, volume, liquid, line in visit.parts:
+        if source is None or source is visit.well:
+            continue
+        for origin, share in liquid.items():
+            yield origin, volume * share, source, line
+
+
+@dataclass(frozen=True)
+class Check:
+    """A predicate over trace and roles, with its parameters as fields."""
+
+    name: ClassVar[str] = ""
+
+    def roles(self) -> set[str]:
+        """Every role that the parameters name."""
+        named: set[str] = set()
+        for f in dataclasses.fields(self):
+            if f.metadata.get("roles"):
+                named.update(getattr(self, f.name))
+        return named
+
+    def find(self, case: Case) -> Iterable[Result]:
+        """Places where it does not hold, and places that it cannot judge."""
+        raise NotImplementedError
+
+
+def role_field(default: tuple[str, ...] | None = None) -> Any:
+    """A parameter that lists roles."""
+    if default is None:
+        return field(metadata={"roles": True})
+    return field(default=default, metadata={"roles": True})

@@ -1,0 +1,285 @@
+"""Checks on what a tip carries from one liquid into another well."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...vocabulary import Site
+from ..tips import Met
+from ..trace import Visit
+from ..wells import Well
+from .base import (
+    Case,
+    Check,
+    Doubt,
+    Result,
+    Violation,
+    at,
+    carried_liquids,
+    delivered,
+    place,
+    role_field,
+)
+
+
+@dataclass(frozen=True)
+class Carry(Check):
+    """No tip that has met a liquid of ``carried`` touches, or delivers below the top of, a
+    well of ``into``.
+
+    Attributes:
+        carried: Roles of the liquids that must not be carried.
+        into: Roles of the wells that they must not be carried into.
+        meant: Whether a well that a measured volume of that liquid is meant for is let be.
+        stock: Whether the wells are stocks: then liquid that was mixed into the stock on
+            purpose beforehand is let be, and nothing else is.
+        pooled: Whether carrying one source into another is let be when all that is ever made
+            of the second is meant to hold the first too (pooling, water and then sample).
+        via_destination: ``only``: judge liquids met in wells that were filled in the run;
+            ``not``: judge the others; empty: all.
+        shared: Whether only wells that serve several destinations are judged.
+    """
+
+    name: ClassVar[str] = "carry"
+    carried: tuple[str, ...] = role_field()
+    into: tuple[str, ...] = role_field()
+    meant: bool = True
+    stock: bool = False
+    pooled: bool = False
+    via_destination: str = ""
+    shared: bool = False
+    not_into: tuple[str, ...] = role_field(())
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Look at every contact of a well with a tip that had met something before."""
+        carried, into = frozenset(self.carried), frozenset(self.into)
+        not_into = frozenset(self.not_into)
+        seen: set[tuple[int, int, int]] = set()
+        for visit in case.trace.visits:
+            if not visit.below or not visit.carried:
+                continue
+            well = visit.well
+            if not case.has(well, into) or (not_into and case.has(well, not_into)):
+                continue
+            if self.shared and not is_shared(case, well):
+                continue
+            for origin, met in carried_liquids(visit):
+                if origin is well or not case.has(origin, carried):
+                    continue
+                key = (visit.tip.number, id(well), id(origin))
+                if key in seen or self._let_be(case, visit, origin, met):
+                    continue
+                seen.add(key)
+                yield self._violation(case, visit, origin, met)
+
+    def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
+        well = visit.well
+        if case.same_liquid(origin, well):
+            return True
+        if self.via_destination:
+            filled = origin is not met.well
+            if filled != (self.via_destination == "only"):
+                return True
+        brought = case.meant.get(well, {})
+        if self.stock:
+            first = brought.get(origin)
+            return first is not None and _on_purpose(case, well, origin, visit)
+        if self.meant and any(case.same_liquid(origin, other) for other in brought):
+            return True
+        if self.pooled:
+            later = [
+                dest
+                for dest, index in case.destinations.get(well, {}).items()
+                if index >= visit.index
+            ]
+            if later and all(
+                any(case.same_liquid(origin, other) for other in case.meant.get(dest, {}))
+                for dest in later
+            ):
+                return True
+        return False
+
+    def _violation(self, case: Case, visit: Visit, origin: Well, met: Met) -> Violation:
+        well = visit.well
+        what = case.title(origin)
+        where = f"{place(met.well)} {at(met.line)}"
+        if met.well is origin:
+            began = f"The tip that met {what} in {where}"
+        else:
+            began = f"The tip that touched {where}, which holds {what} from {origin.ref.name},"
+        message = f"{began} entered the {case.title(well)} {place(well)} {at(visit.line)}."
+        return Violation(
+            message,
+            (
+                Site(met.line, met.well.ref, f"met {what}"),
+                Site(visit.line, well.ref, f"entered the {case.title(well)}"),
+            ),
+            well,
+            (visit.line, met.line, what),
+        )
+
+
+def _on_purpose(case: Case, stock: Well, origin: Well, visit: Visit) -> bool:
+    """Whether liquid was mixed into a stock earlier, straight from its source, by another tip."""
+    for earlier in case.trace.deliveries(stock):
+        if earlier.index >= visit.index:
+            return False
+        if any(source is origin for _, _, source, _ in delivered(earlier)) and (
+            earlier.tip is not visit.tip
+            or not any(
+                other.well is stock and other.kind.value == "aspirate"
+                for other in case.trace.visits
+                if other.tip is visit.tip and other.index < earlier.index
+            )
+        ):
+            return True
+    return False
+
+
+def is_shared(case: Case, well: Well) -> bool:
+    """Whether a source serves more than one destination."""
+    return len(case.destinations.get(well, {})) > 1
+
+
+@dataclass(frozen=True)
+class DoseOrder(Check):
+    """One tip never goes from a well of a higher dose, or of another compound, to ``wells``.
+
+    Doses come from the levels of the ``liquid`` and the volumes that were given.
+
+    Attributes:
+        liquid: Roles of the dosed liquid.
+        wells: Roles of the wells that are dosed.
+    """
+
+    name: ClassVar[str] = "dose_order"
+    liquid: tuple[str, ...] = role_field()
+    wells: tuple[str, ...] = role_field()
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Follow each tip through the dosed wells."""
+        liquid, wanted = frozenset(self.liquid), frozenset(self.wells)
+        doses = self._doses(case, liquid)
+        seen: set[tuple[int, int]] = set()
+        for visit in case.trace.visits:
+            if not visit.below or not visit.carried or not case.has(visit.well, wanted):
+                continue
+            here = doses.get(visit.well, {})
+            key = (visit.tip.number, id(visit.well))
+            if key in seen:
+                continue
+            for origin, met in carried_liquids(visit):
+                if origin is visit.well or not case.has(origin, liquid):
+                    continue
+                if not any(case.same_liquid(origin, other) for other in here):
+                    result = self._other(case, visit, origin, met, here)
+                    if result is not None:
+                        seen.add(key)
+                        yield result
+                        break
+            else:
+                worse = self._higher(case, visit, here, doses)
+                if worse is not None:
+                    seen.add(key)
+                    yield worse
+
+    def _doses(self, case: Case, liquid: frozenset[str]) -> dict[Well, dict[Well, float]]:
+        """For each well the µL of each dosed liquid that it is given in the whole run."""
+        doses: dict[Well, dict[Well, float]] = {}
+        for visit in case.trace.visits:
+            for origin, volume, _, _ in delivered(visit):
+                if case.has(origin, liquid):
+                    into = doses.setdefault(visit.well, {})
+                    into[origin] = into.get(origin, 0.0) + volume
+        return doses
+
+    def _other(
+        self, case: Case, visit: Visit, origin: Well, met: Met, here: dict[Well, float]
+    ) -> Result | None:
+        """The tip carries a liquid that this well never gets."""
+        mine = case.level(origin)
+        own = [case.level(other) for other in here]
+        what = f"{case.title(origin)} from {place(origin)}"
+        if here and mine is not None and all(level is not None for level in own):
+            same = all(_compound(case, origin) == _compound(case, other) for other in here)
+            if same and all(level is not None and mine <= level for level in own):
+                return None
+            harm = "a well of a lower dose" if same else "a well of another compound"
+        elif here and (mine is not None or any(level is not None for level in own)):
+            return Doubt(f"the dose in {place(origin)} or of its neighbours is not known")
+        elif here and all(_in_one_list(case, origin, other) for other in here):
+            return Doubt(
+                f"one tip visits several {case.title(origin)} wells, and nothing says "
+                "which dose is higher"
+            )
+        else:
+            harm = "a treated well that is not meant for it"
+        return Violation(
+            f"The tip that met {what} {at(met.line)} entered {place(visit.well)}, {harm}, "
+            f"{at(visit.line)}.",
+            (
+                Site(met.line, met.well.ref, f"met {case.title(origin)}"),
+                Site(visit.line, visit.well.ref, f"entered {harm}"),
+            ),
+            visit.well,
+            (visit.line, met.line, harm),
+        )
+
+    def _higher(
+        self,
+        case: Case,
+        visit: Visit,
+        here: dict[Well, float],
+        doses: dict[Well, dict[Well, float]],
+    ) -> Violation | None:
+        """The tip has touched a well that gets more of the same liquid."""
+        left = visit.met
+        for other, met in visit.tip.touched.items():
+            if left <= 0:
+                break
+            left -= 1
+            there = doses.get(other, {})
+            if other is visit.well or not there:
+                continue
+            if set(there) != set(here):
+                continue
+            first = min(case.meant[other].get(origin, met.index + 1) for origin in there)
+            if first > met.index and not self._touched_later(visit, other, first):
+                continue
+            if any(volume > here[origin] * 1.01 for origin, volume in there.items()):
+                return Violation(
+                    f"The tip that touched {place(other)}, a well of a higher dose, "
+                    f"{at(met.line)} entered {place(visit.well)} {at(visit.line)}.",
+                    (
+                        Site(met.line, other.ref, "touched a well of a higher dose"),
+                        Site(visit.line, visit.well.ref, "entered a well of a lower dose"),
+                    ),
+                    visit.well,
+                    (visit.line, met.line, "falling"),
+                )
+        return None
+
+    @staticmethod
+    def _touched_later(visit: Visit, other: Well, first: int) -> bool:
+        return any(
+            v.tip is visit.tip and v.touch and first <= v.index < visit.index for v in other.visits
+        )
+
+
+def _compound(case: Case, well: Well) -> str:
+    assigned = case.roles.by_well.get(well.ref)
+    text = assigned.text if assigned else ""
+    return "".join(c for c in text.lower() if c.isalpha() and c not in "_")[:6]
+
+
+def _in_one_list(case: Case, one: Well, other: Well) -> bool:
+    """Whether two wells have their role from one name that sounds like doses."""
+    mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
+    if mine is None or theirs is None:
+        return False
+    words = set(mine.text.lower().replace("_", " ").split())
+    return mine.text == theirs.text and any(
+        word.startswith(("dose", "conc", "dilut", "serie", "level")) for word in words
+    )

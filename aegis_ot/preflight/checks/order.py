@@ -1,0 +1,146 @@
+"""Checks on the order in which things happen in wells."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...vocabulary import Site
+from ..trace import Visit
+from ..wells import Well
+from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
+
+
+def arrivals(case: Case, well: Well, liquid: RoleSet) -> list[Visit]:
+    """Visits that brought a liquid of these roles to a well."""
+    return [
+        visit
+        for visit in case.trace.deliveries(well)
+        if any(
+            volume > 0 and (case.has(source, liquid) or case.has(origin, liquid))
+            for origin, volume, source, _ in delivered(visit)
+        )
+    ]
+
+
+@dataclass(frozen=True)
+class MixedAfter(Check):
+    """Each well of ``wells`` that receives ``liquid`` is mixed after the last of it.
+
+    Any mixing counts: ``mix``, ``mix_after``, repeated aspirating and dispensing, a shaker, or
+    a pause that asks someone to shake.
+    """
+
+    name: ClassVar[str] = "mixed_after"
+    liquid: tuple[str, ...] = role_field()
+    wells: tuple[str, ...] = role_field(())
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Look for a mix after the last arrival."""
+        liquid, wanted = frozenset(self.liquid), frozenset(self.wells)
+        for well in case.trace.wells.values():
+            if case.has(well, liquid) or (wanted and not case.has(well, wanted)):
+                continue
+            usage = case.usage.get(well.ref)
+            if well.ref in case.waste or (usage is not None and usage.feeds and not wanted):
+                continue
+            came = arrivals(case, well, liquid)
+            if not came or case.trace.mixed_since(well, came[-1].index, math.inf):
+                continue
+            last = came[-1]
+            what = " or ".join(case.family.roles[role].title for role in self.liquid)
+            yield Violation(
+                f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
+                (Site(last.line, well.ref, f"received {what}, never mixed"),),
+                well,
+                (last.line, what),
+            )
+
+
+@dataclass(frozen=True)
+class ReceivedBefore(Check):
+    """A well that receives both gets all of ``first`` before any of ``then``."""
+
+    name: ClassVar[str] = "received_before"
+    first: tuple[str, ...] = role_field()
+    then: tuple[str, ...] = role_field()
+    wells: tuple[str, ...] = role_field(())
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Compare the arrivals of both."""
+        first, then = frozenset(self.first), frozenset(self.then)
+        wanted = frozenset(self.wells)
+        for well in case.trace.wells.values():
+            if wanted and not case.has(well, wanted):
+                continue
+            late = arrivals(case, well, then)
+            if not late:
+                continue
+            for visit in arrivals(case, well, first):
+                if visit.index <= late[0].index:
+                    continue
+                what = " or ".join(case.family.roles[role].title for role in self.then)
+                source = next(
+                    (s for o, _, s, _ in delivered(visit) if case.has(o, first)), visit.well
+                )
+                yield Violation(
+                    f"{place(well)} receives {what} {at(late[0].line)}, before the "
+                    f"{case.title(source)} that is added {at(visit.line)}.",
+                    (
+                        Site(late[0].line, well.ref, f"received {what}"),
+                        Site(visit.line, well.ref, f"received {case.title(source)} after it"),
+                    ),
+                    well,
+                    (late[0].line, visit.line),
+                )
+                break
+
+
+@dataclass(frozen=True)
+class RisingOrder(Check):
+    """Within one tip session, liquids of ``liquid`` are dispensed in order of rising level."""
+
+    name: ClassVar[str] = "rising_order"
+    liquid: tuple[str, ...] = role_field()
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Follow each tip session's deliveries."""
+        liquid = frozenset(self.liquid)
+        last: dict[tuple[int, int], tuple[Well, float | None, Visit]] = {}
+        doubted = False
+        done: set[tuple[int, int, int]] = set()
+        for visit in case.trace.visits:
+            for source, volume, _, draw_line in visit.parts:
+                if source is None or source is visit.well or volume <= 0:
+                    continue
+                if not case.has(source, liquid):
+                    continue
+                key = (visit.tip.number, visit.session)
+                level = case.level(source)
+                before = last.get(key)
+                if before is not None and before[0] is not source:
+                    if before[1] is None or level is None:
+                        if not doubted:
+                            doubted = True
+                            yield Doubt(
+                                f"one tip dispenses {place(before[0])} and then "
+                                f"{place(source)}, and nothing says which is more concentrated"
+                            )
+                    elif level < before[1] and (*key, id(source)) not in done:
+                        done.add((*key, id(source)))
+                        yield Violation(
+                            f"The tip that dispensed {case.title(before[0])} from "
+                            f"{place(before[0])} {at(before[2].line)} goes on with the less "
+                            f"concentrated one from {place(source)} into {place(visit.well)} "
+                            f"{at(visit.line)}.",
+                            (
+                                Site(before[2].line, before[0].ref, "dispensed the higher one"),
+                                Site(draw_line, source.ref, "drew the lower one"),
+                                Site(visit.line, visit.well.ref, "dispensed the lower one after"),
+                            ),
+                            visit.well,
+                            (before[2].line, visit.line),
+                        )
+                last[key] = (source, level, visit)

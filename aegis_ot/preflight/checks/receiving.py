@@ -1,0 +1,230 @@
+"""Checks on what wells receive as measured volumes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...vocabulary import Site
+from ..wells import Well
+from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
+
+
+def received(case: Case, well: Well, liquid: RoleSet) -> tuple[float, int | None]:
+    """µL of a liquid that a well receives in the run, and the line that first brought it."""
+    total, line = 0.0, None
+    for visit in case.trace.deliveries(well):
+        for origin, volume, source, _ in delivered(visit):
+            if case.has(origin, liquid) or case.has(source, liquid):
+                total += volume
+                line = line or visit.line
+    return total, line
+
+
+def filled(case: Case, well: Well) -> tuple[float, int | None]:
+    """µL that a well receives in the run altogether, and the line that brought the last."""
+    total, line = 0.0, None
+    for visit in case.trace.deliveries(well):
+        for _, volume, _, _ in delivered(visit):
+            total += volume
+        line = visit.line
+    return total, line
+
+
+def _gets_any(case: Case, labware: set[tuple[str, int]], well: Well) -> bool:
+    return (well.ref.labware, well.generation) in labware
+
+
+@dataclass(frozen=True)
+class Receives(Check):
+    """Every well of ``wells`` receives a liquid of ``liquid``.
+
+    Judged only in labware where some well receives it, or that named wells stand in; a plate
+    that was replaced in a pause is judged together with its predecessor.
+
+    Attributes:
+        wells: Roles of the wells; those that receive nothing at all are judged only if they
+            have a role of ``always``.
+        liquid: Roles of the liquid.
+        always: Roles whose wells are judged even if the run never touches them.
+        contents: Whether wells that held that liquid before the run count as served.
+    """
+
+    name: ClassVar[str] = "receives"
+    wells: tuple[str, ...] = role_field()
+    liquid: tuple[str, ...] = role_field()
+    always: tuple[str, ...] = role_field(())
+    destinations_only: bool = True
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Look at each well that should receive it."""
+        liquid = frozenset(self.liquid)
+        served = {
+            (well.ref.labware, well.ref.name)
+            for well in case.trace.wells.values()
+            if received(case, well, liquid)[0] > 0 or case.has(well, liquid)
+        }
+        plates = {
+            well.ref.labware
+            for well in case.trace.wells.values()
+            if received(case, well, liquid)[0] > 0
+        }
+        if not plates:
+            names = ", ".join(case.family.roles[role].title for role in self.liquid)
+            yield Doubt(f"no well is seen to receive {names}; it may be added by hand")
+            return
+        reported: set[tuple[str, str]] = set()
+        source_line = next(
+            (
+                (visit.line, source)
+                for visit in case.trace.visits
+                for origin, _, source, _ in delivered(visit)
+                if case.has(origin, liquid)
+            ),
+            None,
+        )
+        title = " or ".join(case.family.roles[role].title for role in self.liquid)
+        for well in self._judged(case):
+            place_key = (well.ref.labware, well.ref.name)
+            if place_key in served or place_key in reported:
+                continue
+            if well.ref.labware not in plates:
+                continue
+            reported.add(place_key)
+            total, line = filled(case, well)
+            others = (
+                Site(source_line[0], source_line[1].ref, f"{title} is given to other wells")
+                if source_line
+                else None
+            )
+            message = f"The {case.title(well)} {place(well)} never receives {title}" + (
+                f", though it receives {total:.4g} µL {at(line)}." if total > 0 else "."
+            )
+            sites = (Site(line, well.ref, f"receives no {title}"),)
+            yield Violation(
+                message, (others, *sites) if others else sites, well, (case.title(well),)
+            )
+
+    def _judged(self, case: Case) -> Iterator[Well]:
+        wanted, always = frozenset(self.wells), frozenset(self.always)
+        for well in case.trace.wells.values():
+            if not case.has(well, wanted):
+                continue
+            usage = case.usage.get(well.ref)
+            if usage is not None and usage.first_drawn:
+                continue
+            if (usage is not None and usage.received) or case.has(well, always):
+                yield well
+        visited = {well.ref for well in case.trace.wells.values()}
+        for ref in case.roles.by_well:
+            if ref not in visited and not always.isdisjoint(case.roles.of(ref)):
+                info = case.trace.labware.get(ref.labware)
+                yield Well(ref, 0, info.wells.get(ref.name) if info else None, (0, 0))
+
+
+@dataclass(frozen=True)
+class NeverReceives(Check):
+    """No measured volume of ``liquid`` is dispensed into a well of ``wells``."""
+
+    name: ClassVar[str] = "never_receives"
+    wells: tuple[str, ...] = role_field()
+    liquid: tuple[str, ...] = role_field()
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Look at what each such well is given."""
+        wanted, liquid = frozenset(self.wells), frozenset(self.liquid)
+        for well in case.wells(wanted):
+            seen: set[int] = set()
+            for visit in case.trace.deliveries(well):
+                for origin, volume, source, line in delivered(visit):
+                    if volume <= 1e-6 or not case.has(origin, liquid) or id(origin) in seen:
+                        continue
+                    if case.has(origin, wanted):
+                        continue
+                    seen.add(id(origin))
+                    what = case.title(origin)
+                    yield Violation(
+                        f"{visit.volume:.4g} µL drawn from {what} in {place(source)} "
+                        f"{at(line)} are dispensed into the {case.title(well)} {place(well)} "
+                        f"{at(visit.line)}.",
+                        (
+                            Site(line, source.ref, f"drew {what}"),
+                            Site(visit.line, well.ref, f"gave it to the {case.title(well)}"),
+                        ),
+                        well,
+                        (visit.line, line, what, case.title(well)),
+                    )
+
+
+@dataclass(frozen=True)
+class UniformVolume(Check):
+    """All wells of ``wells`` that received the same ``liquid`` received as much of it, and end
+    at the same volume.
+
+    Wells that received different sources of ``liquid`` are different assays and are compared
+    apart; end volumes are compared only where the run brings everything.
+
+    Attributes:
+        tolerance: Share of the usual volume by which a well may differ.
+    """
+
+    name: ClassVar[str] = "uniform_volume"
+    wells: tuple[str, ...] = role_field()
+    liquid: tuple[str, ...] = role_field()
+    tolerance: float = 0.01
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Compare each well with what most wells of its assay get."""
+        liquid = frozenset(self.liquid)
+        groups: dict[tuple[str, ...], list[tuple[Well, float, float]]] = {}
+        for well in case.wells(frozenset(self.wells)):
+            usage = case.usage.get(well.ref)
+            if well.prefilled or (usage is not None and usage.first_drawn):
+                continue
+            got, _ = received(case, well, liquid)
+            if got > 0:
+                total, _ = filled(case, well)
+                groups.setdefault(self._assay(case, well, liquid), []).append((well, got, total))
+        for members in groups.values():
+            yield from self._compare(case, members)
+
+    def _assay(self, case: Case, well: Well, liquid: RoleSet) -> tuple[str, ...]:
+        names = set()
+        for origin in case.meant.get(well, {}):
+            if case.has(origin, liquid):
+                assigned = case.roles.by_well.get(origin.ref)
+                kind = assigned.text if assigned else ""
+                names.add(f"{kind or origin.ref.address}")
+        return (well.ref.labware, str(well.generation), *sorted(names))
+
+    def _compare(self, case: Case, members: list[tuple[Well, float, float]]) -> Iterator[Result]:
+        if len(members) < 2:
+            return
+        title = " or ".join(case.family.roles[role].title for role in self.liquid)
+        usual_got = _usual([got for _, got, _ in members])
+        usual_total = _usual([total for _, _, total in members])
+        for well, got, total in members:
+            if abs(got - usual_got) > max(self.tolerance * usual_got, 0.01):
+                what = f"receives {got:.4g} µL of {title}; the others receive {usual_got:.4g} µL"
+                line = received(case, well, frozenset(self.liquid))[1]
+            elif abs(total - usual_total) > max(self.tolerance * usual_total, 0.01):
+                what = f"ends at {total:.4g} µL; the others end at {usual_total:.4g} µL"
+                line = filled(case, well)[1]
+            else:
+                continue
+            yield Violation(
+                f"The {case.title(well)} {place(well)} {what} ({at(line)}).",
+                (Site(line, well.ref, what),),
+                well,
+                (line, case.title(well), what),
+            )
+
+
+def _usual(values: list[float]) -> float:
+    """The most frequent value (to 0.1 %), the larger one of equals."""
+    counts: dict[str, list[float]] = {}
+    for value in values:
+        counts.setdefault(f"{value:.3g}", []).append(value)
+    best = max(counts.values(), key=lambda same: (len(same), same[0]))
+    return best[0]

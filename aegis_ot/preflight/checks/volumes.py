@@ -1,0 +1,60 @@
+"""Checks on volumes that do not add up."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...vocabulary import Site
+from ..trace import Imbalance
+from .base import Case, Check, Result, Violation, at, place
+
+
+@dataclass(frozen=True)
+class VolumeBookkeeping(Check):
+    """No well is filled beyond its capacity or drawn below what it holds.
+
+    Wells of unknown volume are judged only by what the run put into them.
+    """
+
+    name: ClassVar[str] = "volume_bookkeeping"
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Report the first imbalance of each kind in each well."""
+        seen: set[tuple[int, bool]] = set()
+        for imbalance in case.trace.imbalances:
+            well = imbalance.well
+            key = (id(well), imbalance.overfilled)
+            if key in seen or (imbalance.overfilled and well.ref in case.waste):
+                continue
+            if not imbalance.overfilled and case.loose_volumes and well.declared is None:
+                continue
+            seen.add(key)
+            yield _violation(imbalance)
+
+
+def _violation(imbalance: Imbalance) -> Violation:
+    well = imbalance.well
+    if imbalance.overfilled:
+        message = (
+            f"{place(well)} is filled to {imbalance.volume:.4g} µL {at(imbalance.line)}; "
+            f"it holds {imbalance.limit:.4g} µL."
+        )
+        sites = [Site(imbalance.line, well.ref, f"filled to {imbalance.volume:.4g} µL")]
+    else:
+        message = (
+            f"{imbalance.volume:.4g} µL are drawn from {place(well)} {at(imbalance.line)}, "
+            f"which holds {imbalance.limit:.4g} µL then."
+        )
+        sites = [
+            Site(
+                imbalance.line,
+                well.ref,
+                f"drew {imbalance.volume:.4g} µL of {imbalance.limit:.4g} µL",
+            )
+        ]
+    lines = [v.line for v in well.visits if v.index < imbalance.index and v.parts]
+    if lines and lines[-1] != imbalance.line:
+        sites.insert(0, Site(lines[-1], well.ref, "last filled here"))
+    return Violation(message, tuple(sites), well, (imbalance.line, imbalance.overfilled))

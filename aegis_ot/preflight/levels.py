@@ -1,0 +1,125 @@
+"""Reads concentrations and doses: from names, liquids, comments and lists beside them.
+
+Only the order of levels matters to the rules, so a number without a unit is good enough,
+as long as it is a concentration and no running number: ``std_125`` is one, ``std_3`` is not
+known to be.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from .rulefiles import Common
+from .words import Lexicon
+
+if TYPE_CHECKING:
+    from .clues import Clue
+
+_NUMBER = r"(?<![\w.])(\d+(?:[.,]\d+)?(?:[eE]-?\d+)?)"
+_UNITS: dict[str, float] = {
+    "pm": 1e-12,
+    "nm": 1e-9,
+    "um": 1e-6,
+    "mm": 1e-3,
+    "m": 1.0,
+    "pg/ul": 1e-6,
+    "ng/ul": 1e-3,
+    "ug/ul": 1.0,
+    "mg/ul": 1e3,
+    "pg/ml": 1e-9,
+    "ng/ml": 1e-6,
+    "ug/ml": 1e-3,
+    "mg/ml": 1.0,
+    "g/l": 1.0,
+    "mg/l": 1e-3,
+    "%": 1.0,
+    "x": 1.0,
+}
+_WITH_UNIT = re.compile(
+    r"(?<![A-Za-z.\d])(\d+(?:[.,p]\d+)?)[\s_]*"
+    r"((?:pg|ng|ug|mg)\s*(?:/|per|_)\s*(?:ul|ml|l)|g/l|pm|nm|um|mm|m|%|x)(?![a-z])",
+    re.IGNORECASE,
+)
+_LONG_NUMBER = re.compile(r"(?<![\d.])(\d{2,}(?:\.\d+)?|\d+\.\d+|0)(?![\d.])")
+_RATIO = re.compile(r"\b1\s*(?::|/|to|in)\s*(\d+)\b", re.IGNORECASE)
+_LEXICONS: dict[int, tuple[Common, Lexicon]] = {}
+
+
+def level_of(clue: Clue, position: int, common: Common) -> float | None:
+    """Level that a clue gives its well number ``position``, or ``None``."""
+    if clue.levels and position < len(clue.levels):
+        return clue.levels[position]
+    count = len(clue.wells)
+    listed = numbers_in_order(clue.text) if count > 1 else []
+    if count > 1 and len(listed) == count and len(set(listed)) == count:
+        return listed[position]
+    if count > 1 and not clue.whole:
+        direction = _direction(clue.text, common)
+        if direction:
+            return float(direction * position)
+    if count > 1 and not _one_value(clue):
+        return None
+    return level_in(clue.text, common)
+
+
+def _one_value(clue: Clue) -> bool:
+    """Whether one level may hold for all wells of the clue: replicates, a column."""
+    return not clue.whole
+
+
+def level_in(text: str, common: Common) -> float | None:
+    """The one level that a text states: with a unit, as a plain number, or in words."""
+    plain = text.replace("µ", "u").replace("μ", "u").lower()
+    with_unit = {
+        _number(value) * _UNITS.get(_unit(unit), 1.0) for value, unit in _WITH_UNIT.findall(plain)
+    }
+    if len(with_unit) == 1:
+        return with_unit.pop()
+    if with_unit:
+        return None
+    ratios = {1.0 / float(value) for value in _RATIO.findall(plain) if float(value) > 0}
+    if len(ratios) == 1:
+        return ratios.pop()
+    words = {common.levels[match.topic] for match in _level_words(common).find(text)}
+    if len(words) == 1:
+        return words.pop()
+    numbers = set(_LONG_NUMBER.findall(plain.replace("_", " ")))
+    if len(numbers) == 1:
+        return float(numbers.pop())
+    return None
+
+
+def numbers_in_order(text: str) -> list[float]:
+    """All plain numbers of a text, in order, well names and units apart."""
+    cleaned = re.sub(r"\b[A-P]\d{1,2}\b", " ", text)
+    return [float(value.replace(",", "")) for value in re.findall(_NUMBER, cleaned)]
+
+
+def _direction(text: str, common: Common) -> int:
+    topics = {match.topic for match in _direction_words(common).find(text)}
+    if topics == {"rising"}:
+        return 1
+    if topics == {"falling"}:
+        return -1
+    return 0
+
+
+def _level_words(common: Common) -> Lexicon:
+    known = _LEXICONS.get(id(common))
+    if known is None or known[0] is not common:
+        known = (common, Lexicon({word: (word,) for word in common.levels}))
+        _LEXICONS[id(common)] = known
+    return known[1]
+
+
+def _direction_words(common: Common) -> Lexicon:
+    return Lexicon({"rising": common.rising, "falling": common.falling})
+
+
+def _unit(unit: str) -> str:
+    return re.sub(r"\s|per|_", lambda m: "/" if m.group() in ("per", "_") else "", unit.lower())
+
+
+def _number(text: str) -> float:
+    return float(text.replace(",", ".").replace("p", "."))

@@ -1,0 +1,350 @@
+"""Decides what each well is for, within one assay family, and keeps the evidence.
+
+Stronger evidence beats weaker; among names, those of fewer wells beat those of many, and a
+labware's name speaks only for wells that nothing else speaks for. What is not said stays
+unsaid: a well without evidence has no role, and rules that need one are undecided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ..vocabulary import WellRef
+from .clues import Clue, Strength
+from .levels import level_of
+from .rulefiles import Common, Family, RoleSpec
+from .trace import Trace
+from .words import Lexicon, Match, tokens
+
+
+@dataclass
+class Assignment:
+    """One well's role in one family.
+
+    Attributes:
+        role: Name of the role.
+        evidence: What speaks for it, strongest first, in words.
+        strength: Of the strongest evidence.
+        text: The words that named it.
+        level: Concentration or dose, if known, on a scale within the family.
+        conflict: What contradicts it, in words; empty if nothing.
+    """
+
+    role: str
+    evidence: list[str]
+    strength: Strength
+    text: str
+    level: float | None = None
+    conflict: str = ""
+
+
+@dataclass
+class Usage:
+    """How the run uses a well: which came first, and whether it feeds others."""
+
+    first_drawn: bool = False
+    received: bool = False
+    feeds: bool = False
+    prefilled: bool = False
+
+
+@dataclass
+class Roles:
+    """All role assignments of one family in one protocol.
+
+    Attributes:
+        family: The family.
+        by_well: The role of each well that has one.
+        conflicts: Wells whose evidence conflicts, in words.
+    """
+
+    family: Family
+    by_well: dict[WellRef, Assignment] = field(default_factory=dict)
+    conflicts: list[str] = field(default_factory=list)
+    derived: dict[WellRef, set[str]] = field(default_factory=dict)
+    _closure: dict[str, frozenset[str]] = field(default_factory=dict)
+
+    def of(self, ref: WellRef) -> frozenset[str]:
+        """All roles that a well counts as, general ones included."""
+        assigned = self.by_well.get(ref)
+        roles = self.closure(assigned.role) if assigned else frozenset()
+        extra = self.derived.get(ref)
+        return roles | extra if extra else roles
+
+    def has(self, ref: WellRef, wanted: frozenset[str]) -> bool:
+        """Whether a well has any of these roles."""
+        return not wanted.isdisjoint(self.of(ref))
+
+    def level(self, ref: WellRef) -> float | None:
+        """Concentration or dose of a well, if known."""
+        assigned = self.by_well.get(ref)
+        if assigned is None:
+            return None
+        if assigned.level is not None:
+            return assigned.level
+        return self.family.roles[assigned.role].level
+
+    def closure(self, role: str) -> frozenset[str]:
+        """A role and all roles above it."""
+        known = self._closure.get(role)
+        if known is None:
+            found = {role}
+            for parent in self.family.roles[role].parents:
+                found |= self.closure(parent)
+            known = self._closure[role] = frozenset(found)
+        return known
+
+    def known(self, role: str) -> bool:
+        """Whether any well has this role."""
+        if any(role in self.closure(a.role) for a in self.by_well.values()):
+            return True
+        return any(role in extra for extra in self.derived.values())
+
+    def title(self, ref: WellRef) -> str:
+        """What a well is, for a message: "no-template control"."""
+        assigned = self.by_well.get(ref)
+        if assigned is not None:
+            return self.family.roles[assigned.role].title
+        for role in sorted(self.derived.get(ref, ())):
+            return self.family.roles[role].title
+        return "well"
+
+
+def usage_of(trace: Trace) -> dict[WellRef, Usage]:
+    """How each well is used, generations of a plate taken together."""
+    usages: dict[WellRef, Usage] = {}
+    for well in trace.wells.values():
+        usage = usages.setdefault(well.ref, Usage())
+        usage.prefilled = usage.prefilled or well.prefilled
+        if well.visits and well.visits[0].kind.value == "aspirate":
+            usage.first_drawn = True
+    for visit in trace.visits:
+        for source, volume, _, _ in visit.parts:
+            if source is not None and source is not visit.well and volume > 0:
+                usages[source.ref].feeds = True
+                usages[visit.well.ref].received = True
+    return usages
+
+
+Candidate = tuple[tuple[float, ...], str, Clue, "float | None"]
+
+
+def assign_roles(
+    family: Family,
+    common: Common,
+    clues: Sequence[Clue],
+    usage: Mapping[WellRef, Usage],
+    trace: Trace,
+) -> Roles:
+    """Give each well the role that the strongest evidence names.
+
+    Args:
+        family: Whose roles and words.
+        common: Words for levels.
+        clues: All evidence.
+        usage: How the run uses each well.
+        trace: For the columns that multi-channel pipettes reach.
+    """
+    roles = Roles(family)
+    lexicon = _lexicon(family)
+    candidates: dict[WellRef, list[Candidate]] = {}
+    for clue in clues:
+        matches = lexicon.find(clue.text)
+        named = [clue.role] if clue.role in family.roles else _named(matches, clue)
+        if not named:
+            continue
+        for position, ref in enumerate(clue.wells):
+            role = _fitting(named, family, usage.get(ref), clue)
+            if role is None:
+                continue
+            level = level_of(clue, position, common) if clue.wells else None
+            candidates.setdefault(ref, []).append((_worth(clue), role, clue, level))
+    for ref, found in candidates.items():
+        assignment = _choose(roles, ref, found)
+        if assignment is not None:
+            roles.by_well[ref] = assignment
+    _spread_over_channels(roles, trace)
+    return roles
+
+
+_LEXICONS: dict[int, tuple[Family, Lexicon]] = {}
+
+
+def _lexicon(family: Family) -> Lexicon:
+    known = _LEXICONS.get(id(family))
+    if known is None or known[0] is not family:
+        phrases: dict[str, Sequence[str]] = {}
+        for name, spec in family.roles.items():
+            phrases[name] = spec.words
+            phrases[f"!{name}"] = spec.never
+        known = (family, Lexicon(phrases))
+        if len(_LEXICONS) > 64:
+            _LEXICONS.clear()
+        _LEXICONS[id(family)] = known
+    return known[1]
+
+
+_BOTH = frozenset({"and", "plus", "all", "und", "et", "y"})
+
+
+def _named(matches: Sequence[Match], clue: Clue) -> list[str]:
+    """The roles that a text names, the head of the phrase first.
+
+    English puts the head last: ``sample_buffer`` is a buffer. A comment that names several
+    different things speaks of none of them in particular.
+    """
+    places: dict[int, list[str]] = {}
+    for match in matches:
+        places.setdefault(match.start, []).append(match.topic)
+    ordered = [places[at] for at in sorted(places, reverse=True)]
+    if len(ordered) > 1 and (not clue.subject or _BOTH & set(tokens(clue.text))):
+        first = set(ordered[0])
+        if any(first.isdisjoint(other) for other in ordered[1:]):
+            return [] if not clue.subject else [t for group in ordered for t in group]
+    return [topic for group in ordered for topic in group if not topic.startswith("!")]
+
+
+def _fitting(named: Iterable[str], family: Family, usage: Usage | None, clue: Clue) -> str | None:
+    """The first named role whose side agrees with how the run uses the well."""
+    named = list(named)
+    if clue.strength is Strength.GIVEN:
+        return named[0]
+    used = usage or Usage()
+    sides = ["any"]
+    if used.first_drawn or (used.prefilled and not used.received):
+        sides.append("source")
+    elif used.received:
+        sides.append("destination")
+    for role in named:
+        if family.roles[role].side in sides:
+            return role
+    if used.feeds and used.received:
+        for role in named:
+            if family.roles[role].side == "source":
+                return role
+    return None
+
+
+def _worth(clue: Clue) -> tuple[float, ...]:
+    return (float(clue.strength), 0.0 if clue.whole else 1.0, -float(len(set(clue.wells))))
+
+
+def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
+    found.sort(key=lambda candidate: candidate[0], reverse=True)
+    worth, role, clue, _ = found[0]
+    for other_worth, other, _, _ in found[1:]:
+        # A special case of the first: the NTC is also a reaction.
+        if other_worth == worth and role != other and role in roles.closure(other):
+            role = other
+    rivals = [
+        candidate
+        for candidate in found[1:]
+        if candidate[0] == worth
+        and candidate[1] != role
+        and candidate[1] not in roles.closure(role)
+        and role not in roles.closure(candidate[1])
+    ]
+    conflict = ""
+    if rivals:
+        conflict = f"{clue.said} against {rivals[0][2].said}"
+        roles.conflicts.append(f"{ref}: {conflict}")
+        if clue.strength <= Strength.LOOSE_NAME:
+            return None
+    agreeing = [c for c in found if role in roles.closure(c[1]) or c[1] in roles.closure(role)]
+    level = next((c[3] for c in agreeing if c[3] is not None), None)
+    return Assignment(
+        role,
+        list(dict.fromkeys(c[2].said for c in agreeing)),
+        clue.strength,
+        clue.text,
+        level,
+        conflict,
+    )
+
+
+def _spread_over_channels(roles: Roles, trace: Trace) -> None:
+    """A name for the well that a multi-channel pipette is aimed at names its whole column.
+
+    Only where the named well is never used alone, and the others have no better evidence.
+    """
+    for first, group in trace.groups.items():
+        assigned = roles.by_well.get(first)
+        if assigned is None or first in trace.singles:
+            continue
+        for ref in group:
+            if ref == first or ref in trace.singles:
+                continue
+            other = roles.by_well.get(ref)
+            if other is None or (
+                other.strength <= assigned.strength
+                and assigned.role != other.role
+                and assigned.role not in roles.closure(other.role)
+                and _is_wide(other)
+                and not _is_wide(assigned)
+            ):
+                roles.by_well[ref] = Assignment(
+                    assigned.role,
+                    [f"{said} (same channel group)" for said in assigned.evidence],
+                    assigned.strength,
+                    assigned.text,
+                    assigned.level,
+                )
+
+
+def _is_wide(assignment: Assignment) -> bool:
+    return all("label" in said for said in assignment.evidence)
+
+
+def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
+    """Roles that follow from what a well receives: a reaction is what template goes into.
+
+    Wells that only pass liquid on (a dilution plate) are left out.
+    """
+    for name, spec in roles.family.roles.items():
+        if spec.receives:
+            _derive_one(roles, name, spec, trace, usage)
+
+
+def _derive_one(
+    roles: Roles, name: str, spec: RoleSpec, trace: Trace, usage: Mapping[WellRef, Usage]
+) -> None:
+    wanted = frozenset(spec.receives)
+    is_wanted: Callable[[WellRef], bool] = lambda ref: roles.has(ref, wanted)  # noqa: E731
+    for well in trace.wells.values():
+        used = usage.get(well.ref)
+        if used is None or used.feeds or not used.received or used.first_drawn:
+            continue
+        if well.ref in roles.by_well:
+            continue
+        for visit in trace.deliveries(well):
+            if any(is_wanted(o.ref) for part in visit.parts for o in part[2]):
+                roles.derived.setdefault(well.ref, set()).update(roles.closure(name))
+                break
+
+
+def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
+    """Wells whose role says that they held liquid before the run.
+
+    Not those that are given liquid of that very role, or of no known role, in the run: there
+    the run itself brings what the role names.
+    """
+    found: set[WellRef] = set()
+    for ref, assigned in roles.by_well.items():
+        spec = roles.family.roles[assigned.role]
+        if spec.implies_contents:
+            found.add(ref)
+    if not found:
+        return found
+    for well in trace.wells.values():
+        if well.ref not in found:
+            continue
+        own = roles.closure(roles.by_well[well.ref].role)
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is None or source is well:
+                    continue
+                theirs = roles.of(source.ref)
+                if not theirs or not own.isdisjoint(theirs):
+                    found.discard(well.ref)
+    return found

@@ -1,0 +1,311 @@
+"""Reads the rule database: one JSON file per assay family.
+
+A family says which words reveal it, which roles its wells play, and which rules hold. A rule
+names checks (:mod:`aegis_ot.preflight.checks`) and their parameters; it holds no code.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..errors import RuleError
+from .reading import read_dataclass
+
+SCHEMA_VERSION = 1
+
+
+@dataclass(frozen=True)
+class Signal:
+    """Words that speak for a family.
+
+    Attributes:
+        words: Phrases, see :mod:`aegis_ot.preflight.words`.
+        weight: How much one mention counts; mentions of one signal count once per place.
+        once: Whether the signal counts once, however often it is mentioned.
+    """
+
+    words: tuple[str, ...]
+    weight: float = 1.0
+    once: bool = True
+
+
+@dataclass(frozen=True)
+class RoleSpec:
+    """What a well may be for, and which words say so.
+
+    Attributes:
+        title: In words, for messages: "no-template control".
+        parents: More general roles that it also counts as.
+        side: ``source`` if the words mean this role only in wells that liquid is drawn from
+            first, ``destination`` if only in wells that liquid is put into first, or ``any``.
+        words: Phrases that name it.
+        never: Phrases that hold one of the words and still do not name it.
+        implies_contents: Whether such a well held liquid before the run.
+        one_liquid: Whether all wells of this role hold the same liquid unless named apart.
+        level: Value on the scale of concentrations or doses that this role has by itself.
+        receives: Derived: a destination that is given liquid of one of these roles.
+    """
+
+    title: str
+    parents: tuple[str, ...] = ()
+    side: str = "any"
+    words: tuple[str, ...] = ()
+    never: tuple[str, ...] = ()
+    implies_contents: bool = False
+    one_liquid: bool = False
+    level: float | None = None
+    receives: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class SeriesSpec:
+    """Which roles make a dilution series."""
+
+    wells: tuple[str, ...]
+    stock: tuple[str, ...]
+    diluent: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Example:
+    """A snippet: the body of ``run`` (or a whole protocol) and what it shows."""
+
+    title: str
+    code: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Examples:
+    """At least one of each."""
+
+    passing: tuple[Example, ...]
+    failing: tuple[Example, ...]
+
+
+@dataclass(frozen=True)
+class RuleSpec:
+    """One rule.
+
+    Attributes:
+        id: ``"PCR-2"``.
+        name: ``"fresh-tip-template-to-ntc"``.
+        statement: What must hold.
+        severity: ``error`` or ``warning``.
+        scope: ``family`` or ``all``: whether it is judged in every family's protocols.
+        needs: Roles that must be known to judge it; ``"a|b"`` for either.
+        checks: Checks that decide it, with their parameters; all of them must hold.
+        unless_reported: Rules whose findings on the same wells replace this one's.
+        indicators: What to look for in the source, for a model.
+        prompt: Instruction for a model.
+        rationale: Why it matters.
+        reference: Where that is written.
+        fix: How to mend a violation.
+        examples: Passing and failing snippets.
+    """
+
+    id: str
+    name: str
+    statement: str
+    severity: str
+    needs: tuple[str, ...]
+    checks: tuple[Mapping[str, Any], ...]
+    rationale: str
+    reference: str
+    fix: str
+    examples: Examples
+    scope: str = "family"
+    unless_reported: tuple[str, ...] = ()
+    indicators: tuple[str, ...] = ()
+    prompt: str = ""
+
+
+@dataclass(frozen=True)
+class Family:
+    """One assay family, as its file describes it."""
+
+    family: str
+    title: str
+    description: str
+    signals: tuple[Signal, ...]
+    roles: Mapping[str, RoleSpec]
+    rules: tuple[RuleSpec, ...]
+    schema: int = SCHEMA_VERSION
+    series: SeriesSpec | None = None
+    chain_weight: float = 0.0
+    default: bool = False
+    path: str = field(default="", compare=False)
+
+
+@dataclass(frozen=True)
+class Common:
+    """``common.json``: word lists that belong to no family."""
+
+    pauses: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    prefilled: tuple[str, ...] = ()
+    protocol_prefilled: tuple[str, ...] = ()
+    levels: Mapping[str, float] = field(default_factory=dict)
+    rising: tuple[str, ...] = ()
+    falling: tuple[str, ...] = ()
+    amounts: tuple[str, ...] = ()
+    waste: tuple[str, ...] = ()
+    schema: int = SCHEMA_VERSION
+
+
+@dataclass(frozen=True)
+class Database:
+    """All families and common words in force."""
+
+    families: tuple[Family, ...]
+    common: Common
+
+    @property
+    def rules(self) -> tuple[RuleSpec, ...]:
+        """Every rule, in file order."""
+        return tuple(rule for family in self.families for rule in family.rules)
+
+    def rule(self, rule_id: str) -> tuple[Family, RuleSpec]:
+        """Find a rule.
+
+        Raises:
+            RuleError: If there is none with this identifier.
+        """
+        for family in self.families:
+            for rule in family.rules:
+                if rule.id == rule_id:
+                    return family, rule
+        known = ", ".join(rule.id for rule in self.rules)
+        raise RuleError(f"there is no rule {rule_id!r}; known are {known}")
+
+    def family(self, name: str) -> Family:
+        """Find a family.
+
+        Raises:
+            RuleError: If there is none of this name.
+        """
+        for family in self.families:
+            if family.family == name:
+                return family
+        known = ", ".join(family.family for family in self.families)
+        raise RuleError(f"there is no assay family {name!r}; known are {known}")
+
+
+def shipped_rules() -> Path:
+    """The folder of the rule database: inside the wheel, or beside the package in a checkout."""
+    package = Path(__file__).resolve().parent.parent
+    for folder in (package / "rules", package.parent / "rules"):
+        if (folder / "common.json").is_file():
+            return folder
+    raise RuleError(f"the rule database is missing: no rules/common.json beside {package}")
+
+
+def load_database(extra: Sequence[str | Path] = ()) -> Database:
+    """Load the shipped families and any of the user's own.
+
+    Args:
+        extra: Files or folders of further families. A family, role or rule that exists
+            already is refused, so that nothing is shadowed by accident.
+
+    Raises:
+        RuleError: With file, rule and field.
+    """
+    shipped = shipped_rules()
+    common = read_dataclass(Common, _json(shipped / "common.json"), "common.json")
+    files = sorted(path for path in shipped.glob("*.json") if _is_family_file(path))
+    for given in extra:
+        path = Path(given)
+        if path.is_dir():
+            files.extend(sorted(p for p in path.glob("*.json") if _is_family_file(p)))
+        elif path.is_file():
+            files.append(path)
+        else:
+            raise RuleError(f"{path}: no such file or folder of rules")
+    families = [load_family(path) for path in files]
+    _refuse_doubles(families)
+    return Database(tuple(families), common)
+
+
+def _is_family_file(path: Path) -> bool:
+    return path.name != "common.json" and not path.name.endswith("schema.json")
+
+
+def load_family(path: Path) -> Family:
+    """Read and validate one family file.
+
+    Raises:
+        RuleError: With file, rule and field.
+    """
+    data = _json(path)
+    if isinstance(data, dict):
+        data.pop("$schema", None)
+    family = read_dataclass(Family, data, path.name)
+    if family.schema != SCHEMA_VERSION:
+        raise RuleError(f"{path.name}: schema: expected {SCHEMA_VERSION}, found {family.schema}")
+    _check_family(family, path.name)
+    return dataclasses.replace(family, path=str(path))
+
+
+def _json(path: Path) -> Any:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise RuleError(f"{path.name}: cannot be read: {error.strerror}") from error
+    except ValueError as error:
+        raise RuleError(f"{path.name}: is not JSON: {error}") from error
+
+
+def _check_family(family: Family, file: str) -> None:
+    from .checks import make_check  # checks read families too
+
+    def known(role: str, where: str) -> None:
+        if role not in family.roles:
+            raise RuleError(
+                f"{file}: {where}: there is no role {role!r} in this family; "
+                f"known are {', '.join(family.roles)}"
+            )
+
+    for name, role in family.roles.items():
+        if role.side not in ("source", "destination", "any"):
+            raise RuleError(
+                f"{file}: roles.{name}.side: expected source, destination or any, "
+                f"found {role.side!r}"
+            )
+        for other in (*role.parents, *role.receives):
+            known(other, f"roles.{name}")
+    for rule in family.rules:
+        where = f"rule {rule.id}"
+        if rule.severity not in ("error", "warning"):
+            raise RuleError(
+                f"{file}: {where}: severity: expected error or warning, found {rule.severity!r}"
+            )
+        if rule.scope not in ("family", "all"):
+            raise RuleError(f"{file}: {where}: scope: expected family or all, found {rule.scope!r}")
+        for need in rule.needs:
+            for role_name in need.split("|"):
+                known(role_name, f"{where}: needs")
+        if not rule.checks:
+            raise RuleError(f"{file}: {where}: checks: at least one check is needed")
+        if not rule.examples.passing or not rule.examples.failing:
+            raise RuleError(f"{file}: {where}: examples: one passing and one failing are needed")
+        for number, check in enumerate(rule.checks):
+            place = f"{file}: {where}: checks[{number}]"
+            made = make_check(check, place)
+            for role_name in made.roles():
+                known(role_name, place)
+
+
+def _refuse_doubles(families: Sequence[Family]) -> None:
+    seen: dict[str, str] = {}
+    for family in families:
+        for kind, name in [
+            ("family", family.family),
+            *(("rule", rule.id) for rule in family.rules),
+        ]:
+            key = f"{kind} {name}"
+            if key in seen:
+                raise RuleError(f"{family.path}: {key} is already defined in {seen[key]}")
+            seen[key] = family.path

@@ -1,0 +1,294 @@
+"""Finds dilution series: which wells follow one another, and which transfers are steps.
+
+A series is found from transfers between wells of one labware that form a chain, together with
+the roles of stock and diluent. Its order is the layout's (a row, a column, or the labware's own
+order), running away from the well in which the stock stands.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ..vocabulary import WellRef
+from .roles import Roles, Usage
+from .trace import Trace, Visit
+from .wells import Well
+
+
+@dataclass(frozen=True)
+class Step:
+    """One transfer into a well of the series.
+
+    Attributes:
+        source: Well drawn from.
+        well: Well that is diluted into.
+        visit: The last delivery of this transfer.
+        drawn: Line of the draw.
+        from_stock: Whether it brings stock rather than the well before.
+    """
+
+    source: Well
+    well: Well
+    visit: Visit
+    drawn: int | None
+    from_stock: bool
+
+
+@dataclass
+class Series:
+    """One dilution series.
+
+    Attributes:
+        wells: Its wells, the most concentrated first if that is known.
+        position: Place of each well in that order.
+        steps: Its dilution steps, in the order in which they are made.
+        links: Those of them between two wells of the series.
+        directed: Whether the most concentrated end is known.
+        entered: Index at which each well first held stock (-1: before the run).
+    """
+
+    wells: list[Well]
+    position: dict[Well, int]
+    steps: list[Step]
+    links: list[Step]
+    directed: bool
+    entered: dict[Well, int] = field(default_factory=dict)
+
+
+def find_series(
+    trace: Trace, roles: Roles, usage: Mapping[WellRef, Usage], shortest: int = 2
+) -> list[Series]:
+    """All series with at least ``shortest`` transfers between their wells."""
+    spec = roles.family.series
+    stock = frozenset(spec.stock) if spec else frozenset()
+    diluent = frozenset(spec.diluent) if spec else frozenset()
+    named = frozenset(spec.wells) if spec else frozenset()
+    links = [
+        link
+        for link in _links(trace)
+        if not roles.has(link.source.ref, diluent)
+        and not roles.has(link.well.ref, diluent)
+        and not roles.has(link.source.ref, stock)
+    ]
+    links = _dilutions(trace, roles, links, diluent)
+    found = []
+    for group in _components(links):
+        if len({(s.source, s.well) for s in group}) < shortest:
+            continue
+        found.append(_series(trace, roles, group, stock, diluent, named))
+    return found
+
+
+def longest_chain(trace: Trace) -> int:
+    """Number of transfers in the longest chain of wells that each feed the next."""
+    best = 0
+    for group in _components(list(_links(trace))):
+        best = max(best, len({(s.source, s.well) for s in group}))
+    return best
+
+
+def _dilutions(
+    trace: Trace, roles: Roles, links: Sequence[Step], diluent: frozenset[str]
+) -> list[Step]:
+    """Leave out transfers that copy a dilution elsewhere instead of diluting it further.
+
+    A well that is given nothing but the one transfer, off the line along which the others
+    dilute, is a copy.
+    """
+    diluted = [
+        link
+        for link in links
+        if any(
+            source is not None and roles.has(source.ref, diluent)
+            for visit in trace.deliveries(link.well)
+            for source, _, _, _ in visit.parts
+        )
+    ]
+    if not diluted:
+        return list(links)
+    sure = {id(link) for link in diluted}
+    along_rows = sum(link.source.order[0] == link.well.order[0] for link in diluted)
+    along_columns = sum(link.source.order[1] == link.well.order[1] for link in diluted)
+    axis = 0 if along_rows >= along_columns else 1
+    lines = {(link.source.ref.labware, link.source.order[axis]) for link in diluted}
+    return [
+        link
+        for link in links
+        if id(link) in sure
+        or (
+            link.source.order[axis] == link.well.order[axis]
+            and (link.well.ref.labware, link.well.order[axis]) in lines
+        )
+    ]
+
+
+def _links(trace: Trace) -> Iterable[Step]:
+    """Transfers between two wells of one labware, repeated ones joined."""
+    open_: dict[tuple[int, int], Step] = {}
+    order: list[tuple[int, int]] = []
+    for visit in trace.visits:
+        if visit.mixing:
+            continue
+        for source, volume, _, line in visit.parts:
+            if source is None or source is visit.well or volume <= 0:
+                continue
+            if (
+                source.ref.labware != visit.well.ref.labware
+                or source.generation != visit.well.generation
+            ):
+                continue
+            key = (id(source), id(visit.well))
+            if key not in open_:
+                order.append(key)
+            open_[key] = Step(source, visit.well, visit, line, False)
+    return [open_[key] for key in order]
+
+
+def _components(links: Sequence[Step]) -> list[list[Step]]:
+    """Groups of links that are joined into chains.
+
+    A well that feeds many others, or is fed by many, is a stock or a pool, and joins nothing.
+    """
+    fed: dict[Well, set[Well]] = {}
+    feeds: dict[Well, set[Well]] = {}
+    for link in links:
+        feeds.setdefault(link.source, set()).add(link.well)
+        fed.setdefault(link.well, set()).add(link.source)
+    parent: dict[Well, Well] = {}
+
+    def root(well: Well) -> Well:
+        parent.setdefault(well, well)
+        while parent[well] is not well:
+            parent[well] = parent[parent[well]]
+            well = parent[well]
+        return well
+
+    kept = [
+        link
+        for link in links
+        if len(fed[link.well]) <= 2 and (len(feeds[link.source]) <= 2 or not link.source.prefilled)
+    ]
+    for link in kept:
+        parent[root(link.source)] = root(link.well)
+    groups: dict[Well, list[Step]] = {}
+    for link in kept:
+        groups.setdefault(root(link.source), []).append(link)
+    return list(groups.values())
+
+
+def _series(
+    trace: Trace,
+    roles: Roles,
+    links: list[Step],
+    stock: frozenset[str],
+    diluent: frozenset[str],
+    named: frozenset[str],
+) -> Series:
+    linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
+    members = _with_neighbours(trace, roles, linked, diluent)
+    order = _best_order(members, links)
+    steps: list[Step] = []
+    entries: list[Well] = []
+    entered: dict[Well, int] = {}
+    member_set = set(members)
+    linked_set = set(linked)
+    for well in members:
+        last: dict[int, Step] = {}
+        if well.prefilled and well in linked_set and well.visits:
+            if not roles.has(well.ref, diluent) and not _feeds_last(well, links):
+                entries.append(well)
+                entered[well] = -1
+        for visit in trace.deliveries(well):
+            for source, volume, _, line in visit.parts:
+                if source is None or source is well or volume <= 0 or source in member_set:
+                    continue
+                if roles.has(source.ref, diluent):
+                    continue
+                if roles.has(source.ref, stock):
+                    last[id(source)] = Step(source, well, visit, line, True)
+                    entered.setdefault(well, visit.index)
+        for step in last.values():
+            entries.append(well)
+            steps.append(step)
+    position = {well: number for number, well in enumerate(order)}
+    directed = False
+    if entries:
+        ends = [position[well] for well in entries]
+        middle = sum(ends) / len(ends)
+        if middle != (len(order) - 1) / 2:
+            directed = True
+        if middle > (len(order) - 1) / 2:
+            order.reverse()
+    elif links:
+        up = sum(1 if position[s.well] > position[s.source] else -1 for s in links)
+        if up < 0:
+            order.reverse()
+    position = {well: number for number, well in enumerate(order)}
+    for link in sorted(links, key=lambda s: s.visit.index):
+        if link.source in entered and entered[link.source] < link.visit.index:
+            entered.setdefault(link.well, link.visit.index)
+    all_steps = sorted([*steps, *links], key=lambda s: s.visit.index)
+    return Series(order, position, all_steps, links, directed, entered)
+
+
+def _feeds_last(well: Well, links: Sequence[Step]) -> bool:
+    """Whether a well only receives from the chain and feeds nothing in it."""
+    return all(link.source is not well for link in links)
+
+
+def _with_neighbours(
+    trace: Trace, roles: Roles, linked: list[Well], diluent: frozenset[str]
+) -> list[Well]:
+    """Add wells of the same row or column that were given diluent, but were skipped."""
+    rows = {well.order[0] for well in linked}
+    columns = {well.order[1] for well in linked}
+    if len(rows) != 1 and len(columns) != 1:
+        return linked
+    first = linked[0]
+    members = list(linked)
+    low = min(well.order for well in linked)
+    high = max(well.order for well in linked)
+    for well in trace.wells.values():
+        if well in members or well.ref.labware != first.ref.labware:
+            continue
+        if well.generation != first.generation or not low <= well.order <= high:
+            continue
+        inside = (len(rows) == 1 and well.order[0] in rows) or (
+            len(columns) == 1 and well.order[1] in columns
+        )
+        if inside and any(
+            source is not None and roles.has(source.ref, diluent)
+            for visit in trace.deliveries(well)
+            for source, _, _, _ in visit.parts
+        ):
+            members.append(well)
+    return members
+
+
+def _best_order(members: list[Well], links: Sequence[Step]) -> list[Well]:
+    """Row by row or column by column, whichever makes more links neighbours."""
+
+    def neighbours(order: list[Well]) -> int:
+        position = {well: number for number, well in enumerate(order)}
+        return sum(abs(position[s.well] - position[s.source]) == 1 for s in links)
+
+    by_row = sorted(members, key=lambda well: well.order)
+    by_column = sorted(members, key=lambda well: (well.order[1], well.order[0]))
+    as_made = _as_made(members, links)
+    return (
+        max((by_column, by_row, as_made), key=neighbours)
+        if len({well.order[0] for well in members}) > 1
+        and len({well.order[1] for well in members}) > 1
+        else by_row
+    )
+
+
+def _as_made(members: list[Well], links: Sequence[Step]) -> list[Well]:
+    """The order in which the chain was made."""
+    order: list[Well] = []
+    for link in links:
+        for well in (link.source, link.well):
+            if well not in order:
+                order.append(well)
+    return order + [well for well in members if well not in order]
