@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import cv2
 import numpy as np
@@ -50,6 +50,7 @@ class TipView:
         image: Whole frame.
         detection: The tip in it.
         tip: Its geometry.
+        pipette: Short class of the pipette, ``"p1000"``.
         expected_ul: Liquid that should be in it, µL.
     """
 
@@ -57,6 +58,7 @@ class TipView:
     image: Image
     detection: TipDetection
     tip: TipGeometry
+    pipette: str
     expected_ul: float
 
 
@@ -80,80 +82,157 @@ class ColumnReader(Protocol):
 ROWS = 160
 """Rows of a profile, orifice to collar."""
 
+_MEMORY = 24
+_NOISE = 2.0
+"""Least standard deviation of a profile's row that is believed, grey levels."""
+
 
 @dataclass(frozen=True)
 class Profile:
     """Contrast of the tip's bore against what is beside it, along the axis.
 
     Attributes:
-        contrast: (ROWS, 3), orifice first, BGR, grey levels.
+        contrast: (ROWS, 3), orifice first, BGR, grey levels at the exposure of the frame.
+        light: Median brightness of the whole frame: a measure of its exposure.
         tip: Geometry of the tip.
     """
 
     contrast: Array
+    light: float
     tip: TipGeometry
+
+
+@dataclass(frozen=True)
+class _Step:
+    """Where liquid ends, in rows above the orifice, and what is enclosed below."""
+
+    top: float
+    noise: float
+    gap: tuple[int, int] | None
 
 
 class ProfileReader:
     """Step fit on the profile's difference from the run's empty tips.
 
-    The column's top is where the sum of squared deviations from "liquid below, air above" is
-    least. Before the first normal well is known, an empty tip is taken from the same
-    trajectory's POST_DISPENSE frame, which reads the difference of the two only.
+    Each row is projected on the direction in colour space that tells this run's liquid from air
+    best (Fisher's linear discriminant, with the scatter of rows that hold air). The column's top
+    is where the sum of deviations from "liquid below, air above" is least. Heights are mapped to
+    the expected ones by the median offset over this run's normal wells.
+
+    Before the first normal well is known, an empty tip is taken from the same trajectory's
+    POST_DISPENSE frame, which reads the difference of the two only.
     """
 
     def __init__(self) -> None:
         self._empty: list[Array] = []
         self._liquid: list[Array] = []
+        self._scatter: list[Array] = []
+        self._light: list[float] = []
+        self._offsets: dict[KeyframeKind, list[float]] = {}
 
     def look(self, view: TipView) -> Profile:
-        return Profile(profile(view.image, view.detection, view.tip), view.tip)
+        light = float(np.median(view.image[::8, ::8]))
+        return Profile(profile(view.image, view.detection, view.tip), light, view.tip)
 
     def learn(
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
     ) -> None:
-        for kind, look in looks.items():
-            if not isinstance(look, Profile):
-                continue
-            if kind is KeyframeKind.POST_DISPENSE and expected.get(kind, 0.0) <= 0:
-                self._empty.append(look.contrast)
-                del self._empty[:-24]
-        full, empty = looks.get(KeyframeKind.TRANSIT), self._empty_contrast()
-        if isinstance(full, Profile) and empty is not None:
-            below = _rows_below(full.tip, 0.8 * expected[KeyframeKind.TRANSIT])
-            if below >= 3:
-                self._liquid.append((full.contrast - empty)[:below].mean(axis=0))
-                del self._liquid[:-24]
+        full, last = looks.get(KeyframeKind.TRANSIT), looks.get(KeyframeKind.POST_DISPENSE)
+        if isinstance(last, Profile) and expected.get(KeyframeKind.POST_DISPENSE, 0.0) <= 0:
+            _keep(self._light, last.light)
+            _keep(self._empty, self._exposed(last))
+            empty = self._empty_contrast()
+            if empty is not None and len(self._empty) > 1:
+                _keep(self._scatter, _covariance(self._exposed(last) - empty))
+        empty = self._empty_contrast()
+        if not isinstance(full, Profile) or empty is None:
+            return
+        difference = self._exposed(full) - empty
+        volume = expected.get(KeyframeKind.TRANSIT, 0.0)
+        below, above = _rows_below(full.tip, 0.8 * volume), _rows_below(full.tip, 1.4 * volume)
+        free = int(full.tip.free_mm / full.tip.length_mm * ROWS)
+        if below >= 5:
+            _keep(self._liquid, np.median(difference[:below], axis=0))
+        if free - above >= 10:
+            _keep(self._scatter, _covariance(difference[above:free]))
+        for kind, step in self._steps(looks, expected).items():
+            wanted = full.tip.height_of(expected.get(kind, 0.0)) / full.tip.length_mm * ROWS
+            self._offsets.setdefault(kind, [])
+            _keep(self._offsets[kind], step.top - wanted)
 
     def read(
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
     ) -> Mapping[KeyframeKind, ColumnReading]:
         readings: dict[KeyframeKind, ColumnReading] = {}
+        for kind, step in self._steps(looks, expected).items():
+            look = looks[kind]
+            if isinstance(look, Profile):
+                readings[kind] = self._reading(kind, step, look.tip)
+        return readings
+
+    def _steps(
+        self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
+    ) -> dict[KeyframeKind, _Step]:
         last = looks.get(KeyframeKind.POST_DISPENSE)
         full = looks.get(KeyframeKind.TRANSIT)
         empty = self._empty_contrast()
         if empty is None and isinstance(last, Profile):
-            empty = last.contrast
+            empty = self._exposed(last)
         if empty is None:
-            return readings
+            return {}
+        scatter = np.diag([_NOISE**2] * 3)
+        if self._scatter:
+            scatter = scatter + np.median(self._scatter, axis=0)
         if self._liquid:
             liquid = np.median(self._liquid, axis=0)
         elif isinstance(full, Profile):
             below = _rows_below(full.tip, 0.6 * expected.get(KeyframeKind.TRANSIT, 0.0))
-            liquid = (full.contrast - empty)[: max(below, 3)].mean(axis=0)
+            liquid = np.median((self._exposed(full) - empty)[: max(below, 5)], axis=0)
         else:
-            return readings
+            return {}
+        steps: dict[KeyframeKind, _Step] = {}
         for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE):
             look = looks.get(kind)
             if not isinstance(look, Profile) or (look is last and not self._empty):
                 continue
-            reading = _fit(look.contrast - empty, liquid, look.tip)
-            if reading is not None:
-                readings[kind] = reading
-        return readings
+            step = _fit(self._exposed(look) - empty, liquid, scatter, look.tip)
+            if step is not None:
+                steps[kind] = step
+        return steps
+
+    def _reading(self, kind: KeyframeKind, step: _Step, tip: TipGeometry) -> ColumnReading:
+        offsets = self._offsets.get(kind, [])
+        offset = float(np.median(offsets)) if len(offsets) >= 2 else 0.0
+        spread = 3.0
+        if len(offsets) >= 3:
+            spread = max(1.48 * float(np.median(np.abs(np.array(offsets) - offset))), 0.7)
+        sigma_rows = float(np.hypot(spread, 2.0 * step.noise))
+        mm = tip.length_mm / ROWS
+        rows = max(step.top - offset, 0.0)
+        volume = float(tip.volume_of(rows * mm))
+        sigma = float(tip.volume_of((rows + sigma_rows) * mm)) - volume
+        gap = 0.0
+        if step.gap is not None:
+            start, end = step.gap
+            gap = float(tip.volume_of(end * mm)) - float(tip.volume_of(start * mm))
+        return ColumnReading(max(volume - gap, 0.0), sigma, gap, sigma, rows / ROWS)
+
+    def _exposed(self, look: Profile) -> Array:
+        """Contrast at the run's usual exposure."""
+        usual = float(np.median(self._light)) if self._light else look.light
+        return look.contrast * (usual / max(look.light, 1.0))
 
     def _empty_contrast(self) -> Array | None:
         return np.median(self._empty, axis=0) if self._empty else None
+
+
+def _keep(kept: list[Any], value: Any) -> None:
+    kept.append(value)
+    del kept[:-_MEMORY]
+
+
+def _covariance(rows: Array) -> Array:
+    return np.asarray(rows.T @ rows / max(len(rows), 1))
 
 
 def profile(image: Image, detection: TipDetection, tip: TipGeometry) -> Array:
@@ -189,44 +268,34 @@ def _rows_below(tip: TipGeometry, volume_ul: float) -> int:
     return int(tip.height_of(max(volume_ul, 0.0)) / tip.length_mm * ROWS)
 
 
-def _fit(difference: Array, liquid: Array, tip: TipGeometry) -> ColumnReading | None:
+def _fit(difference: Array, liquid: Array, scatter: Array, tip: TipGeometry) -> _Step | None:
     """Step fit; ``None`` where liquid and air look alike in this run."""
     free = int(tip.free_mm / tip.length_mm * ROWS)
-    strength = float(liquid @ liquid)
-    if strength <= 0:
+    direction = np.linalg.solve(scatter, liquid)
+    strength = float(liquid @ direction)
+    if strength < 1.0:
         return None
-    signal = (difference[:free] @ liquid) / strength
-    # Successive differences see noise only, whatever the column's length.
-    noise = float(np.median(np.abs(np.diff(signal))) / 0.954) + 1e-6
-    if noise > 0.5:
-        return None
+    # One row that a glint or labware behind the tip spoils must not outvote the others.
+    signal = np.clip(difference[:free] @ direction / strength, -0.5, 1.5)
+    noise = float(1.0 / np.sqrt(strength))
     cost = np.concatenate([[0.0], np.cumsum(1.0 - 2.0 * signal)])
     top = int(np.argmin(cost))
     rows = float(top)
     if 0 < top < free:
-        window = signal[max(top - 4, 0) : min(top + 4, free)]
-        rows = max(top - 4, 0) + float(np.clip(window, 0.0, 1.0).sum())
-    enclosed = _longest_gap(signal[:top])
-    mm = tip.length_mm / ROWS
-    volume = float(tip.volume_of(rows * mm))
-    sigma_rows = 1.0 + 4.0 * noise
-    sigma = float(tip.volume_of((rows + sigma_rows) * mm) - volume)
-    gap = 0.0
-    if enclosed is not None:
-        start, end = enclosed
-        gap = float(tip.volume_of(end * mm) - tip.volume_of(start * mm))
-    return ColumnReading(volume - gap, sigma, gap, sigma, rows / ROWS)
+        low = max(top - 4, 0)
+        rows = low + float(np.clip(signal[low : top + 4], 0.0, 1.0).sum())
+    return _Step(rows, noise, _longest_gap(signal[:top]))
 
 
 def _longest_gap(signal: Array) -> tuple[int, int] | None:
     """Rows (start, end) of the strongest break in a column, or ``None``."""
-    if len(signal) < 8:
+    if len(signal) < 12:
         return None
     best, best_span, start, total = 0.0, None, 0, 0.0
-    for row, value in enumerate(0.5 - signal[3:-3]):
+    for row, value in enumerate(0.5 - signal[4:-4]):
         if total <= 0:
             start, total = row, 0.0
-        total += value
+        total += float(value)
         if total > best:
-            best, best_span = total, (start + 3, row + 4)
-    return best_span if best_span is not None and best > 1.5 else None
+            best, best_span = total, (start + 4, row + 5)
+    return best_span if best > 1.5 else None

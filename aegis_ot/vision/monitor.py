@@ -16,6 +16,7 @@ from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
 from .calibration import CalibrationSettings, CalibrationState, NormalPool
 from .camera import Frame
 from .cascade import Cascade, Triage
+from .column_reader import MeasuredColumns
 from .gates import (
     Case,
     ConfirmingGate,
@@ -24,7 +25,7 @@ from .gates import (
     VolumetricGate,
     examine_in_turn,
 )
-from .measuring import ColumnReader, ColumnReading, ProfileReader, TipView
+from .measuring import ColumnReader, ColumnReading, TipView
 from .run_scorer import RunScorer
 from .tips import pipette_class, tip_for
 from .types import Detector, Image, Scorer, TipDetection, TrajectorySample
@@ -69,7 +70,7 @@ class RunMonitor:
         scorer: Scorer | None = None,
         settings: MonitorSettings | None = None,
         gates: Sequence[ConfirmingGate] | None = None,
-        reader: Callable[[], ColumnReader] = ProfileReader,
+        reader: Callable[[], ColumnReader] = MeasuredColumns,
         pools: Mapping[str, NormalPool] | None = None,
     ) -> None:
         self.detector = detector
@@ -137,7 +138,8 @@ class RunAnalyser:
         trajectory.detections[kind] = detection
         if detection is not None:
             tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
-            view = TipView(kind, image, detection, tip, keyframe.expected_ul)
+            pipette = pipette_class(keyframe.pipette)
+            view = TipView(kind, image, detection, tip, pipette, keyframe.expected_ul)
             trajectory.looks[kind] = self._reader.look(view)
 
     def judge(self, trajectory: int) -> Judged:
