@@ -92,11 +92,11 @@ class Sidecar:
             )
 
     def hold(self, run: str, hold: Hold) -> None:
-        """Keep how a hold ended. Anything but a verdict is trouble that people hear of."""
+        """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
         self.require(run)
         self.store.add_hold(run, hold)
         self.bell.ring()
-        if hold.resolution != "verdict":
+        if hold.resolution not in ("verdict", "stopped"):
             policy = f"; policy: {hold.policy}" if hold.policy else ""
             self._notifier.send(
                 f"aegis-ot: a hold ended without a verdict in run {run}",
