@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from ..errors import LinkError, SidecarRefused
+from ..errors import LinkError, SidecarRefused, SidecarUnreachable
 from ..vocabulary import Keyframe, Verdict
 from .link import RunUnknown, SequenceGap, SidecarLink
 from .slices import SLICE_S
@@ -167,15 +167,19 @@ class Courier:
     def _insist(self, attempt: Callable[[float], None], timeout_s: float) -> None:
         deadline = time.monotonic() + timeout_s
         wait = _FIRST_RETRY_S
+        answered: LinkError | None = None
         while True:
             try:
                 attempt(deadline)
                 return
             except SidecarRefused:
                 raise  # asking again changes nothing
-            except LinkError:
+            except LinkError as error:
+                if not isinstance(error, SidecarUnreachable):
+                    answered = error
                 if time.monotonic() + wait >= deadline:
-                    raise
+                    # The last attempt is often cut short: what was answered before says more.
+                    raise answered or error from None
                 self._rest(wait)
                 wait = min(_SLOWEST_RETRY_S, wait * 2)
 

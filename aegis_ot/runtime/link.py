@@ -161,7 +161,7 @@ class SidecarLink:
                 status, data = self._exchange(method, path, body)
         except TimeoutError as error:
             self.close()
-            raise self._unreachable(f"gave no answer within {timeout_s:g} s") from error
+            raise self._unreachable(f"gave no answer within {timeout_s:.2g} s") from error
         except (http.client.RemoteDisconnected, http.client.IncompleteRead) as error:
             self.close()
             raise self._unreachable("closed the connection without an answer") from error

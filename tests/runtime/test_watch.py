@@ -197,6 +197,20 @@ class TestLinkLoss:
         assert len(sidecar.stored()) == 4
         assert "1 passed" in watcher.summary()
 
+    def test_a_dead_camera_is_named_even_if_the_last_try_was_cut_short(
+        self, sidecar: FakeSidecar
+    ) -> None:
+        def slow_camera(handler: Handler) -> None:
+            time.sleep(0.2)
+            error = {"code": "camera", "message": "No frame.", "hint": ""}
+            handler.answer(503, {"error": error})
+
+        sidecar.fault = once("/keyframes", slow_camera, times=100)
+        patience = settings(sidecar, capture_timeout_s=0.45, on_link_loss="abort")
+        _, _, error = watch(wells(1), patience)
+        assert isinstance(error, RunAborted)
+        assert "got no frame from its camera" in str(error)
+
     def test_garbage_is_a_lost_link(self, sidecar: FakeSidecar) -> None:
         sidecar.fault = once("/keyframes", lambda h: h.raw(b"\x00\x01 garbage\r\n\r\n"), 1000)
         _, _, error = watch(wells(1), settings(sidecar, on_link_loss="abort"))
