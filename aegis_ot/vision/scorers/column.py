@@ -25,14 +25,18 @@ NO_TIP = 40.0
 _DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 
 PRIORS: Mapping[str, Tail] = {
-    "retained": Tail(2.5, 1.2),
+    "retained": Tail(3.0, 1.0),
     "gap_aspirate": Tail(1.0, 0.8),
     "gap_transit": Tail(2.5, 1.5),
-    "misfill_aspirate": Tail(1.2, 0.8),
-    "misfill_transit": Tail(1.2, 0.8),
-    "absent": Tail(-4.0, 2.0),
+    "misfill_aspirate": Tail(1.2, 1.0),
+    "misfill_transit": Tail(1.2, 1.0),
+    "absent": Tail(-1.0, 1.5),
 }
-"""Tails before any normal is known, by sign. Wide: a fit narrows them by half at most."""
+"""Tails before any normal is known, by sign; a fit moves their scale by half at most.
+
+``retained`` is a log-likelihood ratio, whose tail under the null falls as exp(-x) beyond the
+logarithm of the number of independent places that were searched, some twenty.
+"""
 
 
 @dataclass(frozen=True)
@@ -94,6 +98,10 @@ class ColumnScorer:
             self.tails[name] = {
                 sign: fit_tail(values[sign], prior) for sign, prior in PRIORS.items()
             }
+            # Where the dye is always plain to see, seeing it less plainly is no sign yet.
+            absent = self.tails[name]["absent"]
+            start = max(absent.start, PRIORS["absent"].start)
+            self.tails[name]["absent"] = Tail(start, absent.scale)
 
     def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
         """Take the reagent's colour and the menisci's places from a run's own normal wells."""

@@ -20,7 +20,7 @@ class Tail:
     every sign, so that signs add up and plates compare.
 
     Attributes:
-        start: Where the tail begins: the upper quartile.
+        start: Where the tail begins: a high quantile of the normals.
         scale: Mean excess over it.
     """
 
@@ -34,18 +34,21 @@ class Tail:
         return float(np.clip((value - self.start) / self.scale, 0.0, MOST))
 
 
-def fit_tail(values: Sequence[float], prior: Tail, prior_weight: float = 4.0) -> Tail:
-    """Tail of the normals' values, drawn towards ``prior`` as if by ``prior_weight`` values.
+_START = 0.85
+_PRIOR_WEIGHT = 4.0
 
-    The scale never falls under half the prior's: a few normals that happen to agree must not
-    make the next one an alarm.
+
+def fit_tail(values: Sequence[float], prior: Tail) -> Tail:
+    """Tail of the normals' values, drawn towards ``prior`` as if by four more values.
+
+    The scale stays within half and one and a half times the prior's: a few normals that happen
+    to agree must not make the next one an alarm, and one odd normal must not blind the sign.
     """
     known = np.array([value for value in values if np.isfinite(value)], dtype=float)
     if len(known) == 0:
         return prior
-    share = len(known) / (len(known) + prior_weight)
-    start = share * float(np.quantile(known, 0.75)) + (1 - share) * prior.start
+    share = len(known) / (len(known) + _PRIOR_WEIGHT)
+    start = share * float(np.quantile(known, _START)) + (1 - share) * prior.start
     over = known[known > start] - start
-    total = float(over.sum()) + prior_weight / 4 * prior.scale
-    scale = total / (len(over) + prior_weight / 4)
-    return Tail(start, max(scale, 0.5 * prior.scale))
+    scale = (float(over.sum()) + prior.scale) / (len(over) + 1.0)
+    return Tail(start, float(np.clip(scale, 0.5 * prior.scale, 1.5 * prior.scale)))

@@ -1,0 +1,157 @@
+"""The default scorer: column and patches together, as one calibrated p-value."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...errors import ModelError
+from ...vocabulary import KeyframeKind
+from ..models import ModelFile
+from ..tips import pipette_class
+from ..types import TrajectorySample
+from .column import ColumnReport, ColumnScorer
+from .patches import PatchesScorer
+
+NO_TIP = 40.0
+"""Score of a trajectory in which no tip is seen when it hangs free."""
+
+_DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+_LEAST_SCALE = 1.0
+
+
+@dataclass(frozen=True)
+class EnsembleReport:
+    """Why a trajectory has its score.
+
+    Attributes:
+        score: ``-log p``.
+        column: What the column scorer found.
+        patches: Surprise of the patches, nats.
+    """
+
+    score: float
+    column: ColumnReport
+    patches: float
+
+
+class EnsembleScorer:
+    """``-log p`` of column and patches together (Fisher's method: surprises add up).
+
+    The p-value of a sum x among the normals' sums is conformal within their range,
+    ``(1 + #{normals > x}) / (n + 1)``, and follows an exponential tail beyond it. It assumes
+    that this run's normals, seen in the light of its first ones, are exchangeable with the
+    normals of the fit, seen in the light of another normal of their own plate. So a score over 3
+    is a p-value under 0.05 in any run: one threshold serves all plates.
+    """
+
+    name = "ensemble"
+
+    def __init__(self) -> None:
+        self.column = ColumnScorer()
+        self.patches = PatchesScorer()
+        self.sums: dict[str, NDArray[np.float64]] = {}
+
+    def fit(self, normals: Sequence[TrajectorySample]) -> None:
+        """Fit both scorers, then their sum on the normals as they will be used.
+
+        Raises:
+            ValueError: On an empty sequence.
+        """
+        self.column.fit(normals)
+        self.patches.fit(normals)
+        plates: dict[tuple[str, str], list[TrajectorySample]] = defaultdict(list)
+        for sample in normals:
+            plates[pipette_class(sample.pipette), sample.plate].append(sample)
+        sums: dict[str, list[float]] = defaultdict(list)
+        for (name, _), members in plates.items():
+            for i, sample in enumerate(members):
+                other = members[(i + 1) % len(members)]
+                self.column.calibrate([other] if other is not sample else [])
+                column = self.column.report(sample).score
+                sums[name].append(column + self.patches.left_out(sample))
+        self.column.calibrate([])
+        self.sums = {name: np.sort(values) for name, values in sums.items()}
+
+    def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
+        """Adapt both scorers to a run or plate."""
+        self.column.calibrate(normals)
+        self.patches.calibrate(normals)
+
+    def score(self, sample: TrajectorySample) -> float:
+        """``-log p`` of one trajectory, >= 0. Raises :class:`ValueError` if not fitted."""
+        if any(sample.detections.get(kind) is None for kind in _DECISIVE):
+            return NO_TIP
+        return self.report(sample).score
+
+    def report(self, sample: TrajectorySample) -> EnsembleReport:
+        """Score and what stands behind it."""
+        column = self.column.report(sample)
+        patches = self.patches.score(sample)
+        total = column.score + patches
+        return EnsembleReport(self._surprise(total, pipette_class(sample.pipette)), column, patches)
+
+    def p_value(self, sample: TrajectorySample) -> float:
+        """How often a normal trajectory scores this high."""
+        return float(np.exp(-self.score(sample)))
+
+    def _surprise(self, total: float, name: str) -> float:
+        known = self.sums.get(name)
+        if known is None or len(known) == 0:
+            return total
+        n = len(known)
+        nats = -np.log((n + 1 - np.arange(n + 1)) / (n + 1))
+        places = np.concatenate(([0.0], known))
+        if total <= known[-1]:
+            # Linear between the normals, so that no two trajectories tie without need.
+            return float(np.interp(total, places, nats))
+        quartile = float(np.quantile(known, 0.75))
+        scale = max(float(known[known >= quartile].mean()) - quartile, _LEAST_SCALE)
+        return float(nats[-1] + (total - known[-1]) / scale)
+
+    def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
+        """Arrays and settings for a model file."""
+        arrays: dict[str, NDArray[Any]] = {}
+        settings: dict[str, Any] = {"pipettes": list(self.sums)}
+        for part in (self.column, self.patches):
+            inner, its = part.to_arrays()
+            arrays.update({f"{part.name}/{key}": value for key, value in inner.items()})
+            settings[part.name] = its
+        arrays.update({f"sums/{name}": values for name, values in self.sums.items()})
+        return arrays, settings
+
+    @classmethod
+    def from_model(cls, model: ModelFile) -> EnsembleScorer:
+        """A scorer from a model file.
+
+        Raises:
+            ModelError: If arrays are missing or their shapes do not fit.
+        """
+        scorer = cls()
+        try:
+            scorer.column = ColumnScorer.from_model(_part(model, "column"))
+            scorer.patches = PatchesScorer.from_model(_part(model, "patches"))
+            scorer.sums = {
+                str(name): np.sort(np.asarray(model.arrays[f"sums/{name}"], dtype=float).ravel())
+                for name in model.settings["pipettes"]
+            }
+        except (KeyError, TypeError, ValueError) as error:
+            raise ModelError(
+                f"the ensemble model lacks or garbles {error}; fit it anew"
+            ) from error
+        return scorer
+
+
+def _part(model: ModelFile, name: str) -> ModelFile:
+    settings: Mapping[str, Any] = model.settings[name]
+    arrays = {
+        key.removeprefix(f"{name}/"): value
+        for key, value in model.arrays.items()
+        if key.startswith(f"{name}/")
+    }
+    return ModelFile(name, arrays, dict(settings))
