@@ -1,0 +1,138 @@
+"""Leave one plate out: every plate is scored by a model that never saw it (paper, Methods, Data).
+
+The model is fitted on the normals of all other plates. The held-out plate's own first normal
+well sets its threshold, or calibrates the scorer, and is not scored.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...errors import DatasetError
+from ...vision.cascade import DECISIVE
+from ...vision.crops import missing_tips
+from ...vision.dataset import first_normals
+from ...vision.scorers import Calibrating
+from ...vision.types import Scorer, TrajectorySample
+
+ALPHA = 0.05
+"""Rate of false alarms asked of a threshold from other plates' normals."""
+
+
+@dataclass(frozen=True)
+class ScoredWell:
+    """One well of a held-out plate.
+
+    Attributes:
+        sample: The trajectory.
+        score: In the scorer's unit.
+        anchor: Score of the plate's calibration well.
+        standing: Score made comparable between plates; more than 0 is flagged.
+        tips_missing: Whether no tip was found in a frame in which it hangs free.
+    """
+
+    sample: TrajectorySample
+    score: float
+    anchor: float
+    standing: float
+    tips_missing: bool
+
+    @property
+    def failed(self) -> bool:
+        return self.sample.label == "failure"
+
+    @property
+    def without_tip(self) -> bool:
+        """Labelled as having no tip: counted apart, as in the paper."""
+        return self.sample.failure_type == "no_tip"
+
+    @property
+    def flagged(self) -> bool:
+        return self.standing > 0 or self.tips_missing
+
+
+def hold_out(
+    samples: Sequence[TrajectorySample], make: Callable[[], Scorer], threshold: str
+) -> list[ScoredWell]:
+    """Score every well but the calibration wells, plate by plate.
+
+    Args:
+        samples: All trajectories of the set.
+        make: Makes an unfitted scorer.
+        threshold: ``"first-normal"``: a well is flagged if it scores more than the plate's
+            first normal (the paper's; half of exchangeable normals do). ``"pooled"``: if it
+            scores more than all but a fraction :data:`ALPHA` of other plates' normals would
+            (see :func:`_pooled`).
+
+    Raises:
+        DatasetError: If there are fewer than two plates.
+    """
+    plates = list(dict.fromkeys(sample.plate for sample in samples))
+    if len(plates) < 2:
+        raise DatasetError(
+            "leaving one plate out needs at least two plates; this set has "
+            f"{len(plates)}: record more, or evaluate with another protocol"
+        )
+    first = first_normals(samples)
+    wells: list[ScoredWell] = []
+    for plate in plates:
+        scorer = make()
+        scorer.fit([s for s in samples if s.plate != plate and s.label == "normal"])
+        anchor_well = first[plate]
+        if isinstance(scorer, Calibrating):
+            scorer.calibrate([anchor_well])
+        anchor = scorer.score(anchor_well)
+        for sample in samples:
+            if sample.plate == plate and sample is not anchor_well:
+                missing = any(kind in DECISIVE for kind in missing_tips(sample))
+                wells.append(ScoredWell(sample, scorer.score(sample), anchor, 0.0, missing))
+    calibrates = isinstance(make(), Calibrating)
+    return _first_normal(wells) if threshold == "first-normal" else _pooled(wells, calibrates)
+
+
+def _first_normal(wells: Sequence[ScoredWell]) -> list[ScoredWell]:
+    """Standing: log of score over the calibration well's score."""
+    tiny = np.finfo(np.float64).tiny
+    return [
+        replace(
+            well, standing=float(np.log(max(well.score, tiny)) - np.log(max(well.anchor, tiny)))
+        )
+        for well in wells
+    ]
+
+
+def _pooled(wells: Sequence[ScoredWell], calibrated: bool) -> list[ScoredWell]:
+    """Standing: excess over what other plates' held-out normals reach.
+
+    A scorer that calibrates itself on the plate's first normal is taken at its word; the score
+    of any other is divided by that well's. The limit for a plate comes from the normals of the
+    other plates, each scored while its own plate was held out, by an exponential upper tail
+    (a few dozen normals have no 95th percentile of their own). It assumes that calibrated scores
+    of normals are exchangeable between plates.
+    """
+    values = [
+        well.score if calibrated else float(np.log((well.score + 1e-9) / (well.anchor + 1e-9)))
+        for well in wells
+    ]
+    placed = []
+    for well, value in zip(wells, values, strict=True):
+        others = [
+            other_value
+            for other, other_value in zip(wells, values, strict=True)
+            if not other.failed and other.sample.plate != well.sample.plate
+        ]
+        placed.append(replace(well, standing=value - _tail_limit(others)))
+    return placed
+
+
+def _tail_limit(values: Sequence[float]) -> float:
+    if not values:
+        return 0.0
+    known = np.asarray(values, dtype=np.float64)
+    start = float(np.quantile(known, 0.75))
+    over = known[known > start] - start
+    scale = float(over.mean()) if len(over) else 0.0
+    return max(start + scale * float(np.log(0.25 / ALPHA)), float(np.quantile(known, 1 - ALPHA)))

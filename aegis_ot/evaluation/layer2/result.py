@@ -1,0 +1,206 @@
+"""What an evaluation of Layer 2 found, and how it is written down."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from .lopo import ScoredWell
+from .metrics import Interval, bootstrap
+
+PAPER_P1000 = {
+    "average_precision": 0.887,
+    "auroc": 0.804,
+    "f1": 0.708,
+    "precision": 0.793,
+    "recall": 0.639,
+}
+"""The paper's own plates, p1000, for comparison: other data."""
+
+
+@dataclass(frozen=True)
+class Share:
+    """How many of how many."""
+
+    caught: int
+    total: int
+
+    def to_json(self) -> dict[str, int]:
+        return {"caught": self.caught, "total": self.total}
+
+    def __str__(self) -> str:
+        return f"{self.caught}/{self.total}"
+
+
+@dataclass(frozen=True)
+class Layer2Result:
+    """Result of one scorer on one data set.
+
+    Attributes:
+        dataset: Name of the set.
+        source: ``"rendered"``, ``"synthetic"``, ``"real"``: printed with every figure.
+        scorer: Name of the scorer.
+        protocol: ``"lopo"`` or ``"cascade"``.
+        threshold: How the operating point was set.
+        detector: What found the tips.
+        metrics: By name, with 95 % intervals.
+        wells: All scored wells but those labelled ``no_tip``.
+        flagged: Decision for each of them.
+        no_tip: Those labelled ``no_tip``: how many were flagged.
+        routed: Fraction of wells sent to a gate, by ``"normals"``, ``"failures"``, ``"all"``.
+        settled: For the cascade: how many wells each gate settled and how.
+    """
+
+    dataset: str
+    source: str
+    scorer: str
+    protocol: str
+    threshold: str
+    detector: str
+    metrics: Mapping[str, Interval]
+    wells: Sequence[ScoredWell] = field(repr=False)
+    flagged: Sequence[bool] = field(repr=False)
+    no_tip: Share
+    routed: Mapping[str, float]
+    settled: Mapping[str, int] = field(default_factory=dict)
+
+    @property
+    def false_alarms(self) -> Share:
+        """Flagged among the scored normals."""
+        flags = [f for w, f in zip(self.wells, self.flagged, strict=True) if not w.failed]
+        return Share(sum(flags), len(flags))
+
+    def by(self, key: Callable[[ScoredWell], str]) -> dict[str, Share]:
+        """Caught failures by a property of the well."""
+        groups: dict[str, list[bool]] = {}
+        for well, flag in zip(self.wells, self.flagged, strict=True):
+            if well.failed:
+                groups.setdefault(key(well), []).append(flag)
+        return {name: Share(sum(flags), len(flags)) for name, flags in sorted(groups.items())}
+
+    def per_failure_type(self) -> dict[str, Share]:
+        return self.by(lambda well: well.sample.failure_type)
+
+    def per_reagent(self) -> dict[str, Share]:
+        return self.by(lambda well: well.sample.reagent or "unknown")
+
+    def per_severity(self) -> dict[str, Share]:
+        return self.by(severity)
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain values; the five metrics stand at the top level."""
+        groups = {
+            "per_failure_type": self.per_failure_type(),
+            "per_reagent": self.per_reagent(),
+            "per_severity": self.per_severity(),
+        }
+        return {
+            "dataset": self.dataset,
+            "source": self.source,
+            "scorer": self.scorer,
+            "protocol": self.protocol,
+            "threshold": self.threshold,
+            "detector": self.detector,
+            **{name: interval.to_json() for name, interval in self.metrics.items()},
+            "wells": {
+                "scored": len(self.wells),
+                "normals": self.false_alarms.total,
+                "failures": sum(well.failed for well in self.wells),
+            },
+            "false_alarms": self.false_alarms.to_json(),
+            "no_tip": self.no_tip.to_json(),
+            "routed_fraction": {
+                name: None if np.isnan(value) else round(value, 4)
+                for name, value in self.routed.items()
+            },
+            "settled": dict(self.settled),
+            **{
+                name: {group: share.to_json() for group, share in shares.items()}
+                for name, shares in groups.items()
+            },
+            "scores": [
+                {
+                    "id": well.sample.id,
+                    "plate": well.sample.plate,
+                    "label": well.sample.label,
+                    "failure_type": well.sample.failure_type,
+                    "score": well.score,
+                    "standing": well.standing,
+                    "flagged": bool(flag),
+                }
+                for well, flag in zip(self.wells, self.flagged, strict=True)
+            ],
+        }
+
+    def text(self) -> str:
+        """A few lines for the terminal."""
+        title = f"{self.scorer} on {self.dataset} ({self.source}), {self.protocol}"
+        lines = [
+            f"{title}, threshold {self.threshold}, tips by {self.detector}",
+            *(
+                f"  {name.replace('_', ' '):18} {interval}"
+                for name, interval in self.metrics.items()
+            ),
+            f"  normals flagged    {self.false_alarms}",
+            f"  no tip flagged     {self.no_tip} (counted apart)",
+            "  sent to a gate     "
+            + ", ".join(f"{name} {value:.0%}" for name, value in self.routed.items()),
+        ]
+        for name, shares in (
+            ("failure types", self.per_failure_type()),
+            ("reagents", self.per_reagent()),
+            ("retained", self.per_severity()),
+        ):
+            parts = ", ".join(f"{group} {share}" for group, share in shares.items())
+            lines.append(f"  {name:18} {parts}")
+        return "\n".join(lines)
+
+
+def severity(well: ScoredWell) -> str:
+    """Class of the fraction left in the tip."""
+    retained = well.sample.retained_fraction
+    if retained is None:
+        return "unknown"
+    for limit, name in ((0.25, "under 25 %"), (0.5, "25-50 %"), (0.75, "50-75 %")):
+        if retained < limit:
+            return name
+    return "75 % and more"
+
+
+def summarise(
+    wells: Sequence[ScoredWell],
+    flagged: Sequence[bool],
+    routed: Sequence[bool],
+    *,
+    seed: int,
+    settled: Mapping[str, int] | None = None,
+    **names: str,
+) -> Layer2Result:
+    """Turn decisions on wells into a result; ``no_tip`` wells are counted apart."""
+    triples = list(zip(wells, flagged, routed, strict=True))
+    kept = [(w, f, r) for w, f, r in triples if not w.without_tip]
+    failed = np.array([w.failed for w, _, _ in kept], dtype=bool)
+    standing = np.array([w.standing for w, _, _ in kept], dtype=np.float64)
+    flags = np.array([f for _, f, _ in kept], dtype=bool)
+    sent = np.array([r for _, _, r in kept], dtype=bool)
+    tipless = [f for w, f, _ in triples if w.without_tip]
+
+    def share(mask: Any) -> float:
+        return float(sent[mask].mean()) if mask.any() else float("nan")
+
+    return Layer2Result(
+        metrics=bootstrap(failed, standing, flags, seed=seed),
+        wells=[w for w, _, _ in kept],
+        flagged=flags.tolist(),
+        no_tip=Share(sum(tipless), len(tipless)),
+        routed={
+            "normals": share(~failed),
+            "failures": share(failed),
+            "all": share(np.ones_like(failed)),
+        },
+        settled=settled or {},
+        **names,
+    )
