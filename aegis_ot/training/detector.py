@@ -18,7 +18,7 @@ from torch import Tensor, nn
 from .._version import __version__
 from ..vision.detection.heatmap import FORMAT, HeatmapDetector
 from .examples import Example, close_up_example, overview_example, targets
-from .figures import measure
+from .figures import choose_threshold, measure
 from .network import TipNetwork
 from .recorded import FramePool, RecordedFrame, read_frames
 from .scenes import draw_frame
@@ -42,7 +42,9 @@ class DetectorSettings:
         close_ups: Close-ups cut from each frame.
         batch: Overviews in a batch (close-ups: twice as many).
         learning_rate: Highest rate of the one-cycle schedule.
-        threshold: Least confidence of a detection.
+        threshold: Least confidence of a detection; chosen on fresh drawn and simulated frames
+            if not given.
+        threshold_frames: Frames that it is chosen on.
         threads: CPU threads.
     """
 
@@ -53,7 +55,8 @@ class DetectorSettings:
     close_ups: int = 2
     batch: int = 16
     learning_rate: float = 4e-3
-    threshold: float = 0.5
+    threshold: float | None = None
+    threshold_frames: int = 400
     threads: int = 1
 
 
@@ -237,7 +240,7 @@ def train(
     description = {
         "format": FORMAT,
         "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
-        "threshold": chosen.threshold,
+        "threshold": 0.5 if chosen.threshold is None else chosen.threshold,
         "parameters": sum(p.numel() for p in network.parameters()),
         "seed": seed,
         "settings": asdict(chosen),
@@ -249,6 +252,9 @@ def train(
         "made_with": {"aegis_ot": __version__, "torch": torch.__version__, "numpy": np.__version__},
     }
     _write(path, description)
+    if chosen.threshold is None:
+        description["threshold"] = _threshold(HeatmapDetector(path), chosen, seed)
+        _write(path, description)
     if held:
         detector = HeatmapDetector(path)
         description["held_out_figures"] = {
@@ -257,6 +263,19 @@ def train(
         }
         _write(path, description)
     return path
+
+
+def _threshold(detector: HeatmapDetector, settings: DetectorSettings, seed: int) -> float:
+    """Chosen on frames like those of training, of other seeds; never on held-out plates."""
+    rng = np.random.default_rng((seed, 1))
+    simulated = SimulatedFrames(seed + 1_000_003)
+    tips: list[float] = []
+    empties: list[float] = []
+    for number in range(settings.threshold_frames):
+        image, label, _ = simulated.draw(rng) if number % 2 else draw_frame(rng)
+        guess = detector.best_guess(image)
+        (empties if label is None else tips).append(guess.confidence if guess else 0.0)
+    return choose_threshold(tips, empties)
 
 
 def _plate(frame: RecordedFrame) -> str:

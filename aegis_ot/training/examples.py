@@ -62,8 +62,8 @@ def close_up_example(
         collar, orifice = np.array(aim.collar), np.array(aim.orifice)
         length = aim.length
         wide = 1.0 if label is not None else 3.0
-        collar = collar + rng.normal(0, 0.035 * wide, 2) * length
-        orifice = orifice + rng.normal(0, 0.035 * wide, 2) * length
+        collar = collar + rng.normal(0, 0.045 * wide, 2) * length
+        orifice = orifice + rng.normal(0, 0.045 * wide, 2) * length
         if orifice[1] - collar[1] < 0.3 * length:
             orifice = collar + np.array([0.0, length])
     view = close_up(

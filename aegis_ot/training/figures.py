@@ -118,6 +118,29 @@ def measure(detector: HeatmapDetector, frames: Sequence[RecordedFrame]) -> Detec
     )
 
 
+def choose_threshold(
+    tips: Sequence[float], empties: Sequence[float], alarm_cost: float = 3.0
+) -> float:
+    """The confidence that best parts frames with a tip from frames without one.
+
+    Args:
+        tips, empties: Confidences in frames with and without a tip.
+        alarm_cost: What a detection where there is no tip costs, in missed tips: a tip that is
+            missed goes to the gate, one that is imagined hides a failure.
+
+    Returns:
+        The middle of the range of thresholds with the least cost; 0.5 if either kind is missing.
+    """
+    if not tips or not empties:
+        return 0.5
+    grid = np.linspace(0.05, 0.95, 181)
+    missed = np.array([np.mean(np.asarray(tips) < t) for t in grid])
+    alarms = np.array([np.mean(np.asarray(empties) >= t) for t in grid])
+    cost = missed + alarm_cost * alarms
+    best = grid[cost <= cost.min() + 1e-9]
+    return round(float((best[0] + best[-1]) / 2), 3)
+
+
 def _spread(errors: Sequence[float]) -> tuple[float, float]:
     if not errors:
         return (0.0, 0.0)
