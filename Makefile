@@ -4,7 +4,7 @@ VENV   ?= .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: demo test check lint types contracts bench clean
+.PHONY: demo test check lint types contracts matrix bench clean
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -30,8 +30,12 @@ contracts: $(STAMP)
 
 check: lint types contracts test
 
+# Environments of the support matrix, as far as this machine has the interpreters.
+matrix: $(STAMP)
+	$(BIN)/python -m tests.compat.environments
+
 bench: $(STAMP)
 	$(BIN)/python -m benchmarks
 
 clean:
-	rm -rf $(VENV) out
+	rm -rf $(VENV) .venvs out

@@ -2,7 +2,7 @@
 
 A plain program, so that it runs in an interpreter that has nothing but ``opentrons``::
 
-    python -m tests.compat.transparency tests/protocols/transparency
+    python -m tests.compat.transparency tests/protocols/transparency/*.py
 
 prints one JSON object: versions, and per protocol what was found. The guard has a sidecar (a
 stub on loopback that answers every keyframe and passes every well) and acts in simulation, so
@@ -34,6 +34,7 @@ class _Stub(BaseHTTPRequestHandler):
     """Answers like a sidecar whose every well passes."""
 
     protocol_version = "HTTP/1.1"
+    wbufsize = -1  # one packet per answer
 
     def _answer(self, body):
         data = json.dumps(body).encode()
@@ -104,24 +105,29 @@ def guarded_text(text, url):
 
 
 def simulate(text, name):
-    """What the protocol did: run log lines, liquid commands, and how it ended."""
+    """What the protocol did: the lines of its run log, and how it ended."""
     import opentrons.simulate as simulator
 
-    commands = []
     try:
         log, _ = simulator.simulate(io.StringIO(text), name, log_level="none")
     except Exception as error:
-        return {"log": None, "commands": commands, "error": _error(error)}
-    lines = [entry["payload"].get("text", "") for entry in log]
-    return {
-        "log": [line for line in lines if not line.startswith("aegis")],
-        "commands": commands,
-        "error": None,
-    }
+        return {"log": None, "error": _error(error)}
+    lines = [_plain(entry["payload"].get("text", "")) for entry in log]
+    return {"log": [line for line in lines if not line.startswith("aegis")], "error": None}
 
 
 def _error(error):
-    return re.sub(r"0x[0-9a-f]+|[0-9a-f]{8}-[0-9a-f-]{27}", "ID", f"{type(error).__name__}: {error}")
+    """The error as the App shows it: what went wrong, and on which line."""
+    # An engine's error prints as its whole record, traceback through the guard included.
+    details = re.findall(r"detail=.(.*?)., errorInfo", str(error))
+    text = "; ".join(details) or str(error)
+    return _plain(f"{type(error).__name__}: {text}")
+
+
+def _plain(text):
+    """Without what differs from run to run: identifiers and times."""
+    text = re.sub(r"0x[0-9a-f]+|[0-9a-f]{8}-[0-9a-f-]{27}", "ID", text)
+    return re.sub(r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d", "TIME", text)
 
 
 def engine_commands(text, name):
@@ -193,12 +199,12 @@ def _first(one, other):
     return f"lengths {len(one or ())} / {len(other or ())}"
 
 
-def main(folders):
+def main(files):
     import opentrons
 
     results = []
     with stub_sidecar() as (url, keyframes):
-        for path in sorted(p for folder in folders for p in Path(folder).glob("*.py")):
+        for path in map(Path, files):
             try:
                 results.append(compare(path, url, keyframes))
             except Exception:

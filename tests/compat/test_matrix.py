@@ -1,0 +1,85 @@
+"""The guard changes nothing, on each ``opentrons`` that this machine can run.
+
+The environments are made by ``make matrix``; without them the main environment is tested alone,
+and the tests say what they left out.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from .environments import MATRIX, ROOT, Environment
+
+PROTOCOLS = ROOT / "tests" / "protocols" / "transparency"
+
+
+def run_in(python: str | Path, *arguments: str) -> str:
+    """Run a module of this repository in another interpreter; returns what it printed."""
+    environ = {k: v for k, v in os.environ.items() if not k.startswith("AEGIS_OT_")}
+    done = subprocess.run(
+        [str(python), *arguments],
+        cwd=ROOT,
+        env={**environ, "PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        timeout=900,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr[-3000:]
+    return done.stdout
+
+
+def problems_of(python: str | Path, robots: tuple[str, ...]) -> list[str]:
+    files = sorted(str(p) for robot in robots for p in PROTOCOLS.glob(f"{robot}_*.py"))
+    report = json.loads(run_in(python, "-m", "tests.compat.transparency", *files))
+    compared = report["protocols"]
+    assert len(compared) == len(files)
+    assert sum(one.get("keyframes", 0) for one in compared) > 100, "Layer 2 was not at work"
+    return [f"{one['file']}: {problem}" for one in compared for problem in one["problems"]]
+
+
+def ready(environment: Environment) -> Environment:
+    if not environment.ready:
+        pytest.skip(f"{environment.name} is not there; `make matrix` makes it")
+    return environment
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+def test_liquid_commands_are_unchanged_here():
+    assert problems_of(sys.executable, ("ot2", "flex")) == []
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(900)
+@pytest.mark.parametrize("environment", MATRIX, ids=lambda e: e.name)
+def test_liquid_commands_are_unchanged(environment):
+    assert problems_of(ready(environment).interpreter, environment.robots) == []
+
+
+ALONE = """
+import json, sys
+import opentrons.simulate
+before = set(sys.modules)
+import time; begun = time.perf_counter()
+from aegis_ot import guard
+seconds = time.perf_counter() - begun
+import aegis_ot.guarded_run, aegis_ot.preflight.checking, aegis_ot.preflight.rehearsal
+import aegis_ot.preflight.script, aegis_ot.runtime, aegis_ot.settings, aegis_ot.instrumentation
+new = sorted({name.split(".")[0] for name in set(sys.modules) - before})
+print(json.dumps({"new": new, "seconds": seconds}))
+"""
+
+
+@pytest.mark.parametrize("environment", MATRIX, ids=lambda e: e.name)
+def test_the_robot_half_needs_nothing_but_opentrons(environment):
+    python = ready(environment).interpreter
+    told = json.loads(run_in(python, "-c", ALONE))
+    foreign = set(told["new"]) - {"aegis_ot"} - set(sys.stdlib_module_names)
+    assert foreign == set()
