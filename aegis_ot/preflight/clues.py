@@ -14,9 +14,10 @@ from typing import Any
 
 from ..instrumentation import LabwareInfo, NameBinding
 from ..vocabulary import WellRef
+from .rulefiles import Common
 from .source import Place, SourceFacts
 from .trace import Trace, row_column
-from .words import tokens
+from .words import Lexicon, tokens
 
 
 class Strength(IntEnum):
@@ -71,6 +72,7 @@ def gather(
     names: Sequence[NameBinding],
     facts: SourceFacts,
     given: Mapping[str, Sequence[str]],
+    common: Common,
 ) -> list[Clue]:
     """All clues of one protocol.
 
@@ -79,12 +81,13 @@ def gather(
         names: Names that held wells, from the rehearsal.
         facts: What the text says.
         given: Roles given outright: role to places (``"4:H12"``, ``"PCR plate:A1-A8"``).
+        common: Words for amounts.
     """
     deck = Deck(trace, names)
     clues = [
         *_given(deck, given),
         *_liquids(trace),
-        *_names(deck, names, facts),
+        *_names(deck, names, facts, common),
         *_labels(deck),
         *_places(deck, facts),
         *_plate_maps(deck, facts),
@@ -185,8 +188,11 @@ def _liquids(trace: Trace) -> Iterator[Clue]:
         yield Clue(Strength.LIQUID, liquid, tuple(wells), None, f"liquid '{liquid}'")
 
 
-def _names(deck: Deck, names: Sequence[NameBinding], facts: SourceFacts) -> Iterator[Clue]:
+def _names(
+    deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
+) -> Iterator[Clue]:
     comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
+    keyed = _numeric_keys(names)
     for binding in names:
         base = binding.name.split("[", 1)[0]
         loose = (binding.function, base) in facts.loose or (
@@ -202,7 +208,11 @@ def _names(deck: Deck, names: Sequence[NameBinding], facts: SourceFacts) -> Iter
             line,
             f"name `{binding.name}` at line {line}",
             whole=whole,
+            levels=(keyed[binding.name],) * len(wells) if binding.name in keyed else (),
         )
+        if binding.name == base and binding.wells:
+            yield from _beside(binding, facts, line)
+            yield from _parallel(binding, facts, common)
         note = facts.notes.get(base)
         if note and not loose and binding.name == base:
             yield Clue(
@@ -214,6 +224,73 @@ def _names(deck: Deck, names: Sequence[NameBinding], facts: SourceFacts) -> Iter
                 whole=whole,
                 subject=False,
             )
+
+
+def _numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
+    """Level of each name like ``standards[125]``; ``None`` where the keys only count."""
+    groups: dict[str, dict[str, float]] = {}
+    for binding in names:
+        match = re.fullmatch(r"(.*)\[(-?\d+(?:\.\d+)?)\]", binding.name)
+        if match:
+            groups.setdefault(match[1], {})[binding.name] = float(match[2])
+    found: dict[str, float | None] = {}
+    for group in groups.values():
+        values = sorted(group.values())
+        counting = values in (
+            [float(n) for n in range(len(values))],
+            [float(n + 1) for n in range(len(values))],
+        )
+        found.update({name: None if counting else value for name, value in group.items()})
+    return found
+
+
+def _beside(binding: NameBinding, facts: SourceFacts, line: int) -> Iterator[Clue]:
+    """What stands beside each well in a list of rows: ``[(plate["H12"], "NTC", 0.5), ...]``."""
+    rows = facts.tables.get(binding.name)
+    if rows is None or len(rows) != len(binding.wells):
+        return
+    for row, ref in zip(rows, binding.wells):
+        for text in row:
+            if isinstance(text, str) and not _WELL_NAME.match(text):
+                yield Clue(
+                    Strength.NAME, text, (ref,), line,
+                    f"'{text}' beside it in `{binding.name}` at line {line}",
+                )
+    columns = [[item for item in row if _is_number(item)] for row in rows]
+    if all(len(numbers) == 1 for numbers in columns):
+        levels = tuple(float(numbers[0]) for numbers in columns)
+        if len(set(levels)) > 1:
+            yield Clue(
+                Strength.NAME, binding.name, binding.wells, line,
+                f"numbers beside it in `{binding.name}` at line {line}", levels=levels,
+            )
+
+
+def _parallel(
+    binding: NameBinding, facts: SourceFacts, common: Common
+) -> Iterator[Clue]:
+    """A list of concentrations as long as the list of wells: ``standard_concs``."""
+    amounts = Lexicon({"amount": common.amounts})
+    lists = []
+    for name, value in facts.constants.items():
+        if not isinstance(value, (list, tuple)) or len(value) != len(binding.wells):
+            continue
+        if len(value) < 2 or not all(_is_number(item) for item in value):
+            continue
+        if amounts.find(name):
+            shared = set(tokens(name)) & set(tokens(binding.name))
+            lists.append((len(shared), name, tuple(float(item) for item in value)))
+    if not lists:
+        return
+    best = max(shared for shared, _, _ in lists)
+    chosen = [entry for entry in lists if entry[0] == best]
+    if len({levels for _, _, levels in chosen}) == 1:
+        _, name, levels = chosen[0]
+        line = facts.assigned.get(name)
+        yield Clue(
+            Strength.NAME, binding.name, binding.wells, line,
+            f"`{name}` at line {line}", levels=levels,
+        )
 
 
 def _labels(deck: Deck) -> Iterator[Clue]:
