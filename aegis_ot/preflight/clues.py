@@ -45,6 +45,7 @@ class Clue:
         role: The role itself, where it was given outright.
         levels: Concentrations or doses beside the wells, if any.
         subject: Whether only the last word names the thing, as in ``sample_buffer``.
+        step: For a comment beside a transfer: ``source`` or ``destination`` of the transfer.
     """
 
     strength: Strength
@@ -56,6 +57,7 @@ class Clue:
     role: str = ""
     levels: tuple[float | None, ...] = ()
     subject: bool = True
+    step: str = ""
 
 
 _WELL = r"[A-P](?:0?[1-9]|1\d|2[0-4])"
@@ -92,6 +94,7 @@ def gather(
         *_places(deck, facts),
         *_plate_maps(deck, facts),
         *_written(deck, facts),
+        *_step_comments(trace, facts, common),
     ]
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
 
@@ -253,7 +256,10 @@ def _beside(binding: NameBinding, facts: SourceFacts, line: int) -> Iterator[Clu
         for text in row:
             if isinstance(text, str) and not _WELL_NAME.match(text):
                 yield Clue(
-                    Strength.NAME, text, (ref,), line,
+                    Strength.NAME,
+                    text,
+                    (ref,),
+                    line,
                     f"'{text}' beside it in `{binding.name}` at line {line}",
                 )
     columns = [[item for item in row if _is_number(item)] for row in rows]
@@ -261,14 +267,16 @@ def _beside(binding: NameBinding, facts: SourceFacts, line: int) -> Iterator[Clu
         levels = tuple(float(numbers[0]) for numbers in columns)
         if len(set(levels)) > 1:
             yield Clue(
-                Strength.NAME, binding.name, binding.wells, line,
-                f"numbers beside it in `{binding.name}` at line {line}", levels=levels,
+                Strength.NAME,
+                binding.name,
+                binding.wells,
+                line,
+                f"numbers beside it in `{binding.name}` at line {line}",
+                levels=levels,
             )
 
 
-def _parallel(
-    binding: NameBinding, facts: SourceFacts, common: Common
-) -> Iterator[Clue]:
+def _parallel(binding: NameBinding, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """A list of concentrations as long as the list of wells: ``standard_concs``."""
     amounts = Lexicon({"amount": common.amounts})
     lists = []
@@ -288,8 +296,12 @@ def _parallel(
         _, name, levels = chosen[0]
         line = facts.assigned.get(name)
         yield Clue(
-            Strength.NAME, binding.name, binding.wells, line,
-            f"`{name}` at line {line}", levels=levels,
+            Strength.NAME,
+            binding.name,
+            binding.wells,
+            line,
+            f"`{name}` at line {line}",
+            levels=levels,
         )
 
 
@@ -516,6 +528,66 @@ def _spoken(
                 f"'{_short(clause)}' at line {line}",
                 subject=False,
             )
+
+
+_LONGEST_STEP_COMMENT = 14
+
+
+def _step_comments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[Clue]:
+    """Comments beside or right above a transfer: "# distribute diluent".
+
+    They name what is drawn, if they name one thing only; short ones with nothing else in them
+    may name a single destination ("# NTC").
+    """
+    beside = _comment_of_line(facts)
+    unsaid = Lexicon({"not": common.negations})
+    drawn: dict[str, dict[WellRef, None]] = {}
+    given: dict[str, dict[WellRef, None]] = {}
+    at_line: dict[str, int] = {}
+    for visit in trace.visits:
+        if visit.mixing:
+            continue
+        for line in visit.lines:
+            text = beside.get(line)
+            if text is None:
+                continue
+            at_line[text] = line
+            if visit.kind.value == "aspirate":
+                drawn.setdefault(text, {})[visit.well.ref] = None
+            elif visit.parts:
+                given.setdefault(text, {})[visit.well.ref] = None
+            break
+    for text, line in at_line.items():
+        count = len(tokens(text))
+        if count > _LONGEST_STEP_COMMENT or unsaid.find(text):
+            continue
+        said = f"comment '{_short(text)}' at line {line}"
+        sources = tuple(ref for ref in drawn.get(text, ()) if ref not in given.get(text, ()))
+        if sources:
+            yield Clue(Strength.COMMENT, text, sources, line, said, subject=False, step="source")
+        into = tuple(given.get(text, ()))
+        if into and count <= _LONGEST_STEP_COMMENT // 2 and len(into) <= 8:
+            yield Clue(Strength.COMMENT, text, into, line, said, subject=False, step="destination")
+
+
+def _comment_of_line(facts: SourceFacts) -> dict[int, str]:
+    """The comment that speaks of each line: beside it, or right above its block."""
+    found: dict[int, str] = {}
+    for line, text in facts.comments.items():
+        if line not in facts.own_line:
+            found[line] = text
+    for line in sorted(facts.own_line):
+        below = line + 1
+        if below in facts.own_line:
+            continue
+        text = facts.comments[line]
+        first = line
+        while first - 1 in facts.own_line:
+            first -= 1
+            text = f"{facts.comments[first]} {text}"
+        for covered in facts.blocks.get(below, (below,)):
+            found.setdefault(covered, text)
+    return found
 
 
 def spec_wells(spec: str, info: LabwareInfo) -> list[str]:

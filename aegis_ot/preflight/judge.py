@@ -149,7 +149,7 @@ def judge(recording: Recording, database: Database, options: Options | None = No
     facts = read_source(recording.text)
     replacements = Replacements(database.common.pauses)
     trace = build_trace(recording.log, recording.labware, replacements)
-    clues = gather(trace, recording.names, facts, options.roles)
+    clues = gather(trace, recording.names, facts, options.roles, database.common)
     families = infer(database, facts, clues, trace, options.assay)
     return _Judge(
         recording, database, options, facts, replacements, trace, clues, families

@@ -11,7 +11,7 @@ import re
 from typing import TYPE_CHECKING
 
 from .rulefiles import Common
-from .words import Lexicon
+from .words import Lexicon, tokens
 
 if TYPE_CHECKING:
     from .clues import Clue
@@ -60,7 +60,7 @@ def level_of(clue: Clue, position: int, common: Common) -> float | None:
             return float(direction * position)
     if count > 1 and not _one_value(clue):
         return None
-    return level_in(clue.text, common)
+    return level_in(clue.text, common, plain_numbers=clue.subject)
 
 
 def _one_value(clue: Clue) -> bool:
@@ -68,8 +68,11 @@ def _one_value(clue: Clue) -> bool:
     return not clue.whole
 
 
-def level_in(text: str, common: Common) -> float | None:
-    """The one level that a text states: with a unit, as a plain number, or in words."""
+def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | None:
+    """The one level that a text states: with a unit, in words, or as a plain number.
+
+    Plain numbers count in names and liquids only: in a comment they may be anything.
+    """
     plain = text.replace("µ", "u").replace("μ", "u").lower()
     with_unit = {
         _number(value) * _UNITS.get(_unit(unit), 1.0) for value, unit in _WITH_UNIT.findall(plain)
@@ -84,10 +87,29 @@ def level_in(text: str, common: Common) -> float | None:
     words = {common.levels[match.topic] for match in _level_words(common).find(text)}
     if len(words) == 1:
         return words.pop()
+    if not plain_numbers:
+        return None
     numbers = set(_LONG_NUMBER.findall(plain.replace("_", " ")))
     if len(numbers) == 1:
         return float(numbers.pop())
     return None
+
+
+def name_without_level(text: str, common: Common) -> tuple[str, ...]:
+    """The words of a name that say neither how much nor what sort of thing it is.
+
+    Two liquids whose names differ in these are different compounds; those whose names do not
+    differ are doses of one.
+    """
+    plain = _WITH_UNIT.sub(" ", text.replace("µ", "u").replace("μ", "u"))
+    lexicon = Lexicon({"noise": (*common.noise, *common.levels)})
+    words = tokens(plain)
+    covered = {at for match in lexicon.find(plain) for at in range(match.start, match.end)}
+    return tuple(
+        word
+        for at, word in enumerate(words)
+        if at not in covered and not word.replace(".", "").isdigit()
+    )
 
 
 def numbers_in_order(text: str) -> list[float]:

@@ -149,13 +149,14 @@ def assign_roles(
     roles = Roles(family)
     lexicon = _lexicon(family)
     candidates: dict[WellRef, list[Candidate]] = {}
+    sides = _Sides(usage)
     for clue in clues:
         matches = lexicon.find(clue.text)
         named = [clue.role] if clue.role in family.roles else _named(matches, clue)
         if not named:
             continue
         for position, ref in enumerate(clue.wells):
-            role = _fitting(named, family, usage.get(ref), clue)
+            role = _fitting(named, roles, sides(ref), clue)
             if role is None:
                 continue
             level = level_of(clue, position, common) if clue.wells else None
@@ -191,39 +192,74 @@ _BOTH = frozenset({"and", "plus", "all", "und", "et", "y"})
 def _named(matches: Sequence[Match], clue: Clue) -> list[str]:
     """The roles that a text names, the head of the phrase first.
 
-    English puts the head last: ``sample_buffer`` is a buffer. A comment that names several
-    different things speaks of none of them in particular.
+    English puts the head last: ``sample_buffer`` is a buffer.
     """
     places: dict[int, list[str]] = {}
     for match in matches:
         places.setdefault(match.start, []).append(match.topic)
     ordered = [places[at] for at in sorted(places, reverse=True)]
-    if len(ordered) > 1 and (not clue.subject or _BOTH & set(tokens(clue.text))):
-        first = set(ordered[0])
-        if any(first.isdisjoint(other) for other in ordered[1:]):
-            return [] if not clue.subject else [t for group in ordered for t in group]
     return [topic for group in ordered for topic in group if not topic.startswith("!")]
 
 
-def _fitting(named: Iterable[str], family: Family, usage: Usage | None, clue: Clue) -> str | None:
+def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:
+    """A text that joins several different things speaks of none of them in particular.
+
+    In a name the last word is the head, unless the name joins several with "and".
+    """
+    if clue.subject and not _BOTH & set(tokens(clue.text)):
+        return False
+    return any(
+        one not in roles.closure(other) and other not in roles.closure(one)
+        for one in fitting
+        for other in fitting
+    )
+
+
+class _Sides:
+    """On which side of the run's transfers a well stands.
+
+    A well that the run never uses stands where the others of its labware stand.
+    """
+
+    def __init__(self, usage: Mapping[WellRef, Usage]) -> None:
+        self._usage = usage
+        self._labware: dict[str, set[str]] = {}
+        for ref, used in usage.items():
+            side = _side(used)
+            if side:
+                self._labware.setdefault(ref.labware, set()).add(side)
+
+    def __call__(self, ref: WellRef) -> tuple[str, bool]:
+        """``source``, ``destination`` or ``""``, and whether it passes liquid on as well."""
+        used = self._usage.get(ref)
+        side = _side(used) if used else ""
+        if not side:
+            others = self._labware.get(ref.labware, set())
+            side = next(iter(others)) if len(others) == 1 else ""
+        return side, bool(used and used.feeds and used.received)
+
+
+def _side(used: Usage) -> str:
+    if used.first_drawn or (used.prefilled and not used.received):
+        return "source"
+    return "destination" if used.received else ""
+
+
+def _fitting(named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: Clue) -> str | None:
     """The first named role whose side agrees with how the run uses the well."""
-    named = list(named)
+    named = list(dict.fromkeys(named))
     if clue.strength is Strength.GIVEN:
         return named[0]
-    used = usage or Usage()
-    sides = ["any"]
-    if used.first_drawn or (used.prefilled and not used.received):
-        sides.append("source")
-    elif used.received:
-        sides.append("destination")
-    for role in named:
-        if family.roles[role].side in sides:
-            return role
-    if used.feeds and used.received:
-        for role in named:
-            if family.roles[role].side == "source":
-                return role
-    return None
+    specs = roles.family.roles
+    side, passes_on = sides
+    if clue.step == "destination" and len(named) > 1:
+        return None
+    fitting = [role for role in named if specs[role].side in ("any", side)]
+    if not fitting and passes_on:
+        fitting = [role for role in named if specs[role].side == "source"]
+    if not fitting or _ambiguous(fitting, roles, clue):
+        return None
+    return fitting[0]
 
 
 def _worth(clue: Clue) -> tuple[float, ...]:
@@ -315,7 +351,8 @@ def _derive_one(
         used = usage.get(well.ref)
         if used is None or used.feeds or not used.received or used.first_drawn:
             continue
-        if well.ref in roles.by_well:
+        assigned = roles.by_well.get(well.ref)
+        if assigned is not None and assigned.role not in roles.closure(name):
             continue
         for visit in trace.deliveries(well):
             if any(is_wanted(o.ref) for part in visit.parts for o in part[2]):

@@ -153,6 +153,9 @@ class Common:
     falling: tuple[str, ...] = ()
     amounts: tuple[str, ...] = ()
     waste: tuple[str, ...] = ()
+    negations: tuple[str, ...] = ()
+    noise: tuple[str, ...] = ()
+    distinct: tuple[str, ...] = ()
     schema: int = SCHEMA_VERSION
 
 

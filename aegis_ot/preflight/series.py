@@ -186,13 +186,14 @@ def _series(
     named: frozenset[str],
 ) -> Series:
     linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
-    members = _with_neighbours(trace, roles, linked, diluent)
+    members = _with_neighbours(trace, roles, linked, diluent | stock)
     order = _best_order(members, links)
     steps: list[Step] = []
     entries: list[Well] = []
     entered: dict[Well, int] = {}
     member_set = set(members)
     linked_set = set(linked)
+    fed = _fed_from_outside(trace, members)
     for well in members:
         last: dict[int, Step] = {}
         if well.prefilled and well in linked_set and well.visits:
@@ -205,7 +206,10 @@ def _series(
                     continue
                 if roles.has(source.ref, diluent):
                     continue
-                if roles.has(source.ref, stock):
+                if roles.has(source.ref, stock) or (
+                    # Unnamed, but it goes into one well only, and that one feeds the others.
+                    not roles.of(source.ref) and fed[source] == {well} and well in linked_set
+                ):
                     last[id(source)] = Step(source, well, visit, line, True)
                     entered.setdefault(well, visit.index)
         for step in last.values():
@@ -232,33 +236,43 @@ def _series(
     return Series(order, position, all_steps, links, directed, entered)
 
 
+def _fed_from_outside(trace: Trace, members: Sequence[Well]) -> dict[Well, set[Well]]:
+    """For each source outside the series the wells of the series that it is given to."""
+    inside = set(members)
+    fed: dict[Well, set[Well]] = {}
+    for well in members:
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None and source not in inside:
+                    fed.setdefault(source, set()).add(well)
+    return fed
+
+
 def _feeds_last(well: Well, links: Sequence[Step]) -> bool:
     """Whether a well only receives from the chain and feeds nothing in it."""
     return all(link.source is not well for link in links)
 
 
 def _with_neighbours(
-    trace: Trace, roles: Roles, linked: list[Well], diluent: frozenset[str]
+    trace: Trace, roles: Roles, linked: list[Well], filling: frozenset[str]
 ) -> list[Well]:
-    """Add wells of the same row or column that were given diluent, but were skipped."""
+    """Add wells of the same row or column that were given stock or diluent, but no link."""
     rows = {well.order[0] for well in linked}
     columns = {well.order[1] for well in linked}
     if len(rows) != 1 and len(columns) != 1:
         return linked
     first = linked[0]
     members = list(linked)
-    low = min(well.order for well in linked)
-    high = max(well.order for well in linked)
     for well in trace.wells.values():
         if well in members or well.ref.labware != first.ref.labware:
             continue
-        if well.generation != first.generation or not low <= well.order <= high:
+        if well.generation != first.generation:
             continue
         inside = (len(rows) == 1 and well.order[0] in rows) or (
             len(columns) == 1 and well.order[1] in columns
         )
         if inside and any(
-            source is not None and roles.has(source.ref, diluent)
+            source is not None and roles.has(source.ref, filling)
             for visit in trace.deliveries(well)
             for source, _, _, _ in visit.parts
         ):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 import io
 import tokenize
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -47,6 +47,8 @@ class SourceFacts:
         loose: Names that are loop variables or parameters, as ``(function, name)``.
         notes: Comment beside or right above the assignment of a name, by that name.
         assigned: Line of the first assignment of each name.
+        tables: For names bound to a list of rows or to a dict, the constants of each row.
+        blocks: For the first line of a run of statements without a gap, all lines of it.
         names: Every identifier of the text, once.
         strings: Every other string of the text, with its line.
     """
@@ -60,6 +62,8 @@ class SourceFacts:
     loose: set[tuple[str, str]] = field(default_factory=set)
     notes: dict[str, str] = field(default_factory=dict)
     assigned: dict[str, int] = field(default_factory=dict)
+    tables: dict[str, list[tuple[Any, ...]]] = field(default_factory=dict)
+    blocks: dict[int, tuple[int, ...]] = field(default_factory=dict)
     names: set[str] = field(default_factory=set)
     strings: list[tuple[int, str]] = field(default_factory=list)
 
@@ -73,7 +77,29 @@ def read_source(text: str) -> SourceFacts:
     except (SyntaxError, ValueError):
         return facts
     _Reader(facts).visit_module(tree)
+    _read_blocks(text, tree, facts)
     return facts
+
+
+def _read_blocks(text: str, tree: ast.Module, facts: SourceFacts) -> None:
+    """A comment heads the statements below it, up to a blank line or the next comment."""
+    lines = text.splitlines()
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.stmt) or isinstance(node, ast.FunctionDef):
+            continue
+        first = node.lineno
+        if first - 1 not in facts.own_line:
+            continue
+        covered = []
+        for line in range(first, len(lines) + 1):
+            content = lines[line - 1]
+            if line in facts.own_line or not content.strip():
+                break
+            indent = len(content) - len(content.lstrip())
+            if indent < node.col_offset:
+                break
+            covered.append(line)
+        facts.blocks[first] = tuple(covered)
 
 
 def _read_comments(text: str, facts: SourceFacts) -> None:
@@ -155,6 +181,9 @@ class _Reader:
                 note = above
         if note:
             facts.notes.setdefault(name, note)
+        rows = list(_rows(value))
+        if rows:
+            facts.tables.setdefault(name, rows)
         try:
             literal = ast.literal_eval(value)
         except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
@@ -234,6 +263,38 @@ class _Reader:
             except (TypeError, KeyError, IndexError):
                 return None
         return None
+
+
+def _rows(value: ast.expr) -> Iterator[tuple[Any, ...]]:
+    """The constants that stand in each row of a list of tuples, dicts or calls, or of a dict.
+
+    ``[("NTC", plate["H12"], 5)]`` yields ``("NTC", 5)``: what stands beside the well, but
+    not the indices inside an expression.
+    """
+    if isinstance(value, ast.Dict):
+        for key, item in zip(value.keys, value.values):
+            if key is not None:
+                yield tuple(_constants([key, item]))
+    elif isinstance(value, (ast.List, ast.Tuple)):
+        for element in value.elts:
+            if isinstance(element, (ast.Tuple, ast.List)):
+                yield tuple(_constants(element.elts))
+            elif isinstance(element, ast.Dict):
+                yield tuple(_constants(element.values))
+            elif isinstance(element, ast.Call):
+                yield tuple(_constants([*element.args, *(k.value for k in element.keywords)]))
+            else:
+                return
+
+
+def _constants(nodes: Iterable[ast.expr | None]) -> Iterator[Any]:
+    for node in nodes:
+        if isinstance(node, ast.UnaryOp) and isinstance(node.operand, ast.Constant):
+            node = node.operand
+        if isinstance(node, ast.Constant) and isinstance(node.value, (str, int, float)):
+            yield node.value
+        elif isinstance(node, (ast.Tuple, ast.List)):
+            yield from _constants(node.elts)
 
 
 def _name(node: ast.expr) -> str:

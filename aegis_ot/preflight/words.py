@@ -14,7 +14,7 @@ import unicodedata
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-_PIECES = re.compile(r"[A-Z]{2,}s(?![a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+(?:\.\d+)?|[^\W\d_]+")
+_PIECES = re.compile(r"#|[A-Z]{2,}s(?![a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+(?:\.\d+)?|[^\W\d_]+")
 
 
 class Match(NamedTuple):
@@ -44,8 +44,14 @@ def _singular(word: str) -> str:
     return word
 
 
+def _same(here: tuple[str, ...], parts: tuple[str, ...]) -> bool:
+    return len(here) == len(parts) and all(
+        one == other or (other == "#" and one.isdigit()) for one, other in zip(here, parts)
+    )
+
+
 class Lexicon:
-    """Phrases by topic, ready to be searched for.
+    """Phrases by topic, ready to be searched for; ``#`` in a phrase stands for any number.
 
     Args:
         phrases: For each topic its phrases. A phrase that stands under several topics is
@@ -78,7 +84,8 @@ class Lexicon:
             for parts, topic, phrase in self._by_first.get(words[at], ()):
                 if len(parts) < length:
                     break
-                if words[at : at + len(parts)] == parts:
+                here = words[at : at + len(parts)]
+                if here == parts or ("#" in parts and _same(here, parts)):
                     length = len(parts)
                     found.append(Match(topic, phrase, at, at + length))
             at += length or 1

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
+from ..levels import name_without_level
 from ..tips import Met
 from ..trace import Visit
 from ..wells import Well
+from ..words import Lexicon
 from .base import (
     Case,
     Check,
@@ -268,18 +270,19 @@ class DoseOrder(Check):
         )
 
 
-def _compound(case: Case, well: Well) -> str:
+def _compound(case: Case, well: Well) -> tuple[str, ...]:
+    """What the name of a dosed liquid says besides its dose: ``("cisplatin",)``, ``("b",)``."""
     assigned = case.roles.by_well.get(well.ref)
-    text = assigned.text if assigned else ""
-    return "".join(c for c in text.lower() if c.isalpha() and c not in "_")[:6]
+    return name_without_level(assigned.text, case.common) if assigned else ()
 
 
 def _in_one_list(case: Case, one: Well, other: Well) -> bool:
-    """Whether two wells have their role from one name that sounds like doses."""
+    """Whether two wells have their role from one name, which does not call them distinct."""
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
     if mine is None or theirs is None:
         return False
-    words = set(mine.text.lower().replace("_", " ").split())
-    return mine.text == theirs.text and any(
-        word.startswith(("dose", "conc", "dilut", "serie", "level")) for word in words
+    distinct = Lexicon({"distinct": case.common.distinct})
+    same = name_without_level(mine.text, case.common) == name_without_level(
+        theirs.text, case.common
     )
+    return same and not distinct.find(mine.text)
