@@ -254,8 +254,10 @@ def _fitting(named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: 
     side, passes_on = sides
     if clue.step == "destination" and len(named) > 1:
         return None
+    if clue.step and clue.step != side:
+        return None
     fitting = [role for role in named if specs[role].side in ("any", side)]
-    if not fitting and passes_on:
+    if not fitting and passes_on and not clue.step:
         fitting = [role for role in named if specs[role].side == "source"]
     if not fitting or _ambiguous(fitting, roles, clue):
         return None
