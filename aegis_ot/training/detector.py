@@ -48,8 +48,8 @@ class DetectorSettings:
         threads: CPU threads.
     """
 
-    frames: int = 3600
-    epochs: int = 5
+    frames: int = 4000
+    epochs: int = 6
     drawn_share: float = 0.35
     simulated_share: float = 0.3
     close_ups: int = 2
@@ -141,8 +141,13 @@ def fit(
     seed: int,
     settings: DetectorSettings,
     progress: Callable[[str], None] | None = None,
-) -> TipNetwork:
-    """Train a network on drawn frames and, if there is a pool, on recorded ones."""
+) -> tuple[TipNetwork, str]:
+    """Train a network on drawn and simulated frames and, if there is a pool, on recorded ones.
+
+    Returns:
+        The network, and the SHA-256 of all that it has learnt from: two trainings whose sums
+        differ had other data, whatever their seeds.
+    """
     tell = progress or log.info
     torch.manual_seed(seed)
     torch.set_num_threads(settings.threads)
@@ -153,6 +158,10 @@ def fit(
     tell(
         f"{len(wide)} overviews and {len(close)} close-ups made in {time.monotonic() - start:.0f} s"
     )
+    data = hashlib.sha256()
+    for example in (*wide, *close):
+        data.update(example.image)
+        data.update(repr(example.label).encode())
     network = TipNetwork()
     optimiser = torch.optim.AdamW(
         network.parameters(), lr=settings.learning_rate, weight_decay=1e-3
@@ -183,7 +192,7 @@ def fit(
             f"pass {epoch + 1} of {settings.epochs}: mean loss {total / len(batches):.3f}, "
             f"{time.monotonic() - start:.0f} s"
         )
-    return network
+    return network, data.hexdigest()
 
 
 def export(network: TipNetwork, path: Path) -> None:
@@ -235,7 +244,7 @@ def train(
     by_set = {Path(folder).name: read_frames(Path(folder)) for folder in datasets}
     held = set(hold_out)
     learnt = [f for frames in by_set.values() for f in frames if _plate(f) not in held]
-    network = fit(FramePool(learnt) if learnt else None, seed, chosen, progress)
+    network, digest = fit(FramePool(learnt) if learnt else None, seed, chosen, progress)
     export(network, path)
     description = {
         "format": FORMAT,
@@ -248,6 +257,7 @@ def train(
             "sets": list(by_set),
             "recorded_frames": len(learnt),
             "held_out_plates": sorted(held),
+            "examples_sha256": digest,
         },
         "made_with": {"aegis_ot": __version__, "torch": torch.__version__, "numpy": np.__version__},
     }
