@@ -160,7 +160,7 @@ def fit(
     )
     data = hashlib.sha256()
     for example in (*wide, *close):
-        data.update(example.image)
+        data.update(example.image.tobytes())
         data.update(repr(example.label).encode())
     network = TipNetwork()
     optimiser = torch.optim.AdamW(
