@@ -85,10 +85,13 @@ class HeatmapDetector:
         self, path: str | Path | None = None, threshold: float | None = None, threads: int = 1
     ) -> None:
         weights, self.description = load_weights(path)
-        self.threshold = (
-            float(self.description.get("threshold", 0.5)) if threshold is None else threshold
-        )
+        own = self.description.get("threshold")
+        if not isinstance(own, float | int) or not 0 <= own <= 1:
+            raise ModelError(f"The tip detector's description has no usable threshold: {own!r}.")
+        self.threshold = float(own) if threshold is None else threshold
         self._session = open_session(weights, threads, "The tip detector")
+        if [each.name for each in self._session.get_inputs()] != ["image"]:
+            raise ModelError("The tip detector's file is no network of this kind.")
 
     def detect(self, image: Image) -> TipDetection | None:
         """The tip in a frame, ``None`` where there is none.

@@ -137,6 +137,15 @@ def test_a_broken_description_is_refused(weights: Path, text: str) -> None:
         load_detector(weights)
 
 
+@pytest.mark.parametrize("threshold", [None, "high", 3])
+def test_a_description_without_a_threshold_is_refused(weights: Path, threshold: object) -> None:
+    sidecar = weights.with_suffix(".json")
+    described = json.loads(sidecar.read_text(encoding="utf-8"))
+    sidecar.write_text(json.dumps({**described, "threshold": threshold}), encoding="utf-8")
+    with pytest.raises(ModelError, match="threshold"):
+        load_detector(weights)
+
+
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
     with pytest.raises(ModelError, match=r"nowhere\.onnx"):
         load_detector(tmp_path / "nowhere.onnx")
