@@ -2,7 +2,7 @@
 
 from .axis import rectify
 from .breaks import Break
-from .evidence import Dye, combine, mean_dye
+from .evidence import Dye, EmptyColour, combine, mean_dye
 from .measure import (
     ColumnMeasurement,
     Reference,
@@ -21,6 +21,7 @@ __all__ = [
     "Break",
     "ColumnMeasurement",
     "Dye",
+    "EmptyColour",
     "Reference",
     "RunReference",
     "Signs",

@@ -22,7 +22,6 @@ IMPOSSIBLE = -50.0
 
 _EDGE_EXPECTED = 2.2
 _EDGE_RANGE = (-1.5, 8.0)
-_COLOUR_EXPECTED = 5.0
 _COLOUR_RANGE = (-12.0, 50.0)
 _ANY_COLOUR = 0.05
 _STEP_EXPECTED = 3.0
@@ -114,8 +113,28 @@ def _correlation_length(rest: Array) -> float:
     return total
 
 
+@dataclass(frozen=True)
+class EmptyColour:
+    """The colour step that an empty tip shows of itself: its plastic, its light, what is behind.
+
+    Attributes:
+        red, blue: Usual step, lower part less upper part.
+        red_sd, blue_sd: Standard deviation of it between frames and plates.
+    """
+
+    red: float = 0.0
+    blue: float = 0.0
+    red_sd: float = 0.008
+    blue_sd: float = 0.008
+
+
+_STRENGTHS = (0.1, 0.3, 0.6, 0.9, 1.2)
+_CHANCES = (0.05, 0.15, 0.3, 0.35, 0.15)
+"""How strongly a full column's colour shows in another frame, with another background."""
+
+
 def colour_evidence(
-    profile: TipProfile, dye: Dye | None, *, floor: float, top: float, bottom: float = 0.97
+    profile: TipProfile, dye: Dye | None, empty: EmptyColour, *, top: float, bottom: float = 0.97
 ) -> Array:
     """Ratio from colour.
 
@@ -123,29 +142,40 @@ def colour_evidence(
         profile: The tip.
         dye: Colour of a full column; ``None`` if nothing is known of the reagent, then any
             colour counts, and much of it must be seen.
-        floor: What an empty tip's colour step varies by of itself (labware behind it, light).
+        empty: What an empty tip shows of itself.
         top: Where the free bore begins, u.
         bottom: Where the tip's end begins, u.
     """
     steps = [long_step(profile.u, profile.colour[:, i], top, bottom) for i in (0, 1)]
-    variances = [step.sd.astype(np.float64) ** 2 + floor**2 for step in steps]
+    sizes = [
+        step.size.astype(np.float64) - own
+        for step, own in zip(steps, (empty.red, empty.blue), strict=True)
+    ]
+    variances = [
+        step.sd.astype(np.float64) ** 2 + own**2
+        for step, own in zip(steps, (empty.red_sd, empty.blue_sd), strict=True)
+    ]
     if dye is None:
         ratio = np.zeros(len(profile.u))
-        for step, variance in zip(steps, variances, strict=True):
+        for size, variance in zip(sizes, variances, strict=True):
             wider = variance + _ANY_COLOUR**2
-            ratio += 0.5 * step.size**2 * (1 / variance - 1 / wider)
+            ratio += 0.5 * size**2 * (1 / variance - 1 / wider)
             known = np.isfinite(variance)
             ratio[known] -= 0.5 * np.log(wider[known] / variance[known])
         return np.asarray(np.clip(ratio, *_COLOUR_RANGE), dtype=np.float32)
-    # Behind another background a column colours the tip less than behind the dark one.
-    vector = 0.75 * dye.vector
-    strength = np.sqrt(sum(v**2 / w for v, w in zip(vector, variances, strict=True)))
-    if not np.any(strength > 0):
+    vector = dye.vector
+    power = sum(v**2 / w for v, w in zip(vector, variances, strict=True))
+    if not np.any(power > 0):
         return np.zeros_like(profile.u)
-    seen = sum(v * s.size / w for v, s, w in zip(vector, steps, variances, strict=True))
-    seen = seen / np.maximum(strength, 1e-6)
-    expected = np.minimum(strength, _COLOUR_EXPECTED)
-    return np.asarray(np.clip(expected * (seen - 0.5 * expected), *_COLOUR_RANGE), dtype=np.float32)
+    match = sum(v * s / w for v, s, w in zip(vector, sizes, variances, strict=True))
+    # Beyond a power of 25 the noise is not what limits the match.
+    soften = np.minimum(1.0, 25.0 / np.maximum(power, 1e-6))
+    terms = [
+        np.log(chance) + soften * a * (match - 0.5 * a * power)
+        for a, chance in zip(_STRENGTHS, _CHANCES, strict=True)
+    ]
+    ratio = np.logaddexp.reduce(np.stack(terms), axis=0)
+    return np.asarray(np.clip(ratio, *_COLOUR_RANGE), dtype=np.float32)
 
 
 def edge_evidence(profile: TipProfile, slack: int = 2) -> Array:

@@ -13,6 +13,7 @@ from .breaks import Break, find_break
 from .evidence import (
     IMPOSSIBLE,
     Dye,
+    EmptyColour,
     colour_evidence,
     edge_evidence,
     long_step,
@@ -31,14 +32,14 @@ class Reference:
 
     Attributes:
         dye: Colour of a full column of this reagent.
-        colour_floor: By how much an empty tip's colour step varies of itself.
+        empty: Colour that an empty tip shows of itself.
         height_scale: How high columns stand in the frame, over what the geometry says: it is
             not published (see :mod:`~aegis_ot.vision.tips`), and the camera looks at an angle.
         height_sd: Standard deviation of where a meniscus stands, tip lengths.
     """
 
     dye: Dye | None = None
-    colour_floor: float = 0.008
+    empty: EmptyColour = EmptyColour()
     height_scale: float = 1.0
     height_sd: float = 0.08
 
@@ -195,7 +196,7 @@ def read_column(
         length_sd_mm=height_sd,
         volume_ul=volume,
         volume_sd_ul=float(np.hypot(per_mm * height_sd, 0.05 * volume)),
-        dye=dye_at(profile, tip, row),
+        dye=dye_at(profile, tip, row, reference.empty),
         collar=(0.0, 0.0),
         orifice=(0.0, 0.0),
     )
@@ -203,12 +204,12 @@ def read_column(
 
 def column_evidence(profile: TipProfile, tip: TipGeometry, reference: Reference) -> Array:
     """Ratio from colour and edges for a column that ends at each row."""
-    ceiling = _ceiling(tip)
+    start = ceiling(tip)
     lowest = 1.0 - max(_SHORTEST[0], _SHORTEST[1] / max(profile.length, 1.0))
     ratio = colour_evidence(
-        profile, reference.dye, floor=reference.colour_floor, top=ceiling
+        profile, reference.dye, reference.empty, top=start
     ) + edge_evidence(profile)
-    possible = (profile.u > ceiling + 0.02) & (profile.u < lowest)
+    possible = (profile.u > start + 0.02) & (profile.u < lowest)
     return np.where(possible, ratio, IMPOSSIBLE).astype(np.float32)
 
 
@@ -218,7 +219,7 @@ def expected_top(tip: TipGeometry, volume_ul: float, reference: Reference) -> fl
     return 1.0 - reference.height_scale * height / tip.length_mm
 
 
-def _ceiling(tip: TipGeometry) -> float:
+def ceiling(tip: TipGeometry) -> float:
     """Where the free bore begins: a little below the nozzle, u."""
     return tip.overlap_mm / tip.length_mm + 0.06
 
@@ -234,10 +235,12 @@ def _summit(u: Array, ranked: Array, row: int) -> tuple[float, float]:
     return mean, float(np.hypot(spread, 0.006))
 
 
-def dye_at(profile: TipProfile, tip: TipGeometry, row: int) -> Dye:
-    """Colour step at a row."""
-    red, blue = (
-        long_step(profile.u, profile.colour[:, i], _ceiling(tip), 0.97) for i in (0, 1)
+def dye_at(profile: TipProfile, tip: TipGeometry, row: int, empty: EmptyColour) -> Dye:
+    """Colour step at a row, less what an empty tip shows."""
+    red, blue = (long_step(profile.u, profile.colour[:, i], ceiling(tip), 0.97) for i in (0, 1))
+    sd = float(max(np.hypot(red.sd[row], empty.red_sd), np.hypot(blue.sd[row], empty.blue_sd)))
+    return Dye(
+        float(red.size[row]) - empty.red,
+        float(blue.size[row]) - empty.blue,
+        sd if np.isfinite(sd) else 1.0,
     )
-    sd = float(max(red.sd[row], blue.sd[row]))
-    return Dye(float(red.size[row]), float(blue.size[row]), sd if np.isfinite(sd) else 1.0)

@@ -14,10 +14,19 @@ import numpy as np
 
 from ...vocabulary import KeyframeKind
 from ..tips import TipGeometry
-from .evidence import IMPOSSIBLE, Dye, combine, mean_dye, step_evidence
+from .evidence import (
+    IMPOSSIBLE,
+    Dye,
+    EmptyColour,
+    combine,
+    long_step,
+    mean_dye,
+    step_evidence,
+)
 from .measure import (
     ColumnMeasurement,
     Reference,
+    ceiling,
     column_evidence,
     dye_at,
     expected_top,
@@ -38,6 +47,10 @@ _SEARCH = 0.05
 _SEEN = 3.0
 """Log-likelihood ratio from which the end of a loaded column counts as seen."""
 
+_SD = (0.004, 0.02)
+"""Standard deviation of an empty tip's colour step: what a few dozen frames can prove, and what
+still tells anything."""
+
 _NEAR = 0.06
 """A meniscus this close to its expected place is the expected one, u."""
 
@@ -50,7 +63,7 @@ class TipModel:
         height_scale: See :class:`~.measure.Reference`.
         offset: Where menisci stand at a keyframe less where the scale says, u.
         spread: Their standard deviation, u.
-        colour_floor: See :class:`~.measure.Reference`.
+        empty: See :class:`~.measure.Reference`.
     """
 
     height_scale: float = 1.0
@@ -60,7 +73,7 @@ class TipModel:
     spread: Mapping[KeyframeKind, float] = field(
         default_factory=lambda: dict.fromkeys(KeyframeKind, 0.03)
     )
-    colour_floor: float = 0.008
+    empty: EmptyColour = EmptyColour()
 
 
 @dataclass(frozen=True)
@@ -163,9 +176,7 @@ def learn_run(signs: Sequence[Signs], model: TipModel) -> RunReference:
     return RunReference(dyes, shift)
 
 
-def learn_tip(
-    trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry, floor: float = 0.008
-) -> TipModel:
+def learn_tip(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry) -> TipModel:
     """Fit the tip model of one tip class on normal trajectories.
 
     The height scale is voted for by every loaded frame, so that frames in which the meniscus
@@ -179,7 +190,8 @@ def learn_tip(
         for kind in LOADED
         if kind in looks and volumes.get(kind, 0.0) > 0
     ]
-    blind = Reference(colour_floor=floor)
+    empty = _empty_colour(trajectories, tip)
+    blind = Reference(empty=empty)
     for _, look, volume in loaded:
         evidence = np.clip(column_evidence(look, tip, blind) + step_evidence(look), 0.0, 15.0)
         kernel = np.exp(-0.5 * (np.arange(-4, 5) / 1.5) ** 2)
@@ -187,9 +199,9 @@ def learn_tip(
         height = tip.height_of(volume) / tip.length_mm
         votes += np.interp(1.0 - scales * height, look.u, smooth)
     if not loaded or votes.max() <= 0:
-        return TipModel(colour_floor=floor)
+        return TipModel(empty=empty)
     scale = float(scales[int(np.argmax(votes))])
-    reference = Reference(colour_floor=floor, height_scale=scale, height_sd=0.03)
+    reference = Reference(empty=empty, height_scale=scale, height_sd=0.03)
     offset, spread = dict.fromkeys(KeyframeKind, 0.0), dict.fromkeys(KeyframeKind, 0.03)
     for wanted in LOADED:
         misses = []
@@ -202,7 +214,7 @@ def learn_tip(
             offset[wanted] = float(np.median(near))
             deviation = 1.48 * float(np.median(np.abs(near - offset[wanted])))
             spread[wanted] = float(np.clip(deviation, 0.008, 0.05))
-    return TipModel(scale, offset, spread, floor)
+    return TipModel(scale, offset, spread, empty)
 
 
 def _coloured(dye: Dye | None) -> bool:
@@ -210,8 +222,34 @@ def _coloured(dye: Dye | None) -> bool:
     return dye is not None and float(np.hypot(dye.red, dye.blue)) > max(4 * dye.sd, 0.02)
 
 
+def _empty_colour(
+    trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry
+) -> EmptyColour:
+    """Colour steps along tips that were emptied."""
+    steps = [
+        [
+            float(np.median(step.size[(step.sd < np.inf) & (np.abs(look.u - 0.75) < 0.12)]))
+            for step in (
+                long_step(look.u, look.colour[:, i], ceiling(tip), 0.97) for i in (0, 1)
+            )
+        ]
+        for looks, volumes in trajectories
+        for kind, look in looks.items()
+        if kind in DELIVERED and volumes.get(kind, 0.0) <= 0
+    ]
+    if len(steps) < 6:
+        return EmptyColour()
+    (red, blue), (red_sd, blue_sd) = (
+        np.median(steps, axis=0),
+        1.48 * np.median(np.abs(steps - np.median(steps, axis=0)), axis=0),
+    )
+    return EmptyColour(
+        float(red), float(blue), float(np.clip(red_sd, *_SD)), float(np.clip(blue_sd, *_SD))
+    )
+
+
 def _reference(model: TipModel, dye: Dye | None) -> Reference:
-    return Reference(dye, model.colour_floor, model.height_scale, _SEARCH)
+    return Reference(dye, model.empty, model.height_scale, _SEARCH)
 
 
 def _own_dye(
@@ -227,7 +265,7 @@ def _own_dye(
         return None
     look = looks[kind]
     row = int(np.argmin(np.abs(look.u - place(kind, volume, tip, model, run))))
-    return dye_at(look, tip, row)
+    return dye_at(look, tip, row, model.empty)
 
 
 def _retained(
@@ -244,7 +282,7 @@ def _retained(
         return None, 1.0
     parts = [column_evidence(looks[k], tip, _reference(model, dye)) for k in seen]
     joint = combine(*parts) if len(parts) == 2 else parts[0]
-    u = looks[seen[0]].u
+    u = looks[seen[-1]].u
     # No more than was drawn can be left; a little more where a failure accumulates.
     full = max((expected.get(kind, 0.0) for kind in LOADED), default=0.0)
     if full > 0:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ...errors import ModelError
 from ...vocabulary import KeyframeKind
-from ..column import RunReference, Signs, TipModel, learn_run, learn_tip, weigh
+from ..column import EmptyColour, RunReference, Signs, TipModel, learn_run, learn_tip, weigh
 from ..models import ModelFile
 from ..tips import pipette_class, tip_for
 from ..types import TrajectorySample
@@ -138,7 +138,10 @@ class ColumnScorer:
             arrays[f"{name}/model"] = np.array(
                 [
                     model.height_scale,
-                    model.colour_floor,
+                    model.empty.red,
+                    model.empty.blue,
+                    model.empty.red_sd,
+                    model.empty.blue_sd,
                     *(model.offset[kind] for kind in KeyframeKind),
                     *(model.spread[kind] for kind in KeyframeKind),
                 ]
@@ -163,13 +166,13 @@ class ColumnScorer:
             for name in model.settings["pipettes"]:
                 row = np.asarray(model.arrays[f"{name}/model"], dtype=float)
                 tails = np.asarray(model.arrays[f"{name}/tails"], dtype=float)
-                if row.shape != (2 + 2 * len(kinds),) or tails.shape != (len(signs), 2):
+                if row.shape != (5 + 2 * len(kinds),) or tails.shape != (len(signs), 2):
                     raise ValueError(f"the shape of {name}'s arrays")
                 scorer.models[name] = TipModel(
                     float(row[0]),
-                    dict(zip(kinds, row[2 : 2 + len(kinds)].tolist(), strict=True)),
-                    dict(zip(kinds, row[2 + len(kinds) :].tolist(), strict=True)),
-                    float(row[1]),
+                    dict(zip(kinds, row[5 : 5 + len(kinds)].tolist(), strict=True)),
+                    dict(zip(kinds, row[5 + len(kinds) :].tolist(), strict=True)),
+                    EmptyColour(*map(float, row[1:5])),
                 )
                 found = {s: Tail(*map(float, t)) for s, t in zip(signs, tails, strict=True)}
                 scorer.tails[name] = {**PRIORS, **found}
