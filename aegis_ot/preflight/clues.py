@@ -26,9 +26,10 @@ class Strength(IntEnum):
     MODEL = 1
     COMMENT = 2
     LOOSE_NAME = 3
-    NAME = 4
-    LIQUID = 5
-    GIVEN = 6
+    DESCRIPTION = 4
+    NAME = 5
+    LIQUID = 6
+    GIVEN = 7
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,7 @@ def gather(
     deck = Deck(trace, names)
     clues = [
         *_given(deck, given),
-        *_liquids(trace),
+        *_liquids(trace, facts),
         *_names(deck, names, facts, common),
         *_labels(deck),
         *_places(deck, facts),
@@ -182,13 +183,23 @@ def _given(deck: Deck, given: Mapping[str, Sequence[str]]) -> Iterator[Clue]:
         )
 
 
-def _liquids(trace: Trace) -> Iterator[Clue]:
+def _liquids(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
     by_name: dict[str, list[WellRef]] = {}
     for well in trace.wells.values():
         for liquid in well.liquids:
             by_name.setdefault(liquid, []).append(well.ref)
     for liquid, wells in by_name.items():
         yield Clue(Strength.LIQUID, liquid, tuple(wells), None, f"liquid '{liquid}'")
+        description = facts.liquids.get(liquid)
+        if description:
+            yield Clue(
+                Strength.DESCRIPTION,
+                description,
+                tuple(wells),
+                None,
+                f"liquid '{liquid}', described as '{_short(description)}'",
+                subject=False,
+            )
 
 
 def _names(

@@ -206,7 +206,7 @@ class _Judge:
     def report(self) -> Report:
         applying = [(self._database.family(i.family), i.sure) for i in self._families if i.applies]
         usage = usage_of(self._trace)
-        prefilled = _prefilled_by_words(self._clues, self._common)
+        prefilled: set[WellRef] = set()
         for family, _ in applying:
             roles = assign_roles(family, self._common, self._clues, usage, self._trace)
             self._roles.append(roles)
@@ -224,9 +224,10 @@ class _Judge:
             usage = usage_of(trace)
         waste = _waste(self._clues, self._common)
         loose = self._loose_volumes()
+        unsure = frozenset(_prefilled_by_words(self._clues, self._common))
         for (family, sure), roles in zip(applying, self._roles):
             derive(roles, trace, usage)
-            case = Case(trace, roles, usage, self._common, sure, waste, loose)
+            case = Case(trace, roles, usage, self._common, sure, waste, loose, unsure)
             for rule in family.rules:
                 if rule.scope == "family":
                     self._judge_rule(rule, case)
@@ -234,7 +235,7 @@ class _Judge:
             for rule in family.rules:
                 if rule.scope == "all":
                     roles = next((r for r in self._roles if r.family is family), Roles(family))
-                    case = Case(trace, roles, usage, self._common, True, waste, loose)
+                    case = Case(trace, roles, usage, self._common, True, waste, loose, unsure)
                     self._judge_rule(rule, case)
         return self._assemble()
 

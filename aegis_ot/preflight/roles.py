@@ -152,7 +152,7 @@ def assign_roles(
     sides = _Sides(usage)
     for clue in clues:
         matches = lexicon.find(clue.text)
-        named = [clue.role] if clue.role in family.roles else _named(matches, clue)
+        named = [clue.role] if clue.role in family.roles else _named(matches, clue, common)
         if not named:
             continue
         for position, ref in enumerate(clue.wells):
@@ -189,14 +189,20 @@ def _lexicon(family: Family) -> Lexicon:
 _BOTH = frozenset({"and", "plus", "all", "und", "et", "y"})
 
 
-def _named(matches: Sequence[Match], clue: Clue) -> list[str]:
+def _named(matches: Sequence[Match], clue: Clue, common: Common) -> list[str]:
     """The roles that a text names, the head of the phrase first.
 
-    English puts the head last: ``sample_buffer`` is a buffer.
+    English puts the head last: ``sample_buffer`` is a buffer; but what follows "in" or "for"
+    only says more about it.
     """
     places: dict[int, list[str]] = {}
     for match in matches:
         places.setdefault(match.start, []).append(match.topic)
+    words = tokens(clue.text)
+    joints = [at for at, word in enumerate(words) if word in common.joints]
+    if joints and any(at < joints[0] for at in places):
+        # "drug in medium" is a drug.
+        places = {at: topics for at, topics in places.items() if at < joints[0]}
     ordered = [places[at] for at in sorted(places, reverse=True)]
     return [topic for group in ordered for topic in group if not topic.startswith("!")]
 
@@ -235,12 +241,15 @@ class _Sides:
         side = _side(used) if used else ""
         if not side:
             others = self._labware.get(ref.labware, set())
-            side = next(iter(others)) if len(others) == 1 else ""
+            if len(others) == 1:
+                side = next(iter(others))
+            elif used and used.prefilled:
+                side = "source"
         return side, bool(used and used.feeds and used.received)
 
 
 def _side(used: Usage) -> str:
-    if used.first_drawn or (used.prefilled and not used.received):
+    if used.first_drawn:
         return "source"
     return "destination" if used.received else ""
 
@@ -257,7 +266,7 @@ def _fitting(named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: 
     if clue.step and clue.step != side:
         return None
     fitting = [role for role in named if specs[role].side in ("any", side)]
-    if not fitting and passes_on and not clue.step:
+    if not fitting and passes_on and clue.strength is not Strength.COMMENT:
         fitting = [role for role in named if specs[role].side == "source"]
     if not fitting or _ambiguous(fitting, roles, clue):
         return None
@@ -271,10 +280,13 @@ def _worth(clue: Clue) -> tuple[float, ...]:
 def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
     found.sort(key=lambda candidate: candidate[0], reverse=True)
     worth, role, clue, _ = found[0]
-    for other_worth, other, _, _ in found[1:]:
-        # A special case of the first: the NTC is also a reaction.
-        if other_worth == worth and role != other and role in roles.closure(other):
-            role = other
+    for _, other, hint, _ in found[1:]:
+        # Weaker evidence may say more exactly what the stronger leaves open: the liquid says
+        # "cells", the name says "vehicle_controls".
+        exact = not hint.whole and hint.strength is not Strength.LOOSE_NAME
+        if (exact or hint.strength == clue.strength) and role != other:
+            if role in roles.closure(other):
+                role = other
     rivals = [
         candidate
         for candidate in found[1:]
@@ -340,8 +352,28 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
     Wells that only pass liquid on (a dilution plate) are left out.
     """
     for name, spec in roles.family.roles.items():
+        if spec.feeds:
+            _derive_source(roles, name, spec, trace)
+    for name, spec in roles.family.roles.items():
         if spec.receives:
             _derive_one(roles, name, spec, trace, usage)
+
+
+def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
+    """A source without a name that goes into named wells of ``spec.feeds``, mostly."""
+    wanted = frozenset(spec.feeds)
+    fed: dict[WellRef, set[WellRef]] = {}
+    for well in trace.wells.values():
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None and source.prefilled:
+                    fed.setdefault(source.ref, set()).add(well.ref)
+    for ref, wells in fed.items():
+        if roles.of(ref):
+            continue
+        right = sum(roles.has(well, wanted) for well in wells)
+        if right * 2 > len(wells):
+            roles.derived.setdefault(ref, set()).update(roles.closure(name))
 
 
 def _derive_one(
@@ -365,25 +397,23 @@ def _derive_one(
 def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
     """Wells whose role says that they held liquid before the run.
 
-    Not those that are given liquid of that very role, or of no known role, in the run: there
-    the run itself brings what the role names.
+    Not those that are given in the run what such a well is made of, or something unknown.
     """
-    found: set[WellRef] = set()
-    for ref, assigned in roles.by_well.items():
-        spec = roles.family.roles[assigned.role]
-        if spec.implies_contents:
-            found.add(ref)
+    found = {
+        ref: frozenset(roles.family.roles[assigned.role].filled_by)
+        for ref, assigned in roles.by_well.items()
+        if roles.family.roles[assigned.role].implies_contents
+    }
     if not found:
-        return found
+        return set()
     for well in trace.wells.values():
         if well.ref not in found:
             continue
-        own = roles.closure(roles.by_well[well.ref].role)
         for visit in trace.deliveries(well):
             for source, _, _, _ in visit.parts:
-                if source is None or source is well:
+                if source is None or source is well or well.ref not in found:
                     continue
                 theirs = roles.of(source.ref)
-                if not theirs or not own.isdisjoint(theirs):
-                    found.discard(well.ref)
-    return found
+                if not theirs or not found[well.ref].isdisjoint(theirs):
+                    del found[well.ref]
+    return set(found)

@@ -46,6 +46,8 @@ class RoleSpec:
         words: Phrases that name it.
         never: Phrases that hold one of the words and still do not name it.
         implies_contents: Whether such a well held liquid before the run.
+        filled_by: Roles whose liquid, given in the run, would make up those contents.
+        feeds: Derived: an unnamed source that mostly feeds wells of these roles.
         one_liquid: Whether all wells of this role hold the same liquid unless named apart.
         level: Value on the scale of concentrations or doses that this role has by itself.
         receives: Derived: a destination that is given liquid of one of these roles.
@@ -57,6 +59,8 @@ class RoleSpec:
     words: tuple[str, ...] = ()
     never: tuple[str, ...] = ()
     implies_contents: bool = False
+    filled_by: tuple[str, ...] = ()
+    feeds: tuple[str, ...] = ()
     one_liquid: bool = False
     level: float | None = None
     receives: tuple[str, ...] = ()
@@ -154,6 +158,7 @@ class Common:
     amounts: tuple[str, ...] = ()
     waste: tuple[str, ...] = ()
     negations: tuple[str, ...] = ()
+    joints: tuple[str, ...] = ()
     noise: tuple[str, ...] = ()
     distinct: tuple[str, ...] = ()
     schema: int = SCHEMA_VERSION
@@ -277,7 +282,7 @@ def _check_family(family: Family, file: str) -> None:
                 f"{file}: roles.{name}.side: expected source, destination or any, "
                 f"found {role.side!r}"
             )
-        for other in (*role.parents, *role.receives):
+        for other in (*role.parents, *role.receives, *role.filled_by, *role.feeds):
             known(other, f"roles.{name}")
     for rule in family.rules:
         where = f"rule {rule.id}"

@@ -49,6 +49,7 @@ class SourceFacts:
         assigned: Line of the first assignment of each name.
         tables: For names bound to a list of rows or to a dict, the constants of each row.
         blocks: For the first line of a run of statements without a gap, all lines of it.
+        liquids: Description of each liquid defined in the text, by its name.
         names: Every identifier of the text, once.
         strings: Every other string of the text, with its line.
     """
@@ -64,6 +65,7 @@ class SourceFacts:
     assigned: dict[str, int] = field(default_factory=dict)
     tables: dict[str, list[tuple[Any, ...]]] = field(default_factory=dict)
     blocks: dict[int, tuple[int, ...]] = field(default_factory=dict)
+    liquids: dict[str, str] = field(default_factory=dict)
     names: set[str] = field(default_factory=set)
     strings: list[tuple[int, str]] = field(default_factory=list)
 
@@ -221,6 +223,8 @@ class _Reader:
             self._place(labware, node.slice, kind, node.lineno)
 
     def _call(self, node: ast.Call) -> None:
+        if isinstance(node.func, ast.Attribute) and node.func.attr == "define_liquid":
+            self._liquid(node)
         if (
             isinstance(node.func, ast.Attribute)
             and node.func.attr in ("well", "wells")
@@ -229,6 +233,13 @@ class _Reader:
             labware = _name(node.func.value)
             if labware:
                 self._place(labware, node.args[0], "well", node.lineno)
+
+    def _liquid(self, node: ast.Call) -> None:
+        values = dict(zip(("name", "description"), (_text(a) for a in node.args)))
+        values.update({k.arg: _text(k.value) for k in node.keywords if k.arg in values or k.arg})
+        name, description = values.get("name"), values.get("description")
+        if name and description:
+            self._facts.liquids.setdefault(name, description)
 
     def _place(self, labware: str, index: ast.expr, kind: str, line: int) -> None:
         names = tuple(dict.fromkeys(_names(index)))
@@ -304,6 +315,10 @@ def _name(node: ast.expr) -> str:
     if isinstance(node, ast.Attribute):
         return node.attr
     return ""
+
+
+def _text(node: ast.expr) -> str:
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else ""
 
 
 def _names(node: ast.AST) -> Iterator[str]:

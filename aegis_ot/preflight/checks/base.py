@@ -55,6 +55,9 @@ class Case:
         usage: How each well is used.
         common: Words of no family.
         confident: Whether the family is more than a guess.
+        waste: Wells that are called waste.
+        loose_volumes: Whether this kind of protocol starts from wells filled by hand.
+        unsure: Wells that may have held liquid before the run, as the labware's name goes.
     """
 
     trace: Trace
@@ -64,6 +67,7 @@ class Case:
     confident: bool = True
     waste: frozenset[WellRef] = frozenset()
     loose_volumes: bool = False
+    unsure: frozenset[WellRef] = frozenset()
     _meant: dict[Well, dict[Well, int]] | None = None
     _dests: dict[Well, dict[Well, int]] | None = None
     _series: list[Series] | None = None
