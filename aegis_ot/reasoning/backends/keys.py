@@ -1,0 +1,36 @@
+"""Keys come from the environment, and go to the service that they belong to, nowhere else."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+
+GENERIC = "AEGIS_OT_LLM_API_KEY"
+"""Key for an OpenAI-compatible server that has no variable of its own."""
+
+
+def key_from(names: tuple[str, ...], environ: Mapping[str, str] | None = None) -> str:
+    """The first of these variables that is set, or ``""``."""
+    environ = os.environ if environ is None else environ
+    for name in names:
+        value = environ.get(name, "").strip()
+        if value:
+            return value
+    return ""
+
+
+def without(secret: str, text: str) -> str:
+    """``text`` without ``secret``, and without what looks like part of a key.
+
+    Some services repeat the key, whole or in part, in the error that refuses it.
+    """
+    if secret and len(secret) >= 4:
+        text = text.replace(secret, "[key]")
+    return re.sub(r"\b(?:sk|nvapi|key)-[A-Za-z0-9_*.-]{4,}", "[key]", text)
+
+
+def one_line(text: object, limit: int = 300) -> str:
+    """A service's message, fit for a report."""
+    flat = " ".join(str(text or "").split())
+    return flat if len(flat) <= limit else flat[: limit - 3] + "..."

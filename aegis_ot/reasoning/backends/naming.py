@@ -1,0 +1,147 @@
+"""Backends by name: ``anthropic:MODEL``, ``openai:MODEL@URL``, ``replay:DIR``.
+
+Options follow a ``#``: ``openai:llama3.1:8b@http://127.0.0.1:11434/v1#structured=tool``.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from urllib.parse import parse_qsl, urlsplit
+
+from ...errors import ConfigurationError
+from ..backend import Backend
+from .anthropic_api import KEY_VARIABLES, AnthropicBackend
+from .openai_api import OpenAIBackend
+from .recording import RecordingBackend, ReplayBackend
+from .retrying import Patience
+
+MODEL_VARIABLE = "AEGIS_OT_MODEL"
+RECORD_VARIABLE = "AEGIS_OT_MODEL_RECORD"
+_OPTIONS = {
+    "anthropic": {"structured", "temperature", "key", "timeout", "attempts"},
+    "openai": {"structured", "limit", "temperature", "key", "timeout", "attempts"},
+    "replay": {"model"},
+}
+_FORMS = "anthropic:MODEL, openai:MODEL, openai:MODEL@URL, replay:FOLDER"
+
+
+def model_from_environment(environ: Mapping[str, str] | None = None) -> str | None:
+    """The model that ``AEGIS_OT_MODEL`` names, if any."""
+    environ = os.environ if environ is None else environ
+    return environ.get(MODEL_VARIABLE, "").strip() or None
+
+
+def make_backend(
+    name: str,
+    record: str | Path | None = None,
+    timeout_s: float | None = None,
+    trust_env: bool = True,
+) -> Backend:
+    """The backend that ``name`` means.
+
+    Args:
+        name: See the module. ``key=VARIABLE`` names the environment variable that holds the key;
+            a key itself is never part of a name.
+        record: Folder to keep requests and answers in.
+        timeout_s: From a question to its answer, retries included, s; the name's own
+            ``timeout`` option wins.
+        trust_env: Whether HTTP clients may use the proxies of the environment.
+
+    Raises:
+        ConfigurationError: The name makes no sense.
+    """
+    kind, _, rest = name.strip().partition(":")
+    rest, _, option_text = rest.partition("#")
+    if kind not in _OPTIONS or not rest:
+        raise ConfigurationError(f"The model {_shown(name)!r} is not understood. Use {_FORMS}.")
+    options = _options(kind, option_text)
+    if kind == "replay":
+        backend: Backend = ReplayBackend(Path(rest).expanduser(), options.get("model"))
+    else:
+        backend = _service(kind, rest, options, timeout_s, trust_env)
+    return backend if record is None else RecordingBackend(backend, record)
+
+
+def _service(
+    kind: str, rest: str, options: dict[str, str], timeout_s: float | None, trust_env: bool
+) -> Backend:
+    model, url = _split_url(rest)
+    patience = Patience(
+        timeout_s=_number(options, "timeout", timeout_s or Patience.timeout_s),
+        attempts=int(_number(options, "attempts", Patience.attempts)),
+    )
+    temperature = _number(options, "temperature", 0.0) if "temperature" in options else None
+    keys = (options["key"],) if "key" in options else None
+    if kind == "anthropic":
+        return AnthropicBackend(
+            model,
+            url,
+            structured=options.get("structured", "tool"),
+            patience=patience,
+            temperature=temperature,
+            trust_env=trust_env,
+            key_variables=keys or KEY_VARIABLES,
+        )
+    return OpenAIBackend(
+        model,
+        url,
+        structured=options.get("structured"),
+        limit=options.get("limit"),
+        patience=patience,
+        temperature=temperature,
+        trust_env=trust_env,
+        key_variables=keys,
+    )
+
+
+def _split_url(rest: str) -> tuple[str, str | None]:
+    """Model names hold slashes, colons and at signs; addresses begin with http."""
+    for scheme in ("@http://", "@https://"):
+        model, found, tail = rest.partition(scheme)
+        if found:
+            url = scheme[1:] + tail
+            parts = urlsplit(url)
+            if not parts.hostname or parts.username or parts.password or parts.query:
+                raise ConfigurationError(
+                    "The address of a model is http://HOST:PORT/v1, without user, password or "
+                    "query; keys come from the environment."
+                )
+            if not model:
+                raise ConfigurationError(f"No model is named before {url}. Use {_FORMS}.")
+            return model, url.rstrip("/")
+    return rest, None
+
+
+def _options(kind: str, text: str) -> dict[str, str]:
+    options = dict(parse_qsl(text, keep_blank_values=True))
+    for name, value in options.items():
+        if name not in _OPTIONS[kind] or not value:
+            raise ConfigurationError(
+                f"There is no option {name!r} for {kind}, or it has no value. Options are "
+                f"{', '.join(sorted(_OPTIONS[kind]))}, written #NAME=VALUE&NAME=VALUE."
+            )
+    variable = options.get("key")
+    if variable is not None and not variable.replace("_", "").isalnum():
+        raise ConfigurationError(
+            "key= names an environment variable, such as key=MY_LAB_KEY; never the key itself."
+        )
+    return options
+
+
+def _number(options: Mapping[str, str], name: str, default: float) -> float:
+    text = options.get(name)
+    if text is None:
+        return default
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0 <= value <= 3600 or (value == 0 and name != "temperature"):
+        raise ConfigurationError(f"The option {name}={text!r} must be a number more than 0.")
+    return value
+
+
+def _shown(name: str) -> str:
+    return name if len(name) <= 80 else name[:77] + "..."
