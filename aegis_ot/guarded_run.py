@@ -15,7 +15,7 @@ from contextvars import ContextVar
 from types import FrameType
 from typing import TYPE_CHECKING, Any
 
-from .errors import ProtocolRejected, RehearsalError
+from .errors import AegisError, ProtocolRejected, RehearsalError
 from .instrumentation import NameCollector, Tap, tapped
 from .settings import Settings, load_settings
 
@@ -116,7 +116,8 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
         rehearsal = rehearse(
             script,
             [recorder],
-            live_parameters=protocol.params,
+            # The property is refused below apiLevel 2.18.
+            live_parameters=getattr(protocol, "_params", None),
             timeout_s=settings.rehearsal_timeout_s,
         )
     except RehearsalError as error:
@@ -209,7 +210,12 @@ def _judge(
 
     script = find_script(file_name, protocol)
     text = script.text if script is not None else ""
-    report = check_recording(recorder, names, text, file_name, settings)
+    try:
+        report = check_recording(recorder, names, text, file_name, settings)
+    except AegisError:
+        raise
+    except Exception as error:  # a fault of ours must not keep a good protocol from running
+        return f"Layer 1 failed and judged nothing ({type(error).__name__}: {error})."
     if settings.rules == "on" and is_rejected(report):
         raise ProtocolRejected(rejection(report))
     return summary(report)

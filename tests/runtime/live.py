@@ -40,7 +40,7 @@ RUNNING: dict[str, Callable[[Any], None]] = {}
 
 
 class LiveRun:
-    """One live run under a watcher.
+    """One live run: of a function under a watcher, or of a protocol's text as it is.
 
     Attributes:
         watcher: Once the protocol has begun.
@@ -49,10 +49,13 @@ class LiveRun:
     """
 
     def __init__(
-        self, protocol: Callable[[Any], None], settings: Settings, api: str = "2.15"
+        self,
+        protocol: Callable[[Any], None] | str,
+        settings: Settings | None = None,
+        api: str = "2.15",
     ) -> None:
         self._protocol = protocol
-        self._settings = settings
+        self._settings = settings or Settings()
         self._api = api
         self._ready = threading.Event()
         self._thread = threading.Thread(target=lambda: asyncio.run(self._main()), daemon=True)
@@ -97,6 +100,7 @@ class LiveRun:
         return self
 
     def _guarded(self, protocol: Any) -> None:
+        assert not isinstance(self._protocol, str)
         self.watcher = Watcher(protocol, self._settings, "live.py")
         code_file = self._protocol.__code__.co_filename
         try:
@@ -114,6 +118,11 @@ class LiveRun:
         finally:
             self.ended_at = time.monotonic()
 
+    def _text(self, key: str) -> str:
+        if isinstance(self._protocol, str):
+            return self._protocol
+        return _TEXT.format(api=self._api, module="aegis_ot_live_harness", key=key)
+
     async def _main(self) -> None:
         try:
             await self._run()
@@ -124,7 +133,8 @@ class LiveRun:
 
     async def _run(self) -> None:
         key = f"{id(self)}"
-        RUNNING[key] = self._guarded
+        if not isinstance(self._protocol, str):
+            RUNNING[key] = self._guarded
         sys.modules.setdefault("aegis_ot_live_harness", sys.modules[__name__])
         instruments = {
             Mount.LEFT: {"model": "p300_single_v2.1", "id": "left", "name": "p300_single_gen2"}
@@ -143,7 +153,7 @@ class LiveRun:
         )
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "live.py"
-            path.write_text(_TEXT.format(api=self._api, module="aegis_ot_live_harness", key=key))
+            path.write_text(self._text(key), encoding="utf-8")
             source = await ProtocolReader().read_saved([path], directory=None)
             runner = create_protocol_runner(
                 protocol_config=source.config, protocol_engine=engine, hardware_api=hardware

@@ -1,0 +1,189 @@
+"""The guard as a protocol meets it: decorated or called, simulated or live."""
+
+from __future__ import annotations
+
+import inspect
+import io
+import textwrap
+
+import pytest
+from opentrons import simulate
+
+import aegis_ot
+from aegis_ot import guard
+from tests.compat.transparency import stub_sidecar
+from tests.runtime.live import LiveRun
+
+DECK = """
+plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 1, "plate")
+tubes = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 2, "tubes")
+tips = protocol.load_labware("opentrons_96_tiprack_300ul", 3)
+p300 = protocol.load_instrument("p300_single_gen2", "left", [tips])
+"""
+GOOD = 'p300.transfer(50, tubes["A1"], plate.wells()[:2], new_tip="always")'
+BAD = """
+template, water, ntc = tubes["A1"], tubes["A2"], plate["H12"]
+sample = plate["A1"]
+p300.pick_up_tip()
+p300.aspirate(40, template)
+p300.dispense(40, sample)
+p300.aspirate(40, water)
+p300.dispense(40, ntc)
+p300.drop_tip()
+"""
+
+
+def protocol(body: str, settings: str = "", form: str = "decorator", level: str = "2.15") -> str:
+    """The text of a guarded protocol."""
+    setup = textwrap.indent(DECK + textwrap.dedent(body), "    ")
+    head = f'from aegis_ot import guard\nmetadata = {{"apiLevel": "{level}"}}\n'
+    if form == "decorator":
+        return f"{head}@guard({settings})\ndef run(protocol):\n{setup}\n"
+    call = f"    protocol = guard(protocol, {settings})\n"
+    return f"{head}def run(protocol):\n{call}{setup}\n"
+
+
+def simulated(text: str) -> list[str]:
+    """Lines of the run log, as ``opentrons_simulate`` prints them."""
+    log, _ = simulate.simulate(io.StringIO(text), "protocol.py", log_level="none")
+    return [entry["payload"].get("text", "") for entry in log]
+
+
+def of_guard(lines: list[str]) -> list[str]:
+    return [line for line in lines if line.startswith("aegis_ot: ")]
+
+
+class TestDecoration:
+    def test_the_signature_is_the_users(self):
+        @guard(assay="pcr")
+        def run(ctx): ...
+
+        assert list(inspect.signature(run).parameters) == ["ctx"]
+        assert run.__name__ == "run"
+
+    def test_it_does_nothing_and_raises_nothing_even_with_wrong_settings(self, monkeypatch):
+        def refuse(*_args, **_kwargs):
+            raise AssertionError("I/O at decoration")
+
+        monkeypatch.setattr("builtins.open", refuse)
+        monkeypatch.setattr("aegis_ot.settings.load_settings", refuse)
+        guard(no_such_setting=1, hold=7)(lambda protocol: None)
+
+    def test_guarding_twice_is_guarding_once_the_outer_settings_win(self):
+        @guard(rules="off", assay="pcr")
+        def run(protocol): ...
+
+        again = guard(run, rules="warn")
+        assert again.__aegis_guard__[1] == {"rules": "warn", "assay": "pcr"}
+        assert again.__aegis_guard__[0] is inspect.unwrap(run)
+
+    def test_the_public_face(self):
+        assert set(aegis_ot.__all__) == {"guard", "__version__"}
+
+
+@pytest.mark.parametrize("form", ["decorator", "call"])
+@pytest.mark.parametrize("level", ["2.11", "2.16"])
+class TestSimulated:
+    def test_a_good_protocol_runs_and_says_so_once(self, form, level):
+        lines = simulated(protocol(GOOD, form=form, level=level))
+        assert len(of_guard(lines)) == 1
+        assert "Layer 1: pass" in of_guard(lines)[0]
+        assert sum("Aspirating" in line for line in lines) == 2
+
+    def test_a_bad_one_is_rejected_with_rule_wells_and_lines(self, form, level):
+        text = protocol(BAD, 'assay="pcr"', form, level)
+        with pytest.raises(Exception, match="PCR-2") as caught:
+            simulated(text)
+        told = str(caught.value)
+        line = next(n for n, s in enumerate(text.splitlines(), 1) if "dispense(40, ntc)" in s)
+        assert "H12" in told
+        assert str(line) in told
+
+    def test_warn_lets_it_run(self, form, level):
+        lines = simulated(protocol(BAD, 'assay="pcr", rules="warn"', form, level))
+        assert "PCR-2" in of_guard(lines)[0]
+
+    def test_off_is_silent(self, form, level):
+        lines = simulated(protocol(BAD, 'assay="pcr", rules="off"', form, level))
+        assert of_guard(lines) == []
+
+    def test_its_own_error_stays_its_own(self, form, level):
+        text = protocol('plate["Z9"]', form=form, level=level)
+        line = len(text.splitlines())
+        with pytest.raises(Exception, match="Z9") as caught:
+            simulated(text)
+        assert f"line {line}" in str(caught.value)
+        assert "aegis" not in str(caught.value).split("errorInfo")[0]
+
+    def test_a_wrong_setting_is_named_when_it_runs(self, form, level):
+        with pytest.raises(Exception, match="hold") as caught:
+            simulated(protocol(GOOD, 'hold="sometimes"', form, level))
+        assert "boundary" in str(caught.value)
+
+    def test_keyframes_reach_the_sidecar_when_simulation_is_watched(self, form, level):
+        with stub_sidecar() as (url, keyframes):
+            settings = f'sidecar="{url}", watch_simulation=True'
+            lines = simulated(protocol(GOOD, settings, form, level))
+        kinds = [keyframe["kind"] for keyframe in keyframes]
+        assert kinds == ["aspirate", "transit", "dispense", "post_dispense"] * 2
+        assert "2 passed" in of_guard(lines)[0]
+
+    def test_an_analysis_contacts_nobody(self, form, level):
+        with stub_sidecar() as (url, keyframes):
+            simulated(protocol(GOOD, f'sidecar="{url}"', form, level))
+        assert keyframes == []
+
+
+@pytest.mark.parametrize("form", ["decorator", "call"])
+class TestLive:
+    def test_a_bad_protocol_moves_nothing(self, form):
+        run = LiveRun(protocol(BAD, 'assay="pcr"', form)).start()
+        run.play()
+        run.join()
+        assert run.status == "failed"
+        moved = {c.commandType for c in run.commands}
+        assert moved <= {"home", "loadLabware", "loadPipette", "comment"}
+
+    def test_a_good_one_runs_rehearsed_and_watched(self, form):
+        with stub_sidecar() as (url, keyframes):
+            run = LiveRun(protocol(GOOD, f'sidecar="{url}"', form)).start()
+            run.play()
+            run.join()
+        assert run.status == "succeeded"
+        assert len(keyframes) == 8
+
+    def test_analysis_and_live_show_the_same_command_types(self, form):
+        from aegis_ot.preflight.rehearsal import play
+        from aegis_ot.preflight.script import Script
+
+        with stub_sidecar() as (url, _):
+            text = protocol(GOOD, f'sidecar="{url}"', form)
+            run = LiveRun(text).start()
+            run.play()
+            run.join()
+        live = [c.commandType for c in run.commands]
+        analysed = []
+
+        def keep(function):
+            def wrapped(context):
+                function(context)
+                state = context._core._engine_client.state
+                analysed.extend(c.commandType for c in state.commands.get_all())
+
+            return wrapped
+
+        play(Script(text, "live.py"), keep)
+        assert [c for c in live if c != "home"] == [c for c in analysed if c != "home"]
+
+    def test_module_state_is_not_touched_by_the_rehearsal(self, form):
+        body = """
+        global COUNT
+        COUNT += 1
+        if COUNT != 1:
+            raise RuntimeError(f"rehearsed into my own module: {COUNT}")
+        """
+        text = protocol(GOOD + textwrap.dedent(body), form=form) + "\nCOUNT = 0\n"
+        run = LiveRun(text).start()
+        run.play()
+        run.join()
+        assert run.status == "succeeded"
