@@ -263,7 +263,7 @@ def _beside(binding: NameBinding, facts: SourceFacts, line: int) -> Iterator[Clu
     rows = facts.tables.get(binding.name)
     if rows is None or len(rows) != len(binding.wells):
         return
-    for row, ref in zip(rows, binding.wells):
+    for row, ref in zip(rows, binding.wells, strict=False):
         for text in row:
             if isinstance(text, str) and not _WELL_NAME.match(text):
                 yield Clue(

@@ -15,7 +15,7 @@ from .clues import Clue, gather
 from .families import Inference, infer
 from .recorder import Record
 from .replacements import Replacements
-from .roles import Roles, assign_roles, derive, implied_contents, usage_of
+from .roles import Roles, assign_roles, derive, implied_contents, settle_diluent, usage_of
 from .rulefiles import Common, Database, Family, RuleSpec
 from .source import SourceFacts, read_source
 from .trace import Trace, build_trace
@@ -225,7 +225,8 @@ class _Judge:
         waste = _waste(self._clues, self._common)
         loose = self._loose_volumes()
         unsure = frozenset(_prefilled_by_words(self._clues, self._common))
-        for (family, sure), roles in zip(applying, self._roles):
+        for (family, sure), roles in zip(applying, self._roles, strict=False):
+            settle_diluent(roles, trace)
             derive(roles, trace, usage)
             case = Case(trace, roles, usage, self._common, sure, waste, loose, unsure)
             for rule in family.rules:

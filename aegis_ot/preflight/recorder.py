@@ -6,7 +6,7 @@ alive, so each operation is copied into a :class:`Step`.
 
 from __future__ import annotations
 
-from typing import NamedTuple, Union
+from typing import NamedTuple, TypeAlias
 
 from ..instrumentation import Event, EventKind, LabwareInfo, Operation, OperationKind
 from ..vocabulary import WellRef
@@ -30,7 +30,7 @@ class Step(NamedTuple):
     mixing: bool
 
 
-Record = Union[Step, Event]
+Record: TypeAlias = "Step | Event"
 
 
 class Recorder:

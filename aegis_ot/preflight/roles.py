@@ -150,7 +150,8 @@ def assign_roles(
     lexicon = _lexicon(family)
     candidates: dict[WellRef, list[Candidate]] = {}
     sides = _Sides(usage)
-    for clue in clues:
+    named_outright: set[str] = set()
+    for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         matches = lexicon.find(clue.text)
         named = [clue.role] if clue.role in family.roles else _named(matches, clue, common)
         if not named:
@@ -158,6 +159,12 @@ def assign_roles(
         for position, ref in enumerate(clue.wells):
             role = _fitting(named, roles, sides(ref), clue)
             if role is None:
+                continue
+            if not clue.step and clue.strength >= Strength.DESCRIPTION and not clue.whole:
+                named_outright.add(role)
+            elif clue.step and role in named_outright and family.roles[role].one_liquid:
+                # The comment says what the step is for; which well holds that is said
+                # elsewhere, and this may be another one by mistake.
                 continue
             level = level_of(clue, position, common) if clue.wells else None
             candidates.setdefault(ref, []).append((_worth(clue), role, clue, level))
@@ -284,9 +291,9 @@ def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | 
         # Weaker evidence may say more exactly what the stronger leaves open: the liquid says
         # "cells", the name says "vehicle_controls".
         exact = not hint.whole and hint.strength is not Strength.LOOSE_NAME
-        if (exact or hint.strength == clue.strength) and role != other:
-            if role in roles.closure(other):
-                role = other
+        said = exact or hint.strength == clue.strength
+        if said and role != other and role in roles.closure(other):
+            role = other
     rivals = [
         candidate
         for candidate in found[1:]
@@ -357,6 +364,38 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
     for name, spec in roles.family.roles.items():
         if spec.receives:
             _derive_one(roles, name, spec, trace, usage)
+
+
+def settle_diluent(roles: Roles, trace: Trace) -> None:
+    """Where nothing is called the diluent, find it among the buffers.
+
+    It is the one that most wells are filled from, together with others that fill at least
+    three in ten (two series may have a diluent each). A buffer that fills one well of many is
+    rather a mistake than a second diluent.
+    """
+    spec = roles.family.series
+    if spec is None or not spec.diluent or any(roles.known(role) for role in spec.diluent):
+        return
+    otherwise = frozenset(spec.diluent_else)
+    filled: dict[str, set[WellRef]] = {}
+    sources: dict[str, set[WellRef]] = {}
+    for well in trace.wells.values():
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None and roles.has(source.ref, otherwise):
+                    text = roles.by_well[source.ref].text
+                    filled.setdefault(text, set()).add(well.ref)
+                    sources.setdefault(text, set()).add(source.ref)
+    if not filled:  # named, and never used: then something else is used in its place
+        for ref, assigned in roles.by_well.items():
+            if assigned.role in otherwise:
+                sources.setdefault(assigned.text, set()).add(ref)
+        filled = {text: set() for text in sources} if len(sources) == 1 else {}
+    total = len(set().union(*filled.values())) if filled else 0
+    for text, wells in filled.items():
+        if len(wells) >= 0.3 * total:
+            for ref in sources[text]:
+                roles.by_well[ref].role = spec.diluent[0]
 
 
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:

@@ -68,11 +68,20 @@ class RoleSpec:
 
 @dataclass(frozen=True)
 class SeriesSpec:
-    """Which roles make a dilution series."""
+    """Which roles make a dilution series.
+
+    Attributes:
+        wells: Wells of the series.
+        stock: What is diluted.
+        diluent: What it is diluted with.
+        diluent_else: What counts as diluent where nothing is called so: the one of these that
+            the wells are mostly filled from.
+    """
 
     wells: tuple[str, ...]
     stock: tuple[str, ...]
     diluent: tuple[str, ...]
+    diluent_else: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

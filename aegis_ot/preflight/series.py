@@ -196,10 +196,10 @@ def _series(
     fed = _fed_from_outside(trace, members)
     for well in members:
         last: dict[int, Step] = {}
-        if well.prefilled and well in linked_set and well.visits:
-            if not roles.has(well.ref, diluent) and not _feeds_last(well, links):
-                entries.append(well)
-                entered[well] = -1
+        held_stock = well.prefilled and well in linked_set and not _feeds_last(well, links)
+        if held_stock and not roles.has(well.ref, diluent):
+            entries.append(well)
+            entered[well] = -1
         for visit in trace.deliveries(well):
             for source, volume, _, line in visit.parts:
                 if source is None or source is well or volume <= 0 or source in member_set:

@@ -235,7 +235,7 @@ class _Reader:
                 self._place(labware, node.args[0], "well", node.lineno)
 
     def _liquid(self, node: ast.Call) -> None:
-        values = dict(zip(("name", "description"), (_text(a) for a in node.args)))
+        values = dict(zip(("name", "description"), (_text(a) for a in node.args), strict=False))
         values.update({k.arg: _text(k.value) for k in node.keywords if k.arg in values or k.arg})
         name, description = values.get("name"), values.get("description")
         if name and description:
@@ -283,7 +283,7 @@ def _rows(value: ast.expr) -> Iterator[tuple[Any, ...]]:
     not the indices inside an expression.
     """
     if isinstance(value, ast.Dict):
-        for key, item in zip(value.keys, value.values):
+        for key, item in zip(value.keys, value.values, strict=False):
             if key is not None:
                 yield tuple(_constants([key, item]))
     elif isinstance(value, (ast.List, ast.Tuple)):

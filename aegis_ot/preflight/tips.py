@@ -103,7 +103,7 @@ class TipBox:
         line: int | None,
     ) -> None:
         """Put a tip on each nozzle: the returned one if one stands there, else a new one."""
-        for nozzle, home in zip(nozzles, racks):
+        for nozzle, home in zip(nozzles, racks, strict=False):
             tip = self._returned.pop(home, None) if home is not None else None
             if tip is None:
                 tip = self._new(home, line)
@@ -113,7 +113,7 @@ class TipBox:
 
     def drop(self, pipette: str, nozzles: Iterable[str], racks: Iterable[WellRef | None]) -> None:
         """Take the tips off; those put back into a rack keep their history there."""
-        for nozzle, home in zip(nozzles, racks):
+        for nozzle, home in zip(nozzles, racks, strict=False):
             tip = self._on.pop((pipette, nozzle), None)
             if tip is not None:
                 tip.layers.clear()

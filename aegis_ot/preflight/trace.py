@@ -252,7 +252,7 @@ class _Builder:
             self._box.drop(step.pipette, step.nozzles, homes)
         else:
             self._note_group(step)
-            for nozzle, ref in zip(step.nozzles, step.wells):
+            for nozzle, ref in zip(step.nozzles, step.wells, strict=False):
                 tip = self._box.on(step.pipette, nozzle, step.line)
                 well = None if ref is None or step.disposal else self._well(ref)
                 self._act(step, kind, tip, well)

@@ -46,7 +46,8 @@ def _singular(word: str) -> str:
 
 def _same(here: tuple[str, ...], parts: tuple[str, ...]) -> bool:
     return len(here) == len(parts) and all(
-        one == other or (other == "#" and one.isdigit()) for one, other in zip(here, parts)
+        one == other or (other == "#" and one.isdigit())
+        for one, other in zip(here, parts, strict=True)
     )
 
 

@@ -133,9 +133,8 @@ class Case:
         """Whether two wells hold the same liquid, as far as roles and names say."""
         if one is other or one.ref == other.ref:
             return True
-        if one.liquids and one.liquids == other.liquids:
-            if any(c.isdigit() for c in one.liquids[0]):
-                return True
+        if one.liquids and one.liquids == other.liquids and any(map(str.isdigit, one.liquids[0])):
+            return True
         mine, theirs = self.roles.by_well.get(one.ref), self.roles.by_well.get(other.ref)
         if mine is None or theirs is None or mine.role != theirs.role:
             return False

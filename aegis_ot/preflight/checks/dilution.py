@@ -303,9 +303,9 @@ class SeriesTip(Check):
                     ("series tip",),
                 )
             entered = series.entered.get(visit.well)
-            if visit.touch and entered is not None and entered <= visit.index:
-                if strongest is None or place_here < strongest[0]:
-                    strongest = (place_here, visit)
+            holds_stock = entered is not None and entered <= visit.index
+            if visit.touch and holds_stock and (strongest is None or place_here < strongest[0]):
+                strongest = (place_here, visit)
 
 
 def _made_by(step: Step, tip: int) -> bool:

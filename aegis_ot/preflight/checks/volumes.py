@@ -28,10 +28,9 @@ class VolumeBookkeeping(Check):
             key = (id(well), imbalance.overfilled)
             if key in seen or (imbalance.overfilled and well.ref in case.waste):
                 continue
-            if not imbalance.overfilled and well.declared is None:
-                # It may have held what nobody declared.
-                if case.loose_volumes or well.ref in case.unsure:
-                    continue
+            undeclared = not imbalance.overfilled and well.declared is None
+            if undeclared and (case.loose_volumes or well.ref in case.unsure):
+                continue  # it may have held what nobody declared
             seen.add(key)
             yield _violation(imbalance)
 
