@@ -28,7 +28,7 @@ def read_dataclass(cls: type[T], data: Any, where: str) -> T:
     if not isinstance(data, dict):
         raise RuleError(f"{where}: expected an object, found {_kind(data)}")
     hints = typing.get_type_hints(cls)
-    fields = {f.name: f for f in dataclasses.fields(cls)}  # type: ignore[arg-type]
+    fields = {f.name: f for f in _public_fields(cls)}
     unknown = [key for key in data if key not in fields]
     if unknown:
         raise RuleError(f"{where}: unknown field {unknown[0]!r}; known are {', '.join(fields)}")
@@ -39,6 +39,11 @@ def read_dataclass(cls: type[T], data: Any, where: str) -> T:
         elif f.default is dataclasses.MISSING and f.default_factory is dataclasses.MISSING:
             raise RuleError(f"{where}: field {name!r} is missing")
     return cls(**values)
+
+
+def _public_fields(cls: type[Any]) -> list[dataclasses.Field[Any]]:
+    """The fields that a file may hold."""
+    return [f for f in dataclasses.fields(cls) if not f.metadata.get("internal")]
 
 
 def _read(hint: Any, value: Any, where: str) -> Any:
@@ -124,15 +129,13 @@ def _object_schema(cls: type[Any], definitions: dict[str, Any]) -> dict[str, Any
     hints = typing.get_type_hints(cls)
     required = [
         f.name
-        for f in dataclasses.fields(cls)
+        for f in _public_fields(cls)
         if f.default is dataclasses.MISSING and f.default_factory is dataclasses.MISSING
     ]
     return {
         "type": "object",
         "description": (cls.__doc__ or "").split("\n\n")[0].replace("\n", " ").strip(),
-        "properties": {
-            f.name: _schema_of(hints[f.name], definitions) for f in dataclasses.fields(cls)
-        },
+        "properties": {f.name: _schema_of(hints[f.name], definitions) for f in _public_fields(cls)},
         "required": required,
         "additionalProperties": False,
     }

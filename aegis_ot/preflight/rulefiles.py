@@ -151,7 +151,7 @@ class Family:
     series: SeriesSpec | None = None
     chain_weight: float = 0.0
     default: bool = False
-    path: str = field(default="", compare=False)
+    path: str = field(default="", compare=False, metadata={"internal": True})
 
 
 @dataclass(frozen=True)

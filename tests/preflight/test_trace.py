@@ -1,0 +1,198 @@
+"""The words of spec/rules.md become values: touch, empty well, carry, air, tips, plates."""
+
+from __future__ import annotations
+
+import pytest
+
+from aegis_ot.instrumentation import EventKind
+
+from .streams import Bench, carried, well
+
+
+def test_a_dispense_into_an_empty_well_adds_nothing_to_the_tip() -> None:
+    bench = Bench()
+    bench.pick()
+    bench.draw("source:A1", 50)
+    bench.give("plate:A1", 50)
+    trace = bench.trace()
+    assert carried(trace) == ["source:A1"]
+    assert not trace.visits[-1].touch
+    assert trace.visits[-1].below
+
+
+def test_a_dispense_into_liquid_takes_its_contents_along() -> None:
+    bench = Bench()
+    bench.load("plate:A1", 50)
+    bench.pick()
+    bench.draw("source:A1", 50)
+    bench.give("plate:A1", 50)
+    assert carried(bench.trace()) == ["source:A1", "plate:A1"]
+
+
+def test_a_dispense_from_above_touches_nothing() -> None:
+    bench = Bench()
+    bench.load("plate:A1", 50)
+    bench.pick()
+    bench.draw("source:A1", 50)
+    bench.give("plate:A1", 50, top=0.0)
+    trace = bench.trace()
+    assert carried(trace) == ["source:A1"]
+    assert not trace.visits[-1].below
+
+
+@pytest.mark.parametrize(("top", "touches"), [(-4.0, True), (-1.0, False)])
+def test_the_tracked_level_decides_below_the_top(top: float, touches: bool) -> None:
+    """100 of 200 µL stand 5 mm high in a well 10 mm deep; 2 mm more is clear."""
+    bench = Bench()
+    bench.load("plate:A1", 50)
+    bench.pick()
+    bench.draw("source:A1", 50)
+    bench.give("plate:A1", 50, top=top)
+    assert bench.trace().visits[-1].touch is touches
+
+
+def test_an_unknown_volume_is_not_clear() -> None:
+    bench = Bench()
+    bench.load("plate:A1", None)
+    bench.pick()
+    bench.draw("source:A1", 5)
+    bench.give("plate:A1", 5, top=-0.5)
+    assert bench.trace().visits[-1].touch
+
+
+def test_a_returned_tip_goes_on_with_its_history() -> None:
+    bench = Bench()
+    bench.pick("A1")
+    bench.draw("source:A1", 50)
+    bench.give("plate:A1", 50)
+    bench.drop(back="A1")
+    bench.say(EventKind.TIPS_RESET, "", "rack")
+    bench.pick("A1")
+    trace = bench.trace()
+    assert len(trace.tips) == 1
+    assert trace.tips[0].session == 2
+
+
+def test_a_trashed_tip_is_new_after_a_reset() -> None:
+    bench = Bench()
+    bench.pick("A1")
+    bench.draw("source:A1", 50)
+    bench.drop()
+    bench.say(EventKind.TIPS_RESET, "", "rack")
+    bench.pick("A1")
+    bench.draw("source:B1", 50)
+    trace = bench.trace()
+    assert len(trace.tips) == 2
+    assert carried(trace, 1) == ["source:B1"]
+
+
+def test_air_is_no_volume_and_leaves_first() -> None:
+    bench = Bench()
+    bench.pick()
+    bench.draw("source:A1", 40)
+    bench.air(10)
+    bench.give("plate:A1", 30)
+    trace = bench.trace()
+    assert well(trace, "plate:A1").volume == pytest.approx(20)
+
+
+def test_aspirating_above_the_top_draws_air() -> None:
+    bench = Bench()
+    bench.load("source:A1", 100)
+    bench.pick()
+    bench.draw("source:A1", 40, top=1.0)
+    trace = bench.trace()
+    assert well(trace, "source:A1").volume == 100
+    assert not trace.visits
+
+
+def test_a_blow_out_gives_what_is_left() -> None:
+    bench = Bench()
+    bench.pick()
+    bench.draw("source:A1", 40)
+    bench.give("plate:A1", 30)
+    bench.blow_out("plate:B1")
+    assert well(bench.trace(), "plate:B1").volume == pytest.approx(10)
+
+
+def test_touching_the_wall_of_a_filled_well_counts_of_an_empty_one_does_not() -> None:
+    bench = Bench()
+    bench.load("plate:A1", 50)
+    bench.pick()
+    bench.touch_tip("plate:A1")
+    bench.touch_tip("plate:B1")
+    assert carried(bench.trace()) == ["plate:A1"]
+
+
+def test_repeated_pipetting_in_one_well_is_mixing() -> None:
+    bench = Bench()
+    bench.load("plate:A1", 100)
+    bench.pick()
+    bench.draw("source:A1", 20)
+    bench.give("plate:A1", 20)
+    for _ in range(3):
+        bench.draw("plate:A1", 50)
+        bench.give("plate:A1", 50)
+    trace = bench.trace()
+    target = well(trace, "plate:A1")
+    assert len(target.mixes) == 1
+    arrival = next(iter(trace.deliveries(target)))
+    assert trace.mixed_since(target, arrival.index, float("inf"))
+
+
+def test_overfilling_and_overdrawing_are_noticed_exactly_full_is_not() -> None:
+    bench = Bench()
+    bench.pick()
+    bench.draw("source:A1", 200)
+    bench.give("plate:A1", 200)
+    assert not bench.trace().imbalances
+    bench.draw("source:A1", 1)
+    bench.give("plate:A1", 1)
+    bench.draw("plate:A1", 250)
+    kinds = [imbalance.overfilled for imbalance in bench.trace().imbalances]
+    assert kinds == [True, False]
+
+
+def test_a_source_without_declared_volume_never_runs_dry() -> None:
+    bench = Bench()
+    bench.pick()
+    for _ in range(50):
+        bench.draw("source:A1", 200)
+        bench.give("plate:A1", 200, top=0.0)
+        bench.draw("plate:A1", 200)
+        bench.give("source:B1", 0)
+    assert not [i for i in bench.trace().imbalances if i.well.ref.labware == "source"]
+
+
+@pytest.mark.parametrize(
+    ("text", "new"),
+    [
+        ("Replace the plate in slot 1 with a new one", True),
+        ("Bitte die Platte wechseln", True),
+        ("Spin the plate, put it back in slot 1 and resume", False),
+        ("Check the tips", False),
+    ],
+)
+def test_a_plate_replaced_in_a_pause_is_a_new_plate(text: str, new: bool) -> None:
+    bench = Bench()
+    bench.pick()
+    bench.draw("source:A1", 150)
+    bench.give("plate:A1", 150)
+    bench.say(EventKind.PAUSED, text)
+    bench.draw("source:A1", 150)
+    bench.give("plate:A1", 150)
+    trace = bench.trace()
+    assert (("plate", 1, "A1") in trace.wells) is new
+    assert bool(trace.imbalances) is not new
+
+
+def test_a_plate_taken_off_the_deck_comes_back_as_a_new_one() -> None:
+    bench = Bench()
+    bench.pick()
+    bench.draw("source:A1", 150)
+    bench.give("plate:A1", 150)
+    bench.say(EventKind.LABWARE_MOVED, "", "plate")
+    bench.say(EventKind.LABWARE_MOVED, "1", "plate")
+    bench.draw("source:A1", 150)
+    bench.give("plate:A1", 150)
+    assert not bench.trace().imbalances

@@ -1,0 +1,90 @@
+"""The rule database: complete, valid, and true to its own examples."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from aegis_ot.errors import RuleError
+from aegis_ot.preflight import load_database
+from aegis_ot.preflight.examples import run_examples
+from aegis_ot.preflight.rulefiles import load_family, shipped_rules
+from aegis_ot.preflight.schema import family_schema, schema_text
+
+SIXTH = Path(__file__).parents[2] / "examples" / "rules" / "elisa.json"
+IDS = (
+    [f"PCR-{n}" for n in range(1, 7)]
+    + [f"SD-{n}" for n in range(1, 6)]
+    + [f"BRD-{n}" for n in range(1, 5)]
+    + [f"CELL-{n}" for n in range(1, 5)]
+    + [f"GEN-{n}" for n in range(1, 4)]
+)
+
+
+def test_all_22_rules_are_there() -> None:
+    rules = load_database().rules
+    assert sorted(rule.id for rule in rules) == sorted(IDS)
+    assert {rule.id for rule in rules if rule.severity == "warning"} == {"PCR-6"}
+    for rule in rules:
+        assert rule.prompt
+        assert rule.reference
+
+
+def test_the_published_schema_is_the_generated_one() -> None:
+    assert (shipped_rules() / "family.schema.json").read_text(encoding="utf-8") == schema_text()
+
+
+@pytest.mark.parametrize("path", [*sorted(shipped_rules().glob("*.json")), SIXTH], ids=str)
+def test_files_agree_with_the_schema(path: Path) -> None:
+    if path.name in ("common.json", "family.schema.json"):
+        return
+    data = json.loads(path.read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator(family_schema()).validate(data)
+
+
+@pytest.mark.parametrize("rule", IDS)
+def test_examples_do_what_they_say(rule: str) -> None:
+    results = run_examples(load_database(), [rule])
+    assert [f"{r.title}: {r.problem or r.found}" for r in results if not r.ok] == []
+
+
+def test_a_sixth_family_needs_no_code() -> None:
+    database = load_database([SIXTH])
+    results = run_examples(database, ["ELISA-1", "ELISA-2", "ELISA-3"])
+    assert len(results) == 6
+    assert all(result.ok for result in results)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda d: d["rules"][0].pop("fix"), "rules ELISA-1: field 'fix' is missing"),
+        (lambda d: d["rules"][0].update(severity="bad"), "rule ELISA-1: severity"),
+        (lambda d: d["rules"][0]["checks"][0].update(check="nope"), "no check 'nope'"),
+        (lambda d: d["rules"][0]["checks"][0].update(wells=["nobody"]), "no role 'nobody'"),
+        (lambda d: d["rules"][0]["checks"][0].update(wlls=["x"]), "unknown field 'wlls'"),
+        (lambda d: d["roles"]["stop"].update(words="stop"), "roles.stop: words: expected a list"),
+        (lambda d: d.update(schema=9), "schema: expected 1, found 9"),
+    ],
+)
+def test_errors_name_file_rule_and_field(change, message: str, tmp_path: Path) -> None:
+    data = json.loads(SIXTH.read_text(encoding="utf-8"))
+    change(data)
+    path = tmp_path / "mine.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    with pytest.raises(RuleError) as caught:
+        load_family(path)
+    assert str(caught.value).startswith("mine.json: ")
+    assert message in str(caught.value)
+
+
+def test_a_rule_cannot_be_defined_twice(tmp_path: Path) -> None:
+    data = json.loads(SIXTH.read_text(encoding="utf-8"))
+    data["rules"][0]["id"] = "PCR-1"
+    path = tmp_path / "mine.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    with pytest.raises(RuleError, match="rule PCR-1 is already defined"):
+        load_database([path])
