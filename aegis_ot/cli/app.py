@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from typing import Any
 
 import typer
 
@@ -35,10 +36,22 @@ def _root(
     """Options before the command."""
 
 
+# Typer has taken over Click's errors in its newer versions; both know this one by name.
+_UsageError: Any = next(k for k in typer.BadParameter.__mro__ if k.__name__ == "ClickException")
+
+
 def run() -> None:
     """Run the app; an error raised on purpose becomes one message and exit code 2."""
     try:
-        app()
+        sys.exit(app(standalone_mode=False))
+    except _UsageError as error:
+        if type(error).__name__ == "NoArgsIsHelpError":
+            error.show()
+        else:
+            typer.echo(f"aegis-ot: {error.format_message()}", err=True)
+        sys.exit(BROKEN)
+    except typer.Abort:
+        sys.exit(130)
     except AegisError as error:
         typer.echo(f"aegis-ot: {error}", err=True)
         sys.exit(BROKEN)
@@ -48,4 +61,4 @@ def run() -> None:
 
 
 # Each module adds its commands to the app.
-from . import demo, dryruns, sidecars  # noqa: E402, F401
+from . import checks, demo, dryruns, sidecars  # noqa: E402, F401

@@ -1,0 +1,150 @@
+"""The rehearsing process: performs one task after another, each in a fork where that exists.
+
+Protocols are other people's programs. They print, end the process, crash it, loop for ever, or
+change what opentrons' own modules hold. So no two share a process, and none has this
+process's standard streams: those carry the answers, and are moved away first.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import faulthandler
+import os
+import pickle
+import struct
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO, Any
+
+from .result import Problem
+from .tasks import Task, prepare, problem_of
+
+CAN_FORK = sys.platform == "linux"
+"""Elsewhere a fork of a process with threads is not safe, or there is none."""
+
+ANSWERED = 85
+"""Exit status of a fork that has sent its answer; any other has died without."""
+
+GRACE_S = 5.0
+"""How long after its time a task is waited for, so that it can end itself and say where."""
+
+_MEMORY_BYTES = 6 << 30
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What came of a task: a value, a problem, or the death of the process that did it."""
+
+    value: Any = None
+    problem: Problem | None = None
+    died: str = ""
+
+
+class Link:
+    """Pickled messages over two byte streams, each after its length."""
+
+    def __init__(self, incoming: IO[bytes], outgoing: IO[bytes]) -> None:
+        self._incoming = incoming
+        self._outgoing = outgoing
+
+    def send(self, message: object) -> None:
+        """Send one message."""
+        data = pickle.dumps(message)
+        self._outgoing.write(struct.pack("!Q", len(data)) + data)
+        self._outgoing.flush()
+
+    def receive(self) -> Any:
+        """Wait for one message.
+
+        Raises:
+            EOFError: The other side is gone.
+        """
+        size = struct.unpack("!Q", self._exactly(8))[0]
+        return pickle.loads(self._exactly(size))
+
+    def _exactly(self, size: int) -> bytes:
+        data = self._incoming.read(size)
+        if data is None or len(data) < size:
+            raise EOFError
+        return data
+
+    def close(self) -> None:
+        """Close both streams."""
+        for stream in (self._outgoing, self._incoming):
+            with contextlib.suppress(OSError):
+                stream.close()
+
+
+def main() -> None:
+    """Serve until the other side closes. Arguments: a file for stacks, paths of rules."""
+    stacks = Path(sys.argv[1])
+    link = _private_streams()
+    try:
+        prepare(tuple(sys.argv[2:]))
+    except ImportError as error:
+        link.send(Answer(problem=Problem(str(error))))
+        return
+    link.send(Answer("ready"))
+    while True:
+        try:
+            task = link.receive()
+        except EOFError:
+            return
+        if CAN_FORK:
+            _fork(task, link, stacks)
+        else:
+            _serve(task, link, stacks)
+
+
+def _private_streams() -> Link:
+    """Take the standard streams for the link, and leave nothing behind them."""
+    incoming = os.fdopen(os.dup(0), "rb")
+    outgoing = os.fdopen(os.dup(1), "wb")
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for stream in (0, 1, 2):
+        os.dup2(nowhere, stream)
+    os.close(nowhere)
+    return Link(incoming, outgoing)
+
+
+def _fork(task: Task, link: Link, stacks: Path) -> None:
+    pid = os.fork()
+    if pid == 0:
+        try:
+            _limit_memory()
+            _serve(task, link, stacks)
+            os._exit(ANSWERED)
+        finally:
+            os._exit(1)
+    _, status = os.waitpid(pid, 0)
+    code = os.waitstatus_to_exitcode(status)
+    if code != ANSWERED:
+        how = f"signal {-code}" if code < 0 else f"exit status {code}"
+        link.send(Answer(died=how))
+
+
+def _limit_memory() -> None:
+    """A protocol that hoards memory gets a MemoryError, with its line, and not the machine."""
+    import resource
+
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    limit = _MEMORY_BYTES if hard == resource.RLIM_INFINITY else min(hard, _MEMORY_BYTES)
+    resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
+
+
+def _serve(task: Task, link: Link, stacks: Path) -> None:
+    with stacks.open("wb") as file:
+        # After a crash or a kill this tells the line.
+        faulthandler.enable(file=file)
+        faulthandler.dump_traceback_later(task.timeout_s + 0.7 * GRACE_S, file=file)
+        try:
+            answer = Answer(task.perform())
+        except BaseException as error:
+            answer = Answer(problem=problem_of(error, task.file_name))
+        faulthandler.cancel_dump_traceback_later()
+        faulthandler.disable()
+    try:
+        link.send(answer)
+    except (pickle.PicklingError, AttributeError, TypeError) as error:
+        link.send(Answer(problem=problem_of(error, task.file_name)))

@@ -1,0 +1,195 @@
+"""``[tool.aegis-ot]`` of ``pyproject.toml``: how a project wants its protocols checked.
+
+::
+
+    [tool.aegis-ot]
+    assay = "pcr"                       # or a list; left out: inferred
+    select = ["PCR-1", "PCR-2"]         # left out: all
+    ignore = ["GEN-3"]
+    rules = ["our-rules"]               # files or folders of further rules
+    labware = ["labware"]
+    baseline = "aegis-baseline.json"
+    timeout = 120
+
+    [tool.aegis-ot.severity]
+    PCR-6 = "error"                     # error, warning or off
+
+    [[tool.aegis-ot.waivers]]
+    rules = ["SD-5"]
+    files = ["tutorials/*.py"]          # left out: every file
+    reason = "One tip per series is how we teach it."
+
+Paths are relative to the file. Whatever is given on the command line wins.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..errors import ConfigurationError
+
+TABLE = "tool.aegis-ot"
+
+
+@dataclass(frozen=True)
+class ConfiguredWaiver:
+    """Rules that are not held against some files.
+
+    Attributes:
+        rules: Rule identifiers.
+        reason: Why.
+        files: Patterns of paths relative to the configuration file; empty for all.
+    """
+
+    rules: tuple[str, ...]
+    reason: str
+    files: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Configuration:
+    """The table, read and checked; see the module's own text for the keys."""
+
+    assay: tuple[str, ...] = ()
+    select: tuple[str, ...] = ()
+    ignore: tuple[str, ...] = ()
+    rules: tuple[str, ...] = ()
+    labware: tuple[str, ...] = ()
+    baseline: str | None = None
+    timeout: float | None = None
+    severity: Mapping[str, str] = field(default_factory=dict)
+    waivers: tuple[ConfiguredWaiver, ...] = ()
+    folder: Path = field(default_factory=Path)
+
+
+def find_configuration(start: Path) -> Configuration:
+    """The table of the nearest ``pyproject.toml`` that has one, from ``start`` upwards.
+
+    Raises:
+        ConfigurationError: It is no TOML, or a key is unknown or of the wrong kind.
+    """
+    start = start.resolve()
+    for folder in (start, *start.parents):
+        path = folder / "pyproject.toml"
+        if path.is_file():
+            table = _table(path)
+            if table is not None:
+                return read_configuration(table, folder, path.name)
+    return Configuration()
+
+
+def _table(path: Path) -> Any:
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigurationError(f"{path} cannot be read: {error}") from None
+    if f"[{TABLE}" not in text and f"[[{TABLE}" not in text:
+        return None
+    try:
+        toml = importlib.import_module("tomllib")
+    except ModuleNotFoundError:
+        try:
+            toml = importlib.import_module("tomli")
+        except ModuleNotFoundError:
+            raise ConfigurationError(
+                f"{path} has [{TABLE}], but this Python cannot read TOML. Use Python 3.11 or "
+                "newer, or install tomli."
+            ) from None
+    try:
+        data = toml.loads(text)
+    except ValueError as error:
+        raise ConfigurationError(f"{path} is not TOML: {error}") from None
+    return data.get("tool", {}).get("aegis-ot")
+
+
+def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
+    """Check a parsed table.
+
+    Raises:
+        ConfigurationError: A key is unknown or of the wrong kind, with its name.
+    """
+    reader = _Reader(name)
+    if not isinstance(table, Mapping):
+        raise ConfigurationError(f"{name}: [{TABLE}] must be a table.")
+    known = {
+        "assay", "select", "ignore", "rules", "labware", "baseline", "timeout", "severity",
+        "waivers",
+    }  # fmt: skip
+    for key in table:
+        if key not in known:
+            raise ConfigurationError(
+                f"{name}: [{TABLE}] has no key {key!r}; known are {', '.join(sorted(known))}."
+            )
+    timeout = table.get("timeout")
+    if timeout is not None and (isinstance(timeout, bool) or not isinstance(timeout, (int, float))):
+        raise ConfigurationError(f"{name}: {TABLE}.timeout: expected a number of seconds.")
+    if timeout is not None and timeout <= 0:
+        raise ConfigurationError(f"{name}: {TABLE}.timeout: must be greater than 0.")
+    severity = table.get("severity", {})
+    if not isinstance(severity, Mapping):
+        raise ConfigurationError(f"{name}: {TABLE}.severity: expected a table of rules.")
+    for rule, value in severity.items():
+        if value not in ("error", "warning", "off"):
+            raise ConfigurationError(
+                f"{name}: {TABLE}.severity.{rule}: expected error, warning or off, found {value!r}."
+            )
+    baseline = table.get("baseline")
+    if baseline is not None and not isinstance(baseline, str):
+        raise ConfigurationError(f"{name}: {TABLE}.baseline: expected a path.")
+    return Configuration(
+        assay=reader.texts(table, "assay"),
+        select=reader.rules(table, "select"),
+        ignore=reader.rules(table, "ignore"),
+        rules=tuple(str(folder / item) for item in reader.texts(table, "rules")),
+        labware=tuple(str(folder / item) for item in reader.texts(table, "labware")),
+        baseline=None if baseline is None else str(folder / baseline),
+        timeout=None if timeout is None else float(timeout),
+        severity={str(rule).upper(): value for rule, value in severity.items()},
+        waivers=reader.waivers(table.get("waivers", [])),
+        folder=folder,
+    )
+
+
+class _Reader:
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def texts(self, table: Mapping[str, Any], key: str, place: str = TABLE) -> tuple[str, ...]:
+        value = table.get(key, ())
+        if isinstance(value, str):
+            return (value,)
+        if not isinstance(value, (list, tuple)) or not all(isinstance(v, str) for v in value):
+            raise ConfigurationError(f"{self._name}: {place}.{key}: expected a list of texts.")
+        return tuple(value)
+
+    def rules(self, table: Mapping[str, Any], key: str, place: str = TABLE) -> tuple[str, ...]:
+        return tuple(rule.upper() for rule in self.texts(table, key, place))
+
+    def waivers(self, items: Any) -> tuple[ConfiguredWaiver, ...]:
+        if not isinstance(items, Sequence) or isinstance(items, str):
+            raise ConfigurationError(
+                f"{self._name}: {TABLE}.waivers: write each as [[{TABLE}.waivers]]."
+            )
+        waivers = []
+        for number, item in enumerate(items, start=1):
+            place = f"{TABLE}.waivers {number}"
+            if not isinstance(item, Mapping) or set(item) - {"rules", "rule", "files", "reason"}:
+                raise ConfigurationError(
+                    f"{self._name}: {place}: expected rules, files and reason."
+                )
+            rules = self.rules(item, "rules", place) or self.rules(item, "rule", place)
+            reason = item.get("reason")
+            if not rules:
+                raise ConfigurationError(f"{self._name}: {place}: names no rules.")
+            if not isinstance(reason, str) or not reason.strip():
+                raise ConfigurationError(
+                    f"{self._name}: {place}: gives no reason for waiving {', '.join(rules)}."
+                )
+            waivers.append(
+                ConfiguredWaiver(rules, reason.strip(), self.texts(item, "files", place))
+            )
+        return tuple(waivers)

@@ -1,0 +1,122 @@
+"""Reads what the user names on the command line: protocols, labware, values."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..errors import ConfigurationError
+
+
+def read_protocol(path: Path) -> str:
+    """The text of a protocol file.
+
+    Raises:
+        ConfigurationError: It cannot be a Python protocol; the message does not name the file.
+    """
+    if path.is_dir():
+        raise ConfigurationError(f"is a folder; name the protocols in it: {path}/*.py")
+    if path.suffix.lower() == ".json":
+        raise ConfigurationError("is a JSON file; only Python protocols can be rehearsed.")
+    if path.suffix.lower() == ".zip":
+        raise ConfigurationError("is a bundle; unpack it and check the protocol inside.")
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise ConfigurationError("there is no such file.") from None
+    except OSError as error:
+        raise ConfigurationError(f"cannot be read: {error.strerror}.") from None
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise ConfigurationError(f"is not UTF-8 text (byte {error.start}).") from None
+    if "\0" in text:
+        raise ConfigurationError("is a binary file, not a Python protocol.")
+    if not text.strip():
+        raise ConfigurationError("is empty.")
+    return text
+
+
+def read_values(items: Sequence[str]) -> dict[str, Any]:
+    """Runtime parameters as ``NAME=VALUE``; a value is JSON where it is JSON, else text.
+
+    Python's ``True`` and ``False`` are taken as well.
+
+    Raises:
+        ConfigurationError: One has no name or no ``=``, or a name comes twice.
+    """
+    values: dict[str, Any] = {}
+    for name, value in _pairs("--parameter", "NAME=VALUE", items):
+        try:
+            values[name] = (
+                {"True": True, "False": False}.get(value)
+                if value
+                in (
+                    "True",
+                    "False",
+                )
+                else json.loads(value)
+            )
+        except ValueError:
+            values[name] = value
+    return values
+
+
+def read_csv_paths(items: Sequence[str]) -> dict[str, Path]:
+    """Files for CSV runtime parameters, as ``NAME=PATH``.
+
+    Raises:
+        ConfigurationError: One is not written so, or there is no such file.
+    """
+    paths = {}
+    for name, value in _pairs("--csv", "NAME=PATH", items):
+        path = Path(value)
+        if not path.is_file():
+            raise ConfigurationError(f"--csv {name}: there is no file {value}.")
+        paths[name] = path
+    return paths
+
+
+def _pairs(option: str, shape: str, items: Sequence[str]) -> list[tuple[str, str]]:
+    pairs = []
+    for item in items:
+        name, equals, value = item.partition("=")
+        if not equals or not name.strip():
+            raise ConfigurationError(f"{option} {item!r}: write it as {shape}.")
+        pairs.append((name.strip(), value))
+    names = [name for name, _ in pairs]
+    for name in names:
+        if names.count(name) > 1:
+            raise ConfigurationError(f"{option} {name}: given twice.")
+    return pairs
+
+
+def read_labware(places: Sequence[Path]) -> dict[str, Mapping[str, Any]]:
+    """Custom labware definitions, by URI.
+
+    Args:
+        places: Files, or folders that are searched for ``*.json``.
+
+    Raises:
+        ConfigurationError: There is none, or one is no labware definition.
+    """
+    found: dict[str, Mapping[str, Any]] = {}
+    for place in places:
+        files = sorted(place.rglob("*.json")) if place.is_dir() else [place]
+        if not files:
+            raise ConfigurationError(f"--labware {place}: the folder holds no *.json.")
+        for file in files:
+            try:
+                definition = json.loads(file.read_text(encoding="utf-8"))
+                name = definition["parameters"]["loadName"]
+                uri = f"{definition['namespace']}/{name}/{definition['version']}"
+            except OSError as error:
+                raise ConfigurationError(f"--labware {file}: {error.strerror}.") from None
+            except (ValueError, KeyError, TypeError):
+                raise ConfigurationError(
+                    f"--labware {file}: this is no Opentrons labware definition."
+                ) from None
+            found[uri] = definition
+    return found

@@ -1,0 +1,168 @@
+"""This side of the rehearsing process: starts it, asks it, ends it when it hangs."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from ..errors import RehearsalError
+from .child import GRACE_S, Answer, Link
+from .result import Problem
+from .tasks import Task
+
+_MAIN = """import os, sys
+sys.path[:] = sys.argv.pop(1).split(os.pathsep)
+from aegis_ot.checking.child import main
+main()"""
+# Not `-m`: that puts the working folder first, where a json.py of the user's may lie.
+
+_START_S = 180.0
+"""Longest wait for opentrons to be loaded; slow on a busy machine with a cold disk."""
+
+
+class TaskFailed(Exception):
+    """A task has no result; :attr:`problem` says why."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(problem.message)
+        self.problem = problem
+
+
+class Rehearser:
+    """Performs tasks in another process, replaced whenever it had to be ended.
+
+    Args:
+        rules: Paths of further rules, loaded ahead.
+    """
+
+    def __init__(self, rules: Sequence[str] = ()) -> None:
+        self._rules = tuple(rules)
+        self._process: subprocess.Popen[bytes] | None = None
+        self._link: Link | None = None
+        folder = tempfile.mkdtemp(prefix="aegis-ot-")
+        self._folder = Path(folder)
+        self._stacks = self._folder / "stacks"
+
+    def __enter__(self) -> Rehearser:
+        self._start()
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self._end()
+        self._stacks.unlink(missing_ok=True)
+        self._folder.rmdir()
+
+    def perform(self, task: Task) -> Any:
+        """Do a task and return its result.
+
+        Raises:
+            TaskFailed: It raised, did not end in time, or took its process with it.
+        """
+        if self._process is None:
+            self._start()
+        answer = self._ask(task, task.timeout_s + GRACE_S)
+        if answer is None:
+            line = self._line(task)
+            message = f"did not end within {task.timeout_s:g} s of rehearsal."
+            raise TaskFailed(Problem(message, line))
+        if answer.died:
+            message = f"the protocol ended the Python process ({answer.died})."
+            raise TaskFailed(Problem(message, self._line(task)))
+        if answer.problem is not None:
+            raise TaskFailed(answer.problem)
+        return answer.value
+
+    def _start(self) -> None:
+        path = os.pathsep.join(filter(None, sys.path))
+        self._process = subprocess.Popen(
+            [sys.executable, "-c", _MAIN, path, str(self._stacks), *self._rules],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            start_new_session=True,
+        )
+        assert self._process.stdin
+        assert self._process.stdout
+        self._link = Link(self._process.stdout, self._process.stdin)
+        ready = self._ask(None, _START_S)
+        if ready is None or ready.value != "ready":
+            raise RehearsalError(
+                "The rehearsing process does not start"
+                f"{': ' + ready.problem.message if ready and ready.problem else ''}. "
+                "Rehearsing needs opentrons; install it with: pip install 'aegis-ot[ot2]'."
+            )
+
+    def _ask(self, task: Task | None, limit_s: float) -> Answer | None:
+        """Send a task and wait for its answer; ``None`` when it had to be ended."""
+        assert self._link is not None
+        assert self._process is not None
+        overdue = threading.Event()
+        process = self._process
+
+        def end() -> None:
+            overdue.set()
+            _kill(process)
+
+        timer = threading.Timer(limit_s, end)
+        timer.daemon = True
+        timer.start()
+        try:
+            if task is not None:
+                self._link.send(task)
+            answer = self._link.receive()
+        except (EOFError, OSError):
+            answer = None
+        finally:
+            timer.cancel()
+        if answer is None or overdue.is_set():
+            code = self._end()
+            if not overdue.is_set():
+                return Answer(died=f"exit status {code}")
+            return None
+        assert isinstance(answer, Answer)
+        return answer
+
+    def _end(self) -> int:
+        process, link = self._process, self._link
+        self._process = self._link = None
+        if process is None or link is None:
+            return 0
+        _kill(process)
+        link.close()
+        if process.stderr:
+            process.stderr.close()
+        return process.wait()
+
+    def _line(self, task: Task) -> int | None:
+        """The innermost line of the protocol at the moment of its death."""
+        try:
+            text = self._stacks.read_text(encoding="utf-8", errors="replace")
+        except OSError:
+            return None
+        found = re.search(rf'File "{re.escape(task.file_name)}", line (\d+)', text)
+        return int(found[1]) if found else None
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    """End a process and all that it started."""
+    try:
+        if os.name == "posix":
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
+    except (ProcessLookupError, PermissionError):
+        pass

@@ -1,0 +1,162 @@
+"""What checking yields: one record per protocol file, and the run over all of them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..preflight import Database, Report
+from ..preflight.judge import RoleEvidence
+from ..preflight.waivers import Waived
+from ..vocabulary import Finding, Severity, Undecided, VerdictWord
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Why a protocol could not be judged.
+
+    Attributes:
+        message: One sentence for people, without file name and line.
+        line: 1-based source line at which it stopped, if known.
+    """
+
+    message: str
+    line: int | None = None
+
+
+@dataclass(frozen=True)
+class Broken:
+    """A rule that some values of the runtime parameters break.
+
+    Attributes:
+        rule: Rule identifier.
+        values: The values that break it, in words: ``"columns=12"``.
+        runs: How many of the rehearsals broke it.
+    """
+
+    rule: str
+    values: str
+    runs: int
+
+
+@dataclass(frozen=True)
+class Exploration:
+    """What ``--all-parameters`` tried.
+
+    Attributes:
+        runs: Rehearsals made.
+        combinations: All combinations of the values considered.
+        parameters: Values considered, by variable name.
+        broken: Rules that some values break.
+        failures: Values that cannot be rehearsed, and why.
+        not_varied: Parameters that were left at their default, and why.
+    """
+
+    runs: int
+    combinations: int
+    parameters: Mapping[str, tuple[Any, ...]]
+    broken: tuple[Broken, ...] = ()
+    failures: tuple[tuple[str, Problem], ...] = ()
+    not_varied: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class CheckedProtocol:
+    """One protocol file, checked.
+
+    Attributes:
+        file: The path as the user gave it, with forward slashes.
+        report: What Layer 1 found; ``None`` if the protocol could not be judged.
+        problem: Why not.
+        lines: Source lines, as far as the file could be read.
+        seconds: Rehearsal and judgement, s.
+        baselined: Findings that the baseline file lists.
+        notes: Remarks on waivers and baseline beyond the report's own.
+        exploration: What ``--all-parameters`` tried.
+    """
+
+    file: str
+    report: Report | None = None
+    problem: Problem | None = None
+    lines: tuple[str, ...] = ()
+    seconds: float = 0.0
+    baselined: tuple[Finding, ...] = ()
+    extra_notes: tuple[str, ...] = ()
+    exploration: Exploration | None = None
+
+    @property
+    def verdict(self) -> VerdictWord:
+        """``error`` where it could not be judged, or not with all values of its parameters."""
+        if self.report is None or (self.exploration and self.exploration.failures):
+            return VerdictWord.ERROR
+        return self.report.verdict
+
+    @property
+    def family(self) -> str:
+        """The likeliest assay family, ``""`` if the protocol could not be judged."""
+        return self.report.family if self.report else ""
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Findings that stand."""
+        return self.report.findings if self.report else ()
+
+    @property
+    def undecided(self) -> tuple[Undecided, ...]:
+        """Rules that could not be judged."""
+        return self.report.undecided if self.report else ()
+
+    @property
+    def waived(self) -> tuple[Waived, ...]:
+        """Findings that a waiver covers."""
+        return self.report.waived if self.report else ()
+
+    @property
+    def roles(self) -> tuple[RoleEvidence, ...]:
+        """Roles of wells, with evidence."""
+        return self.report.roles if self.report else ()
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Stale waivers, conflicting evidence, and the like."""
+        return (*(self.report.notes if self.report else ()), *self.extra_notes)
+
+
+@dataclass(frozen=True)
+class CheckRun:
+    """All protocols of one call, with the rules that judged them.
+
+    Attributes:
+        protocols: In the order given.
+        database: The rules in force.
+        version: Of this package.
+        explain_roles: Whether roles and their evidence are to be shown.
+    """
+
+    protocols: Sequence[CheckedProtocol]
+    database: Database
+    version: str
+    explain_roles: bool = field(default=False)
+
+    @property
+    def exit_code(self) -> int:
+        """0 clean, 1 findings, 2 a protocol could not be judged."""
+        if any(checked.verdict is VerdictWord.ERROR for checked in self.protocols):
+            return 2
+        return 1 if any(checked.findings for checked in self.protocols) else 0
+
+
+def verdict_of(findings: Sequence[Finding]) -> VerdictWord:
+    """``fail`` with any error, ``warn`` with warnings only, ``pass`` otherwise."""
+    if any(finding.severity is Severity.ERROR for finding in findings):
+        return VerdictWord.FAIL
+    return VerdictWord.WARN if findings else VerdictWord.PASS
+
+
+def with_findings(report: Report, findings: Sequence[Finding], **changes: Any) -> Report:
+    """A report with other findings and the verdict that follows from them."""
+    return dataclasses.replace(
+        report, findings=tuple(findings), verdict=verdict_of(findings), **changes
+    )

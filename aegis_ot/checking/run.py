@@ -1,0 +1,184 @@
+"""Checks many protocol files, each rehearsed in a process of its own."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from .. import __version__
+from ..errors import ConfigurationError
+from ..preflight import Database, Options, Report
+from ..preflight.script import Script
+from ..vocabulary import Finding
+from .baseline import Baseline
+from .configuration import ConfiguredWaiver
+from .exploring import explore
+from .files import read_protocol
+from .guard_arguments import guard_arguments
+from .rehearser import Rehearser, TaskFailed
+from .result import CheckedProtocol, CheckRun, Problem, with_findings
+from .tasks import Check, api_level_line
+from .waiving import waive
+
+
+@dataclass(frozen=True)
+class CheckSettings:
+    """How to check.
+
+    Attributes:
+        options: How to judge; what a guard in a protocol says fills what they leave open.
+        rules: Files or folders of further rules.
+        parameters: Values for runtime parameters.
+        csv_parameters: Files for CSV runtime parameters.
+        labware: Custom labware definitions, by URI.
+        timeout_s: Longest rehearsal of one protocol, s.
+        all_parameters: Whether to try all values of runtime parameters.
+        waivers: Of the project's configuration.
+        waiver_root: Folder that the waivers' file patterns are relative to.
+        baseline: Findings known of old.
+        explain_roles: Whether the reports are to show roles.
+    """
+
+    options: Options = field(default_factory=Options)
+    rules: tuple[str, ...] = ()
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    csv_parameters: Mapping[str, Path] = field(default_factory=dict)
+    labware: Mapping[str, Any] = field(default_factory=dict)
+    timeout_s: float = 120.0
+    all_parameters: bool = False
+    waivers: tuple[ConfiguredWaiver, ...] = ()
+    waiver_root: Path = field(default_factory=Path)
+    baseline: Baseline | None = None
+    explain_roles: bool = False
+
+
+def check_files(
+    files: Sequence[Path],
+    settings: CheckSettings,
+    database: Database,
+    done: Callable[[CheckedProtocol], None] = lambda checked: None,
+) -> CheckRun:
+    """Check protocol files one after another. A bad one does not keep the others from it.
+
+    Args:
+        files: Protocol files.
+        settings: How to check.
+        database: The rules in force, with ``settings.rules``.
+        done: Told of each file when it is done.
+
+    Raises:
+        RehearsalError: The rehearsing process cannot be started.
+    """
+    protocols = []
+    with _Rehearsers(settings.rules) as rehearsers:
+        for file in files:
+            checked = _check_file(file, settings, database, rehearsers)
+            protocols.append(checked)
+            done(checked)
+    return CheckRun(tuple(protocols), database, __version__, settings.explain_roles)
+
+
+class _Rehearsers:
+    """A rehearser that is started when the first readable file needs it."""
+
+    def __init__(self, rules: tuple[str, ...]) -> None:
+        self._rules = rules
+        self._rehearser: Rehearser | None = None
+
+    def __enter__(self) -> _Rehearsers:
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        if self._rehearser is not None:
+            self._rehearser.__exit__(*error)
+
+    def get(self) -> Rehearser:
+        if self._rehearser is None:
+            self._rehearser = Rehearser(self._rules).__enter__()
+        return self._rehearser
+
+
+def _check_file(
+    file: Path, settings: CheckSettings, database: Database, rehearsers: _Rehearsers
+) -> CheckedProtocol:
+    name = file.as_posix()
+    try:
+        text = read_protocol(file)
+    except ConfigurationError as error:
+        return CheckedProtocol(name, problem=Problem(str(error)))
+    lines = tuple(text.splitlines())
+    script = Script(
+        text=text,
+        file_name=file.name,
+        parameters=settings.parameters,
+        csv_parameters=settings.csv_parameters,
+        extra_labware=settings.labware,
+    )
+    rehearser = rehearsers.get()
+    options = options_for(text, settings.options)
+    start = time.monotonic()
+    try:
+        report: Report = rehearser.perform(
+            Check(script, options, settings.rules, settings.timeout_s)
+        )
+        exploration = None
+        if settings.all_parameters:
+            report, exploration = explore(
+                rehearser, script, options, settings.rules, settings.timeout_s, report
+            )
+    except TaskFailed as failed:
+        problem = failed.problem
+        if problem.line is None and "API" in problem.message:
+            problem = Problem(problem.message, api_level_line(text))
+        seconds = time.monotonic() - start
+        return CheckedProtocol(name, problem=problem, lines=lines, seconds=seconds)
+    checked = CheckedProtocol(
+        name,
+        report=report,
+        lines=lines,
+        seconds=time.monotonic() - start,
+        exploration=exploration,
+    )
+    return _settle(checked, report, settings)
+
+
+def options_for(text: str, options: Options) -> Options:
+    """What the command line leaves open, the guard inside the protocol may say."""
+    said = guard_arguments(text)
+    assay, roles = said.get("assay"), said.get("roles")
+    changes: dict[str, Any] = {}
+    if assay and not options.assay:
+        changes["assay"] = (assay,) if isinstance(assay, str) else tuple(assay)
+    if isinstance(roles, dict):
+        given = {r: (p,) if isinstance(p, str) else tuple(p) for r, p in roles.items()}
+        changes["roles"] = {**given, **options.roles}
+    if said.get("select") and not options.select:
+        changes["select"] = tuple(said["select"])
+    if said.get("ignore"):
+        changes["ignore"] = (*options.ignore, *said["ignore"])
+    return dataclasses.replace(options, **changes) if changes else options
+
+
+def _settle(checked: CheckedProtocol, report: Report, settings: CheckSettings) -> CheckedProtocol:
+    """Apply what the project has waived or put off."""
+    standing, waived, notes = waive(
+        checked.file, report.findings, settings.waivers, settings.waiver_root
+    )
+    known: list[Finding] = []
+    if settings.baseline is not None:
+        standing, known, gone = settings.baseline.split(checked.file, standing, checked.lines)
+        if gone:
+            notes.append(
+                f"The baseline lists {gone} finding{'s' if gone > 1 else ''} that no longer "
+                "occur here; write it anew."
+            )
+    return dataclasses.replace(
+        checked,
+        report=with_findings(report, standing, waived=(*report.waived, *waived)),
+        baselined=tuple(known),
+        extra_notes=tuple(notes),
+    )

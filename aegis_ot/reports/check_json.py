@@ -1,0 +1,93 @@
+"""Checked protocols as JSON, for programs.
+
+::
+
+    {"protocols": [{"file", "family", "verdict": "pass|warn|fail|error",
+                    "findings": [{"rule", "severity", "wells", "lines", "message", "fix"}],
+                    "undecided": [{"rule", "reason"}]}]}
+
+Wells are ``slot:well``. A protocol has further keys only where there is something to say:
+``error`` (``message``, ``line``) where it could not be judged, ``waived``, ``baselined``,
+``notes``, ``parameters`` and, on request, ``families`` and ``roles``.
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from ..checking import CheckedProtocol, CheckRun, Exploration
+from ..vocabulary import Finding
+
+
+def check_json(run: CheckRun) -> str:
+    """Render as JSON text."""
+    data = {"protocols": [protocol_values(c, run.explain_roles) for c in run.protocols]}
+    return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+
+
+def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> dict[str, Any]:
+    """One protocol as plain values."""
+    values: dict[str, Any] = {
+        "file": checked.file,
+        "family": checked.family,
+        "verdict": checked.verdict.value,
+        "findings": [_finding(finding) for finding in checked.findings],
+        "undecided": [{"rule": u.rule, "reason": u.reason} for u in checked.undecided],
+    }
+    if checked.problem is not None:
+        values["error"] = {"message": checked.problem.message, "line": checked.problem.line}
+    if checked.waived:
+        values["waived"] = [
+            {**_finding(w.finding), "reason": w.waiver.reason} for w in checked.waived
+        ]
+    if checked.baselined:
+        values["baselined"] = [_finding(finding) for finding in checked.baselined]
+    if checked.notes:
+        values["notes"] = list(checked.notes)
+    if checked.exploration is not None:
+        values["parameters"] = _exploration(checked.exploration)
+    if explain_roles and checked.report is not None:
+        values["families"] = [
+            {"family": i.family, "confidence": i.confidence, "reasons": list(i.reasons)}
+            for i in checked.report.families
+        ]
+        values["roles"] = [
+            {
+                "well": role.well.address,
+                "family": role.family,
+                "role": role.role,
+                "level": role.level,
+                "evidence": list(role.evidence),
+                "conflict": role.conflict,
+            }
+            for role in checked.roles
+        ]
+    return values
+
+
+def _finding(finding: Finding) -> dict[str, Any]:
+    return {
+        "rule": finding.rule,
+        "severity": finding.severity.value,
+        "wells": [well.address for well in finding.wells],
+        "lines": list(finding.lines),
+        "message": finding.message,
+        "fix": finding.fix,
+    }
+
+
+def _exploration(exploration: Exploration) -> dict[str, Any]:
+    return {
+        "runs": exploration.runs,
+        "combinations": exploration.combinations,
+        "tried": {name: list(values) for name, values in exploration.parameters.items()},
+        "broken": [
+            {"rule": b.rule, "values": b.values, "runs": b.runs} for b in exploration.broken
+        ],
+        "failures": [
+            {"values": values, "message": problem.message, "line": problem.line}
+            for values, problem in exploration.failures
+        ],
+        "not_varied": list(exploration.not_varied),
+    }

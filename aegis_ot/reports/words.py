@@ -1,0 +1,74 @@
+"""Small words that several renderers share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ..checking import CheckedProtocol, CheckRun
+from ..vocabulary import Finding, Severity, Site, VerdictWord, WellRef
+
+
+def counted(number: int, singular: str, plural: str = "") -> str:
+    """``1 finding``, ``2 findings``."""
+    return f"{number} {singular if number == 1 else plural or singular + 's'}"
+
+
+def listed_wells(wells: Iterable[WellRef], at_most: int = 8) -> str:
+    """Addresses, the first few of many."""
+    addresses = list(dict.fromkeys(well.address for well in wells))
+    return listed(addresses, at_most)
+
+
+def listed(items: Sequence[str], at_most: int = 8) -> str:
+    """``a, b and 3 more``."""
+    if len(items) <= at_most:
+        return ", ".join(items)
+    return f"{', '.join(items[:at_most])} and {len(items) - at_most} more"
+
+
+def summary_line(run: CheckRun) -> str:
+    """What came of all files together, in one line."""
+    words = [checked.verdict for checked in run.protocols]
+    parts = [
+        counted(words.count(VerdictWord.PASS), "passed", "passed"),
+        counted(words.count(VerdictWord.WARN), "warned", "warned"),
+        counted(words.count(VerdictWord.FAIL), "failed", "failed"),
+    ]
+    broken = words.count(VerdictWord.ERROR)
+    if broken:
+        parts.append(f"{broken} could not be judged")
+    findings = [finding for checked in run.protocols for finding in checked.findings]
+    errors = sum(finding.severity is Severity.ERROR for finding in findings)
+    told = [counted(errors, "error"), counted(len(findings) - errors, "warning")]
+    undecided = sum(len(checked.undecided) for checked in run.protocols)
+    waived = sum(len(checked.waived) for checked in run.protocols)
+    known = sum(len(checked.baselined) for checked in run.protocols)
+    for number, word in ((undecided, "undecided"), (waived, "waived"), (known, "in the baseline")):
+        if number:
+            told.append(f"{number} {word}")
+    return f"{counted(len(words), 'protocol')}: {', '.join(parts)}; {', '.join(told)}."
+
+
+def sites_by_line(finding: Finding) -> dict[int, list[Site]]:
+    """The sites of a finding that have a line, by line, in their order."""
+    lines: dict[int, list[Site]] = {}
+    for site in finding.sites:
+        if site.line is not None:
+            lines.setdefault(site.line, []).append(site)
+    return lines
+
+
+def site_label(sites: Sequence[Site], at_most: int = 4) -> str:
+    """What was done at one line, and to which wells."""
+    parts = []
+    for action in dict.fromkeys(site.action for site in sites):
+        names = dict.fromkeys(s.well.address for s in sites if s.action == action and s.well)
+        wells = listed(list(names), at_most)
+        told = any(name.rpartition(":")[2] in action.split() for name in names)
+        parts.append(action if told or not wells else f"{action} ({wells})" if action else wells)
+    return "; ".join(part for part in parts if part)
+
+
+def location(checked: CheckedProtocol, line: int | None) -> str:
+    """``file:line``, or the file alone."""
+    return f"{checked.file}:{line}" if line else checked.file
