@@ -3,6 +3,7 @@
 from .axis import rectify
 from .breaks import Break
 from .evidence import Dye, EmptyColour, combine, mean_dye
+from .learning import learn_run, learn_tip
 from .measure import (
     ColumnMeasurement,
     Reference,
@@ -15,7 +16,7 @@ from .measure import (
 )
 from .profile import TipProfile
 from .strip import TipShape
-from .trajectory import RunReference, Signs, TipModel, learn_run, learn_tip, place, weigh
+from .trajectory import RunReference, Signs, TipModel, place, weigh
 
 __all__ = [
     "Break",

@@ -9,9 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .profile import TipProfile
-from .strip import Array
+
+Mask = NDArray[np.bool_]
 
 _FROM_TOP = (0.03, 6.0)
 _FROM_END = (0.06, 9.0)
@@ -62,7 +64,7 @@ def find_break(profile: TipProfile, top: float) -> Break | None:
     return dips if step > _BRIGHT or dips.strength > bars.strength else bars
 
 
-def _brightness_step(profile: TipProfile, top: float, inside: Array) -> float:
+def _brightness_step(profile: TipProfile, top: float, inside: Mask) -> float:
     """How much brighter (log) the column is than the empty tip above it."""
     above = (profile.u < top - 0.04) & (profile.u > top - 0.15)
     if not above.any():
@@ -70,7 +72,7 @@ def _brightness_step(profile: TipProfile, top: float, inside: Array) -> float:
     return float(np.median(profile.brightness[inside]) - np.median(profile.brightness[above]))
 
 
-def _by_brightness(profile: TipProfile, step: float, inside: Array) -> Break:
+def _by_brightness(profile: TipProfile, step: float, inside: Mask) -> Break:
     u, brightness = profile.u, profile.brightness.astype(np.float64)
     rows = np.flatnonzero(inside)
     best = Break(float(u[rows[0]]), float(u[rows[0]]), 0.0, 0.0)
@@ -93,7 +95,7 @@ def _by_brightness(profile: TipProfile, step: float, inside: Array) -> Break:
     return best
 
 
-def _by_menisci(profile: TipProfile, inside: Array) -> Break:
+def _by_menisci(profile: TipProfile, inside: Mask) -> Break:
     """Bars below the topmost one, where the column is not so bright that they mean nothing."""
     u = profile.u
     rows = np.flatnonzero(inside)
@@ -110,7 +112,7 @@ def _widths(profile: TipProfile) -> tuple[int, ...]:
     return tuple(sorted({max(2, round(rows * share)) for share in (0.017, 0.025, 0.035, 0.05)}))
 
 
-def _against_flanks(signal: Array, width: int, spare: int = 1) -> Array:
+def _against_flanks(signal: NDArray[np.float64], width: int, spare: int = 1) -> NDArray[np.float64]:
     """Mean of ``width`` rows less the mean of the rows on both sides of them."""
     flank = max(4, width)
     kernel = np.concatenate(

@@ -22,7 +22,7 @@ from .evidence import (
 from .profile import TipProfile, tip_profile, unroll
 from .strip import SHAPES, Array, TipShape
 
-_SHORTEST = (0.06, 9.0)
+_SHORTEST = (0.08, 9.0)
 """Shortest column that is looked for, tip lengths and px: the orifice's own rim glints."""
 
 
@@ -39,7 +39,7 @@ class Reference:
     """
 
     dye: Dye | None = None
-    empty: EmptyColour = EmptyColour()
+    empty: EmptyColour = field(default_factory=EmptyColour)
     height_scale: float = 1.0
     height_sd: float = 0.08
 
@@ -206,9 +206,9 @@ def column_evidence(profile: TipProfile, tip: TipGeometry, reference: Reference)
     """Ratio from colour and edges for a column that ends at each row."""
     start = ceiling(tip)
     lowest = 1.0 - max(_SHORTEST[0], _SHORTEST[1] / max(profile.length, 1.0))
-    ratio = colour_evidence(
-        profile, reference.dye, reference.empty, top=start
-    ) + edge_evidence(profile)
+    ratio = colour_evidence(profile, reference.dye, reference.empty, top=start) + edge_evidence(
+        profile
+    )
     possible = (profile.u > start + 0.02) & (profile.u < lowest)
     return np.where(possible, ratio, IMPOSSIBLE).astype(np.float32)
 

@@ -124,9 +124,7 @@ def _bar(luminance: Array, background: Array, u: Array) -> Array:
 
     def peak(rows: Array) -> Array:
         smooth = cv2.GaussianBlur(rows, (1, 7), 0, sigmaY=1.2, borderType=cv2.BORDER_REPLICATE)
-        around = cv2.filter2D(
-            rows, cv2.CV_32F, surround[:, None], borderType=cv2.BORDER_REPLICATE
-        )
+        around = cv2.filter2D(rows, cv2.CV_32F, surround[:, None], borderType=cv2.BORDER_REPLICATE)
         return np.asarray(smooth - around, dtype=np.float32)
 
     lanes = np.sort(peak(luminance[:, _INSIDE].astype(np.float32)), axis=1)

@@ -7,7 +7,7 @@ same height, so their evidence adds up and a glint in one of them does not count
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -19,14 +19,11 @@ from .evidence import (
     Dye,
     EmptyColour,
     combine,
-    long_step,
     mean_dye,
-    step_evidence,
 )
 from .measure import (
     ColumnMeasurement,
     Reference,
-    ceiling,
     column_evidence,
     dye_at,
     expected_top,
@@ -44,14 +41,10 @@ Volumes = Mapping[KeyframeKind, float]
 _SEARCH = 0.05
 """Standard deviation of where a column is looked for around where it should end, u."""
 
-_SEEN = 3.0
+SEEN = 3.0
 """Log-likelihood ratio from which the end of a loaded column counts as seen."""
 
-_SD = (0.004, 0.02)
-"""Standard deviation of an empty tip's colour step: what a few dozen frames can prove, and what
-still tells anything."""
-
-_NEAR = 0.06
+NEAR = 0.06
 """A meniscus this close to its expected place is the expected one, u."""
 
 
@@ -73,7 +66,7 @@ class TipModel:
     spread: Mapping[KeyframeKind, float] = field(
         default_factory=lambda: dict.fromkeys(KeyframeKind, 0.03)
     )
-    empty: EmptyColour = EmptyColour()
+    empty: EmptyColour = field(default_factory=EmptyColour)
 
 
 @dataclass(frozen=True)
@@ -141,7 +134,7 @@ def weigh(
         known = dye if kind is KeyframeKind.TRANSIT and _coloured(dye) else None
         found = read_column(looks[kind], tip, volume, _reference(model, known))
         measured[kind] = found
-        if found.presence > _SEEN:
+        if found.presence > SEEN:
             misfill[kind] = found.top - place(kind, volume, tip, model, run)
         if found.presence > 0:
             gap[kind] = found.gap.strength if found.gap is not None else 0.0
@@ -163,89 +156,9 @@ def place(
     return top + model.offset.get(kind, 0.0) + run.shift.get(kind, 0.0)
 
 
-def learn_run(signs: Sequence[Signs], model: TipModel) -> RunReference:
-    """What a run's own normal wells teach, shrunk towards the tip model."""
-    dyes = tuple(sign.own_dye for sign in signs if sign.own_dye is not None)
-    shift: dict[KeyframeKind, float] = {}
-    for kind in LOADED:
-        seen = [s.misfill[kind] for s in signs if abs(s.misfill.get(kind, 1.0)) < _NEAR]
-        if seen:
-            # One reading is about as uncertain as plates differ, so the prior counts as half
-            # a well.
-            shift[kind] = float(np.median(seen)) * len(seen) / (len(seen) + 0.5)
-    return RunReference(dyes, shift)
-
-
-def learn_tip(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry) -> TipModel:
-    """Fit the tip model of one tip class on normal trajectories.
-
-    The height scale is voted for by every loaded frame, so that frames in which the meniscus
-    cannot be seen do no harm; then each keyframe gets its own offset and spread.
-    """
-    scales = np.arange(0.4, 1.3, 0.005)
-    votes = np.zeros(len(scales))
-    loaded = [
-        (kind, looks[kind], volumes[kind])
-        for looks, volumes in trajectories
-        for kind in LOADED
-        if kind in looks and volumes.get(kind, 0.0) > 0
-    ]
-    empty = _empty_colour(trajectories, tip)
-    blind = Reference(empty=empty)
-    for _, look, volume in loaded:
-        evidence = np.clip(column_evidence(look, tip, blind) + step_evidence(look), 0.0, 15.0)
-        kernel = np.exp(-0.5 * (np.arange(-4, 5) / 1.5) ** 2)
-        smooth = np.convolve(evidence, kernel / kernel.sum(), mode="same")
-        height = tip.height_of(volume) / tip.length_mm
-        votes += np.interp(1.0 - scales * height, look.u, smooth)
-    if not loaded or votes.max() <= 0:
-        return TipModel(empty=empty)
-    scale = float(scales[int(np.argmax(votes))])
-    reference = Reference(empty=empty, height_scale=scale, height_sd=0.03)
-    offset, spread = dict.fromkeys(KeyframeKind, 0.0), dict.fromkeys(KeyframeKind, 0.03)
-    for wanted in LOADED:
-        misses = []
-        for kind, look, volume in loaded:
-            found = read_column(look, tip, volume, reference) if kind is wanted else None
-            if found is not None and found.presence > _SEEN:
-                misses.append(found.top - expected_top(tip, volume, reference))
-        near = np.array([miss for miss in misses if abs(miss) < _NEAR])
-        if len(near) >= 4:
-            offset[wanted] = float(np.median(near))
-            deviation = 1.48 * float(np.median(np.abs(near - offset[wanted])))
-            spread[wanted] = float(np.clip(deviation, 0.008, 0.05))
-    return TipModel(scale, offset, spread, empty)
-
-
 def _coloured(dye: Dye | None) -> bool:
     """Whether the reagent is known to have a colour that a tip shows."""
     return dye is not None and float(np.hypot(dye.red, dye.blue)) > max(4 * dye.sd, 0.02)
-
-
-def _empty_colour(
-    trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry
-) -> EmptyColour:
-    """Colour steps along tips that were emptied."""
-    steps = [
-        [
-            float(np.median(step.size[(step.sd < np.inf) & (np.abs(look.u - 0.75) < 0.12)]))
-            for step in (
-                long_step(look.u, look.colour[:, i], ceiling(tip), 0.97) for i in (0, 1)
-            )
-        ]
-        for looks, volumes in trajectories
-        for kind, look in looks.items()
-        if kind in DELIVERED and volumes.get(kind, 0.0) <= 0
-    ]
-    if len(steps) < 6:
-        return EmptyColour()
-    (red, blue), (red_sd, blue_sd) = (
-        np.median(steps, axis=0),
-        1.48 * np.median(np.abs(steps - np.median(steps, axis=0)), axis=0),
-    )
-    return EmptyColour(
-        float(red), float(blue), float(np.clip(red_sd, *_SD)), float(np.clip(blue_sd, *_SD))
-    )
 
 
 def _reference(model: TipModel, dye: Dye | None) -> Reference:
@@ -281,19 +194,19 @@ def _retained(
     if not seen:
         return None, 1.0
     parts = [column_evidence(looks[k], tip, _reference(model, dye)) for k in seen]
-    joint = combine(*parts) if len(parts) == 2 else parts[0]
+    joint = combine(parts[0], parts[1]) if len(parts) == 2 else parts[0]
     u = looks[seen[-1]].u
     # No more than was drawn can be left; a little more where a failure accumulates.
     full = max((expected.get(kind, 0.0) for kind in LOADED), default=0.0)
     if full > 0:
-        highest = place(KeyframeKind.TRANSIT, full, tip, model, run) - _NEAR
+        highest = place(KeyframeKind.TRANSIT, full, tip, model, run) - NEAR
         joint = np.where(u > highest, joint, IMPOSSIBLE)
     due = max(expected.get(kind, 0.0) for kind in seen)
     if due > 0:
         # Some should be left (a multi-dispense): only more than that speaks against it.
         where = place(KeyframeKind.TRANSIT, due, tip, model, run)
-        usual = float(joint[np.abs(u - where) < _NEAR].max(initial=0.0))
-        joint = np.where(u < where - _NEAR, joint - max(usual, 0.0), IMPOSSIBLE)
+        usual = float(joint[np.abs(u - where) < NEAR].max(initial=0.0))
+        joint = np.where(u < where - NEAR, joint - max(usual, 0.0), IMPOSSIBLE)
     row = int(np.argmax(joint))
     return max(float(joint[row]), 0.0), float(u[row])
 
@@ -310,5 +223,5 @@ def _absent(
     look: TipProfile = looks[kind]
     evidence: Array = column_evidence(look, tip, _reference(model, dye))
     where = place(kind, volume, tip, model, run)
-    near = np.abs(look.u - where) < 2 * _NEAR
+    near = np.abs(look.u - where) < 2 * NEAR
     return -float(evidence[near].max(initial=IMPOSSIBLE))

@@ -17,12 +17,16 @@ from ..tips import pipette_class
 from ..types import TrajectorySample
 from .column import ColumnReport, ColumnScorer
 from .patches import PatchesScorer
+from .surprise import alarm_level
 
 NO_TIP = 40.0
 """Score of a trajectory in which no tip is seen when it hangs free."""
 
 _DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 _LEAST_SCALE = 1.0
+
+_OVERLAP = 0.5
+"""Weight of the patches: part of what they see, the column scorer has counted already."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +45,7 @@ class EnsembleReport:
 
 
 class EnsembleScorer:
-    """``-log p`` of column and patches together (Fisher's method: surprises add up).
+    """``-log p`` of column and patches together: surprises add up, as in Fisher's method.
 
     The p-value of a sum x among the normals' sums is conformal within their range,
     ``(1 + #{normals > x}) / (n + 1)``, and follows an exponential tail beyond it. It assumes
@@ -74,7 +78,7 @@ class EnsembleScorer:
                 other = members[(i + 1) % len(members)]
                 self.column.calibrate([other] if other is not sample else [])
                 column = self.column.report(sample).score
-                sums[name].append(column + self.patches.left_out(sample))
+                sums[name].append(column + _OVERLAP * self.patches.left_out(sample))
         self.column.calibrate([])
         self.sums = {name: np.sort(values) for name, values in sums.items()}
 
@@ -93,8 +97,12 @@ class EnsembleScorer:
         """Score and what stands behind it."""
         column = self.column.report(sample)
         patches = self.patches.score(sample)
-        total = column.score + patches
+        total = column.score + _OVERLAP * patches
         return EnsembleReport(self._surprise(total, pipette_class(sample.pipette)), column, patches)
+
+    def alarm_level(self, calibration: Sequence[float]) -> float:
+        """Score above which a well is worth a second look, given those of its first normals."""
+        return alarm_level(calibration)
 
     def p_value(self, sample: TrajectorySample) -> float:
         """How often a normal trajectory scores this high."""
@@ -141,9 +149,7 @@ class EnsembleScorer:
                 for name in model.settings["pipettes"]
             }
         except (KeyError, TypeError, ValueError) as error:
-            raise ModelError(
-                f"the ensemble model lacks or garbles {error}; fit it anew"
-            ) from error
+            raise ModelError(f"the ensemble model lacks or garbles {error}; fit it anew") from error
         return scorer
 
 

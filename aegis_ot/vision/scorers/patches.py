@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 import cv2
@@ -25,7 +26,7 @@ from ..tips import pipette_class, tip_for
 from ..types import TrajectorySample
 from .column import NO_TIP
 from .looks import looks
-from .surprise import Tail, fit_tail
+from .surprise import Tail, alarm_level, fit_tail
 
 ABOVE, BELOW = 8, 16
 """Patches along the tip above the expected meniscus, and below it down to the orifice."""
@@ -128,6 +129,10 @@ class PatchesScorer:
         mean = nearest[: min(_NEIGHBOURS, len(nearest))].mean(axis=0)
         return np.where(np.isfinite(mean), mean, np.nan).astype(np.float32)
 
+    def alarm_level(self, calibration: Sequence[float]) -> float:
+        """Score above which a well is worth a second look, given those of its first normals."""
+        return alarm_level(calibration)
+
     def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
         """Arrays and settings for a model file."""
         arrays: dict[str, NDArray[Any]] = {}
@@ -200,7 +205,7 @@ def _patches(look: TipLook, middle: float) -> Array:
     steep = np.abs(cv2.Sobel(grey, cv2.CV_32F, 0, 1, ksize=3)) / 8.0
     total = np.maximum(cone.sum(axis=2), 6.0)
     red, blue = cone[..., 2] / total, cone[..., 0] / total
-    rows = [np.flatnonzero((u >= a) & (u < b)) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    rows = [np.flatnonzero((u >= a) & (u < b)) for a, b in pairwise(edges)]
     out = np.zeros((len(rows), len(_SIDES), _FEATURES), dtype=np.float32)
     for j, (inner, outer) in enumerate(_SIDES):
         lanes = np.flatnonzero((np.abs(LANES) >= inner) & (np.abs(LANES) < outer))

@@ -1,0 +1,103 @@
+"""What normal trajectories teach: about a tip class, and about the run at hand."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...vocabulary import KeyframeKind
+from ..tips import TipGeometry
+from .evidence import EmptyColour, long_step, step_evidence
+from .measure import Reference, ceiling, column_evidence, expected_top, read_column
+from .trajectory import (
+    DELIVERED,
+    LOADED,
+    NEAR,
+    SEEN,
+    Looks,
+    RunReference,
+    Signs,
+    TipModel,
+    Volumes,
+)
+
+_SD = (0.004, 0.02)
+"""Standard deviation of an empty tip's colour step: what a few dozen frames can prove, and what
+still tells anything."""
+
+
+def learn_run(signs: Sequence[Signs], model: TipModel) -> RunReference:
+    """What a run's own normal wells teach, shrunk towards the tip model."""
+    dyes = tuple(sign.own_dye for sign in signs if sign.own_dye is not None)
+    shift: dict[KeyframeKind, float] = {}
+    for kind in LOADED:
+        seen = [s.misfill[kind] for s in signs if abs(s.misfill.get(kind, 1.0)) < NEAR]
+        if seen:
+            # One reading is about as uncertain as plates differ, so the prior counts as half
+            # a well.
+            shift[kind] = float(np.median(seen)) * len(seen) / (len(seen) + 0.5)
+    return RunReference(dyes, shift)
+
+
+def learn_tip(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry) -> TipModel:
+    """Fit the tip model of one tip class on normal trajectories.
+
+    The height scale is voted for by every loaded frame, so that frames in which the meniscus
+    cannot be seen do no harm; then each keyframe gets its own offset and spread.
+    """
+    scales = np.arange(0.4, 1.3, 0.005)
+    votes = np.zeros(len(scales))
+    loaded = [
+        (kind, looks[kind], volumes[kind])
+        for looks, volumes in trajectories
+        for kind in LOADED
+        if kind in looks and volumes.get(kind, 0.0) > 0
+    ]
+    empty = _empty_colour(trajectories, tip)
+    blind = Reference(empty=empty)
+    for _, look, volume in loaded:
+        evidence = np.clip(column_evidence(look, tip, blind) + step_evidence(look), 0.0, 15.0)
+        kernel = np.exp(-0.5 * (np.arange(-4, 5) / 1.5) ** 2)
+        smooth = np.convolve(evidence, kernel / kernel.sum(), mode="same")
+        height = tip.height_of(volume) / tip.length_mm
+        votes += np.interp(1.0 - scales * height, look.u, smooth)
+    if not loaded or votes.max() <= 0:
+        return TipModel(empty=empty)
+    scale = float(scales[int(np.argmax(votes))])
+    reference = Reference(empty=empty, height_scale=scale, height_sd=0.03)
+    offset, spread = dict.fromkeys(KeyframeKind, 0.0), dict.fromkeys(KeyframeKind, 0.03)
+    for wanted in LOADED:
+        misses = []
+        for kind, look, volume in loaded:
+            found = read_column(look, tip, volume, reference) if kind is wanted else None
+            if found is not None and found.presence > SEEN:
+                misses.append(found.top - expected_top(tip, volume, reference))
+        near = np.array([miss for miss in misses if abs(miss) < NEAR])
+        if len(near) >= 4:
+            offset[wanted] = float(np.median(near))
+            deviation = 1.48 * float(np.median(np.abs(near - offset[wanted])))
+            spread[wanted] = float(np.clip(deviation, 0.008, 0.05))
+    return TipModel(scale, offset, spread, empty)
+
+
+def _empty_colour(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry) -> EmptyColour:
+    """Colour steps along tips that were emptied."""
+    steps = [
+        [
+            float(np.median(step.size[(step.sd < np.inf) & (np.abs(look.u - 0.75) < 0.12)]))
+            for step in (long_step(look.u, look.colour[:, i], ceiling(tip), 0.97) for i in (0, 1))
+        ]
+        for looks, volumes in trajectories
+        for kind, look in looks.items()
+        if kind in DELIVERED and volumes.get(kind, 0.0) <= 0
+    ]
+    if len(steps) < 6:
+        return EmptyColour()
+    (red, blue), (red_sd, blue_sd) = (
+        np.median(steps, axis=0),
+        1.48 * np.median(np.abs(steps - np.median(steps, axis=0)), axis=0),
+    )
+    return EmptyColour(
+        float(red), float(blue), float(np.clip(red_sd, *_SD)), float(np.clip(blue_sd, *_SD))
+    )
