@@ -93,7 +93,7 @@ def check(
         settings = dataclasses.replace(settings, baseline=read_baseline(known))
     run = check_files(_each_once(files), settings, database)
     if write_baseline:
-        _write(write_baseline, baseline_text(write_baseline, run.protocols))
+        write_text(write_baseline, baseline_text(write_baseline, run.protocols))
         count = sum(len(checked.findings) for checked in run.protocols)
         typer.echo(f"{write_baseline}: {count} findings are known from now on.", err=True)
         raise typer.Exit(BROKEN if run.exit_code == BROKEN else CLEAN)
@@ -179,7 +179,7 @@ def _each_once(files: Sequence[Path]) -> list[Path]:
 
 def _show(run: CheckRun, output_format: str, output: Path | None) -> None:
     if output is not None:
-        _write(output, RENDERERS[output_format](run))
+        write_text(output, RENDERERS[output_format](run))
         typer.echo(f"{output_format} report: {output}", err=True)
         return
     if output_format == "text":
@@ -197,7 +197,12 @@ def _colours() -> bool:
     return sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
 
 
-def _write(path: Path, text: str) -> None:
+def write_text(path: Path, text: str) -> None:
+    """Write a file, making its folder.
+
+    Raises:
+        ConfigurationError: It cannot be written.
+    """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
