@@ -1,0 +1,58 @@
+"""The form in which a model answers about a protocol.
+
+Equal for all protocols, so that it stands in the cached prefix; which rules, wells and lines
+exist is checked afterwards (:func:`aegis_ot.preflight.opinion.read_opinion`). Every member is
+required and nothing else allowed: what the strict modes of the services ask for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+
+def _object(**properties: Any) -> dict[str, Any]:
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": list(properties),
+        "additionalProperties": False,
+    }
+
+
+def _list(items: Mapping[str, Any]) -> dict[str, Any]:
+    return {"type": "array", "items": items}
+
+
+_TEXT = {"type": "string"}
+_WELLS = _list(_TEXT)
+
+ANSWER_SCHEMA: dict[str, Any] = _object(
+    family=_TEXT,
+    roles=_list(_object(role=_TEXT, wells=_WELLS, reason=_TEXT)),
+    answers=_list(
+        _object(
+            rule=_TEXT,
+            answer={"type": "string", "enum": ["holds", "violated", "cannot_tell"]},
+            reason=_TEXT,
+        )
+    ),
+    findings=_list(
+        _object(
+            rule=_TEXT,
+            message=_TEXT,
+            wells=_WELLS,
+            lines=_list({"type": "integer"}),
+            why=_TEXT,
+            fix=_TEXT,
+        )
+    ),
+    summary=_TEXT,
+)
+
+BLIND_SCHEMA: dict[str, Any] = _object(
+    family=_TEXT,
+    findings=ANSWER_SCHEMA["properties"]["findings"],
+    summary=_TEXT,
+)
+"""For the configurations that get neither roles nor questions."""

@@ -1,0 +1,124 @@
+"""Builds Layer 1's requests: what is the same for every protocol first, the protocol last.
+
+The protocol and everything derived from its text stands between two markers that carry a hash
+of the source. The source cannot contain them, since it would have to contain its own hash; so
+no comment or string can end the data and begin to speak as the reviewer. Every source line
+starts with its number, which the author cannot leave out either.
+"""
+
+from __future__ import annotations
+
+import hashlib
+
+from ..preflight.dossier import Dossier, rule_text
+from ..preflight.rulefiles import Database
+from .answer import ANSWER_SCHEMA, BLIND_SCHEMA
+from .backend import Message, Passage, Request
+from .prompts_text import prompt
+
+PURPOSE = "layer1"
+
+
+def hybrid_request(dossier: Dossier, database: Database) -> Request:
+    """Rules, API reference, source, trace, roles, open questions."""
+    extra = [brief.text for brief in dossier.rules if brief.text]
+    parts = [
+        _fenced(dossier, [*_source(dossier), *_trace(dossier), *_roles(dossier)]),
+        "\n".join(_asked(dossier)),
+    ]
+    if extra:
+        parts.insert(0, "Rules of this laboratory, beside those above:\n" + "\n".join(extra))
+    return Request(
+        PURPOSE,
+        _system("instructions", rules_text(database)),
+        (Message(("\n\n".join(parts),)),),
+        ANSWER_SCHEMA,
+    )
+
+
+def blind_request(dossier: Dossier, database: Database) -> Request:
+    """Rules, API reference and source: the paper's own prompt, without the trace."""
+    return Request(
+        PURPOSE,
+        _system("blind", rules_text(database)),
+        (Message((_fenced(dossier, _source(dossier)),)),),
+        BLIND_SCHEMA,
+    )
+
+
+def llm_only_request(dossier: Dossier, database: Database) -> Request:
+    """API reference and source; rules withheld, the families' names given."""
+    families = "Assay families: " + ", ".join(f.family for f in database.families) + "."
+    return Request(
+        PURPOSE,
+        _system("llm_only", families),
+        (Message((_fenced(dossier, _source(dossier)),)),),
+        BLIND_SCHEMA,
+    )
+
+
+def rules_text(database: Database) -> str:
+    """All rules, by family, with the roles that the families know."""
+    lines = ["# Rules", ""]
+    for family in database.families:
+        lines.append(f"## {family.family}: {family.title}")
+        lines.append(f"Roles: {', '.join(family.roles)}.")
+        for rule in family.rules:
+            scope = " [all families]" if rule.scope == "all" else ""
+            lines.append(f"- {rule_text(rule)}{scope}")
+        lines.append("")
+    return "\n".join(lines).strip()
+
+
+def _system(task: str, rules: str) -> tuple[Passage, ...]:
+    return (
+        Passage(f"{prompt(task)}\n\n{prompt('opentrons_api')}", cached=True),
+        Passage(rules, cached=True),
+    )
+
+
+def _fenced(dossier: Dossier, lines: list[str]) -> str:
+    mark = "protocol-" + hashlib.sha256(dossier.source.encode("utf-8", "replace")).hexdigest()[:16]
+    return "\n".join([f"<{mark}>", *lines, f"</{mark}>"])
+
+
+def _source(dossier: Dossier) -> list[str]:
+    lines = [f"File {_flat(dossier.file)}, source:"]
+    lines += [f"{n}|{text}" for n, text in enumerate(dossier.source.splitlines(), 1)]
+    if dossier.parameters not in ("", "{}"):
+        lines.append(f"Runtime parameters: {_flat(dossier.parameters)}")
+    return lines
+
+
+def _trace(dossier: Dossier) -> list[str]:
+    deck = [f"{item.slot}: {_flat(item.label)} ({item.load_name})" for item in dossier.deck]
+    return ["", "Deck: " + "; ".join(deck), "Trace:", *dossier.table]
+
+
+def _roles(dossier: Dossier) -> list[str]:
+    if not dossier.roles:
+        return ["", "Roles: none are known."]
+    told = [f"{role.role}: {role.places} by {_flat(role.evidence)}" for role in dossier.roles]
+    return ["", "Roles and their evidence:", *told]
+
+
+def _asked(dossier: Dossier) -> list[str]:
+    sure = "known" if dossier.family_known else "a guess"
+    lines = [f"Family by the checks: {dossier.family} ({sure})."]
+    decided = [brief.id for brief in dossier.rules if brief.decided]
+    lines.append(f"Decided by the checks: {', '.join(decided) or 'none'}.")
+    for finding in dossier.findings:
+        where = ", ".join(map(str, finding.lines))
+        lines.append(f"Found by the checks: {finding.rule}, lines {where}.")
+    if dossier.questions:
+        lines.append("Open questions, one answer each:")
+        lines += [f"- {question.rule}: {_flat(question.reason)}" for question in dossier.questions]
+    else:
+        lines.append("Open questions: none.")
+    return lines
+
+
+def _flat(text: str, limit: int = 160) -> str:
+    """Text that may come from the protocol, on one line."""
+    flat = "".join(c if c.isprintable() else " " for c in " ".join(text.split()))
+    return flat if len(flat) <= limit else flat[: limit - 3] + "..."
