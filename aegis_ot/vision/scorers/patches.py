@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
 from typing import Any
 
 import cv2
@@ -36,6 +35,7 @@ _SIDES = ((0.0, 0.45), (0.45, 0.95))
 light comes from either."""
 
 _FEATURES = 5
+_ROWS = 8
 _NEIGHBOURS = 3
 _WORST = 3
 _DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
@@ -201,30 +201,24 @@ def _patches(look: TipLook, middle: float) -> Array:
     edges = np.concatenate(
         [np.linspace(start, middle, ABOVE + 1)[:-1], np.linspace(middle, 0.99, BELOW + 1)]
     )
+    # The same number of rows for every patch, so that all are reckoned in one go.
+    inner = (np.arange(_ROWS) + 0.5) / _ROWS
+    at = edges[:-1, None] + np.diff(edges)[:, None] * inner[None, :]
+    rows = np.clip(np.rint((at - u[0]) / (u[1] - u[0])).astype(np.intp), 0, len(u) - 1)
     grey = np.log(np.maximum(cone.mean(axis=2), 2.0))
     steep = np.abs(cv2.Sobel(grey, cv2.CV_32F, 0, 1, ksize=3)) / 8.0
     total = np.maximum(cone.sum(axis=2), 6.0)
-    red, blue = cone[..., 2] / total, cone[..., 0] / total
-    rows = [np.flatnonzero((u >= a) & (u < b)) for a, b in pairwise(edges)]
+    planes = np.stack([grey, cone[..., 2] / total, cone[..., 0] / total, steep])[:, rows]
     out = np.zeros((len(rows), len(_SIDES), _FEATURES), dtype=np.float32)
-    for j, (inner, outer) in enumerate(_SIDES):
-        lanes = np.flatnonzero((np.abs(LANES) >= inner) & (np.abs(LANES) < outer))
-        for i, here in enumerate(rows):
-            cell = np.ix_(here, lanes)
-            if len(here) == 0:
-                out[i, j] = out[i - 1, j] if i else 0.0
-                continue
-            out[i, j] = (
-                float(np.median(grey[cell])),
-                float(np.subtract(*np.percentile(grey[cell], (84, 16)))),
-                float(np.median(red[cell])),
-                float(np.median(blue[cell])),
-                float(np.median(steep[cell])),
-            )
-    brightness = out[..., 0].copy()
-    around = cv2.blur(brightness, (1, 5), borderType=cv2.BORDER_REFLECT)
-    out[..., 0] = brightness - around
-    out[..., 2:4] -= np.median(out[..., 2:4], axis=0, keepdims=True)
+    for side, (low, high) in enumerate(_SIDES):
+        lanes = (np.abs(LANES) >= low) & (np.abs(LANES) < high)
+        cells = np.sort(planes[..., lanes].reshape(len(planes), len(rows), -1), axis=2)
+        n = cells.shape[2]
+        brightness, red, blue, slope = cells[:, :, n // 2]
+        spread = cells[0, :, int(0.84 * n)] - cells[0, :, int(0.16 * n)]
+        around = cv2.blur(brightness[:, None], (1, 5), borderType=cv2.BORDER_REFLECT)[:, 0]
+        features = (brightness - around, spread, red - np.median(red), blue - np.median(blue))
+        out[:, side] = np.stack([*features, slope], axis=1)
     return out
 
 
