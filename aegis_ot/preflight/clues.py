@@ -96,6 +96,7 @@ def gather(
         *_plate_maps(deck, facts),
         *_written(deck, facts),
         *_step_comments(trace, facts, common),
+        *_arguments(trace, facts),
     ]
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
 
@@ -213,6 +214,8 @@ def _names(
             binding.function.startswith("<") and base in comprehension
         )
         line = facts.assigned.get(base, binding.line)
+        if (binding.function, base) in facts.loops:
+            continue  # its last value only; see _arguments
         whole = not binding.wells
         wells = binding.wells or deck.used_wells(binding.labware)
         yield Clue(
@@ -539,6 +542,25 @@ def _spoken(
                 f"'{_short(clause)}' at line {line}",
                 subject=False,
             )
+
+
+def _arguments(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
+    """Names of what calls draw from and give to: every value that a loop variable took."""
+    used: dict[tuple[str, str], dict[WellRef, None]] = {}
+    at_line: dict[str, int] = {}
+    for visit in trace.visits:
+        if visit.mixing or visit.line not in facts.arguments:
+            continue
+        side = "source" if visit.kind.value == "aspirate" else "destination"
+        for wanted, name in facts.arguments[visit.line]:
+            if wanted == side:
+                used.setdefault((side, name), {})[visit.well.ref] = None
+                at_line.setdefault(name, visit.line)
+    for (_, name), wells in used.items():
+        line = at_line[name]
+        yield Clue(
+            Strength.LOOSE_NAME, name, tuple(wells), line, f"name `{name}` used at line {line}"
+        )
 
 
 _LONGEST_STEP_COMMENT = 14

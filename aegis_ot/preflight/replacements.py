@@ -35,8 +35,8 @@ class Replacements:
     """Reads pause messages with word lists.
 
     Args:
-        words: Phrases by topic: ``replace``, ``return``, ``plate``, ``tips``, ``refill``,
-            ``shake``.
+        words: Phrases by topic: ``replace``, ``plate``, ``tips``, ``refill``,
+            ``shake``, ``away``, ``spin``.
     """
 
     words: Mapping[str, Sequence[str]] = field(default_factory=dict)
@@ -59,7 +59,8 @@ class Replacements:
         tips_only = "tips" in topics and "plate" not in topics
         if "replace" in topics and tips_only:
             return Intervention(all_tips=True, shaken=shaken)
-        if "replace" in topics and "return" not in topics:
+        away = "replace" in topics or "away" in topics
+        if away and ("spin" not in topics or "replace" in topics):
             named = self._named(text, labware, slots)
             plates = named or {
                 key

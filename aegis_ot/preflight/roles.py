@@ -273,7 +273,7 @@ def _fitting(named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: 
     if clue.step and clue.step != side:
         return None
     fitting = [role for role in named if specs[role].side in ("any", side)]
-    if not fitting and passes_on and clue.strength is not Strength.COMMENT:
+    if not fitting and passes_on and not clue.whole and clue.strength is not Strength.COMMENT:
         fitting = [role for role in named if specs[role].side == "source"]
     if not fitting or _ambiguous(fitting, roles, clue):
         return None

@@ -45,10 +45,12 @@ class SourceFacts:
         constants: Names bound to literals, by name.
         places: Subscripts of labware by names or constants.
         loose: Names that are loop variables or parameters, as ``(function, name)``.
+        loops: Those of them that are loop variables.
         notes: Comment beside or right above the assignment of a name, by that name.
         assigned: Line of the first assignment of each name.
         tables: For names bound to a list of rows or to a dict, the constants of each row.
         blocks: For the first line of a run of statements without a gap, all lines of it.
+        arguments: By line, the names that calls draw from and give to, as ``(side, name)``.
         liquids: Description of each liquid defined in the text, by its name.
         names: Every identifier of the text, once.
         strings: Every other string of the text, with its line.
@@ -61,13 +63,25 @@ class SourceFacts:
     constants: dict[str, Any] = field(default_factory=dict)
     places: list[Place] = field(default_factory=list)
     loose: set[tuple[str, str]] = field(default_factory=set)
+    loops: set[tuple[str, str]] = field(default_factory=set)
     notes: dict[str, str] = field(default_factory=dict)
     assigned: dict[str, int] = field(default_factory=dict)
     tables: dict[str, list[tuple[Any, ...]]] = field(default_factory=dict)
     blocks: dict[int, tuple[int, ...]] = field(default_factory=dict)
+    arguments: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
     liquids: dict[str, str] = field(default_factory=dict)
     names: set[str] = field(default_factory=set)
     strings: list[tuple[int, str]] = field(default_factory=list)
+
+
+_ARGUMENTS: dict[str, dict[int | str, str]] = {
+    "aspirate": {1: "source", "location": "source"},
+    "dispense": {1: "destination", "location": "destination"},
+    **{
+        method: {1: "source", "source": "source", 2: "destination", "dest": "destination"}
+        for method in ("transfer", "distribute", "consolidate", "transfer_with_liquid_class")
+    },
+}
 
 
 def read_source(text: str) -> SourceFacts:
@@ -198,6 +212,7 @@ class _Reader:
             if isinstance(child, (ast.For, ast.AsyncFor)):
                 for name in _names(child.target):
                     self._facts.loose.add((inside, name))
+                    self._facts.loops.add((inside, name))
             elif isinstance(child, ast.comprehension):
                 for name in _names(child.target):
                     self._facts.loose.add(("<comprehension>", name))
@@ -225,6 +240,8 @@ class _Reader:
     def _call(self, node: ast.Call) -> None:
         if isinstance(node.func, ast.Attribute) and node.func.attr == "define_liquid":
             self._liquid(node)
+        if isinstance(node.func, ast.Attribute):
+            self._arguments(node, node.func.attr)
         if (
             isinstance(node.func, ast.Attribute)
             and node.func.attr in ("well", "wells")
@@ -233,6 +250,17 @@ class _Reader:
             labware = _name(node.func.value)
             if labware:
                 self._place(labware, node.args[0], "well", node.lineno)
+
+    def _arguments(self, node: ast.Call, method: str) -> None:
+        """``p20.transfer(2, sample, well)``: wells drawn from are samples, whatever the loop."""
+        sides = _ARGUMENTS.get(method, {})
+        given = [(sides.get(n), a) for n, a in enumerate(node.args)]
+        given += [(sides.get(k.arg), k.value) for k in node.keywords if k.arg]
+        for side, value in given:
+            while isinstance(value, (ast.Call, ast.Attribute)):
+                value = value.func if isinstance(value, ast.Call) else value.value
+            if side and isinstance(value, ast.Name):
+                self._facts.arguments.setdefault(node.lineno, []).append((side, value.id))
 
     def _liquid(self, node: ast.Call) -> None:
         values = dict(zip(("name", "description"), (_text(a) for a in node.args), strict=False))

@@ -206,6 +206,8 @@ class _Builder:
                 if event.text and event.text not in well.liquids:
                     well.liquids.append(event.text)
                 well.fill_before_run(event.volume)
+        elif kind is EventKind.TIPS_RESET:
+            self._box.refill_rack(event.labware)
         elif kind is EventKind.LABWARE_MOVED:
             self._slots[event.labware] = event.text
             if not event.text:
@@ -254,6 +256,8 @@ class _Builder:
             self._note_group(step)
             for nozzle, ref in zip(step.nozzles, step.wells, strict=False):
                 tip = self._box.on(step.pipette, nozzle, step.line)
+                if tip is None:
+                    continue  # a multi-channel pipette that took up fewer tips
                 well = None if ref is None or step.disposal else self._well(ref)
                 self._act(step, kind, tip, well)
 
@@ -294,7 +298,7 @@ class _Builder:
         return visit
 
     def _aspirate(self, step: Step, tip: Tip, well: Well) -> None:
-        if well.empty and not well.visits and not well.prefilled:
+        if well.empty and not well.fed and not well.prefilled:
             well.fill_before_run(None)  # first drawn from: it must have held something
         visit = self._visit(step, tip, well)
         visit.volume = step.volume

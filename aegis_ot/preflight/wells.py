@@ -36,6 +36,7 @@ class Well:
         visits: Everything tips did here, in order.
         mixes: ``(first index, last index, line)`` of each time it was mixed.
         prefilled: Whether it held liquid before the run.
+        fed: Whether the run has put liquid into it.
     """
 
     __slots__ = (
@@ -43,6 +44,7 @@ class Well:
         "contents",
         "declared",
         "depth",
+        "fed",
         "generation",
         "known",
         "last",
@@ -69,6 +71,7 @@ class Well:
         self.volume = 0.0
         self.known = True
         self.prefilled = False
+        self.fed = False
         self.declared: float | None = None
         self.contents: dict[Well, float] = {}
         self.liquids: list[str] = []
@@ -134,6 +137,7 @@ class Well:
     def add(self, volume: float, liquid: Composition) -> None:
         """Put liquid in."""
         self.volume += volume
+        self.fed = self.fed or volume > 0
         contents = self.contents
         for origin, share in liquid.items():
             contents[origin] = contents.get(origin, 0.0) + volume * share

@@ -32,8 +32,23 @@ def filled(case: Case, well: Well) -> tuple[float, int | None]:
     return total, line
 
 
-def _gets_any(case: Case, labware: set[tuple[str, int]], well: Well) -> bool:
-    return (well.ref.labware, well.generation) in labware
+def _unknown_source(case: Case, well: Well, served: set[tuple[str, str]]) -> Well | None:
+    """A source without a role that serves this well and others that lack the liquid too.
+
+    It may well hold what is missing.
+    """
+    for visit in case.trace.deliveries(well):
+        for _, _, source, _ in delivered(visit):
+            if case.of(source):
+                continue
+            others = [
+                other
+                for other in case.destinations.get(source, {})
+                if (other.ref.labware, other.ref.name) not in served
+            ]
+            if len(others) > 1:
+                return source
+    return None
 
 
 @dataclass(frozen=True)
@@ -90,6 +105,12 @@ class Receives(Check):
             if place_key in served or place_key in reported:
                 continue
             if well.ref.labware not in plates:
+                continue
+            if unknown := _unknown_source(case, well, served):
+                yield Doubt(
+                    f"{place(well)} receives something from {place(unknown)}, and nothing says "
+                    "what stands there"
+                )
                 continue
             reported.add(place_key)
             total, line = filled(case, well)
@@ -204,11 +225,21 @@ class UniformVolume(Check):
         title = " or ".join(case.family.roles[role].title for role in self.liquid)
         usual_got = _usual([got for _, got, _ in members])
         usual_total = _usual([total for _, _, total in members])
+        # Where a good part of the wells ends elsewhere, several kinds of reactions are meant.
+        few = (
+            3
+            * sum(
+                abs(total - usual_total) > max(self.tolerance * usual_total, 0.01)
+                for _, _, total in members
+            )
+            <= len(members)
+            or len(members) < 6
+        )
         for well, got, total in members:
             if abs(got - usual_got) > max(self.tolerance * usual_got, 0.01):
                 what = f"receives {got:.4g} µL of {title}; the others receive {usual_got:.4g} µL"
                 line = received(case, well, frozenset(self.liquid))[1]
-            elif abs(total - usual_total) > max(self.tolerance * usual_total, 0.01):
+            elif abs(total - usual_total) > max(self.tolerance * usual_total, 0.01) and few:
                 what = f"ends at {total:.4g} µL; the others end at {usual_total:.4g} µL"
                 line = filled(case, well)[1]
             else:
