@@ -177,13 +177,15 @@ def _film_path(
         return np.zeros_like(wet)
     top = tip.height_of(max(content.film_to_ul, content.liquid_ul))
     low = tip.height_of(content.liquid_ul)
-    area = max(2 * np.pi * float(tip.inner_radius((top + low) / 2)) * (top - low), 1e-3)
+    # The film lies over all that was wet; liquid drawn again covers its lower part.
+    area = max(2 * np.pi * float(tip.inner_radius(top / 2)) * top, 1e-3)
     spread = _step(top - view.along, 1.5) * (view.along > low)
     path = 2 * 0.6 * content.film_ul / area * spread
     for _ in range(int(view.scatter.integers(1, 5))):
         at = view.scatter.uniform(low, max(top, low + 1e-3))
         side = view.scatter.uniform(-0.8, 0.8) * float(tip.inner_radius(at))
-        size = float(np.cbrt(0.4 * content.film_ul / 5 * 3 / (4 * np.pi))) + 0.05
+        bare = content.film_ul * (top - low) / max(top, 1e-3)
+        size = float(np.cbrt(0.4 * bare / 5 * 3 / (4 * np.pi))) + 0.05
         away = ((view.along - at) ** 2 + (view.across - side) ** 2) / size**2
         path = path + 2 * size * np.exp(-2 * away)
     return np.asarray(path * (1 - wet) * (np.abs(view.across) < inner), np.float32)
