@@ -137,7 +137,7 @@ class _Bounds:
         for ref in dossier.wells:
             for name in (ref.slot, ref.label, ref.labware):
                 self._known.setdefault((name.lower(), ref.name), []).append(ref)
-        count = dossier.source.count("\n") + 1
+        count = len(dossier.source.splitlines())
         self.lines = set(range(1, count + 1)) if blind else set(dossier.lines)
         self.severity = {brief.id: brief.severity for brief in dossier.rules}
 

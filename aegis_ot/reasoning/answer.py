@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from typing import Any
 
 
-def _object(**properties: Any) -> dict[str, Any]:
+def strict_object(**properties: Any) -> dict[str, Any]:
+    """Schema of an object in which every property is required and no other allowed."""
     return {
         "type": "object",
         "properties": properties,
@@ -27,18 +28,18 @@ def _list(items: Mapping[str, Any]) -> dict[str, Any]:
 _TEXT = {"type": "string"}
 _WELLS = _list(_TEXT)
 
-ANSWER_SCHEMA: dict[str, Any] = _object(
+ANSWER_SCHEMA: dict[str, Any] = strict_object(
     family=_TEXT,
-    roles=_list(_object(role=_TEXT, wells=_WELLS, reason=_TEXT)),
+    roles=_list(strict_object(role=_TEXT, wells=_WELLS, reason=_TEXT)),
     answers=_list(
-        _object(
+        strict_object(
             rule=_TEXT,
             answer={"type": "string", "enum": ["holds", "violated", "cannot_tell"]},
             reason=_TEXT,
         )
     ),
     findings=_list(
-        _object(
+        strict_object(
             rule=_TEXT,
             message=_TEXT,
             wells=_WELLS,
@@ -50,7 +51,7 @@ ANSWER_SCHEMA: dict[str, Any] = _object(
     summary=_TEXT,
 )
 
-BLIND_SCHEMA: dict[str, Any] = _object(
+BLIND_SCHEMA: dict[str, Any] = strict_object(
     family=_TEXT,
     findings=ANSWER_SCHEMA["properties"]["findings"],
     summary=_TEXT,

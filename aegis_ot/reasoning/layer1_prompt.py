@@ -9,6 +9,7 @@ starts with its number, which the author cannot leave out either.
 from __future__ import annotations
 
 import hashlib
+import re
 
 from ..preflight.dossier import Dossier, rule_text
 from ..preflight.rulefiles import Database
@@ -84,7 +85,7 @@ def _fenced(dossier: Dossier, lines: list[str]) -> str:
 
 def _source(dossier: Dossier) -> list[str]:
     lines = [f"File {_flat(dossier.file)}, source:"]
-    lines += [f"{n}|{text}" for n, text in enumerate(dossier.source.splitlines(), 1)]
+    lines += [f"{n}|{_visible(text)}" for n, text in enumerate(source_lines(dossier.source), 1)]
     if dossier.parameters not in ("", "{}"):
         lines.append(f"Runtime parameters: {_flat(dossier.parameters)}")
     return lines
@@ -116,6 +117,16 @@ def _asked(dossier: Dossier) -> list[str]:
     else:
         lines.append("Open questions: none.")
     return lines
+
+
+def source_lines(source: str) -> list[str]:
+    """Lines as Python counts them; ``splitlines`` knows more ends of lines than Python."""
+    return re.split(r"\r\n|\r|\n", source.rstrip("\r\n"))
+
+
+def _visible(line: str) -> str:
+    """A source line without characters that could pass for the end of it."""
+    return "".join(c if c.isprintable() or c == "\t" else " " for c in line)
 
 
 def _flat(text: str, limit: int = 160) -> str:

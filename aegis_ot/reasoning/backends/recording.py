@@ -60,7 +60,7 @@ def keep(folder: Path, request: Request, reply: Reply) -> None:
     Raises:
         ConfigurationError: The folder cannot be written.
     """
-    entry = _read(folder, request.hash) or {}
+    entry = read_entry(folder, request.hash) or {}
     answers = [a for a in _answers(entry) if a.get("model") != reply.model]
     answers.append(
         {
@@ -139,7 +139,7 @@ class ReplayBackend:
     def ask(self, request: Request) -> Reply:
         """The recorded answer, checked like a fresh one."""
         try:
-            entry = _read(self.folder, request.hash)
+            entry = read_entry(self.folder, request.hash)
         except ConfigurationError as error:
             return self._nothing(str(error))
         answers = _answers(entry or {})
@@ -190,7 +190,12 @@ def _usage(counts: Mapping[str, Any]) -> Usage:
     return Usage(count("input"), count("cached"), count("cache_written"), count("output"))
 
 
-def _read(folder: Path, key: str) -> dict[str, Any] | None:
+def read_entry(folder: Path, key: str) -> dict[str, Any] | None:
+    """``<hash>.json``, or ``None`` where there is none.
+
+    Raises:
+        ConfigurationError: It is damaged, or of another format.
+    """
     path = folder / f"{key}.json"
     try:
         entry = json.loads(path.read_text(encoding="utf-8"))

@@ -1,0 +1,159 @@
+"""Requests out, answers in, as lines of JSON: docs/reference/llm-batch.md.
+
+For batch services, other machines, or a person with a text editor: whoever can read a request
+can answer it.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import ConfigurationError
+from .backend import Request
+from .backends.recording import FORMAT, keep_picture, read_entry, write_entry
+from .schema import problem_of, read_answer
+
+
+@dataclass(frozen=True)
+class Imported:
+    """What came of an import.
+
+    Attributes:
+        kept: Answers that were kept.
+        problems: One sentence per answer that cannot be used, with its line.
+    """
+
+    kept: int
+    problems: tuple[str, ...] = ()
+
+
+def export_requests(requests: Iterable[tuple[str, Request]], out: Path) -> int:
+    """Write one line per request; pictures go into ``images/`` beside the file.
+
+    Args:
+        requests: What each is about (a file name), and the request. Equal ones are written once.
+        out: The file.
+
+    Returns:
+        How many lines.
+
+    Raises:
+        ConfigurationError: The file cannot be written.
+    """
+    lines: dict[str, str] = {}
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        for about, request in requests:
+            for picture in request.pictures:
+                keep_picture(out.parent, picture)
+            line = {"format": FORMAT, "id": request.hash, "about": about, **request.to_json()}
+            lines.setdefault(request.hash, json.dumps(line, ensure_ascii=False))
+        text = "".join(f"{line}\n" for line in lines.values())
+        out.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ConfigurationError(f"Cannot write {out}: {error.strerror}.") from error
+    return len(lines)
+
+
+def import_answers(answers: Path, folder: Path, requests: Path | None = None) -> Imported:
+    """Turn a file of answers into a replay folder; answers there already are kept.
+
+    Args:
+        answers: Lines ``{"id": ..., "answer": {...}, "model": ...}``.
+        folder: The replay folder; made if missing.
+        requests: The exported requests; with them each answer is checked against its form now
+            rather than when it is used.
+
+    Raises:
+        ConfigurationError: A file cannot be read, or the folder not written.
+    """
+    asked = {} if requests is None else _asked(requests)
+    kept = 0
+    problems: list[str] = []
+    for number, line in enumerate(_lines(answers), 1):
+        if not line.strip():
+            continue
+        where = f"{answers.name}, line {number}"
+        try:
+            given = json.loads(line)
+        except ValueError as error:
+            problems.append(f"{where}: is not JSON ({error}).")
+            continue
+        problem = _problem(given, asked)
+        if problem:
+            problems.append(f"{where}: {problem}")
+            continue
+        _keep(folder, given, asked.get(given["id"]))
+        kept += 1
+    return Imported(kept, tuple(problems))
+
+
+_FORM = {
+    "type": "object",
+    "properties": {"id": {"type": "string"}, "model": {"type": "string"}},
+    "required": ["id", "answer"],
+}
+
+
+def _problem(given: Any, asked: Mapping[str, Mapping[str, Any]]) -> str:
+    problem = problem_of(given, _FORM, "line")
+    if problem:
+        return f"{problem}."
+    key = given["id"]
+    if len(key) != 64 or any(c not in "0123456789abcdef" for c in key):
+        return f"id {key[:20]!r} is not the id of a request (64 hexadecimal digits)."
+    if not isinstance(given["answer"], (dict, str)):
+        return "answer: expected an object, or the model's text."
+    if asked:
+        if key not in asked:
+            return f"no request of the exported ones has the id {key[:12]}..."
+        text = given["answer"]
+        text = text if isinstance(text, str) else json.dumps(text)
+        _, problem = read_answer(text, asked[key]["schema"])
+        return f"{problem}." if problem else ""
+    return ""
+
+
+def _keep(folder: Path, given: Mapping[str, Any], request: Mapping[str, Any] | None) -> None:
+    entry = read_entry(folder, given["id"]) or {}
+    model = str(given.get("model") or "imported")
+    answers = [a for a in entry.get("answers", []) if a.get("model") != model]
+    usage = given.get("usage")
+    answers.append(
+        {
+            "model": model,
+            "state": "answered",
+            "answer": given["answer"],
+            "usage": usage if isinstance(usage, dict) else {},
+        }
+    )
+    write_entry(folder, given["id"], {"request": entry.get("request", request), "answers": answers})
+
+
+def _asked(requests: Path) -> dict[str, Mapping[str, Any]]:
+    found: dict[str, Mapping[str, Any]] = {}
+    for number, line in enumerate(_lines(requests), 1):
+        if not line.strip():
+            continue
+        try:
+            request = json.loads(line)
+            found[request["id"]] = {
+                name: request[name]
+                for name in ("purpose", "system", "messages", "schema", "max_output")
+            }
+        except (ValueError, KeyError, TypeError) as error:
+            raise ConfigurationError(
+                f"{requests}, line {number} is no exported request ({error})."
+            ) from error
+    return found
+
+
+def _lines(path: Path) -> list[str]:
+    try:
+        return path.read_text(encoding="utf-8").split("\n")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigurationError(f"{path} cannot be read: {error}.") from error

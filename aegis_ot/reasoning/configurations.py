@@ -1,0 +1,229 @@
+"""The four ways to judge a protocol that the evaluation compares (paper, "Layer 1 results").
+
+``hybrid``
+    The checks decide; a model that sees source, rules, trace and roles adds to them. Ours.
+``trace-blind``
+    A model that sees source and rules alone decides: the paper's own hybrid. What the trace is
+    worth is the difference to ``hybrid``.
+``llm-only``
+    A model that sees the source alone decides: rules withheld.
+``rules-only``
+    The checks alone. No model is asked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from enum import Enum
+
+from ..preflight import Database, Options, Report
+from ..preflight.dossier import Dossier
+from ..preflight.opinion import (
+    MODEL,
+    Opinion,
+    merge,
+    options_with_roles,
+    read_opinion,
+)
+from ..vocabulary import Severity, Undecided, VerdictWord
+from .backend import Backend, Reply, Request, State, Usage
+from .layer1_prompt import blind_request, hybrid_request, llm_only_request
+
+Rejudge = Callable[[Options], Report]
+"""Judges the same protocol once more, with other options."""
+
+
+class Configuration(str, Enum):
+    """See the module."""
+
+    HYBRID = "hybrid"
+    LLM_ONLY = "llm-only"
+    RULES_ONLY = "rules-only"
+    TRACE_BLIND = "trace-blind"
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """One protocol judged in one configuration.
+
+    Attributes:
+        configuration: Which.
+        report: The verdict. Where the model gave no answer, ``undecided`` holds an entry for
+            ``MODEL`` that says why; without checks beside it the verdict is ``error`` then.
+        state: How asking ended; ``None`` if no model was to be asked.
+        model: Which model answered.
+        usage: Tokens.
+        seconds: Time that the model took, s.
+        opinion: What the model said, held to what exists.
+    """
+
+    configuration: Configuration
+    report: Report
+    state: State | None = None
+    model: str = ""
+    usage: Usage = field(default_factory=Usage)
+    seconds: float = 0.0
+    opinion: Opinion | None = None
+
+    @property
+    def unanswered(self) -> bool:
+        """Whether a model was asked and gave no answer: a reason for exit code 2."""
+        return self.state not in (None, State.ANSWERED)
+
+
+def judge_in(
+    configuration: Configuration | str,
+    report: Report,
+    dossier: Dossier,
+    database: Database,
+    backend: Backend | None = None,
+    options: Options | None = None,
+    rejudge: Rejudge | None = None,
+) -> Judgement:
+    """Judge a protocol, already rehearsed and checked, in one configuration.
+
+    Args:
+        configuration: Which.
+        report: What the checks say.
+        dossier: From :func:`aegis_ot.preflight.dossier.check_with_dossier`.
+        database: The rules.
+        backend: Whom to ask; not needed for ``rules-only``.
+        options: How the checks judged.
+        rejudge: For ``hybrid``: judges again, with the roles that the model read where names are
+            silent. Without it these roles are reported only.
+    """
+    configuration = Configuration(configuration)
+    if configuration is Configuration.RULES_ONLY:
+        return rules_only(report)
+    if configuration is Configuration.HYBRID:
+        return hybrid(report, dossier, database, backend, options, rejudge)
+    if configuration is Configuration.TRACE_BLIND:
+        return trace_blind(report, dossier, database, backend)
+    return llm_only(report, dossier, database, backend)
+
+
+def request_in(
+    configuration: Configuration | str, dossier: Dossier, database: Database
+) -> Request | None:
+    """The request that a configuration makes; ``None`` for ``rules-only``."""
+    makers = {
+        Configuration.HYBRID: hybrid_request,
+        Configuration.TRACE_BLIND: blind_request,
+        Configuration.LLM_ONLY: llm_only_request,
+    }
+    make = makers.get(Configuration(configuration))
+    return None if make is None else make(dossier, database)
+
+
+def rules_only(report: Report) -> Judgement:
+    """The checks alone."""
+    return Judgement(Configuration.RULES_ONLY, report)
+
+
+def hybrid(
+    report: Report,
+    dossier: Dossier,
+    database: Database,
+    backend: Backend | None,
+    options: Options | None = None,
+    rejudge: Rejudge | None = None,
+) -> Judgement:
+    """The checks, and a model that sees what they saw; it can only add."""
+    opinion, reply = give_opinion(dossier, database, backend)
+    second = second_report(report, opinion, database, options or Options(), rejudge)
+    merged = merge(report, opinion, dossier, second)
+    return _judgement(Configuration.HYBRID, merged, opinion, reply)
+
+
+def trace_blind(
+    report: Report, dossier: Dossier, database: Database, backend: Backend | None
+) -> Judgement:
+    """A model with rules and source decides alone (the paper's hybrid)."""
+    reply = ask(backend, blind_request(dossier, database))
+    return _model_alone(Configuration.TRACE_BLIND, report, dossier, reply)
+
+
+def llm_only(
+    report: Report, dossier: Dossier, database: Database, backend: Backend | None
+) -> Judgement:
+    """A model with the source decides alone, by what it knows itself."""
+    reply = ask(backend, llm_only_request(dossier, database))
+    return _model_alone(Configuration.LLM_ONLY, report, dossier, reply)
+
+
+def give_opinion(
+    dossier: Dossier, database: Database, backend: Backend | None
+) -> tuple[Opinion, Reply]:
+    """Ask the hybrid question, and hold the answer to what exists."""
+    reply = ask(backend, hybrid_request(dossier, database))
+    return opinion_of(reply, dossier), reply
+
+
+def opinion_of(reply: Reply, dossier: Dossier, blind: bool = False) -> Opinion:
+    """A reply to a Layer 1 request as an opinion."""
+    if reply.value is None:
+        return Opinion(reply.state.value, reply.model, reply.detail)
+    return read_opinion(reply.value, dossier, reply.model, blind)
+
+
+def second_report(
+    report: Report,
+    opinion: Opinion,
+    database: Database,
+    options: Options,
+    rejudge: Rejudge | None,
+) -> Report | None:
+    """What the checks say with the model's roles, where it named any that were missing."""
+    if rejudge is None or not opinion.answered:
+        return None
+    roles = {family.family: tuple(family.roles) for family in database.families}
+    with_roles = options_with_roles(options, report, opinion, roles)
+    return None if with_roles is None else rejudge(with_roles)
+
+
+def ask(backend: Backend | None, request: Request) -> Reply:
+    """Ask, where there is someone to ask."""
+    if backend is None:
+        detail = "Name one with --model, or in AEGIS_OT_MODEL."
+        return Reply(State.NO_MODEL, "no model", detail=detail, attempts=0)
+    return backend.ask(request)
+
+
+def _model_alone(
+    configuration: Configuration, report: Report, dossier: Dossier, reply: Reply
+) -> Judgement:
+    opinion = opinion_of(reply, dossier, blind=True)
+    # No check stands beside these: what the model reports is what there is.
+    severe = configuration is Configuration.LLM_ONLY
+    findings = tuple(
+        replace(finding, severity=Severity.ERROR) if severe else finding
+        for finding in opinion.findings
+    )
+    undecided: tuple[Undecided, ...] = ()
+    if not opinion.answered:
+        reason = f"{opinion.model} gave no answer ({opinion.state}): {opinion.detail}"
+        verdict = VerdictWord.ERROR
+        undecided = (Undecided(MODEL, reason),)
+    else:
+        errors = any(finding.severity is Severity.ERROR for finding in findings)
+        verdict = VerdictWord.FAIL if errors else VerdictWord.WARN if findings else VerdictWord.PASS
+        undecided = ()
+    alone = Report(
+        file=report.file,
+        family=opinion.family,
+        verdict=verdict,
+        findings=findings,
+        undecided=undecided,
+        notes=tuple(f"{opinion.model}, left out: {text}" for text in opinion.left_out),
+        lines=report.lines,
+    )
+    return _judgement(configuration, alone, opinion, reply)
+
+
+def _judgement(
+    configuration: Configuration, report: Report, opinion: Opinion, reply: Reply
+) -> Judgement:
+    return Judgement(
+        configuration, report, reply.state, reply.model, reply.usage, reply.seconds, opinion
+    )
