@@ -45,7 +45,7 @@ class CalibrationSettings:
     alpha: float = 0.05
     outlier: float = 10.0
     widest: float = 0.8
-    streaming: bool = False
+    streaming: bool = True
     memory: int = 48
 
     def __post_init__(self) -> None:
@@ -69,13 +69,14 @@ class CalibrationSettings:
 
 PRESETS = {
     "default": CalibrationSettings(),
-    "paper": CalibrationSettings(multiplier=0.7, two_sided=True),
+    "paper": CalibrationSettings(multiplier=0.7, two_sided=True, streaming=False),
 }
 """Named settings.
 
 ``paper`` is median ± 0.7·MAD, two-sided: with six wells it sends about 72 % of exchangeable
 normals to the gate. ``default`` is one-sided with m = 5, which sends 4 % (normal scores) to 8 %
-(lognormal, gamma) there, simulated with six calibration wells; m = 4 would send 6 to 11 %. It is
+(lognormal, gamma) there, simulated with six calibration wells; m = 4 would send 6 to 11 %. It
+learns from accepted wells as the run goes on, which halves that again over a plate. It is
 one-sided because an anomaly score below the band says that the well is *more* usual than the
 calibration wells; the one low score that matters, a blank crop, is caught as missing tips. See
 ``docs/decisions`` and the tests, which repeat the simulation.
@@ -183,6 +184,7 @@ class RunCalibration:
         self._median = self._spread = math.nan
         self.state = CalibrationState.COLLECTING
         self.reason = ""
+        self._volumes: set[float] = set()
 
     @property
     def scores(self) -> tuple[float, ...]:
@@ -198,10 +200,18 @@ class RunCalibration:
         low = self._median - width if self.settings.two_sided else -math.inf
         return low, self._median + width
 
-    def add(self, score: float) -> CalibrationState:
-        """Take the score of one calibration well; the last one closes the calibration."""
+    def add(self, score: float, volume_ul: float | None = None) -> CalibrationState:
+        """Take the score of one calibration well; the last one closes the calibration.
+
+        Args:
+            score: Anomaly score.
+            volume_ul: Volume that the well was to get: wells of different volumes look
+                different, so that their scores cannot be asked to agree.
+        """
         if self.state is CalibrationState.COLLECTING:
             self._first.append(float(score))
+            if volume_ul is not None and volume_ul > 0:
+                self._volumes.add(float(volume_ul))
             if len(self._first) >= self.settings.wells:
                 self._close()
         return self.state
@@ -243,12 +253,13 @@ class RunCalibration:
         values = np.asarray(self._first)
         median, spread = self._anchor(self._first)
         far = int(np.sum(np.abs(values - median) > self.settings.outlier * spread))
-        if len(values) >= 4 and far >= 2:
+        comparable = not self._volumes or max(self._volumes) <= 1.2 * min(self._volumes)
+        if len(values) >= 4 and far >= 2 and comparable:
             self.give_up(
                 f"{far} of the first {len(values)} wells stand apart from the others; "
                 "are they all normal?"
             )
-        elif len(values) >= 4 and spread > self.settings.widest * abs(median):
+        elif len(values) >= 4 and comparable and spread > self.settings.widest * abs(median):
             self.give_up(f"the first {len(values)} wells disagree too widely to calibrate on")
         else:
             self._median, self._spread = median, spread

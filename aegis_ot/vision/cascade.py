@@ -142,6 +142,7 @@ class Cascade:
         missing: Collection[KeyframeKind],
         *,
         normal: bool,
+        volume_ul: float | None = None,
     ) -> None:
         """Tell the cascade how a well that it routed was judged.
 
@@ -160,7 +161,7 @@ class Cascade:
                 self._missing_counts[kind] += 1
             for name, calibration in self.calibrations.items():
                 if name in scores:
-                    calibration.add(scores[name])
+                    calibration.add(scores[name], volume_ul)
         elif normal:
             for name, score in scores.items():
                 if name in self.calibrations:

@@ -33,7 +33,7 @@ _MEMORY = 48
 _ENOUGH = 4
 """Normal wells from which the run's own spread is taken for real."""
 
-_SEEN = 5.0
+_SEEN = 4.5
 """Evidence (log-likelihood ratio) from which there is a column where none should be."""
 
 _SEEN_AT_FIRST = 14.0
@@ -42,9 +42,11 @@ _SEEN_AT_FIRST = 14.0
 _NEAR = 0.04
 """A meniscus this close to its expected place is the expected one, tip lengths."""
 
-_GAP_LEAST = 5.0
-_GAP_FACTOR = 1.35
-"""A break counts from this multiple of the strongest "break" in this run's normal columns."""
+_GAP_LEAST = 2.0
+_GAP_FACTOR = 1.6
+_GAP_WELLS = 8
+"""A break counts from this strength, and from this multiple of the strongest "break" in this
+run's normal columns of about the same volume, once there are so many of them."""
 
 _SAME_COLUMN = {KeyframeKind.POST_DISPENSE: KeyframeKind.DISPENSE}
 
@@ -92,12 +94,16 @@ class MeasuredColumns:
 
     def __init__(self) -> None:
         self._dyes: list[Dye] = []
-        self._scales: list[float] = []
-        self._residuals: list[float] = []
+        self._heights: list[tuple[float, float]] = []
         self._near: list[tuple[float, float]] = []
         self._stray: dict[KeyframeKind, list[float]] = {}
-        self._gaps: list[float] = []
+        self._gaps: list[tuple[float, float]] = []
         self._usual: dict[KeyframeKind, list[Rows]] = {}
+
+    def share_tip(self, other: object) -> None:
+        """Learn the tip's geometry together with the reader of another liquid."""
+        if isinstance(other, MeasuredColumns):
+            self._heights = other._heights
 
     def look(self, view: TipView) -> Look:
         # Shared with the scorers: each frame is straightened once.
@@ -126,24 +132,25 @@ class MeasuredColumns:
                 self._learn_height(found, volume)
                 _keep(self._dyes, found.measured.dye)
                 if found.measured.gap is not None:
-                    _keep(self._gaps, found.measured.gap.strength)
+                    _keep(self._gaps, (volume, found.measured.gap.strength))
             _keep(self._usual.setdefault(kind, []), rows)
-            _keep(self._stray.setdefault(kind, []), float(found.evidence[found.row]))
+            apart = found.evidence[np.isfinite(rows)]
+            _keep(self._stray.setdefault(kind, []), float(apart.max(initial=0.0)))
 
     def _learn_height(self, found: _Found, volume: float) -> None:
         u, tip = found.measured.profile.u, found.look.tip
-        close = np.abs(u - found.place) < (_NEAR if len(self._scales) >= _ENOUGH else 2 * _NEAR)
+        close = np.abs(u - found.place) < (_NEAR if len(self._heights) >= _ENOUGH else 2 * _NEAR)
         if not close.any() or found.near <= 0:
             return
         row = int(np.argmax(np.where(close, found.raw, -np.inf)))
         length = (1.0 - float(u[row])) * tip.length_mm
         wanted = float(tip.height_of(volume))
-        _keep(self._residuals, length - self._scale * wanted)
-        _keep(self._scales, length / max(wanted, 1.0))
+        _keep(self._heights, (length, max(wanted, 1.0)))
 
     @property
     def _scale(self) -> float:
-        return float(np.median(self._scales)) if len(self._scales) >= 2 else 1.0
+        ratios = [length / wanted for length, wanted in self._heights]
+        return float(np.median(ratios)) if len(ratios) >= 2 else 1.0
 
     def _find(
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
@@ -197,12 +204,17 @@ class MeasuredColumns:
     ) -> ColumnReading | None:
         top = self._top(found, expected_ul, self._limit(kind))
         if top is None:
-            return None
+            # Nothing speaks for a column where none should be, in a liquid that hardly shows.
+            return ColumnReading(0.0, math.inf, vague=True) if expected_ul <= 0 else None
         tip = found.look.tip
         height = max((1.0 - top) * tip.length_mm / self._scale, 0.0)
         volume = float(tip.volume_of(height))
-        sigma = float(tip.volume_of(height + self._spread_mm)) - volume
-        if len(self._scales) < _ENOUGH:
+        spread = self._spread_mm
+        if expected_ul > 0 and abs(top - found.place) < _NEAR:
+            # A meniscus seen where it is due is no farther off than the search reaches.
+            spread = min(spread, 0.5 * _NEAR * tip.length_mm)
+        sigma = float(tip.volume_of(height + spread)) - volume
+        if len(self._heights) < _ENOUGH:
             # The tip's inside is known to some per cent only, until the run has shown it.
             sigma = float(np.hypot(sigma, 0.1 * max(volume, expected_ul)))
         gap, gap_sigma = self._gap(found, tip, height) if volume > 0 else (0.0, sigma)
@@ -213,20 +225,22 @@ class MeasuredColumns:
         stray = self._stray.get(kind, [])
         if len(stray) < _ENOUGH:
             return _SEEN_AT_FIRST
-        most = max(_SEEN, float(np.max(stray)) + 3.0)
+        # Not the largest: a failed well that passed unseen must not blind the reader for good.
+        most = max(_SEEN, float(np.percentile(stray, 95)) + 4.0)
         # A handful of wells has not shown the worst that is normal here.
-        return most + (_SEEN_AT_FIRST - _SEEN) * _ENOUGH / (2 * len(stray))
+        return most + (_SEEN_AT_FIRST - _SEEN) / len(stray)
 
     def _top(self, found: _Found, expected_ul: float, seen: float) -> float | None:
         """Where the column ends, 1 for none, or ``None`` if that cannot be told here."""
         u = found.measured.profile.u
         strongest = float(found.evidence[found.row])
-        learned = len(self._near) >= _ENOUGH
-        shown = [near for _, near in self._near]
-        clear = learned and float(np.median(shown)) >= _SEEN
+        clear = self._clear
         if expected_ul <= 0:
             if strongest >= seen:
-                return float(u[found.row])
+                # Colour says that there is liquid better than where it ends, and a low end
+                # explains less of what is seen: the highest end that is nearly as likely.
+                likely = np.flatnonzero(found.evidence >= max(seen, strongest - 3.0))
+                return float(u[likely[0]])
             return 1.0 if clear else None
         # Short columns show less than tall ones: only wells of about this volume compare.
         alike = [near for volume, near in self._near if volume <= 1.5 * expected_ul]
@@ -242,23 +256,33 @@ class MeasuredColumns:
         return 1.0 if clear and len(alike) >= _ENOUGH and found.near < 0 else None
 
     @property
+    def _clear(self) -> bool:
+        """Whether full tips show well in this run."""
+        shown = [near for _, near in self._near]
+        return len(shown) >= _ENOUGH and float(np.median(shown)) >= 2 * _SEEN
+
+    @property
     def _spread_mm(self) -> float:
         """How far the meniscus of normal wells stands from where it should, mm."""
-        if len(self._residuals) < _ENOUGH:
+        if len(self._heights) < _ENOUGH:
             return 1.0
-        residuals = np.asarray(self._residuals)
+        scale = self._scale
+        residuals = np.array([length - scale * wanted for length, wanted in self._heights])
         return max(1.48 * float(np.median(np.abs(residuals - np.median(residuals)))), 0.5)
 
     def _gap(self, found: _Found, tip: TipGeometry, height: float) -> tuple[float, float]:
         """Air in the column and its uncertainty; nothing unless it stands out in this run."""
         gap = found.measured.gap
-        if gap is None or len(self._gaps) < 2 * _ENOUGH:
+        volume = float(tip.volume_of(height))
+        alike = [g for other, g in self._gaps if 0.7 < other / max(volume, 1e-6) < 1.4]
+        if gap is None or not self._clear or len(alike) < _GAP_WELLS:
             return 0.0, 0.0
         mm = tip.length_mm / self._scale
         low, high = (1.0 - gap.bottom) * mm, (1.0 - gap.top) * mm
         air = float(tip.volume_of(min(high, height))) - float(tip.volume_of(max(low, 0.0)))
-        factor = _GAP_FACTOR + 2.0 / len(self._gaps)
-        limit = max(_GAP_LEAST, factor * float(np.max(self._gaps)))
+        # Few wells have not shown the worst that is normal.
+        factor = _GAP_FACTOR + 1.5 / len(alike)
+        limit = max(_GAP_LEAST, factor * float(np.max(alike)))
         if air <= 0 or gap.strength < limit:
             return 0.0, 0.0
         return air, air * limit / gap.strength / 8.0

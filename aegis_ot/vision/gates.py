@@ -99,7 +99,7 @@ class VolumetricGate:
             )
         for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE):
             reading = case.readings.get(kind)
-            if reading is None:
+            if reading is None or reading.vague:
                 continue
             contradiction = self._contradiction(kind, reading, case)
             if contradiction is not None:
@@ -173,23 +173,38 @@ class VolumetricGate:
         return GateDecision(Outcome.FAIL, self.gate, reason, failure, measured, expected)
 
     def _agreement(self, case: Case, sample: TrajectorySample) -> GateDecision:
+        full = case.readings.get(KeyframeKind.TRANSIT)
         last = case.readings.get(KeyframeKind.POST_DISPENSE)
-        seen = [
-            kind
-            for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
-            if kind in case.readings
-            and self.tolerance(case.readings[kind], sample.volume_ul, gross=False)
-            <= self.limits.blind_fraction * sample.volume_ul
-        ]
-        measured = last.volume_ul if last else None
         expected = sample.expected_ul.get(KeyframeKind.POST_DISPENSE)
-        if len(seen) == 2 and case.calibrated:
+        if full is None or last is None or not case.calibrated or not self._sharp(full, sample):
+            measured = None if last is None or last.vague else last.volume_ul
+            return GateDecision(
+                Outcome.UNDECIDED,
+                self.gate,
+                "The liquid column cannot be measured well enough in these frames.",
+                None,
+                measured,
+                expected,
+            )
+        if last.vague:
+            # The image score alone is no ground to stop a run, and the tip was filled as it
+            # should be.
+            return GateDecision(
+                Outcome.PASS,
+                self.gate,
+                "The column in transit agrees with the protocol; afterwards nothing speaks for "
+                "liquid left in the tip, though this liquid hardly shows.",
+                None,
+                None,
+                expected,
+            )
+        if self._sharp(last, sample):
             return GateDecision(
                 Outcome.PASS,
                 self.gate,
                 "The measured columns agree with the protocol's volumes.",
                 None,
-                measured,
+                last.volume_ul,
                 expected,
             )
         return GateDecision(
@@ -197,9 +212,14 @@ class VolumetricGate:
             self.gate,
             "The liquid column cannot be measured well enough in these frames.",
             None,
-            measured,
+            last.volume_ul,
             expected,
         )
+
+    def _sharp(self, reading: ColumnReading, sample: TrajectorySample) -> bool:
+        """Whether the reading is sharp enough for its agreement to mean something."""
+        tolerance = self.tolerance(reading, sample.volume_ul, gross=False)
+        return tolerance <= self.limits.blind_fraction * sample.volume_ul
 
 
 class OperatorGate:

@@ -32,6 +32,7 @@ class ColumnReading:
         gap_ul: Air enclosed in the column, µL.
         gap_sigma_ul: Standard uncertainty of that, µL.
         top: Upper end of the column as a fraction of the tip's length above the orifice.
+        vague: The tip looks empty, but so might a filled one: no proof either way.
     """
 
     volume_ul: float
@@ -39,6 +40,7 @@ class ColumnReading:
     gap_ul: float = 0.0
     gap_sigma_ul: float = 0.0
     top: float = 0.0
+    vague: bool = False
 
 
 @dataclass(frozen=True)

@@ -103,8 +103,33 @@ class _Open:
     unusable: list[KeyframeKind] = field(default_factory=list)
 
 
+class _Stream:
+    """Wells that look alike when all is well: one pipette, one kind of tip, one liquid.
+
+    A run that pipettes dye and then water has two; each is calibrated on its own first wells.
+
+    Args:
+        monitor: Where settings and models come from.
+        kin: A stream of the same pipette, whose reader knows the tip already.
+    """
+
+    def __init__(self, monitor: RunMonitor, kin: _Stream | None = None) -> None:
+        settings = monitor.settings
+        self.scorer = RunScorer(monitor.scorer, settings.calibration.wells)
+        self.cascade = Cascade(
+            (self.scorer.name,), settings.calibration, monitor.pools, settings.always_gate
+        )
+        self.reader = monitor.reader()
+        if kin is not None and isinstance(self.reader, MeasuredColumns):
+            self.reader.share_tip(kin.reader)
+        self.learned = 0
+        self.first_wells = 0
+
+
 class RunAnalyser:
     """Judges the trajectories of one run, one call at a time.
+
+    Calibration is per liquid and pipette: see :class:`_Stream`.
 
     A multi-channel pipette is judged on the one tip that the detector picks; the evidence says
     so (``channels``, ``tips_judged``).
@@ -113,14 +138,7 @@ class RunAnalyser:
     def __init__(self, run: str, monitor: RunMonitor) -> None:
         self.run = run
         self._monitor = monitor
-        settings = monitor.settings
-        self._scorer = RunScorer(monitor.scorer, settings.calibration.wells)
-        self._cascade = Cascade(
-            (self._scorer.name,), settings.calibration, monitor.pools, settings.always_gate
-        )
-        self._reader = monitor.reader()
-        self._learned = 0
-        self._first_wells = 0
+        self._streams: dict[tuple[str, float, str], _Stream] = {}
         self._open: dict[int, _Open] = {}
 
     def observe(self, keyframe: Keyframe, frame: Frame) -> None:
@@ -140,7 +158,7 @@ class RunAnalyser:
             tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
             pipette = pipette_class(keyframe.pipette)
             view = TipView(kind, image, detection, tip, pipette, keyframe.expected_ul)
-            trajectory.looks[kind] = self._reader.look(view)
+            trajectory.looks[kind] = self._stream(keyframe).reader.look(view)
 
     def judge(self, trajectory: int) -> Judged:
         """The trajectory is complete: its verdict, and what stands behind it."""
@@ -156,17 +174,18 @@ class RunAnalyser:
             )
             return verdict, {}
         sample = self._sample(trajectory, seen)
+        stream = self._stream(max(seen.keyframes.values(), key=lambda k: k.sequence))
         missing = tuple(kind for kind, found in seen.detections.items() if found is None)
-        readings = self._reader.read(seen.looks, sample.expected_ul)
-        scores = self._scorer.scores(sample) if len(seen.detections) == len(KeyframeKind) else {}
-        case = Case(sample, Route.GREY_ZONE, scores, readings, missing, self._learned > 0)
+        readings = stream.reader.read(seen.looks, sample.expected_ul)
+        scores = stream.scorer.scores(sample) if len(seen.detections) == len(KeyframeKind) else {}
+        case = Case(sample, Route.GREY_ZONE, scores, readings, missing, stream.learned > 0)
         volumetric = VolumetricGate().examine(self._routed(case, Route.GREY_ZONE))
         contradiction = volumetric.reason if volumetric.outcome is Outcome.FAIL else ""
-        triage = self._cascade.triage(scores, missing, contradiction)
+        triage = stream.cascade.triage(scores, missing, contradiction)
         case = self._routed(case, triage.route)
-        decision = self._decide(case, triage)
-        self._learn(case, seen, decision)
-        main = scores.get(self._scorer.name)
+        decision = self._decide(stream, case, triage)
+        self._learn(stream, case, seen, decision)
+        main = scores.get(stream.scorer.name)
         verdict = Verdict(
             self.run,
             trajectory,
@@ -179,10 +198,10 @@ class RunAnalyser:
             decision.measured_ul,
             decision.expected_ul,
         )
-        return verdict, self._evidence(case, seen, triage, decision)
+        return verdict, self._evidence(stream, case, seen, triage, decision)
 
     def recall(self, history: Sequence[Judged]) -> None:
-        """Restore the band from what was judged before a restart."""
+        """Restore the bands from what was judged before a restart."""
         if self._monitor.scorer is None:
             return
         for _, evidence in history:
@@ -190,19 +209,30 @@ class RunAnalyser:
             if not isinstance(known, Mapping):
                 continue
             try:
+                pipette, capacity, liquid = known["stream"]
+                key = (str(pipette), float(capacity), str(liquid))
                 scores = {str(name): float(score) for name, score in known["scores"].items()}
                 missing = [KeyframeKind(kind) for kind in known["missing"]]
-                normal = bool(known["normal"])
+                normal, volume = bool(known["normal"]), float(known["volume_ul"])
             except (KeyError, TypeError, ValueError, AttributeError):
                 continue
-            self._cascade.learn(scores, missing, normal=normal)
+            stream = self._streams.setdefault(key, _Stream(self._monitor))
+            stream.cascade.learn(scores, missing, normal=normal, volume_ul=volume)
+
+    def _stream(self, keyframe: Keyframe) -> _Stream:
+        pipette, liquid = f"{keyframe.mount} {keyframe.pipette}", keyframe.reagent or ""
+        key = (pipette, keyframe.capacity_ul, liquid)
+        if key not in self._streams:
+            kin = next((s for k, s in self._streams.items() if k[:2] == key[:2]), None)
+            self._streams[key] = _Stream(self._monitor, kin)
+        return self._streams[key]
 
     def _routed(self, case: Case, route: Route) -> Case:
         return Case(case.sample, route, case.scores, case.readings, case.missing, case.calibrated)
 
-    def _decide(self, case: Case, triage: Triage) -> GateDecision:
+    def _decide(self, stream: _Stream, case: Case, triage: Triage) -> GateDecision:
         if triage.route is Route.CALIBRATION:
-            self._first_wells += 1
+            stream.first_wells += 1
             # Assumed normal, but a gross failure is caught even here.
             gross = VolumetricGate().examine(case)
             if gross.outcome is Outcome.FAIL:
@@ -210,7 +240,7 @@ class RunAnalyser:
             return GateDecision(
                 Outcome.PASS,
                 Gate.NONE,
-                f"Calibration well {self._first_wells} of "
+                f"Calibration well {stream.first_wells} of "
                 f"{self._monitor.settings.calibration.wells}.",
                 None,
                 gross.measured_ul,
@@ -223,7 +253,7 @@ class RunAnalyser:
                 Gate.NONE,
                 triage.reason,
                 None,
-                None if last is None else last.volume_ul,
+                None if last is None or last.vague else last.volume_ul,
                 case.sample.expected_ul.get(KeyframeKind.POST_DISPENSE),
             )
         decision = examine_in_turn(self._monitor.gates, case)
@@ -239,18 +269,19 @@ class RunAnalyser:
             decision.expected_ul,
         )
 
-    def _learn(self, case: Case, seen: _Open, decision: GateDecision) -> None:
+    def _learn(self, stream: _Stream, case: Case, seen: _Open, decision: GateDecision) -> None:
         normal = decision.outcome is Outcome.PASS
-        collecting = self._cascade.state is CalibrationState.COLLECTING
-        if collecting and normal and not self._scorer.ready:
+        collecting = stream.cascade.state is CalibrationState.COLLECTING
+        if collecting and normal and not stream.scorer.ready:
             # The run's own model: its first wells are scored once they are all there.
-            for scores in self._scorer.learn(case.sample):
-                self._cascade.learn(scores, case.missing, normal=True)
+            for scores, volume in stream.scorer.learn(case.sample):
+                stream.cascade.learn(scores, case.missing, normal=True, volume_ul=volume)
         elif case.scores or not normal:
-            self._cascade.learn(case.scores, case.missing, normal=normal)
+            volume = case.sample.volume_ul
+            stream.cascade.learn(case.scores, case.missing, normal=normal, volume_ul=volume)
         if normal and KeyframeKind.TRANSIT in seen.looks:
-            self._reader.learn(seen.looks, case.sample.expected_ul)
-            self._learned += 1
+            stream.reader.learn(seen.looks, case.sample.expected_ul)
+            stream.learned += 1
 
     def _sample(self, trajectory: int, seen: _Open) -> TrajectorySample:
         last = seen.keyframes[max(seen.keyframes, key=lambda kind: seen.keyframes[kind].sequence)]
@@ -268,10 +299,10 @@ class RunAnalyser:
         )
 
     def _evidence(
-        self, case: Case, seen: _Open, triage: Triage, decision: GateDecision
+        self, stream: _Stream, case: Case, seen: _Open, triage: Triage, decision: GateDecision
     ) -> dict[str, Any]:
         channels = max(keyframe.channels for keyframe in seen.keyframes.values())
-        band = self._cascade.calibrations[self._scorer.name].band
+        band = stream.cascade.calibrations[stream.scorer.name].band
         return {
             "boxes": {
                 kind.value: [found.x, found.y, found.w, found.h]
@@ -292,6 +323,8 @@ class RunAnalyser:
             "channels": channels,
             "tips_judged": 1,
             "calibration": {
+                "stream": next(list(k) for k, s in self._streams.items() if s is stream),
+                "volume_ul": case.sample.volume_ul,
                 "scores": dict(case.scores),
                 "missing": [kind.value for kind in case.missing],
                 "normal": decision.outcome is Outcome.PASS,
@@ -303,6 +336,8 @@ def _readings(
     readings: Mapping[KeyframeKind, ColumnReading],
 ) -> Iterator[tuple[str, dict[str, float]]]:
     for kind, reading in readings.items():
+        if reading.vague:
+            continue
         yield (
             kind.value,
             {

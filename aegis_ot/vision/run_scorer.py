@@ -28,6 +28,7 @@ class RunScorer:
         self._scorer = scorer
         self._wells = max(wells, 2)
         self._vectors: list[NDArray[np.float32]] = []
+        self._volumes: list[float] = []
 
     @property
     def name(self) -> str:
@@ -42,16 +43,17 @@ class RunScorer:
         """Scores by scorer name; none before there is a model."""
         return {} if self._scorer is None else {self.name: self._scorer.score(sample)}
 
-    def learn(self, sample: TrajectorySample) -> Iterator[dict[str, float]]:
-        """Learn from one of the first wells; the last one yields the scores of all of them."""
+    def learn(self, sample: TrajectorySample) -> Iterator[tuple[dict[str, float], float]]:
+        """Learn from one of the first wells; the last one yields scores and volumes of all."""
         self._vectors.append(trajectory_vector(sample))
+        self._volumes.append(sample.volume_ul)
         if len(self._vectors) < self._wells:
             return
         vectors = np.stack(self._vectors)
         own = PcaScorer()
         for left_out in range(len(vectors)):
             own.fit_vectors(np.delete(vectors, left_out, axis=0))
-            yield {self.name: own.score_vector(vectors[left_out])}
+            yield {self.name: own.score_vector(vectors[left_out])}, self._volumes[left_out]
         own = PcaScorer()
         own.fit_vectors(vectors)
         self._scorer = own

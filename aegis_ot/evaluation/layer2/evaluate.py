@@ -19,7 +19,7 @@ from .lopo import ScoredWell, hold_out
 from .result import Layer2Result, summarise
 
 PROTOCOLS = ("lopo", "cascade")
-THRESHOLDS = ("first-normal", "pooled")
+THRESHOLDS = ("first-normal", "pooled", "p-value")
 
 
 def evaluate_layer2(
@@ -42,8 +42,8 @@ def evaluate_layer2(
             plate's first normal; flagged is what the gate fails or leaves to the operator.
         detector: ``"default"``, a detector file, ``"true"`` for the labelled boxes, or a
             detector.
-        threshold: ``"first-normal"`` (the default for the paper's scorers) or ``"pooled"``
-            (for the others); see :func:`~.lopo.hold_out`.
+        threshold: ``"first-normal"`` (the default for the paper's scorers), ``"p-value"`` (for
+            those whose score is one) or ``"pooled"``; see :func:`~.lopo.hold_out`.
         make: Makes the scorer in ``make_scorer``'s place.
         seed: Of the bootstrap.
 
@@ -54,11 +54,12 @@ def evaluate_layer2(
     """
     if protocol not in PROTOCOLS:
         raise ConfigurationError(f"protocol {protocol!r} is not one of {', '.join(PROTOCOLS)}")
-    threshold = threshold or ("first-normal" if scorer in BASELINES else "pooled")
+    build = make or (lambda: make_scorer(scorer))
+    if not threshold:
+        own = "p-value" if hasattr(build(), "p_value") else "pooled"
+        threshold = "first-normal" if scorer in BASELINES else own
     if threshold not in THRESHOLDS:
         raise ConfigurationError(f"threshold {threshold!r} is not one of {', '.join(THRESHOLDS)}")
-    build = make or (lambda: make_scorer(scorer))
-    build()
     data = dataset if isinstance(dataset, Dataset) else load_dataset(dataset)
     finder, finder_name = find_detector(data, detector)
     samples = data.samples(finder)

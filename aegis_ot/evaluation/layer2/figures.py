@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +33,8 @@ def draw_figures(
         folder: Where to write; made if need be.
         samples: The set's trajectories: with them, scree, component sweep and sample complexity
             are drawn too (minutes for slow scorers).
-        make: Makes the scorer of the sample-complexity curve; by default the paper's PCA.
+        make: Makes the scorer of the sample-complexity curve, which the result's threshold must
+            fit; by default the paper's PCA with the paper's threshold.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -52,7 +54,12 @@ def draw_figures(
             _draw(
                 folder / "sample_complexity.png",
                 result,
-                lambda axes, _: _complexity(axes, samples, make or PcaScorer, result),
+                lambda axes, _: _complexity(
+                    axes,
+                    samples,
+                    make or PcaScorer,
+                    result.threshold if make else "first-normal",
+                ),
             )
         )
     return paths
@@ -141,7 +148,7 @@ def _sweep(axes: Any, samples: Sequence[TrajectorySample]) -> None:
     for components in SWEEP:
         wells = [
             well
-            for well in hold_out(samples, lambda k=components: PcaScorer(k), "first-normal")
+            for well in hold_out(samples, partial(PcaScorer, components), "first-normal")
             if not well.without_tip
         ]
         failed = np.array([well.failed for well in wells], dtype=bool)
@@ -162,7 +169,7 @@ def _complexity(
     axes: Any,
     samples: Sequence[TrajectorySample],
     make: Callable[[], Scorer],
-    result: Layer2Result,
+    threshold: str,
 ) -> None:
     """AUROC when fitted on the normals of fewer other plates."""
     plates = list(dict.fromkeys(sample.plate for sample in samples))
@@ -174,9 +181,7 @@ def _complexity(
             rng = np.random.default_rng(seed)
             wells = [
                 well
-                for well in hold_out(
-                    samples, lambda s=size, r=rng: _Fewer(make(), s, r), result.threshold
-                )
+                for well in hold_out(samples, partial(_fewer, make, size, rng), threshold)
                 if not well.without_tip
             ]
             failed = np.array([well.failed for well in wells], dtype=bool)
@@ -189,6 +194,10 @@ def _complexity(
     axes.set(
         xlabel=f"plates to learn from ({make().name})", ylabel="AUROC, three draws", ylim=(0, 1.02)
     )
+
+
+def _fewer(make: Callable[[], Scorer], plates: int, rng: np.random.Generator) -> _Fewer:
+    return _Fewer(make(), plates, rng)
 
 
 class _Fewer:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...errors import DatasetError
+from ...errors import ConfigurationError, DatasetError
 from ...vision.cascade import DECISIVE
 from ...vision.crops import missing_tips
 from ...vision.dataset import first_normals
@@ -65,11 +65,17 @@ def hold_out(
         threshold: ``"first-normal"``: a well is flagged if it scores more than the plate's
             first normal (the paper's; half of exchangeable normals do). ``"pooled"``: if it
             scores more than all but a fraction :data:`ALPHA` of other plates' normals would
-            (see :func:`_pooled`).
+            (see :func:`_pooled`). ``"p-value"``: if the scorer's own p-value, learned from the
+            other plates' normals, is below :data:`ALPHA` (its score is ``-log p``).
 
     Raises:
+        ConfigurationError: If the scorer gives no p-values and they are asked for.
         DatasetError: If there are fewer than two plates.
     """
+    if threshold == "p-value" and not hasattr(make(), "p_value"):
+        raise ConfigurationError(
+            f"scorer {make().name!r} gives no p-values; use the threshold 'pooled'"
+        )
     plates = list(dict.fromkeys(sample.plate for sample in samples))
     if len(plates) < 2:
         raise DatasetError(
@@ -89,13 +95,16 @@ def hold_out(
             if sample.plate == plate and sample is not anchor_well:
                 missing = any(kind in DECISIVE for kind in missing_tips(sample))
                 wells.append(ScoredWell(sample, scorer.score(sample), anchor, 0.0, missing))
+    if threshold == "p-value":
+        limit = -float(np.log(ALPHA))
+        return [replace(well, standing=well.score - limit) for well in wells]
     calibrates = isinstance(make(), Calibrating)
     return _first_normal(wells) if threshold == "first-normal" else _pooled(wells, calibrates)
 
 
 def _first_normal(wells: Sequence[ScoredWell]) -> list[ScoredWell]:
     """Standing: log of score over the calibration well's score."""
-    tiny = np.finfo(np.float64).tiny
+    tiny = float(np.finfo(np.float64).tiny)
     return [
         replace(
             well, standing=float(np.log(max(well.score, tiny)) - np.log(max(well.anchor, tiny)))
