@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from ..sidecar import SidecarConfig, make_analyser, serve
+from ..sidecar.reasoning_routes import gates_of
 from .app import app
 
 
@@ -25,6 +26,10 @@ def sidecar(
     ] = None,
     data: Annotated[Path | None, typer.Option(help="Folder for runs and frames.")] = None,
     config: Annotated[Path | None, typer.Option(help="Settings file, JSON or TOML.")] = None,
+    model: Annotated[
+        str | None,
+        typer.Option(help="anthropic:MODEL, openai:MODEL@URL or replay:FOLDER, for opinions."),
+    ] = None,
 ) -> None:
     """Watch the robot's tips: capture, score, judge, and show a page."""
     settings = SidecarConfig.load(
@@ -34,9 +39,11 @@ def sidecar(
         token=token,
         data=data,
         camera=None if camera is None else {"spec": camera},
+        model=None if model is None else {"name": model},
     )
 
     def ready(url: str) -> None:
         typer.echo(f"aegis-ot sidecar: {url} (camera {settings.camera.spec}, data {settings.data})")
 
-    serve(settings, analyser=make_analyser(settings.cascade), ready=ready)
+    analyser = make_analyser(settings.cascade, gates_of(settings))
+    serve(settings, analyser=analyser, ready=ready)

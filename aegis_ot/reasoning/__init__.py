@@ -1,1 +1,60 @@
-"""(being built)"""
+"""Language and vision models behind one small protocol. Workstation side.
+
+Door: :func:`make_backend` for a model by name, :func:`judge_in` for Layer 1 with it,
+:class:`VlmGate` for Layer 2, :class:`Opinions` for the sidecar.
+"""
+
+from .backend import Backend, Message, Passage, Picture, Reply, Request, State, Usage
+from .backends import (
+    MODEL_VARIABLE,
+    AnthropicBackend,
+    OpenAIBackend,
+    Patience,
+    RecordingBackend,
+    ReplayBackend,
+    ScriptedBackend,
+    make_backend,
+    model_from_environment,
+)
+from .batch import Imported, export_requests, import_answers
+from .configurations import Configuration, Judgement, judge_in, request_in
+from .opinions import Opinions
+from .prices import Price, PriceTable, load_prices
+from .tokens import RequestSize, estimate_tokens, request_size
+from .vlm import VlmGate, gate_request
+
+__all__ = [
+    "MODEL_VARIABLE",
+    "AnthropicBackend",
+    "Backend",
+    "Configuration",
+    "Imported",
+    "Judgement",
+    "Message",
+    "OpenAIBackend",
+    "Opinions",
+    "Passage",
+    "Patience",
+    "Picture",
+    "Price",
+    "PriceTable",
+    "RecordingBackend",
+    "ReplayBackend",
+    "Reply",
+    "Request",
+    "RequestSize",
+    "ScriptedBackend",
+    "State",
+    "Usage",
+    "VlmGate",
+    "estimate_tokens",
+    "export_requests",
+    "gate_request",
+    "import_answers",
+    "judge_in",
+    "load_prices",
+    "make_backend",
+    "model_from_environment",
+    "request_in",
+    "request_size",
+]

@@ -22,6 +22,7 @@ from .analysis import Analyser, Unscored
 from .cameras import open_camera
 from .config import SidecarConfig
 from .pages import router as pages
+from .reasoning_routes import opinion_router, opinions_of
 from .security import Doorkeeper
 from .service import Sidecar
 from .wire import (
@@ -69,9 +70,10 @@ def create_app(
         ``close()`` must be called where no server runs the application's lifespan.
 
     Raises:
-        ConfigurationError: The camera's name makes no sense.
+        ConfigurationError: The camera's or the model's name makes no sense.
         StoreError: The data folder cannot be used.
     """
+    opinions = opinions_of(config)
     camera = open_camera(config.camera) if camera is None else camera
     try:
         sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser)
@@ -96,6 +98,7 @@ def create_app(
     _answer_errors(app)
     _robot_routes(app, sidecar)
     _reader_routes(app, sidecar)
+    app.include_router(opinion_router(opinions, read_body))
     app.include_router(pages)
     return app
 

@@ -32,6 +32,8 @@ ENVIRONMENT = {
     "AEGIS_OT_SIDECAR_DATA": ("data",),
     "AEGIS_OT_SIDECAR_CAMERA": ("camera", "spec"),
     "AEGIS_OT_SIDECAR_NOTIFY": ("notifications", "urls"),
+    "AEGIS_OT_MODEL": ("model", "name"),
+    "AEGIS_OT_MODEL_RECORD": ("model", "record"),
 }
 """Environment variables and the settings they give; notification URLs are parted by spaces."""
 
@@ -120,6 +122,20 @@ class NotificationSettings(Section):
         return tuple(value.split()) if isinstance(value, str) else value
 
 
+class ModelSettings(Section):
+    """The language or vision model, if there is one. Keys come from the environment alone.
+
+    Attributes:
+        name: ``anthropic:MODEL``, ``openai:MODEL@URL`` or ``replay:FOLDER``; ``None``: no model.
+        record: Folder to keep requests and answers in.
+        timeout_s: From a question to its answer, retries included, s.
+    """
+
+    name: Annotated[str, Field(min_length=1)] | None = None
+    record: Path | None = None
+    timeout_s: Annotated[float, Field(gt=0, le=600)] = 60.0
+
+
 class SidecarConfig(Section):
     """All settings of a sidecar. Use :meth:`load` for errors meant for people.
 
@@ -138,6 +154,7 @@ class SidecarConfig(Section):
     cascade: CascadeSettings = CascadeSettings()
     operator: OperatorSettings = OperatorSettings()
     notifications: NotificationSettings = NotificationSettings()
+    model: ModelSettings = ModelSettings()
 
     @field_validator("token")
     @classmethod

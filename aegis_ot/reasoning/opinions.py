@@ -1,0 +1,130 @@
+"""A model's opinions, asked for once per digest and remembered: the sidecar's half of Layer 1.
+
+Analysis asks while the scientist looks at the App; the live run of the same protocol finds the
+answer waiting. What a model said is kept; an outage is not, and is asked about again.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import os
+import tempfile
+import threading
+from pathlib import Path
+
+from ..preflight import Database, load_database
+from ..preflight.dossier import Dossier
+from ..preflight.opinion import Opinion
+from ..vocabulary import from_json, to_json
+from .backend import Backend, State
+from .configurations import give_opinion
+
+MOST_PENDING = 8
+"""Questions asked at once; more are told to come back."""
+
+_LASTING = {State.ANSWERED.value, State.REFUSED.value, State.TRUNCATED.value, State.INVALID.value}
+_log = logging.getLogger(__name__)
+
+
+class Opinions:
+    """Asks, remembers, and lets callers wait as long as they like and no longer.
+
+    Args:
+        backend: Whom to ask; ``None``: every opinion is ``no_model``.
+        folder: Where to keep opinions over restarts; ``None``: in memory only.
+        database: The rules; the shipped ones if left out.
+    """
+
+    def __init__(
+        self,
+        backend: Backend | None,
+        folder: Path | None = None,
+        database: Database | None = None,
+    ) -> None:
+        self._backend = backend
+        self._folder = folder
+        self._database = database
+        self._changed = threading.Condition()
+        self._known: dict[str, Opinion] = {}
+        self._pending: set[str] = set()
+
+    def ask(self, dossier: Dossier) -> str:
+        """See to it that this dossier has, or will have, an opinion; returns its digest."""
+        digest = dossier.digest
+        with self._changed:
+            known = self._known.get(digest) or self._from_disk(digest)
+            if known is not None and known.state in _LASTING:
+                self._known[digest] = known
+                return digest
+            if digest in self._pending:
+                return digest
+            self._known.pop(digest, None)
+            if self._backend is None:
+                detail = "The sidecar has no model; set AEGIS_OT_MODEL for it."
+                self._known[digest] = Opinion(State.NO_MODEL.value, "no model", detail)
+                return digest
+            if len(self._pending) >= MOST_PENDING:
+                detail = f"{MOST_PENDING} other questions are being answered."
+                self._known[digest] = Opinion(State.RATE_LIMITED.value, self._backend.name, detail)
+                return digest
+            self._pending.add(digest)
+        threading.Thread(
+            target=self._work, args=(digest, dossier), name="aegis-ot-opinion", daemon=True
+        ).start()
+        return digest
+
+    def wait(self, digest: str, seconds: float) -> Opinion | None:
+        """The opinion, or ``None`` if it is not in after ``seconds``."""
+        with self._changed:
+            self._changed.wait_for(lambda: digest not in self._pending, seconds)
+            if digest in self._pending:
+                return None
+            return self._known.get(digest)
+
+    def knows(self, digest: str) -> bool:
+        """Whether this digest was ever asked about, and is pending or answered."""
+        with self._changed:
+            return digest in self._pending or digest in self._known
+
+    def _work(self, digest: str, dossier: Dossier) -> None:
+        name = self._backend.name if self._backend is not None else "no model"
+        try:
+            if self._database is None:
+                self._database = load_database()
+            opinion, _ = give_opinion(dossier, self._database, self._backend)
+        except Exception as error:  # a question must never stay pending for ever
+            _log.exception("An opinion could not be had")
+            detail = f"The sidecar failed ({type(error).__name__}); its log says more."
+            opinion = Opinion(State.UNAVAILABLE.value, name, detail)
+        if opinion.state in _LASTING:
+            self._to_disk(digest, opinion)
+        with self._changed:
+            self._known[digest] = opinion
+            self._pending.discard(digest)
+            self._changed.notify_all()
+
+    def _from_disk(self, digest: str) -> Opinion | None:
+        if self._folder is None:
+            return None
+        path = self._folder / f"{digest}.json"
+        try:
+            return from_json(Opinion, json.loads(path.read_text(encoding="utf-8")))
+        except FileNotFoundError:
+            return None
+        except (OSError, ValueError) as error:
+            _log.warning("The opinion %s is damaged and is asked for again: %s", path, error)
+            return None
+
+    def _to_disk(self, digest: str, opinion: Opinion) -> None:
+        if self._folder is None:
+            return
+        try:
+            self._folder.mkdir(parents=True, exist_ok=True)
+            handle, name = tempfile.mkstemp(dir=self._folder, prefix=".writing-")
+            with os.fdopen(handle, "w", encoding="utf-8") as file:
+                json.dump(to_json(opinion), file, ensure_ascii=False)
+            os.replace(name, self._folder / f"{digest}.json")
+        except OSError as error:
+            # It is in memory: the run goes on, a restart asks again.
+            _log.warning("An opinion cannot be kept in %s: %s", self._folder, error)
