@@ -212,6 +212,10 @@ def _judge(
     text = script.text if script is not None else ""
     try:
         report = check_recording(recorder, names, text, file_name, settings)
+        if settings.opinion == "ask":
+            from .preflight.asking import with_opinion
+
+            report = with_opinion(report, recorder, names, text, file_name, settings, protocol)
     except AegisError:
         raise
     except Exception as error:  # a fault of ours must not keep a good protocol from running

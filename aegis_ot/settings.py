@@ -51,6 +51,10 @@ class Settings:
         capture_timeout_s: Longest wait for one keyframe, retries included, s.
         verdict_timeout_s: Longest hold for verdicts at one boundary, s.
         rehearsal_timeout_s: Longest rehearsal of the protocol, s.
+        opinion: ``"ask"``: the sidecar's model, if it has one, is asked about the protocol as
+            well; it can add findings and takes none away. ``"off"``.
+        opinion_timeout_s: Longest wait of an analysis for it, s; a live run takes what is
+            remembered.
         run_id: Identifier of the run; a fresh one if ``None``.
     """
 
@@ -71,6 +75,8 @@ class Settings:
     capture_timeout_s: float = 10.0
     verdict_timeout_s: float = 60.0
     rehearsal_timeout_s: float = 120.0
+    opinion: str = "off"
+    opinion_timeout_s: float = 20.0
     run_id: str | None = None
 
     def new_run_id(self) -> str:
@@ -322,5 +328,7 @@ _READERS: dict[str, Callable[[Any, _Site], Any]] = {
     "capture_timeout_s": _seconds,
     "verdict_timeout_s": _seconds,
     "rehearsal_timeout_s": _seconds,
+    "opinion": _choice("off", "ask"),
+    "opinion_timeout_s": _seconds,
     "run_id": _run_id,
 }
