@@ -3,14 +3,36 @@
 from collections.abc import Callable
 
 from ..checking import CheckRun
+from .check_github import check_github
+from .check_html import check_html
 from .check_json import check_json
+from .check_junit import check_junit
+from .check_sarif import check_sarif
 from .check_text import check_text
 from .dryrun_html import dry_run_html
+from .rule_pages import rule_pages
+from .rule_text import rule_list, rule_text
 
 RENDERERS: dict[str, Callable[[CheckRun], str]] = {
     "text": check_text,
     "json": check_json,
+    "sarif": check_sarif,
+    "github": check_github,
+    "junit": check_junit,
+    "html": check_html,
 }
 """Renderers of checked protocols, by the name of their format."""
 
-__all__ = ["RENDERERS", "check_json", "check_text", "dry_run_html"]
+__all__ = [
+    "RENDERERS",
+    "check_github",
+    "check_html",
+    "check_json",
+    "check_junit",
+    "check_sarif",
+    "check_text",
+    "dry_run_html",
+    "rule_list",
+    "rule_pages",
+    "rule_text",
+]

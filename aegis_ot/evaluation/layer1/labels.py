@@ -1,4 +1,14 @@
-"""Reads ``labels.json`` of a protocol benchmark (see ``docs/reference/benchmark.md``)."""
+"""Reads ``labels.json`` of a protocol benchmark: a list with one object per protocol.
+
+::
+
+    {"file": "b13.py", "family": "pcr", "verdict": "fail", "rules": ["PCR-1"],
+     "also_acceptable": ["PCR-6"], "wells": {"PCR-1": ["4:H12"]}, "lines": {"PCR-1": [41]},
+     "note": "one sentence"}
+
+``file``, ``family`` and ``verdict`` must be there. An entry with an ``adjusted_verdict`` is
+scored by both; the rules that it lists are acceptable under either.
+"""
 
 from __future__ import annotations
 

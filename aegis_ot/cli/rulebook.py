@@ -1,0 +1,160 @@
+"""``aegis-ot explain`` and ``aegis-ot rules``: the rule database, shown, tested, documented."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..checking import Rehearser, TaskFailed
+from ..checking.tasks import RunExamples
+from ..errors import ConfigurationError
+from ..preflight import Database, load_database
+from ..preflight.examples import ExampleResult
+from ..preflight.rulefiles import shipped_rules
+from ..reports import rule_list, rule_pages, rule_text
+from .app import CLEAN, FINDINGS, app
+from .checks import known_rule, one_of, split, write_text
+
+RulesOption = Annotated[list[Path] | None, typer.Option(help="File or folder of further rules.")]
+
+rules_app = typer.Typer(no_args_is_help=True, help="The rule database: list, test, document.")
+app.add_typer(rules_app, name="rules")
+
+
+@app.command()
+def explain(
+    rule: Annotated[str, typer.Argument(help="A rule's identifier, PCR-2.")],
+    rules: RulesOption = None,
+) -> None:
+    """Say what a rule demands, why, how to mend a violation, and show examples."""
+    database = _database(rules)
+    typer.echo(rule_text(*database.rule(known_rule(rule, database))), nl=False)
+
+
+@rules_app.command("list")
+def list_rules(
+    rules: RulesOption = None,
+    output_format: Annotated[str, typer.Option("--format", "-f", help="text or json.")] = "text",
+) -> None:
+    """List all rules in force."""
+    one_of("--format", output_format, ("text", "json"))
+    database = _database(rules)
+    if output_format == "text":
+        typer.echo(rule_list(database), nl=False)
+        return
+    entries = [
+        {
+            "id": rule.id,
+            "name": rule.name,
+            "family": family.family,
+            "severity": rule.severity,
+            "scope": rule.scope,
+            "statement": rule.statement,
+        }
+        for family in database.families
+        for rule in family.rules
+    ]
+    typer.echo(json.dumps({"rules": entries}, indent=2, ensure_ascii=False))
+
+
+@rules_app.command("test")
+def run_rule_examples(
+    path: Annotated[
+        Path | None, typer.Argument(help="File or folder of rules; left out: the shipped ones.")
+    ] = None,
+    rules: RulesOption = None,
+    select: Annotated[list[str] | None, typer.Option(help="Only these rules.")] = None,
+    timeout: Annotated[
+        float, typer.Option(help="Longest time for the examples of one rule, s.")
+    ] = 120.0,
+) -> None:
+    """Run the examples that rules carry: passing ones must pass, failing ones be caught.
+
+    Exit codes: 0 all as promised, 1 some are not, 2 a rule file is wrong.
+    """
+    given = [*([path] if path is not None else []), *(rules or ())]
+    database = _database(given)
+    wanted = [known_rule(rule, database, "--select: ") for rule in split(select)]
+    if not wanted:
+        wanted = _rules_of(database, given)
+    paths = tuple(str(p.resolve()) for p in _further(given))
+    results: list[ExampleResult] = []
+    with Rehearser(paths) as rehearser:
+        for rule in wanted:
+            try:
+                found = rehearser.perform(RunExamples(rule, paths, timeout))
+            except TaskFailed as failed:
+                found = [ExampleResult(rule, "its examples", False, False, str(failed))]
+            results += found
+            for result in found:
+                if not result.ok:
+                    typer.echo(f"{result.rule}: {result.title}: {_wrong(result)}")
+    bad = sum(not result.ok for result in results)
+    typer.echo(
+        f"{len(wanted)} rules, {len(results)} examples: {len(results) - bad} as promised, "
+        f"{bad} not."
+    )
+    raise typer.Exit(FINDINGS if bad else CLEAN)
+
+
+@rules_app.command("docs")
+def write_docs(
+    out: Annotated[Path, typer.Option(help="Folder for the pages.")] = Path("docs/rules"),
+    rules: RulesOption = None,
+    check: Annotated[
+        bool, typer.Option("--check", help="Write nothing; fail if a page is out of date.")
+    ] = False,
+) -> None:
+    """Write the documentation pages of the rules from the rule files."""
+    pages = rule_pages(_database(rules))
+    if check:
+        stale = [name for name, text in pages.items() if _text(out / name) != text]
+        for name in stale:
+            typer.echo(f"{out / name} is out of date; run: aegis-ot rules docs")
+        raise typer.Exit(FINDINGS if stale else CLEAN)
+    for name, text in pages.items():
+        write_text(out / name, text)
+    typer.echo(f"{len(pages)} pages in {out}")
+
+
+def _text(path: Path) -> str | None:
+    try:
+        return path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return None
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigurationError(f"{path} cannot be read: {error}") from None
+
+
+def _database(paths: list[Path] | None) -> Database:
+    return load_database(_further(paths or []))
+
+
+def _further(paths: list[Path]) -> list[Path]:
+    """Without what is part of the shipped database anyway."""
+    shipped = shipped_rules().resolve()
+    return [p for p in paths if shipped not in (p.resolve(), *p.resolve().parents)]
+
+
+def _rules_of(database: Database, paths: list[Path]) -> list[str]:
+    """The rules of these files, or all."""
+    places = [path.resolve() for path in paths]
+    return [
+        rule.id
+        for family in database.families
+        for rule in family.rules
+        if not places
+        or any(
+            place in (Path(family.path).resolve(), *Path(family.path).resolve().parents)
+            for place in places
+        )
+    ]
+
+
+def _wrong(result: ExampleResult) -> str:
+    if result.problem:
+        return result.problem
+    return "the rule finds nothing" if result.expected else "the rule fires, and must not"

@@ -1,0 +1,63 @@
+"""Checked protocols as GitHub workflow commands: annotations beside the lines of a change.
+
+The format is that of GitHub's "Workflow commands for GitHub Actions".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..checking import CheckedProtocol, CheckRun
+from ..vocabulary import Severity
+from .words import listed, summary_line
+
+
+def check_github(run: CheckRun) -> str:
+    """Render as workflow commands, and a closing line for the log."""
+    names = {rule.id: rule.name for rule in run.database.rules}
+    lines = [line for checked in run.protocols for line in _annotations(checked, names)]
+    return "\n".join([*lines, summary_line(run)]) + "\n"
+
+
+def _annotations(checked: CheckedProtocol, names: dict[str, str]) -> Iterator[str]:
+    if checked.problem is not None:
+        yield _command(
+            "error",
+            checked.file,
+            checked.problem.line,
+            "aegis-ot: cannot be judged",
+            checked.problem.message,
+        )
+    for finding in checked.findings:
+        kind = "error" if finding.severity is Severity.ERROR else "warning"
+        # The last line is where the harm was done.
+        line = finding.lines[-1] if finding.lines else None
+        message = f"{finding.message}\n{finding.why}\nFix: {finding.fix}".strip()
+        title = f"{finding.rule} {names.get(finding.rule, '')}".strip()
+        yield _command(kind, checked.file, line, title, message)
+    if checked.exploration is not None:
+        for values, problem in checked.exploration.failures:
+            title = f"aegis-ot: cannot be judged with {values}"
+            yield _command("error", checked.file, problem.line, title, problem.message)
+    for note in checked.notes:
+        yield _command("notice", checked.file, None, "aegis-ot", note)
+    if checked.undecided:
+        rules = listed(list(dict.fromkeys(u.rule for u in checked.undecided)), 30)
+        reasons = "\n".join(dict.fromkeys(f"{u.rule}: {u.reason}" for u in checked.undecided))
+        yield _command("notice", checked.file, None, f"aegis-ot: undecided: {rules}", reasons)
+
+
+def _command(kind: str, file: str, line: int | None, title: str, message: str) -> str:
+    properties = [f"file={_property(file)}"]
+    if line:
+        properties.append(f"line={line}")
+    properties.append(f"title={_property(title)}")
+    return f"::{kind} {','.join(properties)}::{_data(message)}"
+
+
+def _data(text: str) -> str:
+    return text.replace("%", "%25").replace("\r", "%0D").replace("\n", "%0A")
+
+
+def _property(text: str) -> str:
+    return _data(text).replace(":", "%3A").replace(",", "%2C")

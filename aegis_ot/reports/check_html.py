@@ -1,0 +1,53 @@
+"""Checked protocols as one HTML page: no script, no link."""
+
+from __future__ import annotations
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from ..checking import CheckedProtocol, CheckRun
+from ..vocabulary import Finding
+from .words import listed, listed_wells, site_label, sites_by_line, summary_line
+
+Row = tuple[int, str, str]
+"""Line number, source, and what happened there (empty: shown for context)."""
+
+_CONTEXT = 1
+
+
+def check_html(run: CheckRun) -> str:
+    """Render as HTML."""
+    environment = Environment(
+        loader=PackageLoader("aegis_ot.reports"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["wells"] = lambda finding: listed_wells(finding.wells, 96)
+    environment.filters["listed"] = lambda values: listed([str(v) for v in values], 16)
+    template = environment.get_template("check.html")
+    return template.render(
+        run=run,
+        rules={rule.id: rule for rule in run.database.rules},
+        summary=summary_line(run),
+        excerpt=_excerpt,
+    )
+
+
+def _excerpt(checked: CheckedProtocol, finding: Finding) -> list[Row]:
+    """The lines concerned, with their neighbours; line 0 stands for a gap."""
+    sites = sites_by_line(finding)
+    shown = sorted(
+        {
+            number
+            for line in sites
+            for number in range(line - _CONTEXT, line + _CONTEXT + 1)
+            if 0 < number <= len(checked.lines)
+        }
+    )
+    rows: list[Row] = []
+    for number in shown:
+        if rows and number > rows[-1][0] + 1:
+            rows.append((0, "", ""))
+        rows.append((number, checked.lines[number - 1], site_label(sites.get(number, []))))
+    return rows

@@ -1,0 +1,191 @@
+"""The documentation pages of the rules, in Markdown, from the rule files and the checks."""
+
+from __future__ import annotations
+
+import inspect
+import json
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ..preflight.checks import CHECKS
+from ..preflight.rulefiles import Database, Example, Family, RoleSpec, RuleSpec
+from .rule_text import code_of, needs_in_words
+
+_HEAD = "<!-- Written by `aegis-ot rules docs` from the rule files. Edit those. -->"
+
+
+def rule_pages(database: Database) -> dict[str, str]:
+    """All pages, by file name: an index, one page per family, and one of the checks."""
+    pages = {"README.md": "\n".join(_index(database)) + "\n"}
+    for family in database.families:
+        pages[f"{family.family}.md"] = "\n".join(_family(family)) + "\n"
+    pages["checks.md"] = "\n".join(_checks(database)) + "\n"
+    return pages
+
+
+def _index(database: Database) -> Iterator[str]:
+    yield _HEAD
+    yield ""
+    yield "# Rules"
+    yield ""
+    yield (
+        f"{len(database.rules)} rules in {len(database.families)} assay families. A rule is data: "
+        "a JSON file per family in `rules/` names the words that reveal the family, the roles "
+        "that its wells play, and its rules; each rule names [checks](checks.md) and their "
+        "parameters. `aegis-ot explain RULE` shows one in the terminal."
+    )
+    yield ""
+    yield "| rule | name | severity | statement |"
+    yield "|---|---|---|---|"
+    for family in database.families:
+        for rule in family.rules:
+            yield (
+                f"| [{rule.id}]({family.family}.md#{_anchor(rule)}) | {rule.name} | "
+                f"{rule.severity} | {_cell(rule.statement)} |"
+            )
+    yield ""
+    yield "## Families"
+    yield ""
+    for family in database.families:
+        yield f"- [{family.title}]({family.family}.md) (`{family.family}`): {family.description}"
+    yield ""
+    yield "## Waiving a rule"
+    yield ""
+    yield "On the line concerned, on a line of its own above it, or at the top of the file:"
+    yield ""
+    yield "```python"
+    yield "# aegis: ignore[SD-5] one tip per series is accepted in this teaching protocol"
+    yield "```"
+    yield ""
+    yield "A reason is required, and a waiver that covers nothing is reported. For a project:"
+    yield ""
+    yield "```toml"
+    yield "[tool.aegis-ot]"
+    yield 'ignore = ["GEN-3"]'
+    yield ""
+    yield "[tool.aegis-ot.severity]"
+    yield 'PCR-6 = "error"'
+    yield ""
+    yield "[[tool.aegis-ot.waivers]]"
+    yield 'rules = ["SD-5"]'
+    yield 'files = ["tutorials/*.py"]'
+    yield 'reason = "One tip per series is how we teach it."'
+    yield "```"
+
+
+def _family(family: Family) -> Iterator[str]:
+    yield _HEAD
+    yield ""
+    yield f"# {family.title}"
+    yield ""
+    yield f"{family.description} Family `{family.family}`."
+    for rule in family.rules:
+        yield ""
+        yield from _rule(family, rule)
+    yield ""
+    yield "## Roles"
+    yield ""
+    yield "| role | meaning | also counts as | words that name it |"
+    yield "|---|---|---|---|"
+    for name, role in family.roles.items():
+        yield f"| `{name}` | {role.title} | {', '.join(role.parents)} | {_words(role)} |"
+
+
+def _words(role: RoleSpec) -> str:
+    shown = ", ".join(role.words[:12])
+    more = f" and {len(role.words) - 12} more" if len(role.words) > 12 else ""
+    if not role.words and role.receives:
+        return f"follows from receiving {', '.join(role.receives)}"
+    return _cell(shown + more)
+
+
+def _rule(family: Family, rule: RuleSpec) -> Iterator[str]:
+    yield f"## {rule.id} {rule.name}"
+    yield ""
+    yield f"**{rule.severity}**. {rule.statement}"
+    yield ""
+    yield f"**Why.** {rule.rationale}"
+    yield ""
+    yield f"**Fix.** {rule.fix}"
+    yield ""
+    yield f"**Reference.** {rule.reference}"
+    yield ""
+    if rule.scope == "all":
+        yield "Judged in protocols of every family."
+        yield ""
+    if rule.needs:
+        yield f"Needs to know: {needs_in_words(family, rule)}. Otherwise it is undecided."
+        yield ""
+    if rule.unless_reported:
+        yield (
+            "Not reported for wells that are already reported under "
+            f"{', '.join(rule.unless_reported)}."
+        )
+        yield ""
+    yield "Decided by:"
+    yield ""
+    for check in rule.checks:
+        yield f"- {_check(check)}"
+    for kind, examples in (("Passes", rule.examples.passing), ("Fails", rule.examples.failing)):
+        for example in examples:
+            yield ""
+            yield from _example(kind, example)
+
+
+def _check(check: Mapping[str, Any]) -> str:
+    name = check["check"]
+    parameters = [
+        f"{key} = {json.dumps(value, ensure_ascii=False)}"
+        for key, value in check.items()
+        if key != "check"
+    ]
+    told = f": `{'; '.join(parameters)}`" if parameters else ""
+    return f"[`{name}`](checks.md#{name}){told}"
+
+
+def _example(kind: str, example: Example) -> Iterator[str]:
+    yield f"{kind}: {example.title}"
+    yield ""
+    yield "```python"
+    yield code_of(example)
+    yield "```"
+
+
+def _checks(database: Database) -> Iterator[str]:
+    yield _HEAD
+    yield ""
+    yield "# Checks"
+    yield ""
+    yield "The vocabulary that rules are made of. Lists of roles are names of the family's roles."
+    for name, check in CHECKS.items():
+        users = [r.id for r in database.rules if any(c["check"] == name for c in r.checks)]
+        yield ""
+        yield f"## {name}"
+        yield ""
+        text, _, attributes = _documentation(check).partition("\n\nAttributes:\n")
+        yield text
+        if attributes:
+            yield ""
+            yield from _attributes(attributes)
+        yield ""
+        yield f"Used by: {', '.join(users) or 'no shipped rule'}."
+
+
+def _documentation(check: type) -> str:
+    return (inspect.getdoc(check) or "").replace("``", "`")
+
+
+def _attributes(text: str) -> Iterator[str]:
+    for entry in re.split(r"\n(?=    \S)", text.rstrip()):
+        name, _, meaning = " ".join(entry.split()).partition(": ")
+        yield f"- `{name}`: {meaning}"
+
+
+def _anchor(rule: RuleSpec) -> str:
+    """As GitHub makes it of a heading."""
+    return re.sub(r"[^\w\- ]", "", f"{rule.id} {rule.name}").lower().replace(" ", "-")
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|").replace("\n", " ")
