@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.metrics import average_precision_score, roc_auc_score
+from scipy.stats import rankdata
 
 Scores = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -34,14 +34,25 @@ class Interval:
 
 
 def average_precision(failed: Flags, scores: Scores, flagged: Flags) -> float:
-    """Area under the precision-recall curve, as a step function."""
-    return float(average_precision_score(failed, scores)) if failed.any() else float("nan")
+    """Area under the precision-recall curve, as a step function; tied wells enter together."""
+    if not failed.any():
+        return float("nan")
+    order = np.argsort(-scores, kind="stable")
+    hits = np.cumsum(failed[order])
+    last_of_tie = np.append(np.diff(scores[order]) != 0, True)
+    hits, taken = hits[last_of_tie], np.flatnonzero(last_of_tie) + 1
+    gained = np.diff(hits, prepend=0) / hits[-1]
+    return float(np.sum(gained * hits / taken))
 
 
 def auroc(failed: Flags, scores: Scores, flagged: Flags) -> float:
     """Area under the ROC curve; ties count half."""
-    both = failed.any() and not failed.all()
-    return float(roc_auc_score(failed, scores)) if both else float("nan")
+    bad = int(failed.sum())
+    good = len(failed) - bad
+    if not bad or not good:
+        return float("nan")
+    ranks = rankdata(scores)
+    return float((ranks[failed].sum() - bad * (bad + 1) / 2) / (bad * good))
 
 
 def precision(failed: Flags, scores: Scores, flagged: Flags) -> float:

@@ -1,0 +1,71 @@
+"""Triage: routes, the blank floor, and that no score fails a well."""
+
+from __future__ import annotations
+
+from aegis_ot.vision.calibration import CalibrationState
+from aegis_ot.vision.cascade import Cascade
+from aegis_ot.vocabulary import KeyframeKind, Route
+
+FIRST = [10.0, 11.0, 9.0, 10.5, 9.5, 10.2]
+
+
+def calibrated(missing: tuple[KeyframeKind, ...] = (), **kwargs: object) -> Cascade:
+    cascade = Cascade(("pca",), **kwargs)  # type: ignore[arg-type]
+    for score in FIRST:
+        assert cascade.triage({"pca": score}, missing).route is Route.CALIBRATION
+        cascade.learn({"pca": score}, missing, normal=True)
+    return cascade
+
+
+def test_the_band_passes_silently_and_the_rest_is_grey() -> None:
+    cascade = calibrated()
+    assert cascade.triage({"pca": 10.3}, ()).route is Route.SILENT_PASS
+    grey = cascade.triage({"pca": 99.0}, ())
+    assert grey.route is Route.GREY_ZONE
+    assert grey.to_gate
+    assert "spreads above" in grey.reason
+
+
+def test_a_missing_tip_is_the_blank_floor_whatever_the_score() -> None:
+    for kind in KeyframeKind:
+        triage = calibrated().triage({"pca": 10.0}, (kind,))
+        assert triage.route is Route.BLANK_FLOOR
+        assert kind.value in triage.reason
+
+
+def test_the_papers_score_floor_is_kept() -> None:
+    assert calibrated().triage({"pca": 1e-6}, ()).route is Route.BLANK_FLOOR
+
+
+def test_a_frame_in_which_labware_always_hides_the_tip_proves_nothing() -> None:
+    hidden = (KeyframeKind.DISPENSE,)
+    cascade = calibrated(hidden)
+    assert cascade.triage({"pca": 10.0}, hidden).route is Route.SILENT_PASS
+    free = (KeyframeKind.POST_DISPENSE,)
+    assert calibrated(free).triage({"pca": 10.0}, free).route is Route.BLANK_FLOOR
+
+
+def test_a_contradicting_column_is_enough_for_the_grey_zone() -> None:
+    triage = calibrated().triage({"pca": 10.0}, (), "About 50 µL are left.")
+    assert triage.route is Route.GREY_ZONE
+    assert triage.reason == "About 50 µL are left."
+
+
+def test_always_gate_leaves_no_silent_pass() -> None:
+    assert calibrated(always_gate=True).triage({"pca": 10.0}, ()).route is Route.ALWAYS_GATE
+
+
+def test_one_failed_first_well_is_left_out_two_make_the_run_uncalibrated() -> None:
+    cascade = Cascade(("pca",))
+    cascade.learn({"pca": 900.0}, (), normal=False)
+    for score in FIRST:
+        cascade.learn({"pca": score}, (), normal=True)
+    assert cascade.state is CalibrationState.READY
+    cascade = Cascade(("pca",))
+    for _ in range(2):
+        cascade.learn({"pca": 900.0}, (), normal=False)
+    assert cascade.state is CalibrationState.UNCALIBRATED
+    triage = cascade.triage({"pca": 10.0}, ())
+    assert triage.route is Route.UNCALIBRATED
+    assert triage.to_gate
+    assert "failed at the gate" in triage.reason

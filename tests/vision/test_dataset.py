@@ -1,0 +1,126 @@
+"""Reading data sets: everything wrong is named at once; what is written is read back."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from aegis_ot.errors import DatasetError
+from aegis_ot.vision.dataset import load_dataset
+from aegis_ot.vision.dataset_writer import DatasetWriter
+from aegis_ot.vocabulary import KeyframeKind
+
+from .samples import sample
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    with DatasetWriter(tmp_path / "set", {"source": "synthetic"}) as writer:
+        for plate in ("p1", "p2"):
+            writer.add(sample(f"{plate}-a", plate=plate))
+            writer.add(sample(f"{plate}-b", plate=plate, failure="no_dispense", left=0.5))
+        writer.add(sample("p2-c", plate="p2", tip=False, failure="no_tip"))
+    return tmp_path / "set"
+
+
+def edit(path: Path, row: int, column: str, value: str) -> None:
+    """Change one cell; ``row`` counts lines of the file, the header is 1."""
+    rows = list(csv.reader(path.open(newline="")))
+    rows[row - 1][rows[0].index(column)] = value
+    with path.open("w", newline="") as file:
+        csv.writer(file).writerows(rows)
+
+
+def test_what_is_written_is_read_back(folder: Path) -> None:
+    data = load_dataset(folder)
+    assert data.source == "synthetic"
+    assert data.plates == ("p1", "p2")
+    assert [record.id for record in data.records] == ["p1-a", "p1-b", "p2-a", "p2-b", "p2-c"]
+    first, *_, last = data.samples(data.true_boxes())
+    assert first.frames[KeyframeKind.TRANSIT].shape == (160, 120, 3)
+    found = first.detections[KeyframeKind.TRANSIT]
+    assert found is not None
+    assert (found.x, found.y, found.w, found.h) == (50, 28, 20, 104)
+    assert last.detections[KeyframeKind.TRANSIT] is None
+    assert first.expected_ul[KeyframeKind.POST_DISPENSE] == 0
+
+
+def test_every_fault_is_named_by_row_and_column_in_one_pass(folder: Path) -> None:
+    manifest = folder / "manifest.csv"
+    edit(manifest, 2, "label", "good")
+    edit(manifest, 3, "failure_type", "exploded")
+    edit(manifest, 4, "trajectory_id", "p1-a")
+    edit(manifest, 4, "volume_ul", "-5")
+    edit(manifest, 5, "aspirate", "frames/none.jpg")
+    edit(manifest, 6, "transit", "../../secret.jpg")
+    (folder / "frames" / "p2-b_transit.jpg").write_bytes(b"no image")
+    edit(folder / "boxes.csv", 2, "w", "0")
+    with pytest.raises(DatasetError) as caught:
+        load_dataset(folder)
+    text = str(caught.value)
+    for part in (
+        "row 2, column label: 'good'",
+        "row 3, column failure_type: 'exploded'",
+        "row 4, column trajectory_id: 'p1-a' stands in row 2",
+        "row 4, column volume_ul",
+        "row 5, column aspirate: 'frames/none.jpg' does not exist",
+        "row 5, column transit: 'frames/p2-b_transit.jpg' is neither JPEG nor PNG",
+        "row 6, column transit: '../../secret.jpg' must be a path inside",
+        "row 2, column plate: 'p1' has no normal row",
+        "boxes.csv, row 2, column w",
+    ):
+        assert part in text
+
+
+@pytest.mark.parametrize(
+    ("damage", "told"),
+    [
+        (lambda f: (f / "manifest.csv").unlink(), "manifest.csv: is missing"),
+        (lambda f: (f / "manifest.csv").write_text(""), "manifest.csv: is empty"),
+        (lambda f: (f / "manifest.csv").write_bytes(b"\xff\xfe\x00x"), "cannot be read as UTF-8"),
+        (lambda f: (f / "meta.json").write_text("{"), "meta.json: is not readable JSON"),
+        (lambda f: (f / "meta.json").write_text('{"source": "dreamt"}'), "'dreamt'"),
+    ],
+)
+def test_broken_files_are_reported(folder: Path, damage, told: str) -> None:
+    damage(folder)
+    with pytest.raises(DatasetError, match="fault") as caught:
+        load_dataset(folder)
+    assert told in str(caught.value)
+
+
+def test_a_truncated_jpeg_does_not_pass_as_an_image(folder: Path) -> None:
+    path = folder / "frames" / "p1-a_transit.jpg"
+    path.write_bytes(path.read_bytes()[:-200])
+    with pytest.raises(DatasetError, match="truncated"):
+        load_dataset(folder)
+
+
+def test_a_header_with_another_order_is_refused(folder: Path) -> None:
+    path = folder / "manifest.csv"
+    text = path.read_text()
+    path.write_text(text.replace("trajectory_id,plate", "plate,trajectory_id", 1))
+    with pytest.raises(DatasetError, match="order"):
+        load_dataset(folder)
+
+
+def test_nothing_is_overwritten_and_no_label_is_invented(folder: Path, tmp_path: Path) -> None:
+    with pytest.raises(DatasetError, match="already"):
+        DatasetWriter(folder, {})
+    unlabelled = sample("x")
+    object.__setattr__(unlabelled, "label", "")
+    with (
+        DatasetWriter(tmp_path / "new", {}) as writer,
+        pytest.raises(DatasetError, match="no label"),
+    ):
+        writer.add(unlabelled)
+
+
+def test_images_round_trip_within_jpeg_noise(folder: Path) -> None:
+    data = load_dataset(folder)
+    read = data.samples(data.true_boxes())[0].frames[KeyframeKind.TRANSIT]
+    written = sample("p1-a").frames[KeyframeKind.TRANSIT]
+    assert np.abs(read.astype(int) - written.astype(int)).mean() < 4

@@ -1,0 +1,96 @@
+"""The volumetric gate: what contradicts the protocol, what agrees, what cannot be told."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from aegis_ot.vision.gates import Case, OperatorGate, VolumetricGate, examine_in_turn
+from aegis_ot.vision.measuring import ColumnReading
+from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
+
+from .samples import sample
+
+FULL = ColumnReading(100.0, 2.0)
+EMPTY = ColumnReading(0.0, 0.5)
+
+
+def case(
+    transit: ColumnReading | None = FULL,
+    last: ColumnReading | None = EMPTY,
+    route: Route = Route.GREY_ZONE,
+    missing: tuple[KeyframeKind, ...] = (),
+) -> Case:
+    readings = {KeyframeKind.TRANSIT: transit, KeyframeKind.POST_DISPENSE: last}
+    present = {kind: reading for kind, reading in readings.items() if reading is not None}
+    return Case(sample(), route, {}, present, missing)
+
+
+@pytest.mark.parametrize(
+    ("transit", "last", "failure"),
+    [
+        (FULL, ColumnReading(50.0, 2.0), FailureType.PARTIAL_DISPENSE),
+        (FULL, ColumnReading(98.0, 2.0), FailureType.NO_DISPENSE),
+        (ColumnReading(0.0, 1.0), EMPTY, FailureType.NO_ASPIRATE),
+        (ColumnReading(60.0, 2.0), EMPTY, FailureType.OTHER),
+        (ColumnReading(140.0, 2.0), EMPTY, FailureType.PARTIAL_DISPENSE),
+        (ColumnReading(95.0, 2.0, 8.0, 0.5), EMPTY, FailureType.AIR_BUBBLE),
+    ],
+)
+def test_contradictions_fail_with_a_name(transit, last, failure) -> None:
+    decision = VolumetricGate().examine(case(transit, last))
+    assert decision.outcome is Outcome.FAIL
+    assert decision.failure is failure
+    assert decision.reason
+
+
+def test_agreement_passes_and_says_what_was_measured() -> None:
+    decision = VolumetricGate().examine(case())
+    assert decision.outcome is Outcome.PASS
+    assert decision.measured_ul == 0
+    assert decision.expected_ul == 0
+
+
+def test_differences_within_the_uncertainty_do_not_fail() -> None:
+    decision = VolumetricGate().examine(case(FULL, ColumnReading(10.0, 4.0)))
+    assert decision.outcome is Outcome.PASS
+
+
+@pytest.mark.parametrize(
+    "seen",
+    [case(None, None), case(FULL, None), case(ColumnReading(100, 40.0), EMPTY)],
+)
+def test_what_cannot_be_measured_is_undecided(seen: Case) -> None:
+    assert VolumetricGate().examine(seen).outcome is Outcome.UNDECIDED
+
+
+def test_a_liquid_that_hardly_shows_passes_with_a_caveat_only_if_drawn_as_expected() -> None:
+    vague = ColumnReading(0.0, math.inf, vague=True)
+    decision = VolumetricGate().examine(case(FULL, vague))
+    assert decision.outcome is Outcome.PASS
+    assert decision.measured_ul is None
+    assert "hardly shows" in decision.reason
+    assert VolumetricGate().examine(case(None, vague)).outcome is Outcome.UNDECIDED
+
+
+def test_no_tip_where_it_hangs_free_fails() -> None:
+    both = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+    decision = VolumetricGate().examine(case(None, None, missing=both))
+    assert decision.failure is FailureType.NO_TIP
+
+
+def test_calibration_wells_fail_for_gross_mismatches_only() -> None:
+    slight = case(FULL, ColumnReading(25.0, 2.0), Route.CALIBRATION)
+    gross = case(FULL, ColumnReading(80.0, 2.0), Route.CALIBRATION)
+    assert VolumetricGate().examine(slight).outcome is not Outcome.FAIL
+    assert VolumetricGate().examine(gross).outcome is Outcome.FAIL
+
+
+def test_gates_are_asked_in_turn_until_one_decides() -> None:
+    gates = [VolumetricGate(), OperatorGate()]
+    assert examine_in_turn(gates, case()).gate is Gate.VOLUMETRIC
+    blind = examine_in_turn(gates, case(None, None))
+    assert blind.outcome is Outcome.UNDECIDED
+    assert blind.gate is Gate.OPERATOR
+    assert examine_in_turn([], case()).outcome is Outcome.UNDECIDED

@@ -1,0 +1,157 @@
+"""A whole run as the sidecar drives it, on simulated frames with exact tip positions."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import pytest
+
+from aegis_ot.simulation.dyes import dye_for
+from aegis_ot.simulation.exposure import decode
+from aegis_ot.simulation.faults import FaultPlan
+from aegis_ot.simulation.render import render_jpeg
+from aegis_ot.simulation.scene import SessionParameters, place_tip
+from aegis_ot.vision.camera import Frame
+from aegis_ot.vision.monitor import Judged, RunMonitor
+from aegis_ot.vision.tips import tip_for
+from aegis_ot.vision.types import Image, TipDetection
+from aegis_ot.vocabulary import (
+    FailureType,
+    Gate,
+    Keyframe,
+    KeyframeKind,
+    Outcome,
+    Route,
+    WellRef,
+    to_json,
+)
+
+VOLUMES = (100.0, 200.0, 150.0, 300.0)
+
+
+class Told:
+    """A detector that is told where the tip is."""
+
+    found: TipDetection | None = None
+
+    def detect(self, image: Image) -> TipDetection | None:
+        return self.found
+
+
+def keyframes(wells: int, channels: int = 1, reagent: str = "red dye") -> Iterator[Keyframe]:
+    sequence = 0
+    for number in range(wells):
+        volume = VOLUMES[number % len(VOLUMES)]
+        well = WellRef("plate", f"{'ABCDEFGH'[number % 8]}{number // 8 + 1}", "plate", "2")
+        source = WellRef("reservoir", "A1", "reservoir", "1")
+        for kind in KeyframeKind:
+            loaded = kind in (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT)
+            yield Keyframe(
+                "run", sequence, number, kind, "p1000_single_gen2", "left", channels,
+                f"1:{number}", (source,), (well,), volume, volume if loaded else 0.0, 1000.0,
+                reagent,
+            )  # fmt: skip
+            sequence += 1
+
+
+def judge_run(wells: int, faults: Sequence[str] = (), history: Sequence[Judged] = ()) -> list:
+    parameters = SessionParameters.webcam(0)
+    plan, rng, detector = FaultPlan(faults), np.random.default_rng(0), Told()
+    analyser = RunMonitor(detector).begin("run", history)
+    judged = []
+    for keyframe in keyframes(wells):
+        contents = plan.apply(keyframe).contents
+        state = place_tip(
+            parameters, keyframe.kind, tip_for(keyframe.pipette, keyframe.capacity_ul), contents,
+            dye_for(keyframe.reagent), destination=keyframe.destinations[0].name,
+        )  # fmt: skip
+        jpeg, truth = render_jpeg(state, parameters, rng)
+        tip = truth.tip
+        detector.found = (
+            None if tip.box is None else TipDetection(*tip.box, 0.99, tip.orifice, tip.collar)
+        )
+        analyser.observe(keyframe, Frame(jpeg, decode(jpeg), 0.0))
+        if keyframe.kind is KeyframeKind.POST_DISPENSE:
+            judged.append(analyser.judge(keyframe.trajectory))
+    return judged
+
+
+@pytest.fixture(scope="module")
+def run() -> list:
+    return judge_run(24, ("no_aspirate@#10", "partial:50@#14", "no_dispense@#18", "no_tip@#22"))
+
+
+def test_normal_wells_raise_no_alarm(run) -> None:
+    normal = [verdict for verdict, _ in run if verdict.trajectory + 1 not in (10, 14, 18, 22)]
+    assert {verdict.outcome for verdict in normal} == {Outcome.PASS}
+
+
+def test_the_first_six_wells_calibrate(run) -> None:
+    assert [v.route for v, _ in run[:6]] == [Route.CALIBRATION] * 6
+    assert Route.CALIBRATION not in {v.route for v, _ in run[6:]}
+
+
+@pytest.mark.parametrize(
+    ("number", "failures"),
+    [
+        (10, {FailureType.NO_ASPIRATE}),
+        (14, {FailureType.PARTIAL_DISPENSE}),
+        (18, {FailureType.NO_DISPENSE, FailureType.PARTIAL_DISPENSE}),
+        (22, {FailureType.NO_TIP}),
+    ],
+)
+def test_planted_faults_are_caught_and_confirmed_by_the_gate(run, number, failures) -> None:
+    verdict, _ = run[number - 1]
+    assert verdict.outcome is Outcome.FAIL
+    assert verdict.gate is Gate.VOLUMETRIC
+    assert verdict.failure in failures
+    assert verdict.reason
+
+
+def test_the_verdict_names_the_volumes(run) -> None:
+    verdict, _ = run[13]
+    assert verdict.expected_ul == 0
+    assert verdict.measured_ul == pytest.approx(100, rel=0.35)
+
+
+def test_evidence_is_plain_and_tells_boxes_scores_and_channels(run) -> None:
+    verdict, evidence = run[7]
+    assert json.loads(json.dumps(to_json(verdict)))["trajectory"] == 7
+    text = json.dumps(evidence)
+    assert "boxes" in text
+    assert set(evidence["boxes"]) == {kind.value for kind in KeyframeKind}
+    assert evidence["tips_judged"] == 1
+    assert evidence["scores"]["pca"] > 0
+
+
+def test_a_missing_tip_is_caught_even_while_calibrating() -> None:
+    (_, _), (verdict, _) = judge_run(2, ("no_tip@#2",))
+    assert verdict.route is Route.CALIBRATION
+    assert verdict.outcome is Outcome.FAIL
+    assert verdict.failure is FailureType.NO_TIP
+
+
+def test_no_usable_frame_is_undecided_not_a_crash() -> None:
+    analyser = RunMonitor(Told()).begin("run")
+    for keyframe in keyframes(1):
+        analyser.observe(keyframe, Frame(b"", np.zeros((0, 0, 3), np.uint8), 0.0))
+    verdict, _ = analyser.judge(0)
+    assert verdict.outcome is Outcome.UNDECIDED
+    verdict, _ = analyser.judge(7)
+    assert verdict.outcome is Outcome.UNDECIDED
+
+
+def test_trajectories_that_are_never_judged_do_not_pile_up() -> None:
+    analyser = RunMonitor(Told()).begin("run")
+    image = np.zeros((32, 32, 3), np.uint8)
+    for keyframe in keyframes(80):
+        analyser.observe(keyframe, Frame(b"", image, 0.0))
+    assert len(analyser._open) <= 32
+
+
+def test_garbled_history_does_not_stop_a_run(run) -> None:
+    verdict = run[0][0]
+    history = [(verdict, {}), (verdict, {"calibration": "?"}), (verdict, {"calibration": {}})]
+    assert RunMonitor(Told()).begin("run", history) is not None
