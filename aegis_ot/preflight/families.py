@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from .clues import Clue, Strength
-from .rulefiles import Database, Family
+from .rulefiles import Common, Database, Family
 from .series import longest_chain
 from .source import SourceFacts
 from .trace import Trace
@@ -63,7 +63,7 @@ def infer(
     chain = longest_chain(trace)
     scored = []
     for family in database.families:
-        score, reasons = _score(family, texts)
+        score, reasons = _score(family, texts, database.common)
         if family.chain_weight and chain >= 3:
             score += family.chain_weight * min(chain, 6) / 3
             reasons.append(f"a chain of {chain} transfers from well to well")
@@ -135,12 +135,16 @@ def _texts(facts: SourceFacts, clues: Iterable[Clue]) -> Iterable[tuple[str, str
 _LEXICONS: dict[int, tuple[Family, Lexicon]] = {}
 
 
-def _score(family: Family, texts: Iterable[tuple[str, str]]) -> tuple[float, list[str]]:
+def _score(
+    family: Family, texts: Iterable[tuple[str, str]], common: Common
+) -> tuple[float, list[str]]:
     known = _LEXICONS.get(id(family))
     if known is None or known[0] is not family:
         known = (
             family,
-            Lexicon({str(n): signal.words for n, signal in enumerate(family.signals)}),
+            Lexicon(
+                {str(n): signal.words for n, signal in enumerate(family.signals)}, common.aliases
+            ),
         )
         if len(_LEXICONS) > 64:
             _LEXICONS.clear()

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Mapping, Sequence
+import gc
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -146,6 +148,23 @@ def judge(recording: Recording, database: Database, options: Options | None = No
     """
     options = options or Options()
     _check_options(options, database)
+    with _uncollected():
+        return _judge(recording, database, options)
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Hold the garbage collector: a trace is many small objects, none of them garbage."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
+
+
+def _judge(recording: Recording, database: Database, options: Options) -> Report:
     facts = read_source(recording.text)
     replacements = Replacements(database.common.pauses)
     trace = build_trace(recording.log, recording.labware, replacements)

@@ -147,7 +147,7 @@ def assign_roles(
         trace: For the columns that multi-channel pipettes reach.
     """
     roles = Roles(family)
-    lexicon = _lexicon(family)
+    lexicon = _lexicon(family, common)
     candidates: dict[WellRef, list[Candidate]] = {}
     sides = _Sides(usage)
     named_outright: set[str] = set()
@@ -179,14 +179,14 @@ def assign_roles(
 _LEXICONS: dict[int, tuple[Family, Lexicon]] = {}
 
 
-def _lexicon(family: Family) -> Lexicon:
+def _lexicon(family: Family, common: Common) -> Lexicon:
     known = _LEXICONS.get(id(family))
     if known is None or known[0] is not family:
         phrases: dict[str, Sequence[str]] = {}
         for name, spec in family.roles.items():
             phrases[name] = spec.words
             phrases[f"!{name}"] = spec.never
-        known = (family, Lexicon(phrases))
+        known = (family, Lexicon(phrases, common.aliases))
         if len(_LEXICONS) > 64:
             _LEXICONS.clear()
         _LEXICONS[id(family)] = known

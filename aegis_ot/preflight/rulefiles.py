@@ -168,6 +168,7 @@ class Common:
     waste: tuple[str, ...] = ()
     negations: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
+    aliases: Mapping[str, str] = field(default_factory=dict)
     noise: tuple[str, ...] = ()
     distinct: tuple[str, ...] = ()
     schema: int = SCHEMA_VERSION

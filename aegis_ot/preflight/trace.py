@@ -16,6 +16,8 @@ from .replacements import Replacements
 from .tips import Layer, Tip, TipBox
 from .wells import Well
 
+_REPEATED = "(repeated)"
+
 PlaceKey = tuple[str, int, str]
 """Labware key, generation of the plate, well name."""
 
@@ -182,6 +184,7 @@ class _Builder:
         self._orders: dict[str, dict[str, tuple[int, int]]] = {}
         self._index = 0
         self._last: dict[Tip, Visit] = {}
+        self._cycle: dict[str, Step] = {}
 
     def run(self, log: Iterable[Record]) -> Trace:
         for record in log:
@@ -252,7 +255,7 @@ class _Builder:
         elif kind is OperationKind.DROP_TIP:
             homes = (None,) * len(step.nozzles) if step.disposal else step.wells
             self._box.drop(step.pipette, step.nozzles, homes)
-        else:
+        elif not self._repeats(step):
             self._note_group(step)
             for nozzle, ref in zip(step.nozzles, step.wells, strict=False):
                 tip = self._box.on(step.pipette, nozzle, step.line)
@@ -260,6 +263,30 @@ class _Builder:
                     continue  # a multi-channel pipette that took up fewer tips
                 well = None if ref is None or step.disposal else self._well(ref)
                 self._act(step, kind, tip, well)
+
+    def _repeats(self, step: Step) -> bool:
+        """Whether a step only repeats a mixing cycle that is noted already.
+
+        A further cycle of the same volume in the same wells leaves tips and wells as they are.
+        """
+        before = self._cycle.get(step.pipette)
+        ends_a_cycle = before is not None and (
+            before.kind is OperationKind.DISPENSE or before.call == _REPEATED
+        )
+        if (
+            before is not None
+            and ends_a_cycle
+            and step.mixing
+            and before.mixing
+            and before.kind is not step.kind
+            and before.wells == step.wells
+            and before.volume == step.volume
+            and before.line == step.line
+        ):
+            self._cycle[step.pipette] = step._replace(call=_REPEATED)
+            return True
+        self._cycle[step.pipette] = step
+        return False
 
     def _note_group(self, step: Step) -> None:
         refs = step.wells

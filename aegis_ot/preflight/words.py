@@ -57,13 +57,17 @@ class Lexicon:
     Args:
         phrases: For each topic its phrases. A phrase that stands under several topics is
             reported for each.
+        aliases: Abbreviations and what they stand for, word by word.
     """
 
-    def __init__(self, phrases: Mapping[str, Sequence[str]]) -> None:
+    def __init__(
+        self, phrases: Mapping[str, Sequence[str]], aliases: Mapping[str, str] | None = None
+    ) -> None:
+        self._aliases = aliases or {}
         self._by_first: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
         for topic, listed in phrases.items():
             for phrase in listed:
-                parts = tokens(phrase)
+                parts = self._full(tokens(phrase))
                 if parts:
                     self._by_first.setdefault(parts[0], []).append((parts, topic, phrase))
         for entries in self._by_first.values():
@@ -74,8 +78,12 @@ class Lexicon:
         """All phrases in ``text``, none overlapping a longer one, in order."""
         found = self._cache.get(text)
         if found is None:
-            found = self._cache[text] = tuple(self._search(tokens(text)))
+            found = self._cache[text] = tuple(self._search(self._full(tokens(text))))
         return found
+
+    def _full(self, words: tuple[str, ...]) -> tuple[str, ...]:
+        aliases = self._aliases
+        return tuple(aliases.get(word, word) for word in words) if aliases else words
 
     def _search(self, words: tuple[str, ...]) -> list[Match]:
         found: list[Match] = []

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 
 from aegis_ot.instrumentation import EventKind
+from aegis_ot.preflight.tips import TipBox
+from aegis_ot.vocabulary import WellRef
 
 from .streams import Bench, carried, well
 
@@ -196,3 +198,32 @@ def test_a_plate_taken_off_the_deck_comes_back_as_a_new_one() -> None:
     bench.draw("source:A1", 150)
     bench.give("plate:A1", 150)
     assert not bench.trace().imbalances
+
+
+@pytest.mark.parametrize("cycles", [1, 2, 7])
+def test_mixing_with_the_volume_just_given_is_mixing(cycles: int) -> None:
+    bench = Bench()
+    bench.load("plate:A1", 100)
+    bench.pick()
+    bench.draw("source:A1", 50)
+    bench.line = 10
+    bench.give("plate:A1", 50)
+    for _ in range(cycles):
+        bench.line = 10
+        bench.draw("plate:A1", 50, mixing=True)
+        bench.line = 10
+        bench.give("plate:A1", 50, mixing=True)
+    trace = bench.trace()
+    target = well(trace, "plate:A1")
+    arrival = next(iter(trace.deliveries(target)))
+    assert trace.mixed_since(target, arrival.index, float("inf"))
+    assert target.volume == pytest.approx(150)
+
+
+def test_a_multi_channel_pipette_that_picks_one_tip_has_one_tip() -> None:
+    """The other nozzles hang beside the rack."""
+    box = TipBox()
+    lead = WellRef("rack", "H12")
+    box.pick_up("left", ["A1", "B1"], [lead, None], 1)
+    assert box.on("left", "A1", 1) is not None
+    assert box.on("left", "B1", 1) is None

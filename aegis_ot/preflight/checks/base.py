@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 from ...vocabulary import Site, WellRef
+from ..levels import name_without_level
 from ..roles import Roles, Usage
 from ..rulefiles import Common, Family
 from ..series import Series, find_series
@@ -138,7 +139,11 @@ class Case:
         mine, theirs = self.roles.by_well.get(one.ref), self.roles.by_well.get(other.ref)
         if mine is None or theirs is None or mine.role != theirs.role:
             return False
-        return self.family.roles[mine.role].one_liquid
+        if not self.family.roles[mine.role].one_liquid:
+            return False
+        return name_without_level(mine.text, self.common) == name_without_level(
+            theirs.text, self.common
+        )
 
     def title(self, well: Well) -> str:
         """What a well is, in words, for the middle of a sentence."""

@@ -10,18 +10,27 @@ from ...vocabulary import Site
 from ..trace import Imbalance
 from .base import Case, Check, Result, Violation, at, place
 
+_FAR_SHORT = 4.0
+"""Where several times more is drawn than the run has put in, the plate was filled by hand."""
+
 
 @dataclass(frozen=True)
 class VolumeBookkeeping(Check):
     """No well is filled beyond its capacity or drawn below what it holds.
 
-    Wells of unknown volume are judged only by what the run put into them.
+    Wells of unknown volume are judged only by what the run put into them; so are plates from
+    which so much is drawn that someone must have filled them by hand.
     """
 
     name: ClassVar[str] = "volume_bookkeeping"
 
     def find(self, case: Case) -> Iterator[Result]:
         """Report the first imbalance of each kind in each well."""
+        by_hand = {
+            imbalance.well.ref.labware
+            for imbalance in case.trace.imbalances
+            if not imbalance.overfilled and imbalance.limit * _FAR_SHORT < imbalance.volume
+        }
         seen: set[tuple[int, bool]] = set()
         for imbalance in case.trace.imbalances:
             well = imbalance.well
@@ -29,7 +38,9 @@ class VolumeBookkeeping(Check):
             if key in seen or (imbalance.overfilled and well.ref in case.waste):
                 continue
             undeclared = not imbalance.overfilled and well.declared is None
-            if undeclared and (case.loose_volumes or well.ref in case.unsure):
+            if undeclared and (
+                case.loose_volumes or well.ref in case.unsure or well.ref.labware in by_hand
+            ):
                 continue  # it may have held what nobody declared
             seen.add(key)
             yield _violation(imbalance)
