@@ -26,8 +26,11 @@ CAN_FORK = sys.platform == "linux"
 ANSWERED = 85
 """Exit status of a fork that has sent its answer; any other has died without."""
 
-GRACE_S = 5.0
-"""How long after its time a task is waited for, so that it can end itself and say where."""
+
+def grace_s(timeout_s: float) -> float:
+    """How long after its time a task is waited for, so that it can end itself and say where."""
+    return min(5.0, max(1.0, 0.5 * timeout_s))
+
 
 _MEMORY_BYTES = 6 << 30
 
@@ -137,7 +140,8 @@ def _serve(task: Task, link: Link, stacks: Path) -> None:
     with stacks.open("wb") as file:
         # After a crash or a kill this tells the line.
         faulthandler.enable(file=file)
-        faulthandler.dump_traceback_later(task.timeout_s + 0.7 * GRACE_S, file=file)
+        last = task.timeout_s + 0.6 * grace_s(task.timeout_s)
+        faulthandler.dump_traceback_later(last, file=file)
         try:
             answer = Answer(task.perform())
         except BaseException as error:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ..preflight import Options, Report
@@ -15,7 +14,11 @@ from .rehearser import Rehearser, TaskFailed
 from .result import Broken, Exploration, Problem, with_findings
 from .tasks import Check, Describe, Parameter
 
+CAUSES_AT_MOST = 5
+"""Causes told per rule."""
+
 Values = Mapping[str, Any]
+Outcome = Report | Problem
 
 
 def explore(
@@ -28,7 +31,8 @@ def explore(
 ) -> tuple[Report, Exploration]:
     """Judge the protocol with many values of its parameters.
 
-    Parameters that ``script.parameters`` sets stay as they are.
+    Parameters that ``script.parameters`` sets stay as they are. What breaks a rule is then
+    narrowed down: values that can be put back to their default without mending it are.
 
     Args:
         rehearser: Performs the rehearsals.
@@ -46,96 +50,132 @@ def explore(
         TaskFailed: The parameters cannot be read.
     """
     declared: Sequence[Parameter] = rehearser.perform(Describe(script, timeout_s))
-    open_ones = [p for p in declared if p.name not in script.parameters and p.kind != "csv_file"]
-    tried = {p.name: values_of(p) for p in open_ones}
-    fixed = [name for name, values in tried.items() if len(values) < 2]
+    tried = {p.name: values_of(p) for p in declared if p.name not in script.parameters}
     varied = {name: values for name, values in tried.items() if len(values) > 1}
-    runs: list[tuple[Values, Report]] = []
-    failures: list[tuple[str, Problem]] = []
-    for values in combinations(varied) if varied else [{}]:
-        if all(values[name] == options_[0] for name, options_ in varied.items()):
-            runs.append((values, default))
-            continue
+
+    def judge(values: Values) -> Outcome:
         there = dataclasses.replace(script, parameters={**script.parameters, **values})
         try:
-            runs.append((values, rehearser.perform(Check(there, options, rules, timeout_s))))
+            report: Report = rehearser.perform(Check(there, options, rules, timeout_s))
         except TaskFailed as failed:
-            failures.append((in_words(values, varied), failed.problem))
-    broken = tuple(_broken(rule, runs, varied) for rule in _rules(runs, default))
+            return failed.problem
+        return report
+
+    explorer = _Explorer({name: values[0] for name, values in varied.items()}, judge, default)
+    if varied:
+        for values in combinations(varied):
+            explorer.run(values)
+    runs = explorer.count
+    failures = []
+    for cause in explorer.causes(lambda outcome: isinstance(outcome, Problem)):
+        outcome = explorer.run(cause)
+        if isinstance(outcome, Problem):
+            failures.append((explorer.in_words(cause), outcome))
+    broken: list[Broken] = []
+    findings = list(default.findings)
+    for rule in explorer.rules():
+        broken.append(_broken(explorer, rule, findings))
     exploration = Exploration(
-        runs=len(runs) + len(failures),
+        runs=runs,
         combinations=count_all(varied),
         parameters=varied,
-        broken=broken,
+        broken=tuple(entry for entry in broken if entry.values),
         failures=tuple(failures),
-        not_varied=tuple(f"{name} declares neither choices nor bounds" for name in fixed),
+        not_varied=tuple(
+            f"{name}: left as it is; it declares neither choices nor bounds"
+            for name, values in tried.items()
+            if len(values) < 2
+        ),
     )
-    return with_findings(default, _merged(default, runs, varied)), exploration
+    return with_findings(default, findings), exploration
 
 
-def in_words(values: Values, varied: Mapping[str, Sequence[Any]]) -> str:
-    """``columns=12, mix=False``: the values that are not the default, or all if all are."""
-    changed = {name: value for name, value in values.items() if value != varied[name][0]}
-    return ", ".join(f"{name}={value}" for name, value in (changed or values).items())
+class _Explorer:
+    """Runs values once each, and narrows down what some of them cause."""
+
+    def __init__(
+        self, defaults: Values, judge: Callable[[Values], Outcome], default: Report
+    ) -> None:
+        self._defaults = dict(defaults)
+        self._judge = judge
+        self._outcomes: dict[str, tuple[Values, Outcome]] = {}
+        self._outcomes[self._key({})] = (self._defaults, default)
+
+    @property
+    def count(self) -> int:
+        """Rehearsals so far."""
+        return len(self._outcomes)
+
+    def run(self, values: Values) -> Outcome:
+        """What comes of these values, the others at their defaults."""
+        key = self._key(values)
+        if key not in self._outcomes:
+            full = {**self._defaults, **values}
+            self._outcomes[key] = (full, self._judge(full))
+        return self._outcomes[key][1]
+
+    def _key(self, values: Values) -> str:
+        # As text: 1 == True.
+        return repr([{**self._defaults, **values}[name] for name in self._defaults])
+
+    def rules(self) -> list[str]:
+        """Every rule that some run breaks."""
+        reports = [o for _, o in self._outcomes.values() if isinstance(o, Report)]
+        return sorted({finding.rule for report in reports for finding in report.findings})
+
+    def showing(self, shows: Callable[[Outcome], bool]) -> int:
+        """How many rehearsals show something."""
+        return sum(shows(outcome) for _, outcome in self._outcomes.values())
+
+    def causes(self, shows: Callable[[Outcome], bool]) -> list[Values]:
+        """The smallest changes from the defaults after which an outcome shows something."""
+        causes: list[Values] = []
+        for values, outcome in list(self._outcomes.values()):
+            if not shows(outcome) or any(self._contains(values, cause) for cause in causes):
+                continue
+            causes.append(self._narrowed(values, shows))
+            if len(causes) >= CAUSES_AT_MOST:
+                break
+        return causes
+
+    def _narrowed(self, values: Values, shows: Callable[[Outcome], bool]) -> Values:
+        changed = {n: v for n, v in values.items() if repr(v) != repr(self._defaults[n])}
+        for name in list(changed):
+            without = {n: v for n, v in changed.items() if n != name}
+            if shows(self.run(without)):
+                changed = without
+        return changed
+
+    @staticmethod
+    def _contains(values: Values, cause: Values) -> bool:
+        return all(repr(values[name]) == repr(value) for name, value in cause.items())
+
+    @staticmethod
+    def in_words(cause: Values) -> str:
+        """``columns=12, mix=False``."""
+        return ", ".join(f"{name}={value}" for name, value in cause.items())
 
 
-def _rules(runs: Sequence[tuple[Values, Report]], default: Report) -> list[str]:
-    """Rules that some runs break and others do not."""
-    everywhere = {finding.rule for finding in default.findings}
-    for _, report in runs:
-        everywhere &= {finding.rule for finding in report.findings}
-    found = {finding.rule for _, report in runs for finding in report.findings}
-    return sorted(found - everywhere)
+def _broken(explorer: _Explorer, rule: str, findings: list[Finding]) -> Broken:
+    """What breaks a rule; adds to ``findings`` those that the defaults do not bring."""
 
+    def breaks(outcome: Outcome) -> bool:
+        return isinstance(outcome, Report) and any(f.rule == rule for f in outcome.findings)
 
-def _broken(
-    rule: str, runs: Sequence[tuple[Values, Report]], varied: Mapping[str, Sequence[Any]]
-) -> Broken:
-    """The shortest statement of which values break a rule.
+    def keeps(outcome: Outcome) -> bool:
+        return isinstance(outcome, Report) and not breaks(outcome)
 
-    Values, then pairs of values, that break it wherever they occur and together account for
-    every run that does; where there are none, the runs themselves.
-    """
-    bad = [v for v, report in runs if any(f.rule == rule for f in report.findings)]
-    good = [v for v, report in runs if not any(f.rule == rule for f in report.findings)]
-    for size in (1, 2):
-        sets = [
-            chosen
-            for names in itertools.combinations(varied, size)
-            for chosen in itertools.product(*([(n, v) for v in varied[n]] for n in names))
-            if any(_holds(chosen, values) for values in bad)
-            and not any(_holds(chosen, values) for values in good)
-        ]
-        if sets and all(any(_holds(chosen, values) for chosen in sets) for values in bad):
-            return Broken(rule, _told(sets), len(bad))
-    shown = "; ".join(in_words(values, varied) for values in bad[:6])
-    return Broken(rule, shown + (" and others" if len(bad) > 6 else ""), len(bad))
-
-
-def _holds(chosen: Sequence[tuple[str, Any]], values: Values) -> bool:
-    return all(values[name] == value for name, value in chosen)
-
-
-def _told(sets: Sequence[tuple[tuple[str, Any], ...]]) -> str:
-    if all(len(chosen) == 1 for chosen in sets):
-        by_name: dict[str, list[str]] = {}
-        for ((name, value),) in sets:
-            by_name.setdefault(name, []).append(str(value))
-        return "; ".join(f"{name}={' or '.join(values)}" for name, values in by_name.items())
-    return "; ".join(" with ".join(f"{n}={v}" for n, v in chosen) for chosen in sets[:6])
-
-
-def _merged(
-    default: Report, runs: Sequence[tuple[Values, Report]], varied: Mapping[str, Sequence[Any]]
-) -> list[Finding]:
-    """The default's findings, and once each those that need other values, which say so."""
-    findings = list(default.findings)
-    known = {(finding.rule, finding.lines) for finding in findings}
-    for values, report in runs:
-        for finding in report.findings:
-            key = (finding.rule, finding.lines)
-            if key not in known:
-                known.add(key)
-                message = f"With {in_words(values, varied)}: {finding.message}"
+    causes = explorer.causes(breaks)
+    runs = explorer.showing(breaks)
+    if not all(causes):  # the defaults break it
+        cures = [explorer.in_words(cure) for cure in explorer.causes(keeps)]
+        return Broken(rule, f"the defaults, unless {' or '.join(cures)}" if cures else "", runs)
+    known = {finding.lines for finding in findings if finding.rule == rule}
+    for cause in causes:
+        outcome = explorer.run(cause)
+        for finding in outcome.findings if isinstance(outcome, Report) else ():
+            if finding.rule == rule and finding.lines not in known:
+                known.add(finding.lines)
+                message = f"With {explorer.in_words(cause)}: {finding.message}"
                 findings.append(dataclasses.replace(finding, message=message))
-    return findings
+    return Broken(rule, "; ".join(explorer.in_words(cause) for cause in causes), runs)

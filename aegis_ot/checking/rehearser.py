@@ -15,7 +15,7 @@ from types import TracebackType
 from typing import Any
 
 from ..errors import RehearsalError
-from .child import GRACE_S, Answer, Link
+from .child import Answer, Link, grace_s
 from .result import Problem
 from .tasks import Task
 
@@ -74,7 +74,7 @@ class Rehearser:
         """
         if self._process is None:
             self._start()
-        answer = self._ask(task, task.timeout_s + GRACE_S)
+        answer = self._ask(task, task.timeout_s + grace_s(task.timeout_s))
         if answer is None:
             line = self._line(task)
             message = f"did not end within {task.timeout_s:g} s of rehearsal."

@@ -7,9 +7,10 @@ import functools
 import re
 import traceback
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
-from ..errors import AegisError, RehearsalError, RehearsalTimeout
+from ..errors import AegisError, RehearsalError
 from ..preflight import Database, Options, Report, check_script, load_database
 from ..preflight.examples import ExampleResult, run_examples
 from ..preflight.loading import line_of, load
@@ -17,6 +18,8 @@ from ..preflight.script import Script
 from .result import Problem
 
 RulePaths = tuple[str, ...]
+
+_PACKAGE = Path(__file__).resolve().parent.parent
 
 
 @runtime_checkable
@@ -149,8 +152,8 @@ def prepare(rules: RulePaths) -> None:
 
 def problem_of(error: BaseException, script_name: str) -> Problem:
     """Whatever a task raised, as one sentence for people."""
-    if isinstance(error, RehearsalTimeout):
-        return Problem(_bare(error, script_name), error.line)
+    if isinstance(error, RehearsalError) and isinstance(error.__cause__, ImportError):
+        return Problem(f"the protocol cannot import something: {error.__cause__}", error.line)
     if isinstance(error, RehearsalError):
         return Problem(_bare(error, script_name), error.line)
     if isinstance(error, AegisError):
@@ -163,6 +166,8 @@ def problem_of(error: BaseException, script_name: str) -> Problem:
     if not isinstance(error, Exception):
         return Problem(f"the protocol raises {type(error).__name__}: {error}", line)
     place = traceback.extract_tb(error.__traceback__)[-1]
+    if _PACKAGE not in Path(place.filename).parents:
+        return Problem(f"Opentrons cannot run it: {type(error).__name__}: {error}", line)
     return Problem(
         f"aegis-ot itself failed: {type(error).__name__}: {error} "
         f"({place.name}, line {place.lineno}). This is a bug in aegis-ot; please report it.",
@@ -173,7 +178,7 @@ def problem_of(error: BaseException, script_name: str) -> Problem:
 def _bare(error: RehearsalError, file_name: str) -> str:
     """The message without the file and line that stand beside it anyway."""
     text = str(error)
-    start = re.match(rf"{re.escape(file_name)}(, line \d+)?: ", text)
+    start = re.match(rf"{re.escape(file_name)}((, line \d+)?: | (?=did not end))", text)
     return text[start.end() :] if start else text
 
 
