@@ -142,9 +142,14 @@ def _in_time(attempt: Callable[[float], Reply], left: float) -> Reply:
     thread.join(left + _GRACE)
     if not outcome:
         raise Trouble(State.TIMEOUT, "The service did not finish its answer in time.")
-    if isinstance(outcome[0], BaseException):
+    if isinstance(outcome[0], Reply):
+        return outcome[0]
+    if isinstance(outcome[0], Trouble) or not isinstance(outcome[0], Exception):
         raise outcome[0]
-    return outcome[0]
+    # SDKs hand on what a server sends without looking at it, so anything may come up here. The
+    # error's text is left out: it may quote what was sent.
+    kind = type(outcome[0]).__name__
+    raise Trouble(State.INVALID, f"The service's answer makes no sense ({kind}).")
 
 
 def retry_after(headers: Mapping[str, str] | Any) -> float | None:
