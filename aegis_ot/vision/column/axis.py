@@ -14,9 +14,16 @@ import numpy as np
 from ..types import Image, TipDetection
 from .strip import Array, Point, Strip, TipShape, resample
 
-_STRAYED = 0.03
-"""If the nozzle is farther than this from where the detection has it, in tip lengths, the whole
-detection is off."""
+_NARROW, _WIDE = 0.08, 0.22
+"""How far from where it should be the nozzle's end is looked for: first near by, and only if
+nothing is there, as far as a detection can be off; in tip lengths."""
+
+_SURE = 0.6
+"""Confidence of a detection from which it is not far off."""
+
+_SIDEWAYS = 0.03
+"""Standard deviation of a detection's ends across the axis, tip lengths (a box has no axis, and a
+tip leans). Labware has edges too: without clear reason the axis stays where it was."""
 
 
 def rectify(
@@ -34,13 +41,15 @@ def rectify(
     collar = np.array(detection.collar, dtype=np.float64)
     orifice = np.array(detection.orifice, dtype=np.float64)
     collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
-    shift = _nozzle_shift(image, collar, orifice, shape, 0.2)
-    if abs(shift) > _STRAYED:
-        along = orifice - collar
-        collar, orifice = collar + along * shift, orifice + along * shift
-        collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
-        shift = _nozzle_shift(image, collar, orifice, shape, 0.05)
-    collar = collar + (orifice - collar) * shift
+    shift = _nozzle_shift(image, collar, orifice, shape, _NARROW, 4.0)
+    if shift is None and detection.confidence < _SURE:
+        strayed = _nozzle_shift(image, collar, orifice, shape, _WIDE, 8.0)
+        if strayed is not None:
+            along = orifice - collar
+            collar, orifice = collar + along * strayed, orifice + along * strayed
+            collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
+            shift = _nozzle_shift(image, collar, orifice, shape, _NARROW, 4.0)
+    collar = collar + (orifice - collar) * (shift or 0.0)
     if length is not None:
         along = orifice - collar
         orifice = collar + along * (length / max(float(np.hypot(*along)), 1.0))
@@ -88,6 +97,8 @@ def _onto_outline(
                 low = np.clip(at.astype(np.int64), 0, width - 2)
                 part = np.clip(at - low, 0.0, 1.0)
                 total[i] += (table[index, low] * (1 - part) + table[index, low + 1] * part).sum(0)
+        off = 0.25 * (grid / _SIDEWAYS) ** 2
+        total -= 2 * height * (off[:, None] + off[None, :])
         best = np.unravel_index(int(np.argmax(total)), total.shape)
         along = orifice - collar
         across = np.array([along[1], -along[0]])
@@ -98,13 +109,16 @@ def _onto_outline(
 
 
 def _nozzle_shift(
-    image: Image, collar: Point, orifice: Point, shape: TipShape, reach: float
-) -> float:
-    """How far down the axis the nozzle ends from where it should, tip lengths; 0 if unseen."""
-    grey, u, v = _grey(image, collar, orifice, shape, 0.25 if reach > 0.1 else 0.1)
+    image: Image, collar: Point, orifice: Point, shape: TipShape, reach: float, clear: float
+) -> float | None:
+    """How far down the axis the nozzle ends from where it should, tip lengths.
+
+    ``None`` if no step within ``reach`` stands out ``clear`` times from the noise.
+    """
+    grey, u, v = _grey(image, collar, orifice, shape, reach + 0.05)
     bore = grey[:, np.abs(v) < 0.6 * shape.collar_radius].mean(axis=1)
-    found = _step(u, -bore, shape.nozzle_end, reach, 3)
-    return 0.0 if found is None else found - shape.nozzle_end
+    found = _step(u, -bore, shape.nozzle_end, reach, 3, clear)
+    return None if found is None else found - shape.nozzle_end
 
 
 def _orifice_shift(image: Image, collar: Point, orifice: Point, shape: TipShape) -> float:
@@ -133,7 +147,9 @@ def _grey(
     return np.asarray(pixels.mean(axis=2), dtype=np.float32), u, v
 
 
-def _step(u: Array, profile: Array, expected: float, reach: float, width: int) -> float | None:
+def _step(
+    u: Array, profile: Array, expected: float, reach: float, width: int, clear: float = 4.0
+) -> float | None:
     """Sub-row position of the steepest rise of a profile near ``expected``, or ``None``."""
     kernel = np.concatenate([np.full(width, -1.0), np.full(width, 1.0)]) / width
     rise = np.correlate(profile.astype(np.float64), kernel, mode="same")
@@ -142,7 +158,7 @@ def _step(u: Array, profile: Array, expected: float, reach: float, width: int) -
     weight = np.exp(-0.5 * ((u[near] - expected) / reach) ** 2)
     best = int(near[np.argmax(rise[near] * weight)])
     noise = 1.48 * float(np.median(np.abs(rise - np.median(rise)))) + 1e-6
-    if rise[best] < 4.0 * noise or best in (0, len(u) - 1):
+    if rise[best] < clear * noise or best in (0, len(u) - 1):
         return None
     left, mid, right = rise[best - 1], rise[best], rise[best + 1]
     bend = left - 2 * mid + right

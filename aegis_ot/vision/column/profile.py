@@ -30,6 +30,12 @@ _INSIDE = np.abs(LANES) < 0.7
 _WIDE = np.abs(LANES) < 1.3
 _BESIDE = np.abs(LANES) > 1.65
 _FLOOR = 1e-3
+_DARK = 4.0
+"""Grey levels added before a logarithm: dark pixels are noise."""
+
+_SCALE = 0.5
+_THROUGH = 0.8
+"""Share of the background's colour that shows through a tip."""
 
 
 @dataclass(frozen=True)
@@ -38,8 +44,8 @@ class TipProfile:
 
     Attributes:
         u: ``(rows,)``.
-        colour: ``(rows, 2)`` red and blue difference against the background beside the tip,
-            as a fraction of the row's brightness.
+        colour: ``(rows, 2)`` half the logarithm of red over green and of blue over green, less
+            what the background beside the tip explains of it.
         brightness: ``(rows,)`` natural logarithm, relative to the nozzle.
         background: ``(rows,)`` the same beside the tip.
         bar: ``(rows,)`` a thin bright bar across the bore, in standard deviations of the rows
@@ -106,14 +112,16 @@ def unroll(strip: Strip, shape: TipShape) -> Array:
 
 
 def _colour(cone: Array) -> Array:
-    inside = cone[:, _WIDE].mean(axis=1)
-    beside = np.median(cone[:, _BESIDE], axis=1)
-    luma = np.array([0.114, 0.587, 0.299], dtype=np.float32)
-    bright = np.maximum(inside @ luma, 4.0)
-    dim = beside @ luma
-    red = 0.713 * ((inside[:, 2] - bright) - (beside[:, 2] - dim))
-    blue = 0.564 * ((inside[:, 0] - bright) - (beside[:, 0] - dim))
-    return np.asarray(np.stack([red, blue], axis=1) / bright[:, None], dtype=np.float32)
+    """Colour of the tip against what is beside it, as absorbances against green's.
+
+    A clear tip shows what is behind it, times its own transmission (Beer-Lambert); a frosted one
+    scatters light of its own besides.
+    """
+    inside = np.log(cone[:, _WIDE].mean(axis=1) + _DARK)
+    beside = np.log(np.median(cone[:, _BESIDE], axis=1) + _DARK)
+    seen = np.stack([inside[:, 2] - inside[:, 1], inside[:, 0] - inside[:, 1]], axis=1)
+    behind = np.stack([beside[:, 2] - beside[:, 1], beside[:, 0] - beside[:, 1]], axis=1)
+    return np.asarray(_SCALE * (seen - _THROUGH * behind), dtype=np.float32)
 
 
 def _bar(luminance: Array, background: Array, u: Array) -> Array:
