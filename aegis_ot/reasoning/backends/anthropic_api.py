@@ -35,6 +35,8 @@ class AnthropicBackend:
         temperature: Sent if given; newer models refuse it.
         trust_env: Whether the HTTP client may use the proxies of the environment.
         clock: Time.
+        output: Longest answer, tokens, instead of what the request says: models that think
+            before they answer need room for both.
     """
 
     def __init__(
@@ -47,6 +49,7 @@ class AnthropicBackend:
         temperature: float | None = None,
         trust_env: bool = True,
         clock: Clock | None = None,
+        output: int | None = None,
         key_variables: tuple[str, ...] = KEY_VARIABLES,
     ) -> None:
         if structured not in STRUCTURED:
@@ -64,6 +67,7 @@ class AnthropicBackend:
         self._temperature = temperature
         self._trust_env = trust_env
         self._clock = clock or Clock()
+        self._output = output
         self._client: Any = None
 
     def ask(self, request: Request) -> Reply:
@@ -119,7 +123,7 @@ class AnthropicBackend:
     def _arguments(self, request: Request) -> dict[str, Any]:
         arguments: dict[str, Any] = {
             "model": self.model,
-            "max_tokens": request.max_output,
+            "max_tokens": self._output or request.max_output,
             "system": [_passage(p.text, p.cached) for p in request.system],
             "messages": [_message(m) for m in request.messages],
         }
@@ -159,7 +163,7 @@ class AnthropicBackend:
         if stop in ("max_tokens", "model_context_window_exceeded"):
             raise Trouble(
                 State.TRUNCATED,
-                f"{model} did not finish within {request.max_output} tokens.",
+                f"{model} did not finish within {self._output or request.max_output} tokens.",
                 usage=usage,
                 raw=raw,
             )

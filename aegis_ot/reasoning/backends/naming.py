@@ -20,8 +20,8 @@ from .retrying import Patience
 MODEL_VARIABLE = "AEGIS_OT_MODEL"
 RECORD_VARIABLE = "AEGIS_OT_MODEL_RECORD"
 _OPTIONS = {
-    "anthropic": {"structured", "temperature", "key", "timeout", "attempts"},
-    "openai": {"structured", "limit", "temperature", "key", "timeout", "attempts"},
+    "anthropic": {"structured", "temperature", "key", "timeout", "attempts", "output"},
+    "openai": {"structured", "limit", "temperature", "key", "timeout", "attempts", "output"},
     "replay": {"model"},
 }
 _FORMS = "anthropic:MODEL, openai:MODEL, openai:MODEL@URL, replay:FOLDER"
@@ -74,6 +74,8 @@ def _service(
     )
     temperature = _number(options, "temperature", 0.0) if "temperature" in options else None
     keys = (options["key"],) if "key" in options else None
+    # Models that think before they answer need room for both.
+    output = int(_number(options, "output", 0, 200_000)) or None
     if kind == "anthropic":
         return AnthropicBackend(
             model,
@@ -82,6 +84,7 @@ def _service(
             patience=patience,
             temperature=temperature,
             trust_env=trust_env,
+            output=output,
             key_variables=keys or KEY_VARIABLES,
         )
     return OpenAIBackend(
@@ -92,6 +95,7 @@ def _service(
         patience=patience,
         temperature=temperature,
         trust_env=trust_env,
+        output=output,
         key_variables=keys,
     )
 
@@ -130,7 +134,7 @@ def _options(kind: str, text: str) -> dict[str, str]:
     return options
 
 
-def _number(options: Mapping[str, str], name: str, default: float) -> float:
+def _number(options: Mapping[str, str], name: str, default: float, most: float = 3600) -> float:
     text = options.get(name)
     if text is None:
         return default
@@ -138,8 +142,10 @@ def _number(options: Mapping[str, str], name: str, default: float) -> float:
         value = float(text)
     except ValueError:
         value = -1.0
-    if not 0 <= value <= 3600 or (value == 0 and name != "temperature"):
-        raise ConfigurationError(f"The option {name}={text!r} must be a number more than 0.")
+    if not 0 <= value <= most or (value == 0 and name != "temperature"):
+        raise ConfigurationError(
+            f"The option {name}={text!r} must be a number more than 0, at most {most:g}."
+        )
     return value
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import base64
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlsplit
@@ -69,6 +70,8 @@ class OpenAIBackend:
         temperature: Sent if given; reasoning models refuse it.
         trust_env: Whether the HTTP client may use the proxies of the environment.
         clock: Time.
+        output: Longest answer, tokens, instead of what the request says: models that think
+            before they answer need room for both.
         key_variables: Environment variables that may hold the key; ``None``: the profile's.
     """
 
@@ -83,6 +86,7 @@ class OpenAIBackend:
         temperature: float | None = None,
         trust_env: bool = True,
         clock: Clock | None = None,
+        output: int | None = None,
         key_variables: tuple[str, ...] | None = None,
     ) -> None:
         self.name = f"openai:{model}" + (f"@{base_url}" if base_url else "")
@@ -105,6 +109,7 @@ class OpenAIBackend:
         self._temperature = temperature
         self._trust_env = trust_env
         self._clock = clock or Clock()
+        self._output = output
         self._client: Any = None
 
     def ask(self, request: Request) -> Reply:
@@ -174,7 +179,7 @@ class OpenAIBackend:
                 {"role": "system", "content": system},
                 *(_message(message) for message in request.messages),
             ],
-            self._limit: request.max_output,
+            self._limit: self._output or request.max_output,
         }
         if self._temperature is not None:
             arguments["temperature"] = self._temperature
@@ -216,7 +221,7 @@ class OpenAIBackend:
         if stop == "length":
             raise Trouble(
                 State.TRUNCATED,
-                f"{model} did not finish within {request.max_output} tokens.",
+                f"{model} did not finish within {self._output or request.max_output} tokens.",
                 usage=usage,
                 raw=raw,
             )
@@ -255,10 +260,14 @@ def _message(message: Message) -> dict[str, Any]:
 
 
 def _usage(usage: Any) -> Usage:
+    def member(holder: Any, name: str) -> Any:
+        # Older SDKs leave members that they do not know as plain mappings.
+        return holder.get(name) if isinstance(holder, Mapping) else getattr(holder, name, None)
+
     def count(holder: Any, name: str) -> int:
-        value = getattr(holder, name, None)
+        value = member(holder, name)
         return value if isinstance(value, int) else 0
 
     prompt = count(usage, "prompt_tokens")
-    cached = min(count(getattr(usage, "prompt_tokens_details", None), "cached_tokens"), prompt)
+    cached = min(count(member(usage, "prompt_tokens_details"), "cached_tokens"), prompt)
     return Usage(prompt - cached, cached, 0, count(usage, "completion_tokens"))
