@@ -69,22 +69,31 @@ def run_examples(database: Database, rules: Iterable[str] = ()) -> list[ExampleR
     """
     wanted = set(rules)
     results = []
+    reports: dict[tuple[str, tuple[str, ...]], Report] = {}
     for family in database.families:
         for rule in family.rules:
             if wanted and rule.id not in wanted:
                 continue
             for example in rule.examples.passing:
-                results.append(_run(database, family, rule, example, expected=False))
+                results.append(_run(database, reports, family, rule, example, expected=False))
             for example in rule.examples.failing:
-                results.append(_run(database, family, rule, example, expected=True))
+                results.append(_run(database, reports, family, rule, example, expected=True))
     return results
 
 
 def _run(
-    database: Database, family: Family, rule: RuleSpec, example: Example, expected: bool
+    database: Database,
+    reports: dict[tuple[str, tuple[str, ...]], Report],
+    family: Family,
+    rule: RuleSpec,
+    example: Example,
+    expected: bool,
 ) -> ExampleResult:
+    key = (family.family, example.code)
     try:
-        report = _report(database, family, example)
+        if key not in reports:  # rules of one family share their good examples
+            reports[key] = _report(database, family, example)
+        report = reports[key]
     except AegisError as error:
         return ExampleResult(rule.id, example.title, expected, False, str(error))
     found = [finding.rule for finding in report.findings]

@@ -333,7 +333,10 @@ def _spread_over_channels(roles: Roles, trace: Trace) -> None:
             if ref == first or ref in trace.singles:
                 continue
             other = roles.by_well.get(ref)
-            if other is None or (
+            if other is not None and other.role == assigned.role:
+                if other.level is None:
+                    other.level = assigned.level
+            elif other is None or (
                 other.strength <= assigned.strength
                 and assigned.role != other.role
                 and assigned.role not in roles.closure(other.role)
@@ -361,6 +364,8 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
     for name, spec in roles.family.roles.items():
         if spec.feeds:
             _derive_source(roles, name, spec, trace)
+        if spec.one_to_one:
+            _derive_one_to_one(roles, name, trace)
     for name, spec in roles.family.roles.items():
         if spec.receives:
             _derive_one(roles, name, spec, trace, usage)
@@ -413,6 +418,35 @@ def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
         right = sum(roles.has(well, wanted) for well in wells)
         if right * 2 > len(wells):
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+_FEWEST_PAIRS = 3
+_SMALLEST_PLATE = 24
+
+
+def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
+    """Wells of a plate that each serve one well of their own hold each something of its own.
+
+    A liquid that stands in several wells (a strip of master mix) serves several wells each.
+    """
+    served: dict[WellRef, set[WellRef]] = {}
+    for well in trace.wells.values():
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None and source is not well and source.prefilled:
+                    served.setdefault(source.ref, set()).add(well.ref)
+    plates: dict[str, list[WellRef]] = {}
+    for ref in served:
+        info = trace.labware.get(ref.labware)
+        if info is None or info.centers_channels or len(info.wells) < _SMALLEST_PLATE:
+            continue
+        plates.setdefault(ref.labware, []).append(ref)
+    for refs in plates.values():
+        pairs = all(len(served[ref]) == 1 and not roles.of(ref) for ref in refs)
+        into = {well for ref in refs for well in served[ref]}
+        if pairs and len(refs) >= _FEWEST_PAIRS and len(into) == len(refs):
+            for ref in refs:
+                roles.derived.setdefault(ref, set()).update(roles.closure(name))
 
 
 def _derive_one(

@@ -49,6 +49,7 @@ class RoleSpec:
         filled_by: Roles whose liquid, given in the run, would make up those contents.
         feeds: Derived: an unnamed source that mostly feeds wells of these roles.
         one_liquid: Whether all wells of this role hold the same liquid unless named apart.
+        one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
         level: Value on the scale of concentrations or doses that this role has by itself.
         receives: Derived: a destination that is given liquid of one of these roles.
     """
@@ -61,6 +62,7 @@ class RoleSpec:
     implies_contents: bool = False
     filled_by: tuple[str, ...] = ()
     feeds: tuple[str, ...] = ()
+    one_to_one: bool = False
     one_liquid: bool = False
     level: float | None = None
     receives: tuple[str, ...] = ()
@@ -171,6 +173,7 @@ class Common:
     aliases: Mapping[str, str] = field(default_factory=dict)
     noise: tuple[str, ...] = ()
     distinct: tuple[str, ...] = ()
+    dosed: tuple[str, ...] = ()
     schema: int = SCHEMA_VERSION
 
 

@@ -277,12 +277,13 @@ def _compound(case: Case, well: Well) -> tuple[str, ...]:
 
 
 def _in_one_list(case: Case, one: Well, other: Well) -> bool:
-    """Whether two wells have their role from one name, which does not call them distinct."""
+    """Whether two wells have their role from one name, and may be doses of one compound."""
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
     if mine is None or theirs is None:
         return False
-    distinct = Lexicon({"distinct": case.common.distinct})
+    kinds = Lexicon({"distinct": case.common.distinct, "dosed": case.common.dosed})
+    said = {match.topic for match in kinds.find(mine.text)}
     same = name_without_level(mine.text, case.common) == name_without_level(
         theirs.text, case.common
     )
-    return same and not distinct.find(mine.text)
+    return same and ("dosed" in said or "distinct" not in said)
