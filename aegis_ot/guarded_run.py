@@ -170,7 +170,7 @@ def _at_return_of(frame: FrameType, action: Callable[[bool], None]) -> None:
 
     An exception raised by ``action`` becomes the exception of that function.
     """
-    previous = sys.getprofile()
+    previous: Any = sys.getprofile()
 
     def hook(seen: FrameType, event: str, argument: Any) -> None:
         if previous is not None:

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from pydantic import SecretStr
+
 from ..errors import AegisError, RehearsalError, RunAborted
 from ..guard import guard
 from ..instrumentation import Event, Operation, OperationKind, tapped
@@ -115,7 +117,7 @@ def _run(
     robot = _Robot()
     outcome, detail = "succeeded", ""
     with tempfile.TemporaryDirectory(prefix="aegis-ot-") as data:
-        config = SidecarConfig(port=0, token=token, data=Path(data))
+        config = SidecarConfig(port=0, token=SecretStr(token), data=Path(data))
         told = _Telling(analyser, progress.judged)
         with running_sidecar(config, camera, told) as url:
 

@@ -132,8 +132,8 @@ def _plain(text):
 
 def engine_commands(text, name):
     """Liquid commands of an engine run with all their parameters, or ``None`` (legacy core)."""
-    from opentrons.protocol_api.core.engine import ENGINE_CORE_API_VERSION
     from opentrons.protocol_api._parameter_context import ParameterContext
+    from opentrons.protocol_api.core.engine import ENGINE_CORE_API_VERSION
     from opentrons.protocols.execution.execute_python import exec_add_parameters, exec_run
     from opentrons.protocols.parse import parse
 
@@ -175,12 +175,20 @@ def compare(path, url, keyframes):
     del keyframes[:]
     plain, watched = simulate(text, path.name), simulate(guarded, path.name)
     seen = len(keyframes)
-    result = {"file": path.name, "keyframes": seen, "lines": len(plain["log"] or ()), "problems": []}
+    result = {
+        "file": path.name,
+        "keyframes": seen,
+        "lines": len(plain["log"] or ()),
+        "problems": [],
+    }
     if plain["error"] != watched["error"]:
         result["problems"].append(f"error {plain['error']!r} became {watched['error']!r}")
     if plain["log"] != watched["log"]:
         result["problems"].append(f"run log differs: {_first(plain['log'], watched['log'])}")
-    engine_plain, engine_guarded = engine_commands(text, path.name), engine_commands(guarded, path.name)
+    engine_plain, engine_guarded = (
+        engine_commands(text, path.name),
+        engine_commands(guarded, path.name),
+    )
     if engine_plain != engine_guarded:
         result["problems"].append(
             "engine commands differ: "
