@@ -201,7 +201,7 @@ def compare(path, url, keyframes):
 
 
 def _first(one, other):
-    for index, (a, b) in enumerate(zip(one or (), other or ())):
+    for index, (a, b) in enumerate(zip(one or (), other or (), strict=False)):
         if a != b:
             return f"at {index}: {a!r} / {b!r}"
     return f"lengths {len(one or ())} / {len(other or ())}"
