@@ -24,7 +24,9 @@ def hybrid_request(dossier: Dossier, database: Database) -> Request:
     """Rules, API reference, source, trace, roles, open questions."""
     extra = [brief.text for brief in dossier.rules if brief.text]
     parts = [
-        _fenced(dossier, [*_source(dossier), *_trace(dossier), *_roles(dossier)]),
+        _fenced(
+            dossier, [*_source(dossier), *_trace(dossier), *_roles(dossier), *_doubts(dossier)]
+        ),
         "\n".join(_asked(dossier)),
     ]
     if extra:
@@ -103,6 +105,14 @@ def _roles(dossier: Dossier) -> list[str]:
     return ["", "Roles and their evidence:", *told]
 
 
+def _doubts(dossier: Dossier) -> list[str]:
+    """Why the checks could not decide; names labels and wells, so it stays within the fence."""
+    if not dossier.questions:
+        return []
+    told = [f"{question.rule}: {_flat(question.reason)}" for question in dossier.questions]
+    return ["", "Why the checks left rules open:", *told]
+
+
 def _asked(dossier: Dossier) -> list[str]:
     sure = "known" if dossier.family_known else "a guess"
     lines = [f"Family by the checks: {dossier.family} ({sure})."]
@@ -111,11 +121,8 @@ def _asked(dossier: Dossier) -> list[str]:
     for finding in dossier.findings:
         where = ", ".join(map(str, finding.lines))
         lines.append(f"Found by the checks: {finding.rule}, lines {where}.")
-    if dossier.questions:
-        lines.append("Open questions, one answer each:")
-        lines += [f"- {question.rule}: {_flat(question.reason)}" for question in dossier.questions]
-    else:
-        lines.append("Open questions: none.")
+    questions = [question.rule for question in dossier.questions]
+    lines.append(f"Open questions, one answer each: {', '.join(questions) or 'none'}.")
     return lines
 
 
