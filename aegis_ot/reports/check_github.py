@@ -32,7 +32,8 @@ def _annotations(checked: CheckedProtocol, names: dict[str, str]) -> Iterator[st
         kind = "error" if finding.severity is Severity.ERROR else "warning"
         # The last line is where the harm was done.
         line = finding.lines[-1] if finding.lines else None
-        message = f"{finding.message}\n{finding.why}\nFix: {finding.fix}".strip()
+        told = (finding.message, finding.why, f"Fix: {finding.fix}" if finding.fix else "")
+        message = "\n".join(part for part in told if part)
         title = f"{finding.rule} {names.get(finding.rule, '')}".strip()
         yield _command(kind, checked.file, line, title, message)
     if checked.exploration is not None:

@@ -1,0 +1,82 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from aegis_ot.checking import Configuration, find_configuration
+from aegis_ot.checking.configuration import ConfiguredWaiver
+from aegis_ot.errors import ConfigurationError
+
+pytest.importorskip("tomllib")
+
+FULL = """
+[tool.aegis-ot]
+assay = "pcr"
+select = ["PCR-1", "pcr-6"]
+ignore = "GEN-3"
+rules = ["ours"]
+labware = ["labware"]
+baseline = "known.json"
+timeout = 30
+
+[tool.aegis-ot.severity]
+PCR-6 = "error"
+
+[[tool.aegis-ot.waivers]]
+rules = ["SD-5"]
+files = ["tutorials/*.py"]
+reason = "One tip is how we teach it."
+"""
+
+
+def _write(folder: Path, text: str) -> Path:
+    (folder / "pyproject.toml").write_text(text, encoding="utf-8")
+    return folder
+
+
+def test_everything_is_read_and_paths_are_relative_to_the_file(tmp_path: Path) -> None:
+    below = _write(tmp_path, FULL) / "protocols" / "pcr"
+    below.mkdir(parents=True)
+    assert find_configuration(below) == Configuration(
+        assay=("pcr",),
+        select=("PCR-1", "PCR-6"),
+        ignore=("GEN-3",),
+        rules=(str(tmp_path / "ours"),),
+        labware=(str(tmp_path / "labware"),),
+        baseline=str(tmp_path / "known.json"),
+        timeout=30.0,
+        severity={"PCR-6": "error"},
+        waivers=(ConfiguredWaiver(("SD-5",), "One tip is how we teach it.", ("tutorials/*.py",)),),
+        folder=tmp_path,
+    )
+
+
+def test_a_file_without_the_table_is_passed_over(tmp_path: Path) -> None:
+    inner = _write(tmp_path, FULL) / "inner"
+    inner.mkdir()
+    _write(inner, "[project]\nname = 'x'\n")
+    assert find_configuration(inner).assay == ("pcr",)
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ("asay = 'pcr'", "no key 'asay'"),
+        ("select = 3", "select: expected a list"),
+        ("timeout = 'long'", "timeout: expected a number"),
+        ("timeout = -1", "timeout: must be greater"),
+        ("baseline = 3", "baseline: expected a path"),
+        ("severity = {PCR-1 = 'fatal'}", "severity.PCR-1: expected error, warning or off"),
+        ("waivers = [{rules = ['SD-5']}]", "gives no reason for waiving SD-5"),
+        ("waivers = [{reason = 'because'}]", "names no rules"),
+        ("waivers = 'SD-5'", "write each as"),
+        ("= 3", "is not TOML"),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line(tmp_path: Path, table: str, words: str) -> None:
+    _write(tmp_path, f"[tool.aegis-ot]\n{table}\n")
+    with pytest.raises(ConfigurationError) as caught:
+        find_configuration(tmp_path)
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)

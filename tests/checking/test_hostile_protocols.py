@@ -1,0 +1,118 @@
+"""Protocols that end, crash, hang or flood the process that rehearses them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from aegis_ot.checking import CheckedProtocol, CheckSettings, check_files
+from aegis_ot.preflight import load_database
+from aegis_ot.vocabulary import VerdictWord
+
+HEAD = 'metadata = {"apiLevel": "2.15"}\n'
+
+GOOD = HEAD + "def run(protocol):\n    print('hello')\n"
+
+VANDAL = (
+    HEAD
+    + """
+import opentrons.protocol_api as api
+def run(p):
+    api.ProtocolContext.load_labware = None
+    for n in range(100_000):
+        print("storm", n)
+"""
+)
+
+AFTER = HEAD + "def run(p):\n    p.load_labware('nest_12_reservoir_15ml', 1)\n"
+
+# name: text, line at which it stops, words of the message
+HOSTILE: dict[str, tuple[str, int | None, str]] = {
+    "endless.py": (HEAD + "def run(p):\n    while True:\n        pass\n", 3, "did not end"),
+    "stubborn.py": (
+        HEAD
+        + "def run(p):\n    while True:\n        try:\n            n = 1\n"
+        + "        except BaseException:\n            pass\n",
+        None,
+        "did not end",
+    ),
+    "asleep.py": (HEAD + "import time\ndef run(p):\n    time.sleep(1000)\n", 4, "did not end"),
+    "exits.py": (HEAD + "import sys\ndef run(p):\n    sys.exit(0)\n", 4, "ends the Python process"),
+    "leaves.py": (HEAD + "import os\ndef run(p):\n    os._exit(0)\n", None, "ended the Python"),
+    "crashes.py": (
+        HEAD + "import os, signal\ndef run(p):\n    os.kill(os.getpid(), signal.SIGSEGV)\n",
+        4,
+        "ended the Python process",
+    ),
+    "raises.py": (HEAD + "def run(p):\n    x = 1\n    1 / 0\n", 4, "ZeroDivisionError"),
+    "asks.py": (HEAD + "def run(p):\n    input('name?')\n", 3, "EOFError"),
+    "labware.py": (
+        HEAD + "def run(p):\n    p.load_labware('my_plate', 1)\n",
+        3,
+        'Labware "my_plate" not found',
+    ),
+    "newer.py": (
+        '\nmetadata = {"apiLevel": "2.99"}\ndef run(p):\n    pass\n',
+        2,
+        "API version 2.99 is not supported",
+    ),
+    "syntax.py": (HEAD + "def run(p:\n    pass\n", 2, "not valid Python"),
+    "no_run.py": (HEAD + "x = 1\n", None, "No function 'run(ctx)'"),
+    "imports.py": (HEAD + "import no_such_thing\ndef run(p):\n    pass\n", 2, "cannot import"),
+}
+
+
+@pytest.fixture(scope="module")
+def checked(tmp_path_factory: pytest.TempPathFactory) -> dict[str, CheckedProtocol]:
+    folder = tmp_path_factory.mktemp("hostile")
+    files = []
+    for name, (text, _, _) in HOSTILE.items():
+        files.append(folder / name)
+        files[-1].write_text(text, encoding="utf-8")
+    for name, text in (("vandal.py", VANDAL), ("after.py", AFTER)):
+        files.append(folder / name)
+        files[-1].write_text(text, encoding="utf-8")
+    # Good ones between and after the bad ones: they must not be harmed.
+    for n in (1, 7, len(files)):
+        good = folder / f"good{n}.py"
+        good.write_text(GOOD, encoding="utf-8")
+        files.insert(n, good)
+    run = check_files(files, CheckSettings(timeout_s=1.5), load_database())
+    assert run.exit_code == 2
+    return {Path(protocol.file).name: protocol for protocol in run.protocols}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_it_is_reported_with_its_line_and_never_as_clean(
+    checked: dict[str, CheckedProtocol], name: str
+) -> None:
+    _, line, words = HOSTILE[name]
+    protocol = checked[name]
+    assert protocol.verdict is VerdictWord.ERROR
+    assert protocol.problem is not None
+    assert words in protocol.problem.message
+    if line is not None:
+        assert protocol.problem.line == line
+    assert protocol.family == ""
+    assert protocol.findings == ()
+
+
+def test_the_others_are_still_checked(checked: dict[str, CheckedProtocol]) -> None:
+    good = [protocol for name, protocol in checked.items() if name.startswith("good")]
+    assert [protocol.verdict for protocol in good] == [VerdictWord.PASS] * 3
+
+
+def test_one_protocol_cannot_spoil_the_next(checked: dict[str, CheckedProtocol]) -> None:
+    assert checked["vandal.py"].problem is None
+    assert checked["after.py"].problem is None
+
+
+def test_a_folder_of_modules_named_like_the_library_does_no_harm(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "json.py").write_text("raise RuntimeError('the wrong json')\n", encoding="utf-8")
+    (tmp_path / "good.py").write_text(GOOD, encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    run = check_files([Path("good.py")], CheckSettings(timeout_s=60), load_database())
+    assert run.exit_code == 0

@@ -1,0 +1,168 @@
+from __future__ import annotations
+
+import json
+import textwrap
+from pathlib import Path
+
+import pytest
+
+from .commands import Command
+
+DECK = """
+    metadata = {{"apiLevel": "2.15", "protocolName": "qPCR set-up"}}
+    {top}
+
+    def run(protocol):
+        print("this is the protocol's own output")
+        tubes = protocol.load_labware("opentrons_24_tuberack_nest_2ml_snapcap", 2)
+        plate = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 1, "qPCR plate")
+        tips = protocol.load_labware("opentrons_96_tiprack_20ul", 4)
+        p20 = protocol.load_instrument("p20_single_gen2", "left", [tips])
+        master_mix, water, templates = tubes["A1"], tubes["A2"], tubes.wells()[8:10]
+        reactions, ntc = plate.wells()[:2], plate["H12"]
+        p20.transfer(15, master_mix, reactions + [ntc], new_tip="always")
+        p20.transfer(5, water, ntc)
+        p20.transfer(5, templates, reactions, new_tip="{tips}"){beside}
+"""
+
+
+def protocol(path: Path, tips: str = "always", beside: str = "", top: str = "") -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    text = textwrap.dedent(DECK).format(tips=tips, beside=beside, top=top)
+    path.write_text(text.lstrip(), encoding="utf-8")
+    return path
+
+
+BAD_LINE = 14
+
+
+def test_every_verdict_at_once(aegis: Command, tmp_path: Path) -> None:
+    """One call over a good, a bad, a waived, a stale and a broken protocol."""
+    protocol(tmp_path / "good.py")
+    protocol(tmp_path / "bad.py", tips="once")
+    protocol(tmp_path / "waived.py", tips="once", beside="  # aegis: ignore[PCR-3] one donor")
+    protocol(tmp_path / "stale.py", top="# aegis: ignore[PCR-5] long gone")
+    (tmp_path / "broken.py").write_text("def run(p:\n", encoding="utf-8")
+    names = ["good.py", "bad.py", "waived.py", "stale.py", "broken.py", "missing.py"]
+    result = aegis("check", *names, "--format", "json")
+    assert result.code == 2
+    assert result.err == ""
+    found = {entry["file"]: entry for entry in json.loads(result.out)["protocols"]}
+    assert [found[name]["verdict"] for name in names] == [
+        "pass", "fail", "pass", "pass", "error", "error",
+    ]  # fmt: skip
+    (finding,) = found["bad.py"]["findings"]
+    assert finding["rule"] == "PCR-3"
+    assert finding["lines"] == [BAD_LINE]
+    assert {"2:A3", "2:B3", "1:B1"} <= set(finding["wells"])
+    assert found["bad.py"]["family"] == "pcr"
+    assert found["waived.py"]["waived"][0]["reason"] == "one donor"
+    assert "stale" in found["stale.py"]["notes"][0]
+    assert found["broken.py"]["error"]["line"] == 1
+
+
+def test_text_names_rule_place_and_roles_and_a_baseline_silences(
+    aegis: Command, tmp_path: Path
+) -> None:
+    protocol(tmp_path / "p" / "bad.py", tips="once")
+    first = aegis("check", "p/bad.py", "--explain-roles", "--write-baseline", "known.json")
+    assert first.code == 0
+    shown = aegis("check", "p/bad.py", "--explain-roles")
+    assert shown.code == 1
+    assert f"--> p/bad.py:{BAD_LINE}" in shown.out
+    assert "PCR-3" in shown.out
+    assert "1:H12: ntc: name `ntc` at line 11" in shown.out
+    assert "\x1b[" not in shown.out
+    assert "protocol's own output" not in shown.out
+    silenced = aegis("check", "p/bad.py", "--baseline", "known.json", "--output", "out/report.txt")
+    assert silenced.code == 0
+    assert silenced.out == ""
+    assert "1 known finding" in (tmp_path / "out" / "report.txt").read_text(encoding="utf-8")
+
+
+def test_the_configuration_sets_severity_and_waives(
+    aegis: Command, tmp_path: Path
+) -> None:
+    pytest.importorskip("tomllib")
+    protocol(tmp_path / "bad.py", tips="once")
+    config = tmp_path / "pyproject.toml"
+    config.write_text(
+        '[tool.aegis-ot]\nassay = "pcr"\n[tool.aegis-ot.severity]\nPCR-3 = "warning"\n',
+        encoding="utf-8",
+    )
+    (entry,) = json.loads(aegis("check", "bad.py", "-f", "json").out)["protocols"]
+    assert entry["verdict"] == "warn"
+    assert entry["findings"][0]["severity"] == "warning"
+    config.write_text(
+        '[[tool.aegis-ot.waivers]]\nrules = ["PCR-3"]\nfiles = ["bad.py"]\nreason = "known"\n',
+        encoding="utf-8",
+    )
+    result = aegis("check", "bad.py", "--select", "pcr-3,PCR-1")
+    assert (result.code, "PCR-3 waived: known" in result.out) == (0, True)
+
+
+WRONG: list[tuple[list[str], str]] = [
+    (["check"], "Missing argument"),
+    (["check", "good.py", "--format", "xml"], "'xml' is not one of text, json"),
+    (["check", "good.py", "--timeout", "soon"], "--timeout"),
+    (["check", "good.py", "--timeout", "0"], "greater than 0"),
+    (["check", "good.py", "--timeout", "nan"], "greater than 0"),
+    (["check", "good.py", "--select", "PCR-22"], "did you mean PCR-2"),
+    (["check", "good.py", "--ignore", "XYZ"], "there is no rule 'XYZ'"),
+    (["check", "good.py", "--assay", "qpcr"], "there is no assay family 'qpcr'; did you mean pcr"),
+    (["check", "good.py", "--parameter", "5"], "write it as NAME=VALUE"),
+    (["check", "good.py", "--parameter", "a=1", "--parameter", "a=2"], "given twice"),
+    (["check", "good.py", "--csv", "plate=none.csv"], "there is no file none.csv"),
+    (["check", "good.py", "--labware", "nowhere"], "--labware nowhere"),
+    (["check", "good.py", "--labware", "notes.json"], "no Opentrons labware definition"),
+    (["check", "good.py", "--rules", "nowhere"], "no such file or folder of rules"),
+    (["check", "good.py", "--rules", "notes.json"], "notes.json"),
+    (["check", "good.py", "--baseline", "nowhere.json"], "--write-baseline"),
+    (["check", "good.py", "--baseline", "notes.json"], "no baseline file"),
+    (["check", "good.py", "--baseline", "a", "--write-baseline", "b"], "together"),
+    (["check", "good.py", "--no-such-option"], "No such option"),
+    (["chekc", "good.py"], "No such command"),
+    (["explain", "PCR-22"], "did you mean PCR-2"),
+    (["rules", "test", "nowhere"], "no such file or folder of rules"),
+    (["rules", "list", "--format", "xml"], "'xml' is not one of text, json"),
+    (["evaluate", "layer1", "nowhere"], "there is no such folder"),
+    (["evaluate", "layer1", "."], "holds no labels.json"),
+    (["evaluate", "layer1", ".", "--config", "magic"], "'magic' is not one of"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "words"), WRONG, ids=[" ".join(a) for a, _ in WRONG])
+def test_a_wrong_call_is_one_line_and_code_2(
+    aegis: Command, tmp_path: Path, arguments: list[str], words: str
+) -> None:
+    protocol(tmp_path / "good.py")
+    (tmp_path / "notes.json").write_text("{}", encoding="utf-8")
+    result = aegis(*arguments)
+    assert result.code == 2
+    assert result.out == ""
+    assert words in result.err
+    assert len(result.err.splitlines()) == 1
+
+
+UNREADABLE: list[tuple[str, bytes | None, str]] = [
+    ("missing.py", None, "there is no such file"),
+    ("folder", None, "is a folder; name the protocols in it"),
+    ("empty.py", b" \n", "is empty"),
+    ("binary.py", b"\x7fELF\x02\xff\xfe", "is not UTF-8 text"),
+    ("nul.py", b"def run(p):\n\0", "is a binary file"),
+    ("protocol.json", b"{}", "only Python protocols"),
+    ("bundle.zip", b"PK", "is a bundle"),
+]
+
+
+@pytest.mark.parametrize(("name", "data", "words"), UNREADABLE)
+def test_what_is_no_protocol_is_told_in_one_line(
+    aegis: Command, tmp_path: Path, name: str, data: bytes | None, words: str
+) -> None:
+    (tmp_path / "folder").mkdir()
+    if data is not None:
+        (tmp_path / name).write_bytes(data)
+    result = aegis("check", name)
+    assert result.code == 2
+    assert result.out.splitlines()[0].startswith(f"{name}: error: cannot be judged: ")
+    assert words in result.out.splitlines()[0]

@@ -1,0 +1,52 @@
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from aegis_ot.preflight.rulefiles import shipped_rules
+
+from .commands import Command
+
+
+def test_explain_tells_why_and_how_to_mend(aegis: Command) -> None:
+    result = aegis("explain", "pcr-2")
+    assert result.code == 0
+    for words in ("PCR-2 fresh-tip-template-to-ntc", "Why:", "Fix:", "Passes:", "Fails:"):
+        assert words in result.out
+
+
+def test_the_list_has_the_22_rules(aegis: Command) -> None:
+    rules = json.loads(aegis("rules", "list", "--format", "json").out)["rules"]
+    assert len(rules) == 22
+    assert "22 rules in 5 families" in aegis("rules", "list").out
+
+
+def test_docs_are_written_and_checked(aegis: Command, tmp_path: Path) -> None:
+    assert aegis("rules", "docs", "--out", "pages").code == 0
+    assert aegis("rules", "docs", "--out", "pages", "--check").code == 0
+    (tmp_path / "pages" / "pcr.md").write_text("stale\n", encoding="utf-8")
+    result = aegis("rules", "docs", "--out", "pages", "--check")
+    assert result.code == 1
+    assert "pcr.md is out of date" in result.out
+
+
+def test_a_users_own_family_is_tested_and_a_broken_promise_reported(
+    aegis: Command, tmp_path: Path
+) -> None:
+    family = json.loads((shipped_rules() / "generic.json").read_text(encoding="utf-8"))
+    family["family"] = "ours"
+    family["default"] = False
+    (rule,) = [rule for rule in family["rules"] if rule["id"] == "GEN-3"]
+    rule.update(id="OUR-1", scope="family", unless_reported=[])
+    good, bad = rule["examples"]["passing"][0], rule["examples"]["failing"][0]
+    rule["examples"] = {"passing": [good], "failing": [bad]}
+    family["rules"] = [rule]
+    path = tmp_path / "ours.json"
+    path.write_text(json.dumps(family), encoding="utf-8")
+    kept = aegis("rules", "test", path)
+    assert (kept.code, kept.out) == (0, "1 rules, 2 examples: 2 as promised, 0 not.\n")
+    rule["examples"] = {"passing": [good], "failing": [{**bad, "code": good["code"]}]}
+    path.write_text(json.dumps(family), encoding="utf-8")
+    broken = aegis("rules", "test", path)
+    assert broken.code == 1
+    assert f"OUR-1: {bad['title']}: the rule finds nothing" in broken.out

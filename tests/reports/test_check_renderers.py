@@ -1,0 +1,127 @@
+"""Each renderer against its snapshot, and against what its format demands."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import re
+import xml.etree.ElementTree as ElementTree
+
+import jsonschema
+import pytest
+from syrupy.assertion import SnapshotAssertion
+
+from aegis_ot.checking import CheckedProtocol, CheckRun
+from aegis_ot.reports import RENDERERS, check_github, check_html, check_json, check_sarif
+from aegis_ot.reports.check_junit import check_junit
+from aegis_ot.reports.check_text import check_text
+
+from .sample import CARRY, DATABASE, LINES, RUN, report
+from .sarif_constraints import SARIF
+
+EMPTY = CheckRun((), DATABASE, "1.2.3")
+
+
+@pytest.mark.parametrize("name", RENDERERS)
+def test_snapshot(name: str, snapshot: SnapshotAssertion) -> None:
+    assert RENDERERS[name](RUN) == snapshot
+
+
+@pytest.mark.parametrize("name", RENDERERS)
+def test_nothing_checked_is_rendered_too(name: str) -> None:
+    assert RENDERERS[name](EMPTY).endswith("\n") or name == "html"
+
+
+def test_text_has_colours_only_when_asked() -> None:
+    plain, coloured = check_text(RUN), check_text(RUN, colour=True)
+    assert "\x1b[" not in plain
+    assert re.sub(r"\x1b\[[\d;]*m", "", coloured) == plain
+
+
+def test_carets_stand_under_the_statement_without_its_comment() -> None:
+    lines = check_text(RUN).splitlines()
+    number = next(n for n, line in enumerate(lines) if "p20.aspirate(5, template)" in line)
+    source, carets = lines[number], lines[number + 1]
+    start, end = carets.index("^"), carets.rindex("^") + 1
+    assert source[start:end] == "p20.aspirate(5, template)"
+
+
+def test_json_has_exactly_the_fields_of_the_specification() -> None:
+    run = CheckRun(
+        (CheckedProtocol("f.py", report(CARRY), lines=LINES), CheckedProtocol("g.py", report())),
+        DATABASE,
+        "1.2.3",
+    )
+    data = json.loads(check_json(run))
+    assert set(data) == {"protocols"}
+    for protocol in data["protocols"]:
+        assert set(protocol) == {"file", "family", "verdict", "findings", "undecided"}
+    (finding,) = data["protocols"][0]["findings"]
+    assert set(finding) == {"rule", "severity", "wells", "lines", "message", "fix"}
+    assert finding["wells"] == ["2:B1", "3:H12", "3:G12"]
+    assert finding["lines"] == [5, 8]
+    assert [p["verdict"] for p in data["protocols"]] == ["fail", "pass"]
+
+
+def test_json_says_why_a_protocol_was_not_judged() -> None:
+    broken = json.loads(check_json(RUN))["protocols"][3]
+    assert broken["verdict"] == "error"
+    assert broken["error"]["line"] == 3
+
+
+@pytest.mark.parametrize("run", [RUN, EMPTY], ids=["full", "empty"])
+def test_sarif_is_valid(run: CheckRun) -> None:
+    log = json.loads(check_sarif(run))
+    jsonschema.Draft202012Validator(SARIF).validate(log)
+    (only,) = log["runs"]
+    rules = only["tool"]["driver"]["rules"]
+    for result in only["results"]:
+        assert rules[result["ruleIndex"]]["id"] == result["ruleId"]
+
+
+def test_the_sarif_constraints_can_fail() -> None:
+    log = json.loads(check_sarif(RUN))
+    log["runs"][0]["results"][0]["level"] = "fatal"
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.Draft202012Validator(SARIF).validate(log)
+
+
+def test_sarif_fingerprints_survive_moved_lines() -> None:
+    def fingerprint(run: CheckRun) -> str:
+        result = json.loads(check_sarif(run))["runs"][0]["results"][0]
+        return str(result["partialFingerprints"]["aegisFinding/v1"])
+
+    moved = dataclasses.replace(
+        CARRY, sites=tuple(dataclasses.replace(s, line=(s.line or 0) + 1) for s in CARRY.sites)
+    )
+    here = CheckRun((CheckedProtocol("f.py", report(CARRY), lines=LINES),), DATABASE, "1")
+    there = CheckRun((CheckedProtocol("f.py", report(moved), lines=("", *LINES)),), DATABASE, "1")
+    assert fingerprint(here) == fingerprint(there)
+
+
+def test_github_commands_are_one_line_each_and_escaped() -> None:
+    for line in check_github(RUN).splitlines()[:-1]:
+        assert re.fullmatch(r"::(error|warning|notice) file=[^,:]+(,[a-z]+=[^,:]*)*::.+", line)
+    assert "file=protocols/bad%2C odd.py,line=8" in check_github(RUN)
+    assert "100 %25" in check_github(RUN)
+
+
+def test_junit_counts_agree_with_its_cases() -> None:
+    root = ElementTree.fromstring(check_junit(RUN).encode())
+    assert root.get("tests") == str(len(root.findall("testsuite/testcase")))
+    for tag, count in (("failure", "failures"), ("error", "errors"), ("skipped", "skipped")):
+        assert root.get(count) == str(len(root.findall(f"testsuite/testcase/{tag}")))
+    assert root.get("errors") == "3"
+
+
+def test_junit_survives_control_characters() -> None:
+    odd = dataclasses.replace(CARRY, message="a bell \x07 rings")
+    run = CheckRun((CheckedProtocol("f.py", report(odd), lines=LINES),), DATABASE, "1")
+    ElementTree.fromstring(check_junit(run).encode())
+
+
+def test_html_is_self_contained_and_escaped() -> None:
+    page = check_html(RUN)
+    assert "<script" not in page
+    assert not re.search(r'(src|href)="(?!#)', page)
+    assert "&lt;a&gt; &amp; b" in page
