@@ -156,7 +156,8 @@ def _score(
             signal = family.signals[int(match.topic)]
             worth = signal.weight * PLACES[where]
             key = (match.topic, "" if signal.once else match.phrase)
-            if worth > best.get(key, (0.0, ""))[0]:
+            if abs(worth) > abs(best.get(key, (0.0, ""))[0]):
                 best[key] = (worth, f"'{match.phrase}' in a {where}")
     ranked = sorted(best.values(), reverse=True)
-    return sum(worth for worth, _ in ranked), [reason for _, reason in ranked]
+    score = sum(worth for worth, _ in ranked)
+    return max(score, 0.0), [reason for worth, reason in ranked if worth > 0]

@@ -25,7 +25,7 @@ class Signal:
 
     Attributes:
         words: Phrases, see :mod:`aegis_ot.preflight.words`.
-        weight: How much one mention counts; mentions of one signal count once per place.
+        weight: How much a mention counts; negative words speak against the family.
         once: Whether the signal counts once, however often it is mentioned.
     """
 
