@@ -68,7 +68,8 @@ def with_opinion(
 def _asked(report: Report, recording: Recording, settings: Settings, protocol: Any) -> Report:
     database = load_database([settings.rules_path] if settings.rules_path else [])
     options = Options.from_settings(settings)
-    values = getattr(protocol.params, "get_all", None)
+    # `params` itself raises where the apiLevel knows none.
+    values = getattr(getattr(protocol, "_params", None), "get_all", None)
     parameters = dict(values()) if callable(values) else {}
     dossier = make_dossier(recording, report, database, options, parameters)
     wait_s = settings.opinion_timeout_s

@@ -1,0 +1,121 @@
+from __future__ import annotations
+
+import pytest
+
+from aegis_ot.preflight.script import Script
+from aegis_ot.reasoning import (
+    Configuration,
+    ReplayBackend,
+    ScriptedBackend,
+    State,
+    Usage,
+    judge_in,
+    request_in,
+)
+from aegis_ot.vocabulary import Severity, VerdictWord
+
+from .samples import CONTAMINATED, SILENT, answer, checked, database, finding
+
+BLIND = {
+    "family": "pcr",
+    "findings": [finding("PCR-2", ["2:A2", "4:H12", "4:H13", "7:A1"], [15, 18, 400])],
+    "summary": "The NTC is touched.",
+}
+
+
+def test_rules_only_asks_nobody() -> None:
+    report, dossier = checked(CONTAMINATED)
+    backend = ScriptedBackend([])
+    result = judge_in("rules-only", report, dossier, database(), backend)
+    assert result.report is report
+    assert result.state is None
+    assert not result.unanswered
+    assert backend.requests == []
+
+
+def test_hybrid_keeps_and_counts() -> None:
+    report, dossier = checked(CONTAMINATED)
+    backend = ScriptedBackend([answer()], Usage(10, 20, 30, 40))
+    result = judge_in(Configuration.HYBRID, report, dossier, database(), backend)
+    assert result.report.findings == report.findings
+    assert result.usage == Usage(10, 20, 30, 40)
+    assert result.model == "scripted"
+
+
+def test_trace_blind_is_the_models_verdict_alone() -> None:
+    report, dossier = checked(CONTAMINATED)
+    backend = ScriptedBackend([BLIND])
+    result = judge_in("trace-blind", report, dossier, database(), backend)
+    (found,) = result.report.findings
+    assert (found.rule, found.source, found.severity) == ("PCR-2", "model", Severity.ERROR)
+    assert {well.address for well in found.wells} == {"2:A2", "4:H12"}, "wells of the deck only"
+    assert set(found.lines) == {15, 18}
+    assert result.report.verdict is VerdictWord.FAIL
+    question = str(backend.requests[0].messages[0].parts[0])
+    assert "Trace:" not in question
+    assert "Roles" not in question
+    assert "PCR-2" in backend.requests[0].system[1].text
+
+
+def test_without_checks_a_model_that_finds_nothing_passes_it() -> None:
+    report, dossier = checked(CONTAMINATED)
+    nothing = {"family": "generic", "findings": [], "summary": ""}
+    result = judge_in("trace-blind", report, dossier, database(), ScriptedBackend([nothing]))
+    assert result.report.verdict is VerdictWord.PASS
+    assert result.report.family == "generic"
+
+
+def test_llm_only_sees_no_rules() -> None:
+    report, dossier = checked(SILENT)
+    said = BLIND | {"findings": [finding("MODEL", ["4:H12"], [15])]}
+    backend = ScriptedBackend([said])
+    result = judge_in("llm-only", report, dossier, database(), backend)
+    told = "".join(passage.text for passage in backend.requests[0].system)
+    assert not any(rule.id in told for rule in database().rules)
+    assert result.report.verdict is VerdictWord.FAIL
+
+
+@pytest.mark.parametrize("configuration", ["trace-blind", "llm-only"])
+def test_a_model_alone_that_does_not_answer_is_an_error_never_a_pass(configuration: str) -> None:
+    report, dossier = checked(SILENT)
+    for state in (State.TIMEOUT, State.REFUSED, State.INVALID):
+        backend = ScriptedBackend([state])
+        result = judge_in(configuration, report, dossier, database(), backend)
+        assert result.unanswered
+        assert result.report.verdict is VerdictWord.ERROR
+        assert result.report.undecided
+
+
+def test_every_configuration_works_on_recordings(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    from aegis_ot.reasoning import RecordingBackend
+
+    report, dossier = checked(CONTAMINATED)
+    for name, said in (("hybrid", answer()), ("trace-blind", BLIND), ("llm-only", BLIND)):
+        folder = tmp_path / name
+        recorder = RecordingBackend(ScriptedBackend([said]), folder)
+        live = judge_in(name, report, dossier, database(), recorder)
+        again = judge_in(name, report, dossier, database(), ReplayBackend(folder))
+        assert again.report == live.report
+
+
+def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-untyped-def]
+    import json
+
+    from aegis_ot.preflight import load_database
+    from aegis_ot.preflight.dossier import check_with_dossier
+    from aegis_ot.preflight.rulefiles import shipped_rules
+
+    family = json.loads((shipped_rules() / "generic.json").read_text())
+    rule = next(r for r in family["rules"] if r["id"] == "GEN-1")
+    own = family | {
+        "family": "ours",
+        "default": False,
+        "rules": [rule | {"id": "LAB-7", "statement": "Never pipette on a Friday."}],
+    }
+    (tmp_path / "ours.json").write_text(json.dumps(own))
+    database_ = load_database([tmp_path])
+    _, dossier = check_with_dossier(Script(CONTAMINATED, "p.py"), database_)
+    # The sidecar knows the shipped rules only; the dossier carries the others.
+    request = request_in("hybrid", dossier, database())
+    assert request is not None
+    assert "Never pipette on a Friday." in str(request.messages[0].parts[0])
