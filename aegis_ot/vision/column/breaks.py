@@ -79,7 +79,10 @@ def _by_brightness(profile: TipProfile, step: float, inside: Mask) -> Break:
     if abs(step) < 0.05:
         return best
     for width in _widths(profile):
+        # What the background does behind a clear tip is no break in the column.
+        behind = np.abs(_against_flanks(profile.background.astype(np.float64), width))
         dip = -np.sign(step) * _against_flanks(brightness, width)
+        dip = np.sign(dip) * np.maximum(np.abs(dip) - behind, 0.0)
         near = dip[rows]
         noise = 1.48 * float(np.median(np.abs(near - np.median(near)))) + 0.01
         row = int(rows[np.argmax(near)])

@@ -29,7 +29,8 @@ still tells anything."""
 
 def learn_run(signs: Sequence[Signs], model: TipModel) -> RunReference:
     """What a run's own normal wells teach, shrunk towards the tip model."""
-    dyes = tuple(sign.own_dye for sign in signs if sign.own_dye is not None)
+    seen_dyes = [sign.own_dye if sign.own_dye is not None else sign.spent_dye for sign in signs]
+    dyes = tuple(dye for dye in seen_dyes if dye is not None)
     shift: dict[KeyframeKind, float] = {}
     for kind in LOADED:
         seen = [s.misfill[kind] for s in signs if abs(s.misfill.get(kind, 1.0)) < NEAR]
@@ -76,7 +77,8 @@ def learn_tip(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry) -
         near = np.array([miss for miss in misses if abs(miss) < NEAR])
         if len(near) >= 4:
             offset[wanted] = float(np.median(near))
-            deviation = 1.48 * float(np.median(np.abs(near - offset[wanted])))
+            # A high quantile, for the readings have tails: 0.85 of a normal lies within 1.44 sd.
+            deviation = float(np.quantile(np.abs(near - offset[wanted]), 0.85)) / 1.44
             spread[wanted] = float(np.clip(deviation, 0.008, 0.05))
     return TipModel(scale, offset, spread, empty)
 

@@ -120,6 +120,11 @@ class TipLook:
     collar: tuple[float, float]
     orifice: tuple[float, float]
 
+    @property
+    def washed_out(self) -> bool:
+        """Whether the frame is overexposed, so that no colour or edge of the tip is left."""
+        return float((self.cone.max(axis=2) >= 250).mean()) > 0.4
+
 
 def look_at_tip(
     image: Image,
@@ -172,7 +177,7 @@ def read_column(
         evidence = evidence + step_evidence(profile)
         where = expected_top(tip, expected_ul, reference)
         off = (profile.u - where) / max(reference.height_sd, 0.01)
-        ranked = evidence - np.minimum(0.5 * off**2, 8.0)
+        ranked = evidence - np.minimum(0.5 * off**2, 12.0)
     else:
         ranked = evidence
     row = int(np.argmax(ranked))

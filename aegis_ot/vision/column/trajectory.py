@@ -24,6 +24,7 @@ from .evidence import (
 from .measure import (
     ColumnMeasurement,
     Reference,
+    ceiling,
     column_evidence,
     dye_at,
     expected_top,
@@ -43,6 +44,9 @@ _SEARCH = 0.05
 
 SEEN = 3.0
 """Log-likelihood ratio from which the end of a loaded column counts as seen."""
+
+_ENOUGH_ABOVE = 0.1
+"""Length of empty tip above a column that its colour can be compared with, u."""
 
 NEAR = 0.06
 """A meniscus this close to its expected place is the expected one, u."""
@@ -95,7 +99,8 @@ class Signs:
             values mean too much liquid.
         absent: Log-likelihood ratio of no column where there should be one.
         dye: Colour of the full column, as far as it is known.
-        own_dye: The same from this trajectory alone.
+        own_dye: The same from this trajectory alone: TRANSIT against the empty tip above.
+        spent_dye: TRANSIT against the tip after the dispense: right only for a normal one.
         measured: The column in each frame.
     """
 
@@ -106,6 +111,7 @@ class Signs:
     absent: float | None
     dye: Dye | None
     own_dye: Dye | None
+    spent_dye: Dye | None
     measured: Mapping[KeyframeKind, ColumnMeasurement] = field(repr=False)
 
 
@@ -145,7 +151,8 @@ def weigh(
             volume = expected.get(kind, 0.0)
             measured[kind] = read_column(looks[kind], tip, volume, reference)
     absent = _absent(looks, tip, expected, model, run)
-    return Signs(retained, top, gap, misfill, absent, dye, own, measured)
+    spent = _spent_dye(looks, tip, expected, model, run)
+    return Signs(retained, top, gap, misfill, absent, dye, own, spent, measured)
 
 
 def place(
@@ -177,8 +184,27 @@ def _own_dye(
     if kind not in looks or volume <= 0:
         return None
     look = looks[kind]
-    row = int(np.argmin(np.abs(look.u - place(kind, volume, tip, model, run))))
-    return dye_at(look, tip, row, model.empty)
+    where = place(kind, volume, tip, model, run)
+    if where - ceiling(tip) < _ENOUGH_ABOVE:
+        return None
+    return dye_at(look, tip, int(np.argmin(np.abs(look.u - where))), model.empty)
+
+
+def _spent_dye(
+    looks: Looks, tip: TipGeometry, expected: Volumes, model: TipModel, run: RunReference
+) -> Dye | None:
+    """Colour of the rows that were full in TRANSIT and are empty now."""
+    before, after = KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE
+    volume = expected.get(before, 0.0)
+    if before not in looks or after not in looks or volume <= 0 or expected.get(after, 0.0) > 0:
+        return None
+    full, spent = looks[before], looks[after]
+    rows = (full.u > place(before, volume, tip, model, run) + 0.02) & (full.u < 0.92)
+    if int(rows.sum()) < 8:
+        return None
+    red, blue = np.median(full.colour[rows] - spent.colour[rows], axis=0)
+    sd = 1.5 * float(np.hypot(model.empty.red_sd, model.empty.blue_sd))
+    return Dye(float(red), float(blue), sd)
 
 
 def _retained(

@@ -22,6 +22,10 @@ from .surprise import Tail, alarm_level, fit_tail
 NO_TIP = 40.0
 """Score of a trajectory in which no tip is seen when it hangs free, nats."""
 
+_MOST_MISFILL = 7.0
+"""Standard deviations beyond which a meniscus elsewhere is no surer a sign: it may be another
+edge."""
+
 _DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 
 PRIORS: Mapping[str, Tail] = {
@@ -216,5 +220,6 @@ def _values(signs: Signs, model: TipModel) -> dict[str, float | None]:
         miss = signs.misfill.get(kind)
         spread = model.spread.get(kind, 0.03)
         values[f"gap_{kind.value}"] = signs.gap.get(kind)
-        values[f"misfill_{kind.value}"] = None if miss is None else abs(miss) / spread
+        z = None if miss is None else min(abs(miss) / spread, _MOST_MISFILL)
+        values[f"misfill_{kind.value}"] = z
     return values

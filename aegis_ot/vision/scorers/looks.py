@@ -38,7 +38,7 @@ def look(
 
 
 def looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
-    """Looks of all frames in which a tip was found, computed once per sample.
+    """Looks of all frames in which a tip was found and can be seen, computed once per sample.
 
     One tip is about as long in all four frames. A frame that disagrees with the others was
     detected badly and is looked at again with their length.
@@ -53,8 +53,9 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
         detection = sample.detections.get(kind)
         frame = None if detection is None else sample.frames.get(kind)
         if detection is not None and frame is not None:
-            images[kind] = frame
-            taken[kind] = look(frame, detection, sample.pipette)
+            seen = look(frame, detection, sample.pipette)
+            if not seen.washed_out:
+                images[kind], taken[kind] = frame, seen
     if len(taken) < 3:
         return taken
     usual = float(np.median([seen.profile.length for seen in taken.values()]))
