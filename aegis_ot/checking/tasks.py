@@ -19,8 +19,6 @@ from .result import Problem
 
 RulePaths = tuple[str, ...]
 
-_PACKAGE = Path(__file__).resolve().parent.parent
-
 
 @runtime_checkable
 class Task(Protocol):
@@ -165,9 +163,10 @@ def problem_of(error: BaseException, script_name: str) -> Problem:
         return Problem("the protocol raises KeyboardInterrupt.", line)
     if not isinstance(error, Exception):
         return Problem(f"the protocol raises {type(error).__name__}: {error}", line)
-    place = traceback.extract_tb(error.__traceback__)[-1]
-    if _PACKAGE not in Path(place.filename).parents:
+    frames = traceback.extract_tb(error.__traceback__)
+    if any("opentrons" in Path(frame.filename).parts for frame in frames):
         return Problem(f"Opentrons cannot run it: {type(error).__name__}: {error}", line)
+    place = frames[-1]
     return Problem(
         f"aegis-ot itself failed: {type(error).__name__}: {error} "
         f"({place.name}, line {place.lineno}). This is a bug in aegis-ot; please report it.",

@@ -80,9 +80,7 @@ def test_text_names_rule_place_and_roles_and_a_baseline_silences(
     assert "1 known finding" in (tmp_path / "out" / "report.txt").read_text(encoding="utf-8")
 
 
-def test_the_configuration_sets_severity_and_waives(
-    aegis: Command, tmp_path: Path
-) -> None:
+def test_the_configuration_sets_severity_and_waives(aegis: Command, tmp_path: Path) -> None:
     pytest.importorskip("tomllib")
     protocol(tmp_path / "bad.py", tips="once")
     config = tmp_path / "pyproject.toml"
