@@ -27,6 +27,7 @@ from .simulated import SimulatedFrames
 log = logging.getLogger(__name__)
 
 Image = NDArray[np.uint8]
+_PART = (192, 256)  # px of an overview that are trained on at a time
 
 
 @dataclass(frozen=True)
@@ -35,7 +36,8 @@ class DetectorSettings:
 
     Attributes:
         frames: Training frames, each seen ``epochs`` times.
-        epochs: Passes over them.
+        epochs: Passes over them; on parts of the overviews, in the last pass on whole ones.
+        frozen: Last passes, trained with the statistics of batch normalisation held fixed.
         drawn_share: Share of procedurally drawn frames.
         simulated_share: Share of frames of the simulated camera; the rest comes from the data
             sets, or is drawn where there are none.
@@ -48,8 +50,9 @@ class DetectorSettings:
         threads: CPU threads.
     """
 
-    frames: int = 4000
-    epochs: int = 6
+    frames: int = 4500
+    epochs: int = 8
+    frozen: int = 3
     drawn_share: float = 0.35
     simulated_share: float = 0.3
     close_ups: int = 2
@@ -95,10 +98,14 @@ def _batches(
     ]
 
 
-def _tensors(batch: Sequence[Example], rng: np.random.Generator) -> tuple[Tensor, Tensor, Tensor]:
+def _tensors(
+    batch: Sequence[Example], rng: np.random.Generator, whole: bool
+) -> tuple[Tensor, Tensor, Tensor]:
     images, maps, weights = [], [], []
     for example in batch:
-        shown = example.mirrored() if rng.random() < 0.5 else example
+        shown = example if whole else example.cropped(rng, *_PART)
+        if rng.random() < 0.5:
+            shown = shown.mirrored()
         image = shown.image.astype(np.float32)
         # A new exposure and colour at each pass: cheap, and keeps the pool from being learnt.
         image *= np.exp(rng.normal(0, 0.15, (1, 1, 3)) * 0.4 + rng.normal(0, 0.15))
@@ -177,10 +184,13 @@ def fit(
     )
     for epoch in range(settings.epochs):
         network.train()
+        if epoch >= settings.epochs - settings.frozen:
+            network.freeze_statistics()
+        whole = epoch == settings.epochs - 1
         batches = _batches(wide, settings.batch, rng) + _batches(close, 2 * settings.batch, rng)
         total = 0.0
         for i in rng.permutation(len(batches)):
-            images, maps, weights = _tensors(batches[i], rng)
+            images, maps, weights = _tensors(batches[i], rng, whole)
             loss = _loss(network(images), maps, weights)
             optimiser.zero_grad(set_to_none=True)
             loss.backward()

@@ -30,6 +30,21 @@ class Example:
             return Example(flipped, None)
         return Example(flipped, self.label.mapped(-1.0, 1.0, self.image.shape[1], 0.0))
 
+    def cropped(self, rng: np.random.Generator, height: int, width: int) -> Example:
+        """A part of the given size, px, around the tip where there is one; all if it is small."""
+        rows, columns = self.image.shape[:2]
+        if rows <= height or columns <= width:
+            return self
+        y, x = rng.integers(0, rows - height + 1), rng.integers(0, columns - width + 1)
+        if self.label is not None and rng.random() < 0.9:
+            cx = (self.label.collar[0] + self.label.orifice[0]) / 2
+            cy = (self.label.collar[1] + self.label.orifice[1]) / 2
+            y = int(np.clip(cy - height * rng.uniform(0.3, 0.7), 0, rows - height))
+            x = int(np.clip(cx - width * rng.uniform(0.1, 0.9), 0, columns - width))
+        part = np.ascontiguousarray(self.image[y : y + height, x : x + width])
+        label = None if self.label is None else self.label.mapped(1.0, 1.0, -float(x), -float(y))
+        return Example(part, label)
+
 
 def _in_view(view: View, label: TipLabel | None) -> TipLabel | None:
     if label is None:
@@ -100,9 +115,9 @@ def targets(rows: int, columns: int, label: TipLabel | None) -> tuple[Maps, Maps
         heat = np.exp(-(dx**2 + dy**2) / (2 * (_SIGMA * STRIDE) ** 2))
         nearer = heat > weight[0]
         maps[kind] = heat
-        peak = np.unravel_index(int(heat.argmax()), heat.shape)
-        if heat[peak] > 0.5:
-            maps[kind][peak] = 1.0
+        row, column = int(np.floor(y / STRIDE)), int(np.floor(x / STRIDE))
+        if 0 <= row < rows and 0 <= column < columns:
+            maps[kind][row, column] = 1.0
         maps[2][nearer] = np.broadcast_to(dx, heat.shape)[nearer]
         maps[3][nearer] = np.broadcast_to(dy, heat.shape)[nearer]
         weight[0][nearer] = heat[nearer]

@@ -119,7 +119,7 @@ def measure(detector: HeatmapDetector, frames: Sequence[RecordedFrame]) -> Detec
 
 
 def choose_threshold(
-    tips: Sequence[float], empties: Sequence[float], alarm_cost: float = 3.0
+    tips: Sequence[float], empties: Sequence[float], alarm_cost: float = 2.0
 ) -> float:
     """The confidence that best parts frames with a tip from frames without one.
 

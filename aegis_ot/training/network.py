@@ -14,7 +14,7 @@ def _conv(
 ) -> nn.Sequential:
     return nn.Sequential(
         nn.Conv2d(inputs, outputs, kernel, stride, kernel // 2, groups=groups, bias=False),
-        nn.BatchNorm2d(outputs),
+        nn.BatchNorm2d(outputs, momentum=0.03),
     )
 
 
@@ -39,7 +39,7 @@ class TipNetwork(nn.Module):  # type: ignore[misc]
     ``(n, 7, height / 4, width / 4)``, heat before (training) or after (export) the sigmoid.
     """
 
-    def __init__(self, widths: tuple[int, int, int, int] = (16, 24, 40, 64)) -> None:
+    def __init__(self, widths: tuple[int, int, int, int] = (16, 28, 48, 72)) -> None:
         super().__init__()
         a, b, c, d = widths
         self.stem = _conv(3, a, 3, 2)
@@ -58,6 +58,16 @@ class TipNetwork(nn.Module):  # type: ignore[misc]
         with torch.no_grad():
             self.head.bias[:2] = -4.0
             self.head.bias[6] = 2.3
+
+    def freeze_statistics(self) -> None:
+        """Train on with the running means and variances that the exported network will use.
+
+        Overviews and close-ups have different statistics; normalised batch by batch the network
+        never meets the mixture of both that it has to work with in the end.
+        """
+        for module in self.modules():
+            if isinstance(module, nn.BatchNorm2d):
+                module.eval()
 
     def forward(self, image: Tensor) -> Tensor:
         x = image.permute(0, 3, 1, 2).float() * (1 / 64) - 2

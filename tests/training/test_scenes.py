@@ -102,3 +102,22 @@ def test_targets_are_hot_at_the_two_ends_only() -> None:
     assert maps[0].max() == maps[1].max() == 1.0
     assert maps[1][10, 25] < 0.01
     assert 0 < (weight > 0).sum() < 60
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_part_of_an_example_keeps_the_label_on_its_pixels(seed: int) -> None:
+    image = np.zeros((224, 384, 3), np.uint8)
+    image[60, 200] = 255
+    whole = Example(image, TipLabel((200.5, 60.5), (203.5, 120.5), 4.0))
+    part = whole.cropped(np.random.default_rng(seed), 192, 256)
+    assert part.image.shape == (192, 256, 3)
+    assert part.label is not None
+    x, y = part.label.collar
+    if 0 <= x < 256 and 0 <= y < 192:
+        assert part.image[int(y), int(x)].min() == 255
+    assert part.label.length == pytest.approx(whole.label.length if whole.label else 0)
+
+
+def test_a_small_example_is_not_cut() -> None:
+    example = Example(np.zeros((256, 96, 3), np.uint8), None)
+    assert example.cropped(np.random.default_rng(0), 192, 256) is example
