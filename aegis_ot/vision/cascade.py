@@ -17,6 +17,12 @@ from .calibration import (
 DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 """Keyframes in which the tip hangs free. In the others labware may hide it."""
 
+_SHOWN_BY = {
+    KeyframeKind.ASPIRATE: KeyframeKind.TRANSIT,
+    KeyframeKind.DISPENSE: KeyframeKind.POST_DISPENSE,
+}
+"""The free-hanging frame that shows the same tip a moment later."""
+
 CROP_SCORERS = ("pca", "single_frame_pca", "autoencoder")
 """Scorers to which the score floor applies: a blank crop costs them almost nothing."""
 
@@ -48,8 +54,8 @@ class Cascade:
 
     The paper's blank floor is a score below 1e-4, "signalling that the detector produced no
     crop": it is the missing detection that matters, so that is asked first and the score floor
-    is kept beside it. A keyframe in which most calibration wells show no tip (it stands inside
-    labware) is no evidence; TRANSIT and POST_DISPENSE always are.
+    is kept beside it. A tip that is not found at ASPIRATE or DISPENSE, where labware may hide it,
+    but is found in the free-hanging frame that follows, is on the pipette: that is no evidence.
 
     Args:
         scorers: Names of the scores that :meth:`triage` will get; the first is the main one.
@@ -71,7 +77,6 @@ class Cascade:
         self.calibrations = {
             name: RunCalibration(self.settings, pools.get(name)) for name in scorers
         }
-        self._missing_counts = dict.fromkeys(KeyframeKind, 0)
         self._taken = 0
         self._refused = 0
 
@@ -131,6 +136,8 @@ class Cascade:
             return Triage(Route.ALWAYS_GATE, "Every well goes to the gate, as set.", standings)
         if contradiction:
             return Triage(Route.GREY_ZONE, contradiction, standings)
+        if not scores:
+            return Triage(Route.GREY_ZONE, "No image score could be computed.", standings)
         outside = [name for name, standing in standings.items() if not standing.inside]
         if outside:
             return Triage(Route.GREY_ZONE, _why(outside[0], standings[outside[0]]), standings)
@@ -139,7 +146,6 @@ class Cascade:
     def learn(
         self,
         scores: Mapping[str, float],
-        missing: Collection[KeyframeKind],
         *,
         normal: bool,
         volume_ul: float | None = None,
@@ -157,8 +163,6 @@ class Cascade:
                     self.give_up(f"{self._refused} of the first wells failed at the gate")
                 return
             self._taken += 1
-            for kind in missing:
-                self._missing_counts[kind] += 1
             for name, calibration in self.calibrations.items():
                 if name in scores:
                     calibration.add(scores[name], volume_ul)
@@ -173,12 +177,11 @@ class Cascade:
             calibration.give_up(reason)
 
     def _counted(self, missing: Collection[KeyframeKind]) -> tuple[KeyframeKind, ...]:
-        hidden = {
+        return tuple(
             kind
-            for kind, count in self._missing_counts.items()
-            if kind not in DECISIVE and count * 2 > self._taken > 0
-        }
-        return tuple(kind for kind in KeyframeKind if kind in missing and kind not in hidden)
+            for kind in KeyframeKind
+            if kind in missing and _SHOWN_BY.get(kind, kind) in missing
+        )
 
 
 def _why(name: str, standing: Standing) -> str:

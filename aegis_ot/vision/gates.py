@@ -22,6 +22,7 @@ class Case:
         readings: Liquid columns by keyframe; a keyframe that could not be read is left out.
         missing: Keyframes in which no tip was found.
         calibrated: Whether readings rest on this run's own normal wells.
+        p_value: How often a normal well looks this unusual, if the scorer can tell.
     """
 
     sample: TrajectorySample
@@ -30,6 +31,7 @@ class Case:
     readings: Mapping[KeyframeKind, ColumnReading] = field(default_factory=dict)
     missing: tuple[KeyframeKind, ...] = ()
     calibrated: bool = True
+    p_value: float | None = None
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,8 @@ class VolumetricLimits:
         least_ul: Smallest difference that counts, µL.
         blind_fraction: If the tolerance is wider than this fraction of the commanded volume,
             a pass would be worth nothing: undecided.
+        least_p_value: Volumes that agree do not explain away a well that looks more unusual than
+            this: a bubble takes hardly any volume. Such a well is undecided.
         gross_sigmas, gross_fraction: The same limits for calibration wells, on which the
             reading itself is not calibrated yet.
     """
@@ -71,6 +75,7 @@ class VolumetricLimits:
     fraction: float = 0.15
     least_ul: float = 0.5
     blind_fraction: float = 0.6
+    least_p_value: float = 0.005
     gross_sigmas: float = 6.0
     gross_fraction: float = 0.35
 
@@ -184,6 +189,15 @@ class VolumetricGate:
                 "The liquid column cannot be measured well enough in these frames.",
                 None,
                 measured,
+                expected,
+            )
+        if case.p_value is not None and case.p_value < self.limits.least_p_value:
+            return GateDecision(
+                Outcome.UNDECIDED,
+                self.gate,
+                "The volumes agree with the protocol, but the tip looks very unusual.",
+                None,
+                None if last.vague else last.volume_ul,
                 expected,
             )
         if last.vague:

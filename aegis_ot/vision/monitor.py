@@ -177,7 +177,9 @@ class RunAnalyser:
         stream = self._stream(max(seen.keyframes.values(), key=lambda k: k.sequence))
         missing = tuple(kind for kind, found in seen.detections.items() if found is None)
         readings = stream.reader.read(seen.looks, sample.expected_ul)
-        scores = stream.scorer.scores(sample) if len(seen.detections) == len(KeyframeKind) else {}
+        # A blank crop would be scored as an anomaly, and learned as normal.
+        whole = len(seen.detections) == len(KeyframeKind) and not missing
+        scores = stream.scorer.scores(sample) if whole else {}
         case = Case(sample, Route.GREY_ZONE, scores, readings, missing, stream.learned > 0)
         volumetric = VolumetricGate().examine(self._routed(case, Route.GREY_ZONE))
         contradiction = volumetric.reason if volumetric.outcome is Outcome.FAIL else ""
@@ -212,12 +214,11 @@ class RunAnalyser:
                 pipette, capacity, liquid = known["stream"]
                 key = (str(pipette), float(capacity), str(liquid))
                 scores = {str(name): float(score) for name, score in known["scores"].items()}
-                missing = [KeyframeKind(kind) for kind in known["missing"]]
                 normal, volume = bool(known["normal"]), float(known["volume_ul"])
             except (KeyError, TypeError, ValueError, AttributeError):
                 continue
             stream = self._streams.setdefault(key, _Stream(self._monitor))
-            stream.cascade.learn(scores, missing, normal=normal, volume_ul=volume)
+            stream.cascade.learn(scores, normal=normal, volume_ul=volume)
 
     def _stream(self, keyframe: Keyframe) -> _Stream:
         pipette, liquid = f"{keyframe.mount} {keyframe.pipette}", keyframe.reagent or ""
@@ -272,13 +273,14 @@ class RunAnalyser:
     def _learn(self, stream: _Stream, case: Case, seen: _Open, decision: GateDecision) -> None:
         normal = decision.outcome is Outcome.PASS
         collecting = stream.cascade.state is CalibrationState.COLLECTING
-        if collecting and normal and not stream.scorer.ready:
+        whole = len(case.sample.frames) == len(KeyframeKind) and not case.missing
+        if collecting and normal and whole and not stream.scorer.ready:
             # The run's own model: its first wells are scored once they are all there.
             for scores, volume in stream.scorer.learn(case.sample):
-                stream.cascade.learn(scores, case.missing, normal=True, volume_ul=volume)
+                stream.cascade.learn(scores, normal=True, volume_ul=volume)
         elif case.scores or not normal:
             volume = case.sample.volume_ul
-            stream.cascade.learn(case.scores, case.missing, normal=normal, volume_ul=volume)
+            stream.cascade.learn(case.scores, normal=normal, volume_ul=volume)
         if normal and KeyframeKind.TRANSIT in seen.looks:
             stream.reader.learn(seen.looks, case.sample.expected_ul)
             stream.learned += 1
@@ -326,7 +328,6 @@ class RunAnalyser:
                 "stream": next(list(k) for k, s in self._streams.items() if s is stream),
                 "volume_ul": case.sample.volume_ul,
                 "scores": dict(case.scores),
-                "missing": [kind.value for kind in case.missing],
                 "normal": decision.outcome is Outcome.PASS,
             },
         }

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from aegis_ot.vision.calibration import CalibrationState
 from aegis_ot.vision.cascade import Cascade
 from aegis_ot.vocabulary import KeyframeKind, Route
@@ -9,11 +11,11 @@ from aegis_ot.vocabulary import KeyframeKind, Route
 FIRST = [10.0, 11.0, 9.0, 10.5, 9.5, 10.2]
 
 
-def calibrated(missing: tuple[KeyframeKind, ...] = (), **kwargs: object) -> Cascade:
+def calibrated(**kwargs: object) -> Cascade:
     cascade = Cascade(("pca",), **kwargs)  # type: ignore[arg-type]
     for score in FIRST:
-        assert cascade.triage({"pca": score}, missing).route is Route.CALIBRATION
-        cascade.learn({"pca": score}, missing, normal=True)
+        assert cascade.triage({"pca": score}, ()).route is Route.CALIBRATION
+        cascade.learn({"pca": score}, normal=True)
     return cascade
 
 
@@ -26,23 +28,32 @@ def test_the_band_passes_silently_and_the_rest_is_grey() -> None:
     assert "spreads above" in grey.reason
 
 
-def test_a_missing_tip_is_the_blank_floor_whatever_the_score() -> None:
-    for kind in KeyframeKind:
-        triage = calibrated().triage({"pca": 10.0}, (kind,))
-        assert triage.route is Route.BLANK_FLOOR
-        assert kind.value in triage.reason
+@pytest.mark.parametrize(
+    "missing",
+    [
+        (KeyframeKind.TRANSIT,),
+        (KeyframeKind.POST_DISPENSE,),
+        (KeyframeKind.DISPENSE, KeyframeKind.POST_DISPENSE),
+        tuple(KeyframeKind),
+    ],
+)
+def test_a_missing_tip_is_the_blank_floor_whatever_the_score(missing) -> None:
+    triage = calibrated().triage({"pca": 10.0}, missing)
+    assert triage.route is Route.BLANK_FLOOR
+    assert all(kind.value in triage.reason for kind in missing)
 
 
 def test_the_papers_score_floor_is_kept() -> None:
     assert calibrated().triage({"pca": 1e-6}, ()).route is Route.BLANK_FLOOR
 
 
-def test_a_frame_in_which_labware_always_hides_the_tip_proves_nothing() -> None:
-    hidden = (KeyframeKind.DISPENSE,)
-    cascade = calibrated(hidden)
-    assert cascade.triage({"pca": 10.0}, hidden).route is Route.SILENT_PASS
-    free = (KeyframeKind.POST_DISPENSE,)
-    assert calibrated(free).triage({"pca": 10.0}, free).route is Route.BLANK_FLOOR
+def test_a_tip_hidden_by_labware_but_seen_a_moment_later_is_there() -> None:
+    hidden = (KeyframeKind.ASPIRATE, KeyframeKind.DISPENSE)
+    assert calibrated().triage({"pca": 10.0}, hidden).route is Route.SILENT_PASS
+
+
+def test_a_well_without_a_score_goes_to_the_gate() -> None:
+    assert calibrated().triage({}, (KeyframeKind.DISPENSE,)).route is Route.GREY_ZONE
 
 
 def test_a_contradicting_column_is_enough_for_the_grey_zone() -> None:
@@ -57,13 +68,13 @@ def test_always_gate_leaves_no_silent_pass() -> None:
 
 def test_one_failed_first_well_is_left_out_two_make_the_run_uncalibrated() -> None:
     cascade = Cascade(("pca",))
-    cascade.learn({"pca": 900.0}, (), normal=False)
+    cascade.learn({"pca": 900.0}, normal=False)
     for score in FIRST:
-        cascade.learn({"pca": score}, (), normal=True)
+        cascade.learn({"pca": score}, normal=True)
     assert cascade.state is CalibrationState.READY
     cascade = Cascade(("pca",))
     for _ in range(2):
-        cascade.learn({"pca": 900.0}, (), normal=False)
+        cascade.learn({"pca": 900.0}, normal=False)
     assert cascade.state is CalibrationState.UNCALIBRATED
     triage = cascade.triage({"pca": 10.0}, ())
     assert triage.route is Route.UNCALIBRATED

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -67,7 +68,7 @@ def evaluate_layer2(
     routed = [well.flagged for well in wells]
     flagged, settled = routed, Counter[str]()
     if protocol == "cascade":
-        flagged, settled = _gate(samples, wells)
+        flagged, settled = _gate(samples, wells, p_values=threshold == "p-value")
     return summarise(
         wells,
         flagged,
@@ -97,7 +98,7 @@ def find_detector(
 
 
 def _gate(
-    samples: Sequence[TrajectorySample], wells: Sequence[ScoredWell]
+    samples: Sequence[TrajectorySample], wells: Sequence[ScoredWell], p_values: bool
 ) -> tuple[list[bool], Counter[str]]:
     """Send routed wells through the volumetric gate; undecided ones stay flagged."""
     first = first_normals(samples)
@@ -118,7 +119,8 @@ def _gate(
         reader = readers[sample.plate]
         missing = tuple(kind for kind in KeyframeKind if sample.detections[kind] is None)
         readings = reader.read(_looks(reader, sample), sample.expected_ul)
-        case = Case(sample, Route.GREY_ZONE, {}, readings, missing)
+        p_value = math.exp(-well.score) if p_values else None
+        case = Case(sample, Route.GREY_ZONE, {}, readings, missing, p_value=p_value)
         outcome = gate.examine(case).outcome
         settled[f"gate_{outcome.value}"] += 1
         flagged.append(outcome is not Outcome.PASS)
