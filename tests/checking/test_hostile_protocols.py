@@ -37,7 +37,12 @@ HOSTILE: dict[str, tuple[str, int | None, str]] = {
         None,
         "did not end",
     ),
-    "asleep.py": (HEAD + "import time\ndef run(p):\n    time.sleep(1000)\n", 4, "did not end"),
+    # Blocks inside C code, where no interruption reaches it.
+    "blocks.py": (
+        HEAD + "import os\ndef run(p):\n    os.read(os.pipe()[0], 1)\n",
+        4,
+        "did not end",
+    ),
     "exits.py": (HEAD + "import sys\ndef run(p):\n    sys.exit(0)\n", 4, "ends the Python process"),
     "leaves.py": (HEAD + "import os\ndef run(p):\n    os._exit(0)\n", None, "ended the Python"),
     "crashes.py": (
