@@ -152,20 +152,21 @@ class SessionParameters:
 
     @classmethod
     def bench(cls, seed: int = 0) -> SessionParameters:
-        """The set-up that we recommend: a 1280x720 webcam and a light panel behind the deck.
+        """The set-up that we recommend: a 1280x720 webcam and a grey panel behind the deck.
 
-        The same view as :meth:`webcam` at twice the resolution. Before a light panel a dye takes
-        out the light that its absorbance says; before a black one little of it is seen.
+        The same view as :meth:`webcam` at twice the resolution. A dye takes light out of what is
+        behind it, so little of it is seen before a black panel; before a white one the edges of
+        an empty tip are lost.
         """
         webcam = cls.webcam(seed)
-        light = (196.0, 196.0, 194.0)
+        grey = (110.0, 110.0, 110.0)
         return replace(
             webcam,
             size=(1280, 720),
             focal_px=2 * webcam.focal_px,
             meniscus_edge=webcam.meniscus_edge / 2,
-            wall=light,
-            backdrop_top=light,
+            wall=grey,
+            backdrop_top=grey,
         )
 
     @classmethod
