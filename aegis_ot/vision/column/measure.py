@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..tips import TipGeometry, pipette_class, tip_for
 from ..types import Image, TipDetection
@@ -209,13 +210,19 @@ def read_column(
 
 def column_evidence(profile: TipProfile, tip: TipGeometry, reference: Reference) -> Array:
     """Ratio from colour and edges for a column that ends at each row."""
-    start = ceiling(tip)
+    ratio = tip_colour_evidence(profile, tip, reference) + edge_evidence(profile)
+    return np.where(possible_tops(profile, tip), ratio, IMPOSSIBLE).astype(np.float32)
+
+
+def tip_colour_evidence(profile: TipProfile, tip: TipGeometry, reference: Reference) -> Array:
+    """Ratio from colour alone."""
+    return colour_evidence(profile, reference.dye, reference.empty, top=ceiling(tip))
+
+
+def possible_tops(profile: TipProfile, tip: TipGeometry) -> NDArray[np.bool_]:
+    """Rows at which a column can end and be seen to: below the nozzle, above the orifice."""
     lowest = 1.0 - max(_SHORTEST[0], _SHORTEST[1] / max(profile.length, 1.0))
-    ratio = colour_evidence(profile, reference.dye, reference.empty, top=start) + edge_evidence(
-        profile
-    )
-    possible = (profile.u > start + 0.02) & (profile.u < lowest)
-    return np.where(possible, ratio, IMPOSSIBLE).astype(np.float32)
+    return np.asarray((profile.u > ceiling(tip) + 0.02) & (profile.u < lowest))
 
 
 def expected_top(tip: TipGeometry, volume_ul: float, reference: Reference) -> float:

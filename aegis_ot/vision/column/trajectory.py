@@ -19,6 +19,7 @@ from .evidence import (
     Dye,
     EmptyColour,
     combine,
+    edge_evidence,
     mean_dye,
 )
 from .measure import (
@@ -28,7 +29,9 @@ from .measure import (
     column_evidence,
     dye_at,
     expected_top,
+    possible_tops,
     read_column,
+    tip_colour_evidence,
 )
 from .profile import TipProfile
 from .strip import Array
@@ -44,6 +47,9 @@ _SEARCH = 0.05
 
 SEEN = 3.0
 """Log-likelihood ratio from which the end of a loaded column counts as seen."""
+
+_GLINT = 8.0
+"""See :func:`~.evidence.combine`."""
 
 _ENOUGH_ABOVE = 0.1
 """Length of empty tip above a column that its colour can be compared with, u."""
@@ -219,8 +225,13 @@ def _retained(
     seen = [kind for kind in DELIVERED if kind in looks]
     if not seen:
         return None, 1.0
-    parts = [column_evidence(looks[k], tip, _reference(model, dye)) for k in seen]
-    joint = combine(parts[0], parts[1]) if len(parts) == 2 else parts[0]
+    reference = _reference(model, dye)
+    colours = [tip_colour_evidence(looks[kind], tip, reference) for kind in seen]
+    edges = [edge_evidence(looks[kind]) for kind in seen]
+    # A glint in one frame alone is no meniscus. But colour in one frame is colour, for labware
+    # may hide the column in the other.
+    joint = sum(colours[1:], colours[0]) + (combine(*edges, _GLINT) if edges[1:] else edges[0])
+    joint = np.where(possible_tops(looks[seen[-1]], tip), joint, IMPOSSIBLE)
     u = looks[seen[-1]].u
     # No more than was drawn can be left; a little more where a failure accumulates.
     full = max((expected.get(kind, 0.0) for kind in LOADED), default=0.0)
