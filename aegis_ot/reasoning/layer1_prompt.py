@@ -86,7 +86,9 @@ def _fenced(dossier: Dossier, lines: list[str]) -> str:
 
 
 def _source(dossier: Dossier) -> list[str]:
-    lines = [f"File {_flat(dossier.file)}, source:"]
+    # The file's name stays out: it says nothing about the steps, and a copy of a protocol
+    # should find the answer that its original got.
+    lines = ["Source:"]
     lines += [f"{n}|{_visible(text)}" for n, text in enumerate(source_lines(dossier.source), 1)]
     if dossier.parameters not in ("", "{}"):
         lines.append(f"Runtime parameters: {_flat(dossier.parameters)}")
