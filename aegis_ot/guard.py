@@ -24,7 +24,7 @@ _MARK = "__aegis_guard__"
 def guard(target: Run, /, **settings: Any) -> Run: ...
 @overload
 def guard(target: None = None, /, **settings: Any) -> Callable[[Run], Run]: ...
-def guard(target: Any = None, /, **settings: Any) -> Any:
+def guard(target: Any = None, /, *nameless: Any, **settings: Any) -> Any:
     """Guard a protocol.
 
     Three forms::
@@ -41,6 +41,7 @@ def guard(target: Any = None, /, **settings: Any) -> Any:
 
     Args:
         target: The ``run`` function, or the ``ProtocolContext`` inside it.
+        *nameless: Nothing belongs here. What stands here by mistake is reported inside ``run``.
         **settings: See :class:`aegis_ot.settings.Settings`; each can also come from an
             environment variable or a file.
 
@@ -52,25 +53,31 @@ def guard(target: Any = None, /, **settings: Any) -> Any:
         ProtocolRejected: Inside ``run``: Layer 1 found errors. On a robot nothing has moved.
         RunAborted: Inside ``run``: Layer 2 ended the run, as configured.
     """
-    if target is None:
-        return functools.partial(_decorate, settings=settings)
     if _is_context(target):
-        return _guard_context(target, settings, sys._getframe(1))
-    return _decorate(target, settings)
+        return _guard_context(target, settings, nameless, sys._getframe(1))
+    if callable(target):
+        return _decorate(target, settings, nameless)
+    if target is not None:  # @guard("pcr")
+        nameless = (target, *nameless)
+    return functools.partial(_decorate, settings=settings, nameless=nameless)
 
 
 def _is_context(target: Any) -> bool:
     return hasattr(target, "load_instrument") and hasattr(target, "_core")
 
 
-def _decorate(function: Any, settings: dict[str, Any]) -> Any:
+def _decorate(function: Any, settings: dict[str, Any], nameless: tuple[Any, ...]) -> Any:
     inner, inner_settings = getattr(function, _MARK, (function, {}))
+    if getattr(function, "__wrapped__", None) is not inner:
+        # Another decorator stands in between, and functools.wraps gave it a copy of the mark.
+        inner, inner_settings = function, {}
     merged = {**inner_settings, **settings}
 
     @functools.wraps(inner)
     def run(protocol: Any, *args: Any, **kwargs: Any) -> Any:
         from .guarded_run import run_guarded
 
+        _refuse(nameless)
         return run_guarded(
             lambda: inner(protocol, *args, **kwargs), protocol, merged, _file_name_of(inner), inner
         )
@@ -84,9 +91,23 @@ def _file_name_of(function: Any) -> str:
     return str(code.co_filename) if code is not None else "<protocol>"
 
 
-def _guard_context(protocol: Any, settings: dict[str, Any], caller: FrameType) -> Any:
+def _refuse(nameless: tuple[Any, ...]) -> None:
+    if nameless:
+        from .errors import ConfigurationError
+
+        shown = ", ".join("a text" if isinstance(x, str) else repr(x)[:80] for x in nameless)
+        raise ConfigurationError(
+            f"guard() was given {shown} without a name. Settings have names: "
+            '@guard(assay="pcr"), or guard(protocol, assay="pcr").'
+        )
+
+
+def _guard_context(
+    protocol: Any, settings: dict[str, Any], nameless: tuple[Any, ...], caller: FrameType
+) -> Any:
     from .guarded_run import guard_rest_of
 
+    _refuse(nameless)
     guard_rest_of(_outermost(caller), protocol, settings)
     return protocol
 

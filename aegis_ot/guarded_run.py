@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dis
 import sys
+import weakref
 from collections.abc import Callable
 from contextlib import ExitStack, nullcontext
 from contextvars import ContextVar
@@ -23,7 +24,14 @@ if TYPE_CHECKING:
     from .preflight.recorder import Recorder
     from .runtime import Watcher
 
-_GUARDED: ContextVar[bool] = ContextVar("aegis_ot_guarded", default=False)
+# Which context is guarded, and not merely that one is: a robot server runs the next protocol
+# in a thread of the same pool, and a mark left there must not leave that one unguarded.
+_GUARDED: ContextVar[weakref.ref[Any] | None] = ContextVar("aegis_ot_guarded", default=None)
+
+
+def _is_guarded(protocol: Any) -> bool:
+    guarded = _GUARDED.get()
+    return guarded is not None and guarded() is protocol
 
 
 def run_guarded(
@@ -40,10 +48,10 @@ def run_guarded(
     """
     from .preflight.rehearsal import is_rehearsing
 
-    if is_rehearsing() or _GUARDED.get():
+    if is_rehearsing() or _is_guarded(protocol):
         return call()
     settings = load_settings(**keywords)
-    token = _GUARDED.set(True)
+    token = _GUARDED.set(weakref.ref(protocol))
     try:
         if protocol.is_simulating():
             return _rehearse_by_running(call, protocol, settings, file_name, run)
@@ -62,19 +70,20 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
     """
     from .preflight.rehearsal import is_rehearsing
 
-    if is_rehearsing() or _GUARDED.get():
+    if is_rehearsing() or _is_guarded(protocol):
         return
     settings = load_settings(**keywords)
     file_name = frame.f_code.co_filename
     layer1 = _preflight(protocol, settings, file_name)
-    ending = ExitStack()
-    ending.callback(_GUARDED.reset, _GUARDED.set(True))
     watcher = _new_watcher(protocol, settings, file_name)
-    if watcher is not None:
-        tap = Tap(protocol, [watcher], file_name)
-        watcher.begin(tap.lift)
-        ending.callback(tap.remove)
-        tap.install()
+    with ExitStack() as beginning:
+        beginning.callback(_GUARDED.reset, _GUARDED.set(weakref.ref(protocol)))
+        if watcher is not None:
+            tap = Tap(protocol, [watcher], file_name)
+            watcher.begin(tap.lift)
+            beginning.callback(tap.remove)
+            tap.install()
+        ending = beginning.pop_all()
     _at_return_of(frame, lambda by_itself: _end(by_itself, protocol, layer1, watcher, ending))
 
 
@@ -107,11 +116,12 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
     from .preflight.recorder import Recorder
     from .preflight.rehearsal import rehearse
     from .preflight.script import find_script
+    from .runtime.runstate import RunState
 
     script = find_script(file_name, protocol)
     if script is None:
         return "Layer 1 could not find the protocol's text, so it was not checked."
-    recorder = Recorder()
+    recorder, state = Recorder(), RunState(protocol)
     try:
         rehearsal = rehearse(
             script,
@@ -119,6 +129,7 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
             # The property is refused below apiLevel 2.18.
             live_parameters=getattr(protocol, "_params", None),
             timeout_s=settings.rehearsal_timeout_s,
+            is_stopping=lambda: state.stopping,
         )
     except RehearsalError as error:
         # A protocol that fails by itself fails with its own error; that is not the guard's to

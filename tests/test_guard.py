@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+import contextvars
 import inspect
 import io
+import os
 import textwrap
+import time
 
 import pytest
 from opentrons import simulate
 
 import aegis_ot
 from aegis_ot import guard
+from aegis_ot.errors import ConfigurationError
 from tests.compat.transparency import stub_sidecar
+from tests.runtime.fake_sidecar import FakeSidecar
 from tests.runtime.live import LiveRun
+from tests.runtime.test_live import in_time
 
 DECK = """
 plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 1, "plate")
@@ -76,6 +82,37 @@ class TestDecoration:
         again = guard(run, rules="warn")
         assert again.__aegis_guard__[1] == {"rules": "warn", "assay": "pcr"}
         assert again.__aegis_guard__[0] is inspect.unwrap(run)
+
+    @pytest.mark.parametrize("wrong", ['"pcr"', '{"assay": "pcr"}', "7", '"pcr", "http://x:1"'])
+    def test_a_setting_without_a_name_is_reported_in_run_not_at_import(self, wrong):
+        text = f"from aegis_ot import guard\n@guard({wrong})\ndef run(protocol): ...\n"
+        namespace: dict = {}
+        exec(text, namespace)
+        with pytest.raises(ConfigurationError, match='assay="pcr"'):
+            namespace["run"](None)
+
+    def test_a_decorator_between_two_guards_still_acts(self):
+        text = """
+import functools
+from aegis_ot import guard
+metadata = {"apiLevel": "2.15"}
+
+def announced(function):
+    @functools.wraps(function)
+    def wrapper(ctx):
+        ctx.comment("announced")
+        return function(ctx)
+    return wrapper
+
+@guard
+@announced
+@guard
+def run(ctx):
+    ctx.comment("ran")
+"""
+        lines = simulated(text)
+        assert lines[:2] == ["announced", "ran"]
+        assert len(of_guard(lines)) == 1
 
     def test_the_public_face(self):
         assert set(aegis_ot.__all__) == {"guard", "__version__"}
@@ -187,3 +224,47 @@ class TestLive:
         run.play()
         run.join()
         assert run.status == "succeeded"
+
+    def test_a_protocol_that_swallows_the_abort_goes_no_further(self, form):
+        body = """
+        p300.pick_up_tip()
+        for well in plate.wells()[:3]:
+            try:
+                p300.transfer(50, tubes["A1"], well, new_tip="never")
+            except Exception:
+                protocol.comment("never mind")
+        """
+        with FakeSidecar() as sidecar:
+            sidecar.outcomes[0] = "fail"
+            settings = f'sidecar="{sidecar.url}", run_id="run", on_fail="abort"'
+            run = LiveRun(protocol(body, settings, form)).start().join()
+            assert len(sidecar.stored()) == 4
+            assert [finished["outcome"] for finished in sidecar.finished] == ["aborted"]
+        assert run.status == "failed"
+        assert [c.commandType for c in run.commands].count("aspirate") == 1
+
+    def test_a_stop_during_the_rehearsal_ends_it(self, form):
+        body = """
+        import os
+        if protocol.is_simulating():
+            os.environ["AEGIS_TEST_REHEARSING"] = "1"
+            while True:
+                pass
+        """
+        os.environ.pop("AEGIS_TEST_REHEARSING", None)
+        run = LiveRun(protocol(body, form=form)).start()
+        in_time(lambda: "AEGIS_TEST_REHEARSING" in os.environ)
+        pressed = run.stop()
+        run.join()
+        assert time.monotonic() - pressed < 2.5
+        assert run.status == "stopped"
+
+
+def test_a_protocol_after_one_that_could_not_begin_is_guarded():
+    # As on a robot server, whose worker threads are used again.
+    def both():
+        with pytest.raises(Exception, match="no address"):
+            simulated(protocol(GOOD, 'sidecar="simulated", watch_simulation=True', "call", "2.11"))
+        return simulated(protocol(GOOD, level="2.11"))
+
+    assert "Layer 1: pass" in of_guard(contextvars.Context().run(both))[0]

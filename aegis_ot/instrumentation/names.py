@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from types import FrameType
 from typing import Any
@@ -18,6 +18,11 @@ from .wells import WellResolver
 
 _DEEPEST = 3
 """Containers nested deeper than this are not a plate map any more."""
+_LONGEST = 1536
+"""Nor longer ones: no plate has more wells, and rows of data are not worth the time."""
+
+_CHEAP_TO_TURN_OFF = sys.version_info < (3, 12)
+"""From Python 3.12 on each change of the profile function makes all code be prepared anew."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,11 @@ class NameCollector:
     """Collects the names of one run."""
 
     def __init__(self, wells: WellResolver, file_name: str) -> None:
+        from opentrons.protocol_api import Labware, Well
+
+        # Asked for by type: a protocol's own objects may answer any attribute, or raise at it.
+        self._well_type: type = Well
+        self._labware_type: type = Labware
         self._wells = wells
         self._file_name = file_name
         self._bindings: dict[tuple[object, ...], NameBinding] = {}
@@ -56,12 +66,14 @@ class NameCollector:
         """Take in the local (or global) names of one function."""
         for name, value in list(names.items()):
             if not name.startswith("__"):
-                self._take(name, value, function, line, 0)
+                # A well of another context, say: no reason to stop the protocol.
+                with suppress(Exception):
+                    self._take(name, value, function, line, 0)
 
     def _take(self, name: str, value: Any, function: str, line: int, depth: int) -> None:
-        if isinstance(value, dict) and depth < _DEEPEST:
-            for key, item in list(value.items()):
-                if isinstance(key, (str, int)):
+        if issubclass(type(value), dict) and depth < _DEEPEST and dict.__len__(value) <= _LONGEST:
+            for key, item in list(dict.items(value)):
+                if isinstance(key, (str, int, float)):
                     self._take(f"{name}[{key!r}]", item, function, line, depth + 1)
         wells, labware = self._wells_in(value, depth), self._labware_in(value, depth)
         if wells or labware:
@@ -69,21 +81,18 @@ class NameCollector:
             self._bindings.setdefault((function, name, wells, labware), binding)
 
     def _wells_in(self, value: Any, depth: int) -> tuple[WellRef, ...]:
-        core = getattr(value, "_core", None)
-        if core is not None and hasattr(core, "get_max_volume") and hasattr(core, "get_top"):
+        if issubclass(type(value), self._well_type):
+            core = value._core
             info = self._wells.info_of(core)
             return () if info.is_tip_rack else (self._wells.ref(info.key, str(core.get_name())),)
-        if isinstance(value, (list, tuple, set, frozenset)) and depth < _DEEPEST:
-            return tuple(ref for item in value for ref in self._wells_in(item, depth + 1))
-        return ()
+        items = _items(value, (list, tuple, set, frozenset)) if depth < _DEEPEST else ()
+        return tuple(ref for item in items for ref in self._wells_in(item, depth + 1))
 
     def _labware_in(self, value: Any, depth: int) -> tuple[str, ...]:
-        core = getattr(value, "_core", None)
-        if core is not None and hasattr(core, "get_well_core"):
-            return (self._wells.register(core).key,)
-        if isinstance(value, (list, tuple)) and depth < _DEEPEST:
-            return tuple(key for item in value for key in self._labware_in(item, depth + 1))
-        return ()
+        if issubclass(type(value), self._labware_type):
+            return (self._wells.register(value._core).key,)
+        items = _items(value, (list, tuple)) if depth < _DEEPEST else ()
+        return tuple(key for item in items for key in self._labware_in(item, depth + 1))
 
     @contextmanager
     def watching(self) -> Iterator[None]:
@@ -98,8 +107,37 @@ class NameCollector:
         if previous is not None:  # a profiler or debugger is at work: leave it in peace
             yield
             return
+        hook.sees_names_only = True  # type: ignore[attr-defined]
         sys.setprofile(hook)
         try:
             yield
         finally:
             sys.setprofile(None)
+
+
+def _items(value: Any, kinds: tuple[type, ...]) -> tuple[Any, ...]:
+    """What a container holds, past whatever a subclass of the protocol makes of iteration."""
+    for kind in kinds:
+        if issubclass(type(value), kind):
+            return tuple(kind.__iter__(value)) if kind.__len__(value) <= _LONGEST else ()  # type: ignore[attr-defined]
+    return ()
+
+
+def pause_watching() -> Any:
+    """Take the hook of :meth:`NameCollector.watching` off; give what this returns to ``resume``.
+
+    The hook is told of every call in Opentrons, hundreds for each command, most of them below
+    the cores, where none of the protocol's own functions runs. A profile function that is not
+    ours stays.
+    """
+    hook = sys.getprofile() if _CHEAP_TO_TURN_OFF else None
+    if getattr(hook, "sees_names_only", False):
+        sys.setprofile(None)
+        return hook
+    return None
+
+
+def resume_watching(hook: Any) -> None:
+    """Put the hook back."""
+    if hook is not None:
+        sys.setprofile(hook)

@@ -81,8 +81,11 @@ class WellResolver:
         return self.labware[key]
 
     def key_of_id(self, labware_id: str) -> str:
-        """The key of an engine labware identifier, ``""`` if it was never registered."""
-        return self._keys.get(labware_id, "")
+        """The key of an engine labware identifier, taken in if it was never seen before."""
+        return (
+            self._keys.get(labware_id)
+            or self.register(_EngineLabware(labware_id, self._engine_state)).key
+        )
 
     def moved(self, labware_core: Any) -> LabwareInfo:
         """Read again where a labware stands, and all that stand on it."""

@@ -7,13 +7,14 @@ does on every load: nothing that the live protocol has at module level is touche
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any
 
 from ..errors import AegisError, RehearsalError
 from ..instrumentation import LabwareInfo, Listener, NameBinding, NameCollector, tapped
+from .haste import hasty_builtins
 from .loading import interrupted_after, line_of, load, runtime_parameters
 from .script import Script
 from .simulated_context import simulated_context
@@ -51,6 +52,7 @@ def rehearse(
     *,
     live_parameters: Any = None,
     timeout_s: float = 120.0,
+    is_stopping: Callable[[], bool] = lambda: False,
 ) -> Rehearsal:
     """Run ``script`` in the simulator from its first line to its last.
 
@@ -59,9 +61,10 @@ def rehearse(
         listeners: Hear of every operation and event.
         live_parameters: The ``Parameters`` object of a live run, used as it is.
         timeout_s: After this long the protocol is interrupted.
+        is_stopping: Asked every 0.1 s whether the live run is being stopped meanwhile.
 
     Raises:
-        RehearsalError: It cannot be parsed or raised by itself; with its line.
+        RehearsalError: It cannot be parsed, raised by itself, or was stopped; with its line.
         RehearsalTimeout: It did not end in time.
     """
     protocol = load(script)
@@ -80,7 +83,9 @@ def rehearse(
 
                 return run_with_names
 
-            names.look(_perform(protocol, context, watched, timeout_s), "<module>", 1)
+            limit = interrupted_after(timeout_s, script.file_name, is_stopping)
+            namespace = {"__builtins__": hasty_builtins()}
+            names.look(_perform(protocol, context, watched, limit, namespace), "<module>", 1)
             return Rehearsal(
                 names.bindings,
                 dict(tap.wells.labware),
@@ -102,7 +107,7 @@ def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.
     """
     protocol = load(script)
     with _stage(protocol, script, None) as context:
-        _perform(protocol, context, wrap, timeout_s)
+        _perform(protocol, context, wrap, interrupted_after(timeout_s, script.file_name), {})
 
 
 @contextmanager
@@ -124,13 +129,16 @@ def _stage(protocol: Any, script: Script, live_parameters: Any) -> Iterator[Any]
 
 
 def _perform(
-    protocol: Any, context: Any, wrap: Callable[[Run], Run], timeout_s: float
+    protocol: Any,
+    context: Any,
+    wrap: Callable[[Run], Run],
+    limit: AbstractContextManager[None],
+    namespace: dict[str, Any],
 ) -> dict[str, Any]:
-    """Execute a loaded protocol and its ``run``; returns its module's names."""
+    """Execute a loaded protocol in ``namespace``, and its ``run``; returns the namespace."""
     file_name = protocol.filename
-    namespace: dict[str, Any] = {}
     try:
-        with interrupted_after(timeout_s, file_name):
+        with limit:
             exec(protocol.contents, namespace)
             run = namespace.get("run")
             if not callable(run):

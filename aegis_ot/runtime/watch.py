@@ -54,6 +54,7 @@ class Watcher:
         self._courier: Courier | None = None
         self._about = about_run(protocol, self.run_id, file_name, self._simulating)
         self._stopped = False
+        self._aborted = ""
         self._leaving = False
 
     # What the guard calls
@@ -107,10 +108,12 @@ class Watcher:
         """
         outcome, detail = "succeeded", ""
         try:
-            if error is None:
+            if self._aborted and error is not None:
+                outcome, detail = "aborted", self._aborted
+            elif error is None:
                 self._perform(self._tracker.finish())
             else:
-                outcome = "aborted" if isinstance(error, RunAborted) else "failed"
+                outcome = "failed"
                 detail = f"{type(error).__name__}: {error}"
         except RunAborted as aborted:
             outcome, detail = "aborted", str(aborted)
@@ -132,6 +135,9 @@ class Watcher:
     def _perform(self, steps: Iterable[Step]) -> None:
         if self._stopped:
             return
+        if self._aborted:
+            # The protocol caught it (`except Exception`) and goes on; the robot must not.
+            raise RunAborted(self._aborted)
 
         def perform() -> None:
             for step in steps:
@@ -317,6 +323,9 @@ class Watcher:
             action()
         except _Stopping:
             self._stopped = True
+        except RunAborted as aborted:
+            self._aborted = str(aborted)
+            raise
 
     def _link_up(self) -> Courier:
         if self._courier is None:

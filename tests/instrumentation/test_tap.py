@@ -262,3 +262,16 @@ def test_a_protocols_own_patch_of_a_core_survives():
         )
     )
     assert len(heard.of(K.ASPIRATE)) == 1
+
+
+def test_labware_that_a_stacker_hands_out_can_be_filled():
+    body = """
+    stacker = protocol.load_module("flexStackerModuleV1", "D4")
+    stacker.set_stored_labware("corning_96_wellplate_360ul_flat", count=1)
+    fresh = stacker.retrieve()
+    water = protocol.define_liquid("water", "", "#0000ff")
+    fresh["B2"].load_liquid(water, 100)
+    """
+    heard, _ = run(flex(body, "2.25"))
+    loaded = [e for e in heard.events if e.kind is EventKind.LIQUID_LOADED]
+    assert [(e.text, e.wells[0].name, e.volume) for e in loaded] == [("water", "B2", 100)]

@@ -1,0 +1,83 @@
+"""A rehearsal wastes no time, ends when it should, and leaves nothing behind."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+import pytest
+
+from aegis_ot.errors import RehearsalError, RehearsalTimeout
+from aegis_ot.preflight.haste import hasty_builtins
+from aegis_ot.preflight.rehearsal import rehearse
+from aegis_ot.preflight.script import Script
+
+
+def script(body: str) -> Script:
+    head = 'import time\nfrom time import sleep\nmetadata = {"apiLevel": "2.15"}\n\n'
+    lines = "\n".join(f"    {line}" for line in body.splitlines())
+    return Script(f"{head}def run(protocol):\n{lines}\n", "protocol.py")
+
+
+def hasty(text: str) -> dict:
+    names = {"__builtins__": hasty_builtins()}
+    exec(text, names)
+    return names
+
+
+class TestHaste:
+    def test_sleeps_pass_at_once_and_the_clocks_know(self):
+        began = time.monotonic()
+        names = hasty(
+            "import time, time as t\nfrom time import sleep, monotonic\n"
+            "a, b, c = time.time(), monotonic(), time.perf_counter()\n"
+            "sleep(100); t.sleep(200)\n"
+            "gone = (time.time() - a, monotonic() - b, time.perf_counter() - c)\n"
+        )
+        assert time.monotonic() - began < 5
+        assert names["gone"] == pytest.approx((300, 300, 300), abs=5)
+
+    def test_waiting_for_the_clock_ends(self):
+        hasty("import time\nend = time.time() + 3600\nwhile time.time() < end: time.sleep(10)\n")
+
+    @pytest.mark.parametrize("wrong", ["-1", "'x'", ""])
+    def test_what_the_real_one_refuses_is_refused(self, wrong):
+        with pytest.raises((ValueError, TypeError)):
+            hasty(f"import time\ntime.sleep({wrong})")
+
+    def test_the_real_module_is_untouched(self):
+        before = dict(vars(time))
+        hasty("import time\ntime.sleep(5)")
+        assert dict(vars(time)) == before
+
+    def test_a_rehearsal_uses_it(self):
+        began = time.monotonic()
+        rehearse(script("sleep(30)\ntime.sleep(30)"), [])
+        assert time.monotonic() - began < 10
+
+
+class TestInterruption:
+    def test_an_endless_loop_is_told_with_its_line(self):
+        with pytest.raises(RehearsalTimeout, match=r"within 0\.3 s") as caught:
+            rehearse(script("while True:\n    pass"), [], timeout_s=0.3)
+        assert caught.value.line in (6, 7)
+
+    def test_one_that_swallows_everything_ends_too(self):
+        body = "for _ in range(3):\n    try:\n        while True: pass\n    except: pass"
+        with pytest.raises(RehearsalTimeout):
+            rehearse(script(body + "\nwhile True: pass"), [], timeout_s=0.3)
+
+    def test_a_stop_ends_it(self):
+        stopping = threading.Event()
+        threading.Timer(0.5, stopping.set).start()
+        with pytest.raises(RehearsalError, match="stopped") as caught:
+            rehearse(script("while True: pass"), [], is_stopping=stopping.is_set)
+        assert not isinstance(caught.value, RehearsalTimeout)
+
+    def test_no_thread_is_left(self):
+        before = set(threading.enumerate())
+        rehearse(script("pass"), [])
+        until = time.monotonic() + 5
+        while set(threading.enumerate()) - before:
+            assert time.monotonic() < until, threading.enumerate()
+            time.sleep(0.01)
