@@ -118,7 +118,9 @@ class _Site:
     origin: str
 
     def error(self, value: Any, accepted: str) -> ConfigurationError:
-        shown = "..." if self.name == "token" else repr(value)
+        # An address may hold a password, and messages end up in logs.
+        is_secret = self.name == "token" or (self.name == "sidecar" and "@" in str(value))
+        shown = "..." if is_secret else repr(value)
         return ConfigurationError(
             f"Setting {self.name!r} ({self.origin}) is {shown}. Accepted: {accepted}."
         )
@@ -142,14 +144,14 @@ def _from_environment() -> tuple[str, dict[str, Any]]:
 def _from_file() -> tuple[str, dict[str, Any]]:
     named = os.environ.get(FILE_VARIABLE, "").strip()
     if named:
-        path = Path(named).expanduser()
-        if not path.is_file():
+        path = Path(os.path.expanduser(named))
+        if not os.path.isfile(path):
             raise ConfigurationError(
                 f"{FILE_VARIABLE} names {path}, and there is no such file. "
                 "Correct the path, or unset the variable."
             )
     else:
-        found = next((p for p in _default_paths() if p.is_file()), None)
+        found = next((p for p in _default_paths() if os.path.isfile(p)), None)
         if found is None:
             return "file", {}
         path = found
@@ -166,7 +168,7 @@ def _default_paths() -> Sequence[Path]:
 
 def _read_file(path: Path) -> dict[str, Any]:
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")  # Windows editors put a mark in front
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigurationError(
             f"The settings file {path} cannot be read ({error}). Make it a readable UTF-8 file."
@@ -288,7 +290,8 @@ def _sidecar(value: Any, site: _Site) -> str | None:
         port_is_fine = parts.port is None or 0 < parts.port < 65_536
     except ValueError:
         raise site.error(value, accepted) from None
-    plain = not (parts.query or parts.fragment or parts.username)
+    plain = not (parts.query or parts.fragment or parts.username or " " in text)
+    plain = plain and parts.path.isascii() and text.isprintable()
     if parts.scheme in ("http", "https") and parts.hostname and port_is_fine and plain:
         return text.rstrip("/")
     raise site.error(value, accepted)

@@ -114,6 +114,15 @@ def test_a_token_is_never_shown() -> None:
         load_settings(token="se cret")
     assert "cret" not in str(caught.value)
     assert "s3cret" not in repr(load_settings(token="s3cret"))
+    with pytest.raises(ConfigurationError) as caught:
+        load_settings(sidecar="http://me:s3cret@robot:7645")
+    assert "s3cret" not in str(caught.value)
+
+
+@pytest.mark.parametrize("address", ["http://h/pä", "http://h:1/a b", "http://a\x00b:1"])
+def test_an_address_that_http_cannot_carry(address: str) -> None:
+    with pytest.raises(ConfigurationError, match="sidecar"):
+        load_settings(sidecar=address)
 
 
 def test_bad_environment_value_names_the_variable(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -173,6 +182,27 @@ class TestFile:
         (tmp_path / "g.json").write_bytes(b"\xff\xfe\x00")
         monkeypatch.setenv("AEGIS_OT_CONFIG", str(tmp_path / "g.json"))
         with pytest.raises(ConfigurationError, match=r"g\.json.*UTF-8"):
+            load_settings()
+
+    def test_a_mark_of_byte_order_is_no_trouble(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        (tmp_path / "g.json").write_bytes(b'\xef\xbb\xbf{"rules": "off"}')
+        monkeypatch.setenv("AEGIS_OT_CONFIG", str(tmp_path / "g.json"))
+        assert load_settings().rules == "off"
+
+    def test_a_folder_that_may_not_be_read_holds_no_settings(
+        self, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        def denied(*_args: object, **_kwargs: object) -> None:
+            raise PermissionError(13, "Permission denied")
+
+        monkeypatch.setattr("os.stat", denied)
+        assert load_settings() == Settings()
+
+    def test_the_home_of_nobody(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.setenv("AEGIS_OT_CONFIG", "~no-such-user/guard.json")
+        with pytest.raises(ConfigurationError, match=r"guard\.json"):
             load_settings()
 
     def test_a_named_file_that_is_not_there(

@@ -46,7 +46,7 @@ def find_script(file_name: str, protocol: Any) -> Script | None:
     if loaded is not None:
         text = loaded.text
         return Script(
-            text=text.decode("utf-8") if isinstance(text, bytes) else text,
+            text=text.decode("utf-8", "replace") if isinstance(text, bytes) else text,
             file_name=file_name,
             extra_labware={**(loaded.extra_labware or {}), **_custom_labware(protocol)},
             data_files=dict(loaded.bundled_data or {}),

@@ -7,7 +7,7 @@ called off has to happen below it, in the socket that it reads from.
 from __future__ import annotations
 
 import io
-import select
+import selectors
 import socket
 import ssl
 import threading
@@ -46,12 +46,11 @@ class Waiter:
         while True:
             self.check_stop()
             wait = min(SLICE_S, self.left)
-            wanted = [sock]
-            readable, writable, _ = select.select(
-                [] if write else wanted, wanted if write else [], [], wait
-            )
-            if readable or writable:
-                return
+            # Not select.select: it refuses descriptors above 1023, which a server may reach.
+            with selectors.DefaultSelector() as selector:
+                selector.register(sock, selectors.EVENT_WRITE if write else selectors.EVENT_READ)
+                if selector.select(wait):
+                    return
             if self.left <= 0:
                 raise TimeoutError("no answer in time")
 
@@ -169,6 +168,8 @@ def _addresses(host: str, port: int, waiter: Waiter) -> list[Any]:
         return socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_NUMERICHOST)
     except socket.gaierror:
         pass
+    except UnicodeError as error:  # an empty label, or one of more than 63 characters
+        raise OSError(f"{host!r} is no host name") from error
     answer: list[Any] = []
     failure: list[OSError] = []
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 import socket
 import threading
 import time
@@ -78,6 +79,30 @@ def test_unknown_host() -> None:
     link = SidecarLink("http://no-such-host.invalid:7645", None, lambda: None)
     with pytest.raises(SidecarUnreachable, match=r"no-such-host\.invalid"):
         link.health(5.0)
+
+
+@pytest.mark.parametrize("host", ["a..b", "x" * 70])
+def test_a_host_that_is_no_name(host: str) -> None:
+    link = SidecarLink(f"http://{host}:7645", None, lambda: None)
+    with pytest.raises(SidecarUnreachable, match="no host name"):
+        link.health(5.0)
+
+
+def test_a_process_with_many_open_files(sidecar: FakeSidecar) -> None:
+    resource = pytest.importorskip("resource")
+    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+    if limits[1] < 1400:
+        pytest.skip("this machine allows too few open files")
+    resource.setrlimit(resource.RLIMIT_NOFILE, (max(limits[0], 1400), limits[1]))
+    held = [os.open(os.devnull, os.O_RDONLY) for _ in range(1100)]
+    try:
+        link = SidecarLink(sidecar.url, None, lambda: None)
+        assert link.health(2.0)["name"] == "aegis-ot"
+        link.close()
+    finally:
+        for number in held:
+            os.close(number)
+        resource.setrlimit(resource.RLIMIT_NOFILE, limits)
 
 
 def test_token() -> None:
