@@ -6,7 +6,7 @@ long ends with how many lines are missing.
 
 Words: ``draw V W`` aspirates V µL from W; ``give`` dispenses and touches the liquid there;
 ``give^`` from above the well, touching nothing; ``give.`` into a dry well; ``give~`` below the
-rim but clear of the liquid; ``mix N×V``; ``blow`` and its marks likewise; ``touch`` the wall.
+rim but clear of the liquid; ``mix V``; ``blow`` and its marks likewise; ``touch`` the wall.
 """
 
 from __future__ import annotations
@@ -113,15 +113,11 @@ def _append(rows: list[_Row], visits: list[Visit]) -> None:
     word = _WORDS.get(first.kind, first.kind.value)
     volume = f" {first.volume:.4g}" if first.volume else ""
     if first.mixing:
-        # A mix is drawing and giving back, again and again: one row, counted.
-        if word == "give":
-            return
-        previous = rows[-1] if rows else None
-        if previous and previous.wells == wells and previous.what.endswith(f"×{volume.strip()}"):
-            count = int(previous.what[4:].partition("×")[0]) + 1
-            rows[-1] = _Row(f"mix {count}×{volume.strip()}", previous.line, wells)
-        else:
-            rows.append(_Row(f"mix 1×{volume.strip()}", first.line, wells))
+        # A mix is drawing and giving back, again and again: one row. How often is not told,
+        # since the trace keeps a repeated mix once.
+        row = _Row(f"mix{volume}", first.line, wells)
+        if word != "give" and (not rows or rows[-1] != row):
+            rows.append(row)
         return
     if word in ("give", "blow"):
         word += _mark(visits)
