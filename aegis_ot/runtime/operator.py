@@ -10,6 +10,7 @@ from enum import Enum
 from typing import Any
 
 from ..errors import RunAborted
+from .legacyrun import LegacyRun
 from .runstate import can_be_resumed
 
 _REMIND_S = 60.0
@@ -39,11 +40,25 @@ class Operator:
         self._protocol = protocol
         self._simulating = simulating
         self._rest = rest
+        self._legacy_run = LegacyRun.of(protocol)
+        self._unsaid: list[str] = []
         self.busy = False
         """Whether the guard itself is pausing or commenting just now."""
 
     def comment(self, text: str) -> None:
-        """Write into the run log."""
+        """Write into the run log; where that is not possible now, at the end of the run."""
+        if self._legacy_run is not None:
+            self._unsaid.append(text)
+            return
+        self._comment(text)
+
+    def catch_up(self) -> None:
+        """The protocol has ended: write what could not be written before."""
+        unsaid, self._unsaid = self._unsaid, []
+        for text in unsaid:
+            self._comment(text)
+
+    def _comment(self, text: str) -> None:
         self.busy = True
         try:
             self._protocol.comment(f"aegis_ot: {text}")
@@ -70,7 +85,12 @@ class Operator:
             return
         self.busy = True
         try:
-            self._protocol.pause(f"aegis_ot: {text}")
+            if self._legacy_run is None:
+                self._protocol.pause(f"aegis_ot: {text}")
+            else:
+                _say(text)
+                self.comment(text)
+                self._legacy_run.pause(self._protocol, self._rest)
         finally:
             self.busy = False
 

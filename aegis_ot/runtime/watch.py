@@ -112,6 +112,7 @@ class Watcher:
                 outcome, detail = "aborted", self._aborted
             elif error is None:
                 self._perform(self._tracker.finish())
+                self._operator.catch_up()
             else:
                 outcome = "failed"
                 detail = f"{type(error).__name__}: {error}"

@@ -219,3 +219,57 @@ def test_a_protocol_that_fails_by_itself_fails_with_its_own_error(sidecar: FakeS
     assert type(run.error) is KeyError
     assert sidecar.finished[0]["outcome"] == "failed"
     assert "plate map" in sidecar.finished[0]["detail"]
+
+
+@pytest.fixture
+def legacy(monkeypatch: pytest.MonkeyPatch) -> str:
+    """An apiLevel of the legacy core, which the hardware simulator tells that it is live."""
+    from opentrons.protocol_api.core.legacy.legacy_protocol_core import LegacyProtocolCore
+
+    monkeypatch.setattr(LegacyProtocolCore, "is_simulating", lambda self: False)
+    return "2.13"
+
+
+def test_a_legacy_protocol_pauses_and_plays_on(legacy: str, sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0] = "fail"
+    run = LiveRun(two_wells, settings(sidecar), legacy).start()
+    run.wait_for_status("paused")
+    assert len(sidecar.stored()) == 4
+    run.play()
+    run.join()
+    assert run.error is None
+    assert run.status == "succeeded"
+    assert len(sidecar.stored()) == 8
+    comments = [c.params.message for c in run.commands if c.commandType == "comment"]
+    assert any("partial dispense" in comment for comment in comments)
+
+
+def test_a_legacy_protocol_is_stopped_during_its_pause(legacy: str, sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0] = "fail"
+    run = LiveRun(two_wells, settings(sidecar), legacy).start()
+    run.wait_for_status("paused")
+    pressed = run.stop()
+    run.join()
+    assert run.ended_at - pressed < 0.5
+    assert [f["outcome"] for f in sidecar.finished] == ["stopped"]
+
+
+def test_a_legacy_protocol_goes_on_as_configured(legacy: str, sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0] = "fail"
+    run = LiveRun(two_wells, settings(sidecar, on_fail="continue"), legacy).start().join()
+    assert run.error is None
+    comments = [c.params.message for c in run.commands if c.commandType == "comment"]
+    assert any("The run goes on, as configured" in comment for comment in comments)
+
+
+def test_a_legacy_protocol_waits_for_a_lost_sidecar(legacy: str, sidecar: FakeSidecar) -> None:
+    sidecar.fault = lambda handler: sidecar.fault is not None and _die_at(handler, sidecar, 2)
+    run = LiveRun(two_wells, settings(sidecar, capture_timeout_s=0.4), legacy).start()
+    run.wait_for_status("paused")
+    time.sleep(0.8)  # longer than it is tried again
+    with FakeSidecar(port=sidecar.port) as reborn:
+        reborn.keyframes = sidecar.keyframes
+        run.play()
+        run.join()
+        assert not any(f["late"] for f in reborn.stored())
+        assert len(reborn.stored()) == 8
