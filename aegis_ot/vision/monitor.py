@@ -6,8 +6,9 @@ matches without importing them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from .calibration import CalibrationSettings, CalibrationState, NormalPool
 from .camera import Frame
 from .cascade import Cascade, Triage
 from .column_reader import MeasuredColumns
+from .consistency import TipConsistency
 from .gates import (
     Case,
     ConfirmingGate,
@@ -120,6 +122,7 @@ class _Stream:
             (self.scorer.name,), settings.calibration, monitor.pools, settings.always_gate
         )
         self.reader = monitor.reader()
+        self.tip = kin.tip if kin is not None else TipConsistency()
         if kin is not None and isinstance(self.reader, MeasuredColumns):
             self.reader.share_tip(kin.reader)
         self.learned = 0
@@ -155,10 +158,7 @@ class RunAnalyser:
         trajectory.frames[kind] = image
         trajectory.detections[kind] = detection
         if detection is not None:
-            tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
-            pipette = pipette_class(keyframe.pipette)
-            view = TipView(kind, image, detection, tip, pipette, keyframe.expected_ul)
-            trajectory.looks[kind] = self._stream(keyframe).reader.look(view)
+            self._look(self._stream(keyframe), trajectory, kind, detection)
 
     def judge(self, trajectory: int) -> Judged:
         """The trajectory is complete: its verdict, and what stands behind it."""
@@ -173,18 +173,22 @@ class RunAnalyser:
                 reason="No usable frame of this trajectory was captured; please look at the tip.",
             )
             return verdict, {}
-        sample = self._sample(trajectory, seen)
         stream = self._stream(max(seen.keyframes.values(), key=lambda k: k.sequence))
+        self._settle(stream, seen)
+        sample = self._sample(trajectory, seen)
         missing = tuple(kind for kind, found in seen.detections.items() if found is None)
         readings = stream.reader.read(seen.looks, sample.expected_ul)
         # A blank crop would be scored as an anomaly, and learned as normal.
         whole = len(seen.detections) == len(KeyframeKind) and not missing
         scores = stream.scorer.scores(sample) if whole else {}
-        case = Case(sample, Route.GREY_ZONE, scores, readings, missing, stream.learned > 0)
-        volumetric = VolumetricGate().examine(self._routed(case, Route.GREY_ZONE))
+        p_value = None
+        if scores and hasattr(self._monitor.scorer, "p_value"):
+            p_value = math.exp(-scores[stream.scorer.name])  # such a score is -log p
+        case = Case(sample, Route.GREY_ZONE, scores, readings, missing, stream.learned > 0, p_value)
+        volumetric = VolumetricGate().examine(case)
         contradiction = volumetric.reason if volumetric.outcome is Outcome.FAIL else ""
         triage = stream.cascade.triage(scores, missing, contradiction)
-        case = self._routed(case, triage.route)
+        case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
         self._learn(stream, case, seen, decision)
         main = scores.get(stream.scorer.name)
@@ -201,6 +205,26 @@ class RunAnalyser:
             decision.expected_ul,
         )
         return verdict, self._evidence(stream, case, seen, triage, decision)
+
+    def _look(
+        self, stream: _Stream, seen: _Open, kind: KeyframeKind, detection: TipDetection
+    ) -> None:
+        keyframe = seen.keyframes[kind]
+        tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
+        pipette = pipette_class(keyframe.pipette)
+        view = TipView(kind, seen.frames[kind], detection, tip, pipette, keyframe.expected_ul)
+        seen.looks[kind] = stream.reader.look(view)
+
+    def _settle(self, stream: _Stream, seen: _Open) -> None:
+        """Put the detections right by the run's own tip, and look again where one changed."""
+        settled = stream.tip.settle(seen.detections, seen.frames)
+        for kind, detection in settled.items():
+            if detection is seen.detections[kind]:
+                continue
+            seen.looks.pop(kind, None)
+            if detection is not None:
+                self._look(stream, seen, kind, detection)
+        seen.detections = settled
 
     def recall(self, history: Sequence[Judged]) -> None:
         """Restore the bands from what was judged before a restart."""
@@ -227,9 +251,6 @@ class RunAnalyser:
             kin = next((s for k, s in self._streams.items() if k[:2] == key[:2]), None)
             self._streams[key] = _Stream(self._monitor, kin)
         return self._streams[key]
-
-    def _routed(self, case: Case, route: Route) -> Case:
-        return Case(case.sample, route, case.scores, case.readings, case.missing, case.calibrated)
 
     def _decide(self, stream: _Stream, case: Case, triage: Triage) -> GateDecision:
         if triage.route is Route.CALIBRATION:
