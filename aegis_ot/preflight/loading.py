@@ -8,6 +8,7 @@ import time
 import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from copy import copy
 from typing import Any
 
 from ..errors import RehearsalError, RehearsalTimeout
@@ -76,6 +77,18 @@ def runtime_parameters(protocol: Any, script: Script) -> Any:
             f"The runtime parameters of {script.file_name} cannot be set: {error}",
             line_of(error, script.file_name),
         ) from error
+
+
+def copied_parameters(live: Any) -> Any:
+    """A copy of a live run's ``Parameters``; its CSV files are opened anew.
+
+    A file that the rehearsal has read, or closed, would be empty for the run itself.
+    """
+    values = {name: copy(value) for name, value in live.get_all().items()}
+    for value in values.values():
+        if hasattr(value, "_file"):
+            value._file = None
+    return type(live)(values)
 
 
 def line_of(error: BaseException, file_name: str) -> int | None:

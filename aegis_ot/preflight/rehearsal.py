@@ -15,7 +15,7 @@ from typing import Any
 from ..errors import AegisError, RehearsalError
 from ..instrumentation import LabwareInfo, Listener, NameBinding, NameCollector, tapped
 from .haste import hasty_builtins
-from .loading import interrupted_after, line_of, load, runtime_parameters
+from .loading import copied_parameters, interrupted_after, line_of, load, runtime_parameters
 from .script import Script
 from .simulated_context import simulated_context
 
@@ -59,7 +59,7 @@ def rehearse(
     Args:
         script: The protocol.
         listeners: Hear of every operation and event.
-        live_parameters: The ``Parameters`` object of a live run, used as it is.
+        live_parameters: The ``Parameters`` object of a live run; a copy is used.
         timeout_s: After this long the protocol is interrupted.
         is_stopping: Asked every 0.1 s whether the live run is being stopped meanwhile.
 
@@ -113,9 +113,10 @@ def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.
 @contextmanager
 def _stage(protocol: Any, script: Script, live_parameters: Any) -> Iterator[Any]:
     """A simulated context that is ready for this protocol."""
-    parameters = live_parameters
-    if parameters is None:
+    if live_parameters is None:
         parameters = runtime_parameters(protocol, script)
+    else:
+        parameters = copied_parameters(live_parameters)
     with simulated_context(
         protocol.api_level,
         protocol.robot_type,

@@ -81,3 +81,16 @@ class TestInterruption:
         while set(threading.enumerate()) - before:
             assert time.monotonic() < until, threading.enumerate()
             time.sleep(0.01)
+
+
+def test_a_csv_file_that_the_rehearsal_read_is_whole_for_the_run():
+    from opentrons.protocol_api._parameters import Parameters
+    from opentrons.protocols.api_support.types import APIVersion
+    from opentrons.protocols.parameters.csv_parameter_interface import CSVParameter
+
+    live = Parameters({"table": CSVParameter(b"a,b", APIVersion(2, 20)), "count": 3})
+    body = "with protocol.params.table.file as table:\n    assert table.read() == 'a,b'"
+    text = script(body).text.replace("2.15", "2.20")
+    rehearse(Script(text, "protocol.py"), [], live_parameters=live)
+    assert live.table.file.read() == "a,b"
+    assert live.count == 3
