@@ -27,9 +27,6 @@ _MEMORY = 24
 _SAME_LENGTH = 0.12
 """Lengths in one run differ by less than this, as a fraction."""
 
-_PAIR = 0.05
-"""The same for the two free frames of one trajectory."""
-
 _MATCH = 0.6
 """Correlation from which the collar of one free frame is found again in the other."""
 
@@ -63,7 +60,7 @@ class TipConsistency:
         if len(pair) < len(FREE):
             return settled
         before, after = (pair[kind] for kind in FREE)
-        if abs(before.length / after.length - 1.0) <= _PAIR:
+        if abs(before.length / after.length - 1.0) <= _SAME_LENGTH:
             if all(settled[kind] is not None for kind in FREE):
                 self._learn(before, after)
             return settled

@@ -122,7 +122,7 @@ class _Stream:
             (self.scorer.name,), settings.calibration, monitor.pools, settings.always_gate
         )
         self.reader = monitor.reader()
-        self.tip = kin.tip if kin is not None else TipConsistency()
+        self.tip: TipConsistency = kin.tip if kin is not None else TipConsistency()
         if kin is not None and isinstance(self.reader, MeasuredColumns):
             self.reader.share_tip(kin.reader)
         self.learned = 0
