@@ -246,7 +246,7 @@ class RunCalibration:
         values = np.asarray(scores, dtype=np.float64)
         median = float(np.median(values))
         mad = float(np.median(np.abs(values - median)))
-        least = max(self.settings.least_spread * abs(median), np.finfo(np.float64).tiny)
+        least = max(self.settings.least_spread * abs(median), float(np.finfo(np.float64).tiny))
         return median, max(mad, least)
 
     def _close(self) -> None:

@@ -230,7 +230,8 @@ def _retained(
     edges = [edge_evidence(looks[kind]) for kind in seen]
     # A glint in one frame alone is no meniscus. But colour in one frame is colour, for labware
     # may hide the column in the other.
-    joint = sum(colours[1:], colours[0]) + (combine(*edges, _GLINT) if edges[1:] else edges[0])
+    edge = combine(edges[0], edges[1], _GLINT) if len(edges) > 1 else edges[0]
+    joint = sum(colours[1:], colours[0]) + edge
     joint = np.where(possible_tops(looks[seen[-1]], tip), joint, IMPOSSIBLE)
     u = looks[seen[-1]].u
     # No more than was drawn can be left; a little more where a failure accumulates.
