@@ -36,7 +36,7 @@ _ENOUGH = 4
 _SEEN = 4.5
 """Evidence (log-likelihood ratio) from which there is a column where none should be."""
 
-_SEEN_AT_FIRST = 14.0
+_SEEN_AT_FIRST = 20.0
 """The same in the run's first wells: menisci and edges of labware alone do not reach it."""
 
 _NEAR = 0.04
@@ -71,6 +71,7 @@ class _Found:
         place: Where the expected column should end, tip lengths below the collar.
         near: Largest raw evidence about there; minus infinity where nothing is expected.
         row: Row of the largest evidence elsewhere.
+        witness: Largest evidence about there in the ASPIRATE frame, if it shows the same column.
     """
 
     look: Look
@@ -80,6 +81,7 @@ class _Found:
     place: float
     near: float
     row: int
+    witness: float | None = None
 
 
 class MeasuredColumns:
@@ -98,6 +100,7 @@ class MeasuredColumns:
         self._near: list[tuple[float, float]] = []
         self._stray: dict[KeyframeKind, list[float]] = {}
         self._gaps: list[tuple[float, float]] = []
+        self._witness: list[float] = []
         self._usual: dict[KeyframeKind, list[Rows]] = {}
 
     def share_tip(self, other: object) -> None:
@@ -129,6 +132,8 @@ class MeasuredColumns:
             if volume > 0:
                 rows[np.abs(u - found.place) < 2 * _NEAR] = np.nan
                 _keep(self._near, (volume, found.near))
+                if found.witness is not None:
+                    _keep(self._witness, found.witness)
                 self._learn_height(found, volume)
                 _keep(self._dyes, found.measured.dye)
                 if found.measured.gap is not None:
@@ -184,8 +189,27 @@ class MeasuredColumns:
                 near = float(raw[close].max(initial=-math.inf))
                 elsewhere = ~close
             row = int(np.argmax(np.where(elsewhere, evidence, -np.inf)))
-            found[kind] = _Found(first, measured, evidence, raw, place, near, row)
+            witness = None
+            if volume > 0 and kind is KeyframeKind.TRANSIT:
+                witness = self._at_aspirate(looks, expected, volume, place, reference)
+            found[kind] = _Found(first, measured, evidence, raw, place, near, row, witness)
         return found
+
+    def _at_aspirate(
+        self,
+        looks: Mapping[KeyframeKind, object],
+        expected: Mapping[KeyframeKind, float],
+        volume: float,
+        place: float,
+        reference: Reference,
+    ) -> float | None:
+        """Evidence of the ASPIRATE frame where the column should end."""
+        look = looks.get(KeyframeKind.ASPIRATE)
+        same = math.isclose(expected.get(KeyframeKind.ASPIRATE, -1.0), volume)
+        if not isinstance(look, Look) or not same:
+            return None
+        rows = read_column(look.profile, look.tip, volume, reference).evidence
+        return float(rows[np.abs(look.profile.u - place) < _NEAR].max(initial=-math.inf))
 
     def _usual_rows(self, kind: KeyframeKind, like: Rows) -> Rows:
         """What is usual at each row where no column ends, and near it; never negative."""
@@ -212,7 +236,8 @@ class MeasuredColumns:
         spread = self._spread_mm
         if expected_ul > 0 and abs(top - found.place) < _NEAR:
             # A meniscus seen where it is due is no farther off than the search reaches.
-            spread = min(spread, 0.5 * _NEAR * tip.length_mm)
+            reach = _NEAR * tip.length_mm
+            spread = float(np.clip(spread, reach / 3, reach / 2))
         sigma = float(tip.volume_of(height + spread)) - volume
         if len(self._heights) < _ENOUGH:
             # The tip's inside is known to some per cent only, until the run has shown it.
@@ -227,6 +252,8 @@ class MeasuredColumns:
             return _SEEN_AT_FIRST
         # Not the largest: a failed well that passed unseen must not blind the reader for good.
         most = max(_SEEN, float(np.percentile(stray, 95)) + 4.0)
+        # A column left over shows about as well as a full one.
+        most = max(most, 0.5 * float(np.median([near for _, near in self._near] or [0.0])))
         # A handful of wells has not shown the worst that is normal here.
         return most + (_SEEN_AT_FIRST - _SEEN) / len(stray)
 
@@ -253,6 +280,11 @@ class MeasuredColumns:
             return float(u[int(np.argmax(np.where(close, found.raw, -np.inf)))])
         if strongest >= max(seen, found.near + seen):
             return float(u[found.row])
+        if found.witness is not None and len(self._witness) >= _ENOUGH:
+            # One frame can be overexposed or blurred: an empty tip looks empty in both.
+            usual = float(np.percentile(self._witness, 25))
+            if found.witness >= max(usual, _SEEN):
+                return found.place
         return 1.0 if clear and len(alike) >= _ENOUGH and found.near < 0 else None
 
     @property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -85,6 +86,13 @@ def test_calibration_wells_fail_for_gross_mismatches_only() -> None:
     gross = case(FULL, ColumnReading(80.0, 2.0), Route.CALIBRATION)
     assert VolumetricGate().examine(slight).outcome is not Outcome.FAIL
     assert VolumetricGate().examine(gross).outcome is Outcome.FAIL
+
+
+def test_agreeing_volumes_do_not_explain_away_a_very_unusual_tip() -> None:
+    assert VolumetricGate().examine(replace(case(), p_value=0.04)).outcome is Outcome.PASS
+    decision = VolumetricGate().examine(replace(case(), p_value=0.001))
+    assert decision.outcome is Outcome.UNDECIDED
+    assert "unusual" in decision.reason
 
 
 def test_gates_are_asked_in_turn_until_one_decides() -> None:
