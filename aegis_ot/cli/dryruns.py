@@ -138,7 +138,7 @@ def _table(rows: Sequence[WellRow]) -> Table:
         failure = f" ({row.failure.value})" if row.failure else ""
         table.add_row(
             str(row.trajectory),
-            Text(row.well),
+            Text(row.address),
             f"{row.volume_ul:g}",
             "-" if row.score is None else f"{row.score:.3g}",
             row.route.value if row.route else "-",

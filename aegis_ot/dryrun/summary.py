@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
+from .closeups import close_up
 
 
 @dataclass(frozen=True)
@@ -16,6 +17,7 @@ class WellRow:
     Attributes:
         trajectory: Number of the trajectory in the run.
         well: Where the liquid went, for people.
+        address: The same in short, ``"3:D4"``.
         pipette: Opentrons pipette name.
         volume_ul: Commanded, µL per channel.
         score: Anomaly score; ``None`` without frames.
@@ -26,12 +28,14 @@ class WellRow:
         reason: One sentence.
         hold_s: How long the robot held for it, s.
         frames: JPEG of each keyframe, by kind.
+        close_ups: JPEG of the tip in it, for flagged wells and where a tip was found.
         measured_ul: Left in the tip after the dispense as measured, µL.
         line: Source line of the protocol.
     """
 
     trajectory: int
     well: str
+    address: str
     pipette: str
     volume_ul: float
     score: float | None
@@ -44,6 +48,7 @@ class WellRow:
     frames: Mapping[KeyframeKind, bytes]
     measured_ul: float | None = None
     line: int | None = None
+    close_ups: Mapping[KeyframeKind, bytes] = field(default_factory=dict)
 
     @property
     def flagged(self) -> bool:
@@ -92,26 +97,44 @@ def rows_of(overview: Mapping[str, Any], frames: Mapping[int, bytes]) -> tuple[W
     )
 
 
+def _address(keyframe: Mapping[str, Any]) -> str:
+    wells = keyframe.get("destinations") or keyframe.get("sources") or ()
+    if not wells:
+        return "-"
+    more = f" +{len(wells) - 1}" if len(wells) > 1 else ""
+    return f"{wells[0]['slot']}:{wells[0]['name']}{more}"
+
+
 def _row(entry: Mapping[str, Any], frames: Mapping[int, bytes]) -> WellRow:
     verdict = entry["verdict"] or {}
     last = entry["keyframes"][-1] if entry["keyframes"] else {}
+    images = {
+        KeyframeKind(keyframe["kind"]): frames[keyframe["sequence"]]
+        for keyframe in entry["keyframes"]
+        if keyframe["sequence"] in frames
+    }
+    outcome = Outcome(verdict["outcome"]) if verdict else None
+    boxes = entry["evidence"].get("boxes", {}) if outcome is not Outcome.PASS else {}
+    close_ups = {
+        kind: cut
+        for kind, image in images.items()
+        if kind.value in boxes and (cut := close_up(image, boxes[kind.value])) is not None
+    }
     return WellRow(
         trajectory=entry["trajectory"],
         well=entry["well"],
+        address=_address(last),
         pipette=last.get("pipette", ""),
         volume_ul=last.get("commanded_ul", 0.0),
         score=verdict.get("score"),
         route=Route(verdict["route"]) if verdict else None,
         gate=Gate(verdict.get("gate", "none")),
-        outcome=Outcome(verdict["outcome"]) if verdict else None,
+        outcome=outcome,
         failure=FailureType(verdict["failure"]) if verdict.get("failure") else None,
         reason=verdict.get("reason", ""),
         hold_s=float((entry["hold"] or {}).get("seconds", 0.0)),
-        frames={
-            KeyframeKind(keyframe["kind"]): frames[keyframe["sequence"]]
-            for keyframe in entry["keyframes"]
-            if keyframe["sequence"] in frames
-        },
+        frames=images,
+        close_ups=close_ups,
         measured_ul=verdict.get("measured_ul"),
         line=last.get("line"),
     )

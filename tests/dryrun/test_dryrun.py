@@ -1,0 +1,70 @@
+"""A dry run end to end: real guard, real sidecar over a socket, simulated camera."""
+
+from __future__ import annotations
+
+import pytest
+
+from aegis_ot.dryrun import DryRunSettings, dry_run
+from aegis_ot.errors import ConfigurationError, RehearsalError
+from aegis_ot.preflight.script import Script
+from aegis_ot.reports import dry_run_html
+from aegis_ot.sidecar import make_analyser
+from aegis_ot.vocabulary import KeyframeKind, Outcome, Route
+
+TEXT = """
+metadata = {"apiLevel": "2.16"}
+def run(protocol):
+    plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 1, "plate")
+    reservoir = protocol.load_labware("nest_12_reservoir_15ml", 2, "dye")
+    tips = protocol.load_labware("opentrons_96_tiprack_300ul", 3)
+    p300 = protocol.load_instrument("p300_single_gen2", "left", [tips])
+    red = protocol.define_liquid("red dye", "", "#ff0000")
+    reservoir["A1"].load_liquid(red, 10000)
+    for well in plate.wells()[:10]:
+        p300.transfer(150, reservoir["A1"], well)
+"""
+SCRIPT = Script(TEXT, "ten_wells.py")
+
+
+@pytest.fixture(scope="module")
+def stopped():
+    settings = DryRunSettings(faults=("no_dispense@1:A2",), on_fail="stop")
+    return dry_run(SCRIPT, settings, make_analyser())
+
+
+def test_a_normal_run_has_no_flagged_well():
+    result = dry_run(SCRIPT, DryRunSettings(), make_analyser())
+    assert result.outcome == "succeeded"
+    assert [row.address for row in result.wells] == [
+        *(f"1:{row}1" for row in "ABCDEFGH"), "1:A2", "1:B2",
+    ]  # fmt: skip
+    assert result.flagged == ()
+    assert {row.route for row in result.wells[:6]} == {Route.CALIBRATION}
+
+
+def test_a_planted_fault_stops_the_run_before_another_well_is_touched(stopped):
+    assert stopped.outcome == "stopped"
+    assert [row.address for row in stopped.flagged] == ["1:A2"]
+    assert stopped.wells[-1].outcome is Outcome.FAIL
+    assert stopped.touched_after_failure == ()
+    assert "A2 of plate" in stopped.detail
+
+
+def test_the_report_holds_the_four_frames_of_the_flagged_well(stopped):
+    page = dry_run_html([stopped])
+    flagged = stopped.flagged[0]
+    assert set(flagged.frames) == set(KeyframeKind)
+    assert page.count("data:image/jpeg;base64,") == 4 + len(flagged.close_ups)
+    assert "simulated" in page
+    assert "http" not in page.replace("http-equiv", "")
+
+
+def test_a_protocol_that_raises_tells_its_line():
+    broken = Script(TEXT + '    plate["Z1"]\n', "broken.py")
+    with pytest.raises(RehearsalError, match="line 12"):
+        dry_run(broken, DryRunSettings(), make_analyser())
+
+
+def test_a_fault_that_makes_no_sense_is_explained():
+    with pytest.raises(ConfigurationError, match="explode"):
+        dry_run(SCRIPT, DryRunSettings(faults=("explode@A1",)), make_analyser())
