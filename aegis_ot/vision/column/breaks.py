@@ -79,17 +79,18 @@ def _by_brightness(profile: TipProfile, step: float, inside: Mask) -> Break:
     if abs(step) < 0.05:
         return best
     for width in _widths(profile):
+        dip = -np.sign(step) * _against_flanks(brightness, width)
+        noise = 1.48 * float(np.median(np.abs(dip[rows] - np.median(dip[rows])))) + 0.01
         # What the background does behind a clear tip is no break in the column.
         behind = np.abs(_against_flanks(profile.background.astype(np.float64), width))
-        dip = -np.sign(step) * _against_flanks(brightness, width)
-        dip = np.sign(dip) * np.maximum(np.abs(dip) - behind, 0.0)
-        near = dip[rows]
-        noise = 1.48 * float(np.median(np.abs(near - np.median(near)))) + 0.01
+        behind = np.max([np.roll(behind, shift) for shift in (-2, 0, 2)], axis=0)
+        near = dip[rows] - 1.2 * behind[rows]
         row = int(rows[np.argmax(near)])
-        depth = float(dip[row] / abs(step))
+        depth = float(near.max() / abs(step))
         # A gap cannot be deeper than the tip is empty, and a ripple of a bright column is no
         # gap however quiet the column is.
-        strength = float((dip[row] - np.median(near)) / noise) * min(1.0, max(0.0, depth) / 0.4)
+        clear = float((near.max() - np.median(dip[rows])) / noise)
+        strength = clear * min(1.0, max(0.0, depth) / 0.4)
         if strength > best.strength:
             half = 0.5 * width * profile.pitch
             best = Break(

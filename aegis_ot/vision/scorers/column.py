@@ -26,6 +26,9 @@ _MOST_MISFILL = 7.0
 """Standard deviations beyond which a meniscus elsewhere is no surer a sign: it may be another
 edge."""
 
+_SHARED = 0.7
+"""Share of what a run's own normals show that is put down to the run: the rest was chance."""
+
 _DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 
 PRIORS: Mapping[str, Tail] = {
@@ -72,6 +75,7 @@ class ColumnScorer:
         self.models: dict[str, TipModel] = {}
         self.tails: dict[str, dict[str, Tail]] = {}
         self.run = RunReference()
+        self._own: dict[str, float] = {}
 
     def fit(self, normals: Sequence[TrajectorySample]) -> None:
         """Learn tip model and tails for each tip class.
@@ -84,7 +88,7 @@ class ColumnScorer:
         """
         if not normals:
             raise ValueError("no normal trajectories to learn from")
-        self.run = RunReference()
+        self.run, self._own = RunReference(), {}
         self.models, self.tails = {}, {}
         classes: dict[str, list[TrajectorySample]] = defaultdict(list)
         for sample in normals:
@@ -108,12 +112,22 @@ class ColumnScorer:
             self.tails[name]["absent"] = Tail(start, absent.scale)
 
     def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
-        """Take the reagent's colour and the menisci's places from a run's own normal wells."""
-        self.run = RunReference()
+        """Take the reagent's colour and the menisci's places from a run's own normal wells.
+
+        Also how far they themselves stick out: labware of a strong colour, or its edges behind
+        a clear tip, look a little like a column in every well of the run.
+        """
+        self.run, self._own = RunReference(), {}
         if not normals:
             return
         model = self._model(normals[0].pipette)
         self.run = learn_run([_weigh(sample, model, RunReference()) for sample in normals], model)
+        seen: dict[str, list[float]] = defaultdict(list)
+        for sample in normals:
+            for sign, value in _values(_weigh(sample, model, self.run), model).items():
+                if value is not None:
+                    seen[sign].append(value)
+        self._own = {sign: float(np.median(values)) for sign, values in seen.items()}
 
     def score(self, sample: TrajectorySample) -> float:
         """Surprise of one trajectory, nats, >= 0."""
@@ -128,9 +142,15 @@ class ColumnScorer:
         signs = _weigh(sample, model, self.run)
         tails = self.tails.get(name, PRIORS)
         surprises = {
-            sign: tails[sign].surprise(value) for sign, value in _values(signs, model).items()
+            sign: tails[sign].surprise(None if value is None else value - self._usual(sign, tails))
+            for sign, value in _values(signs, model).items()
         }
         return ColumnReport(float(sum(surprises.values())), surprises, signs)
+
+    def _usual(self, sign: str, tails: Mapping[str, Tail]) -> float:
+        """How much of a sign this run's wells show, where they clearly stick out."""
+        clear = tails[sign].start + 2 * tails[sign].scale
+        return _SHARED * max(self._own.get(sign, -np.inf) - clear, 0.0)
 
     def _model(self, pipette: str) -> TipModel:
         return self.models.get(pipette_class(pipette), TipModel())

@@ -25,6 +25,8 @@ NO_TIP = 40.0
 _DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 _LEAST_SCALE = 1.0
 
+_TAIL = 0.25
+
 _OVERLAP = 0.5
 """Weight of the patches: part of what they see, the column scorer has counted already."""
 
@@ -47,8 +49,9 @@ class EnsembleReport:
 class EnsembleScorer:
     """``-log p`` of column and patches together: surprises add up, as in Fisher's method.
 
-    The p-value of a sum x among the normals' sums is conformal within their range,
-    ``(1 + #{normals > x}) / (n + 1)``, and follows an exponential tail beyond it. It assumes
+    The p-value of a sum x among the normals' sums is ``(1 + #{normals > x}) / (n + 1)`` in the
+    lower three quarters and follows an exponential tail above: a few dozen normals have no
+    95th percentile of their own, and one of them may have been mislabelled. It assumes
     that this run's normals, seen in the light of its first ones, are exchangeable with the
     normals of the fit, seen in the light of another normal of their own plate. So a score over 3
     is a p-value under 0.05 in any run: one threshold serves all plates.
@@ -113,14 +116,17 @@ class EnsembleScorer:
         if known is None or len(known) == 0:
             return total
         n = len(known)
-        nats = -np.log((n + 1 - np.arange(n + 1)) / (n + 1))
-        places = np.concatenate(([0.0], known))
-        if total <= known[-1]:
+        start = float(np.quantile(known, 1 - _TAIL))
+        if total <= start:
             # Linear between the normals, so that no two trajectories tie without need.
-            return float(np.interp(total, places, nats))
-        quartile = float(np.quantile(known, 0.75))
-        scale = max(float(known[known >= quartile].mean()) - quartile, _LEAST_SCALE)
-        return float(nats[-1] + (total - known[-1]) / scale)
+            places = np.concatenate(([0.0], known))
+            nats = -np.log((n + 1 - np.arange(n + 1)) / (n + 1))
+            return float(min(np.interp(total, places, nats), -np.log(_TAIL)))
+        # The median excess of an exponential tail is log 2 times its scale, and does not mind
+        # one normal of the fit that was none.
+        over = known[known > start] - start
+        scale = float(np.median(over)) / np.log(2) if len(over) else 0.0
+        return float(-np.log(_TAIL) + (total - start) / max(scale, _LEAST_SCALE))
 
     def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
         """Arrays and settings for a model file."""
