@@ -99,9 +99,10 @@ def _rehearse_by_running(
         return call()
     with tapped(protocol, listeners, file_name) as tap:
         names = NameCollector(tap.wells, file_name)
-        with names.watching() if recorder is not None else nullcontext():
+        module = getattr(run, "__globals__", {})
+        with names.watching(module) if recorder is not None else nullcontext():
             result = _call_watched(call, watcher, tap)
-        names.look(getattr(run, "__globals__", {}), "<module>", 1)
+        names.look(module, "<module>", 1)
     layer1 = ""
     if recorder is not None:
         layer1 = _judge(recorder, names.bindings, protocol, settings, file_name)

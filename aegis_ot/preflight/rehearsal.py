@@ -78,7 +78,7 @@ def rehearse(
 
             def watched(run: Run) -> Run:
                 def run_with_names(given: Any) -> None:
-                    with names.watching():
+                    with names.watching(namespace):
                         run(given)
 
                 return run_with_names

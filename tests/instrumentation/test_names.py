@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import sys
 import time
 
 import pytest
 
+from aegis_ot.errors import RehearsalError
 from tests.support.rehearsing import ot2, run
 
 
@@ -63,3 +65,36 @@ def test_long_tables_cost_nothing():
     began = time.monotonic()
     run(ot2(body))
     assert time.monotonic() - began < 15  # 90 s when every row was looked at every time
+
+
+_PLAIN = """
+metadata = {"apiLevel": "2.15"}
+def run(protocol):
+    import sys
+    tips = protocol.load_labware("opentrons_96_tiprack_300ul", 1)
+    plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 2)
+    p300 = protocol.load_instrument("p300_single_gen2", "left", tip_racks=[tips])
+    before = plate["A1"]
+    p300.transfer(50, before, plate["A2"])
+    protocol.comment(f"hooked {sys.getprofile() is not None}")
+    after = plate["A3"]
+"""
+
+
+@pytest.mark.parametrize("helpers", [0, 1])
+def test_names_of_run_are_seen_to_its_end_with_and_without_the_hook(helpers):
+    """Without helpers nothing is hooked while the protocol runs: the hook is what costs."""
+    helper = "def helper(plate):\n    inner = plate['H12']\n"
+    text = _PLAIN.replace("    after =", "    helper(plate)\n    after =") if helpers else _PLAIN
+    heard, rehearsal = run(text + helper * helpers)
+    names = {(binding.function, binding.name) for binding in rehearsal.names}
+    assert {("run", "before"), ("run", "after")} <= names
+    assert (("helper", "inner") in names) == bool(helpers)
+    said = [event.text for event in heard.events if event.text.startswith("hooked")]
+    assert said == [f"hooked {bool(helpers)}"]
+
+
+def test_a_failing_run_leaves_no_hook_behind():
+    with pytest.raises(RehearsalError):
+        run(_PLAIN + "    raise ValueError('no')\n")
+    assert sys.getprofile() is None
