@@ -15,7 +15,7 @@ from typing import Any
 
 from pydantic import SecretStr
 
-from ..errors import AegisError, RehearsalError, RunAborted
+from ..errors import AegisError, ConfigurationError, RehearsalError, RunAborted
 from ..guard import guard
 from ..instrumentation import Event, Operation, OperationKind, tapped
 from ..preflight.checking import check_recording, is_rejected, rejection
@@ -96,6 +96,13 @@ def dry_run(
         settings.seed, settings.faults, _parameters(planner.keyframes, settings.seed)
     )
     camera.expect(planner.keyframes)
+    nowhere = camera.plan.unmatched(planner.keyframes)
+    if nowhere:
+        faults = ", ".join(str(fault) for fault in nowhere)
+        raise ConfigurationError(
+            f"{script.file_name} delivers nothing into the well of this fault: {faults}. Wells are "
+            "destinations, as B3 or 2:B3 (slot 2); #12 is the 12th delivery."
+        )
     progress.begin(planner.trajectories)
     begun = time.monotonic()
     outcome, detail, told, overview, frames = _run(script, settings, analyser, camera, progress)

@@ -68,3 +68,8 @@ def test_a_protocol_that_raises_tells_its_line():
 def test_a_fault_that_makes_no_sense_is_explained():
     with pytest.raises(ConfigurationError, match="explode"):
         dry_run(SCRIPT, DryRunSettings(faults=("explode@A1",)), make_analyser())
+
+
+def test_a_fault_in_a_well_that_gets_nothing_is_refused():
+    with pytest.raises(ConfigurationError, match="9:H9"):
+        dry_run(SCRIPT, DryRunSettings(faults=("partial:50@9:H9",)), make_analyser())
