@@ -1,0 +1,61 @@
+"""``python -m benchmarks [--only NAME ...] [DATASET ...]``: prints every figure, asserts none."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+# One core: before numpy and onnxruntime are loaded.
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+from .figure import Figure
+from .vision_data import folders
+
+GROUPS = ("guard", "keyframe", "import", "layer1", "camera", "vision", "quality")
+
+
+def main() -> None:
+    """Run what is asked for."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
+    parser.add_argument("datasets", nargs="*", type=Path, help="trajectory data sets to look at")
+    parser.add_argument("--only", nargs="+", choices=GROUPS, default=GROUPS)
+    asked = parser.parse_args()
+    begun = time.monotonic()
+    print("Processor time of one core unless a line says otherwise. Ratios are of runs in turns.")
+    with folders(asked.datasets if asked.datasets else ()) as datasets:
+        for name, run in _groups(datasets).items():
+            if name in asked.only:
+                print(f"\n{name}", flush=True)
+                for figure in run():
+                    print(figure.line(), flush=True)
+    print(f"\n{time.monotonic() - begun:.0f} s in all.")
+
+
+def _groups(datasets: list[Path]) -> dict[str, Callable[[], Iterator[Figure]]]:
+    from . import (
+        guard_overhead,
+        import_time,
+        keyframe_cost,
+        layer1_cost,
+        simulated_camera,
+        vision_cost,
+        vision_quality,
+    )
+
+    return {
+        "guard": guard_overhead.figures,
+        "keyframe": keyframe_cost.figures,
+        "import": import_time.figures,
+        "layer1": layer1_cost.figures,
+        "camera": simulated_camera.figures,
+        "vision": lambda: vision_cost.figures(datasets),
+        "quality": lambda: vision_quality.figures(datasets),
+    }
+
+
+if __name__ == "__main__":
+    main()
