@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import sys
 from typing import Any
 
@@ -42,6 +43,8 @@ _UsageError: Any = next(k for k in typer.BadParameter.__mro__ if k.__name__ == "
 
 def run() -> None:
     """Run the app; an error raised on purpose becomes one message and exit code 2."""
+    # A workstation has no robot's calibration files; Opentrons warns of that at every context.
+    logging.getLogger("opentrons").setLevel(logging.ERROR)
     try:
         sys.exit(app(standalone_mode=False))
     except _UsageError as error:

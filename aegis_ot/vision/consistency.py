@@ -91,6 +91,22 @@ class TipConsistency:
         self._heights.append(float(np.mean([one.orifice[1] for one in found])))
 
 
+def confirms(guess: TipDetection | None, partner: TipDetection, least: float) -> bool:
+    """Whether a detection below the detector's threshold is believable beside its partner.
+
+    Args:
+        guess: The likeliest tip in one free frame.
+        partner: The tip in the other free frame of the same trajectory.
+        least: Confidence below which nothing is believed; above any bare shaft's.
+    """
+    return (
+        guess is not None
+        and guess.confidence >= least
+        and abs(guess.length / partner.length - 1.0) <= _SAME_LENGTH
+        and abs(guess.orifice[1] - partner.orifice[1]) <= _REACH * partner.length
+    )
+
+
 def find_again(tip: TipDetection, here: Image, there: Image) -> TipDetection | None:
     """The tip of one frame in another in which it hangs at about the same place.
 

@@ -18,7 +18,7 @@ from .calibration import CalibrationSettings, CalibrationState, NormalPool
 from .camera import Frame
 from .cascade import Cascade, Triage
 from .column_reader import MeasuredColumns
-from .consistency import TipConsistency
+from .consistency import FREE, TipConsistency, confirms
 from .gates import (
     Case,
     ConfirmingGate,
@@ -34,6 +34,10 @@ from .types import Detector, Image, Scorer, TipDetection, TrajectorySample
 
 MOST_OPEN = 32
 """Trajectories whose frames are kept at once: one that is never judged must not fill memory."""
+
+_FAINT = 0.2
+"""Confidence of a faint tip that a clear one beside it confirms; a bare shaft stays below
+(0.19 at most on rendered frames)."""
 
 Evidence = Mapping[str, Any]
 Judged = tuple[Verdict, Evidence]
@@ -217,14 +221,27 @@ class RunAnalyser:
 
     def _settle(self, stream: _Stream, seen: _Open) -> None:
         """Put the detections right by the run's own tip, and look again where one changed."""
+        self._second_look(seen)
         settled = stream.tip.settle(seen.detections, seen.frames)
         for kind, detection in settled.items():
-            if detection is seen.detections[kind]:
+            if detection is seen.detections[kind] and (detection is None or kind in seen.looks):
                 continue
             seen.looks.pop(kind, None)
             if detection is not None:
                 self._look(stream, seen, kind, detection)
         seen.detections = settled
+
+    def _second_look(self, seen: _Open) -> None:
+        """Believe a faint tip in one free frame if the other shows the same one clearly."""
+        best_guess = getattr(self._monitor.detector, "best_guess", None)
+        for kind, other in (FREE, FREE[::-1]):
+            partner = seen.detections.get(other)
+            missing = kind in seen.frames and seen.detections.get(kind) is None
+            if best_guess is None or partner is None or not missing:
+                continue
+            guess = best_guess(seen.frames[kind])
+            if confirms(guess, partner, _FAINT):
+                seen.detections[kind] = guess
 
     def recall(self, history: Sequence[Judged]) -> None:
         """Restore the bands from what was judged before a restart."""

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from aegis_ot.vision.consistency import TipConsistency, find_again
+from aegis_ot.vision.consistency import TipConsistency, confirms, find_again
 from aegis_ot.vision.types import TipDetection
 from aegis_ot.vocabulary import KeyframeKind as K
 
@@ -83,3 +83,12 @@ def test_no_match_is_no_tip():
 
 def test_a_tip_at_the_edge_of_the_frame_is_not_looked_for():
     assert find_again(replace(tip(), collar=(3.0, 2.0)), frame(), frame()) is None
+
+
+def test_a_faint_tip_is_believed_beside_a_clear_one_alike():
+    faint = replace(tip(302.0, 158.0), confidence=0.24)
+    assert confirms(faint, tip(), 0.2)
+    assert not confirms(replace(faint, confidence=0.18), tip(), 0.2)
+    assert not confirms(replace(tip(collar=-40.0), confidence=0.24), tip(), 0.2)
+    assert not confirms(replace(tip(length=120.0), confidence=0.24), tip(), 0.2)
+    assert not confirms(None, tip(), 0.2)
