@@ -19,8 +19,9 @@ def in_child(module: str, *arguments: str) -> Any:
         [sys.executable, "-m", f"benchmarks.{module}", *arguments],
         cwd=_ROOT,
         env=environment,
-        stdout=subprocess.PIPE,
+        capture_output=True,  # Opentrons tells of missing settings on import
         text=True,
-        check=True,
     )
+    if done.returncode:
+        raise RuntimeError(f"benchmarks.{module} failed:\n{done.stderr}")
     return json.loads(done.stdout.splitlines()[-1])
