@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from .profile import TipProfile
 from .strip import Array
@@ -22,7 +23,8 @@ IMPOSSIBLE = -50.0
 
 _EDGE_EXPECTED = 2.2
 _EDGE_RANGE = (-1.5, 8.0)
-_COLOUR_RANGE = (-12.0, 50.0)
+_COLOUR_LEAST = -12.0
+_COLOUR_PLENTY = 30.0
 _ANY_COLOUR = 0.05
 _STEP_EXPECTED = 3.0
 _STEP_RANGE = (-2.0, 8.0)
@@ -128,13 +130,23 @@ class EmptyColour:
     blue_sd: float = 0.008
 
 
-_STRENGTHS = (0.1, 0.3, 0.6, 0.9, 1.2)
-_CHANCES = (0.05, 0.15, 0.3, 0.35, 0.15)
-"""How strongly a full column's colour shows in another frame, with another background."""
+Strengths = tuple[tuple[float, float], ...]
+
+ELSEWHERE: Strengths = ((0.1, 0.05), (0.3, 0.15), (0.6, 0.3), (0.9, 0.35), (1.2, 0.15))
+"""How strongly a full column's colour shows in a frame with another background, and how often."""
+
+ALIKE: Strengths = ((0.5, 0.15), (0.8, 0.35), (1.0, 0.35), (1.3, 0.15))
+"""The same for the keyframe in which the colour was learned."""
 
 
 def colour_evidence(
-    profile: TipProfile, dye: Dye | None, empty: EmptyColour, *, top: float, bottom: float = 0.97
+    profile: TipProfile,
+    dye: Dye | None,
+    empty: EmptyColour,
+    *,
+    top: float,
+    bottom: float = 0.97,
+    strengths: Strengths = ELSEWHERE,
 ) -> Array:
     """Ratio from colour.
 
@@ -145,6 +157,7 @@ def colour_evidence(
         empty: What an empty tip shows of itself.
         top: Where the free bore begins, u.
         bottom: Where the tip's end begins, u.
+        strengths: How strongly the dye may show.
     """
     steps = [long_step(profile.u, profile.colour[:, i], top, bottom) for i in (0, 1)]
     sizes = [
@@ -162,7 +175,7 @@ def colour_evidence(
             ratio += 0.5 * size**2 * (1 / variance - 1 / wider)
             known = np.isfinite(variance)
             ratio[known] -= 0.5 * np.log(wider[known] / variance[known])
-        return np.asarray(np.clip(ratio, *_COLOUR_RANGE), dtype=np.float32)
+        return _bounded(ratio)
     vector = dye.vector
     power = sum(v**2 / w for v, w in zip(vector, variances, strict=True))
     if not np.any(power > 0):
@@ -170,12 +183,16 @@ def colour_evidence(
     match = sum(v * s / w for v, s, w in zip(vector, sizes, variances, strict=True))
     # Beyond a power of 25 the noise is not what limits the match.
     soften = np.minimum(1.0, 25.0 / np.maximum(power, 1e-6))
-    terms = [
-        np.log(chance) + soften * a * (match - 0.5 * a * power)
-        for a, chance in zip(_STRENGTHS, _CHANCES, strict=True)
-    ]
+    terms = [np.log(chance) + soften * a * (match - 0.5 * a * power) for a, chance in strengths]
     ratio = np.logaddexp.reduce(np.stack(terms), axis=0)
-    return np.asarray(np.clip(ratio, *_COLOUR_RANGE), dtype=np.float32)
+    return _bounded(ratio)
+
+
+def _bounded(ratio: NDArray[np.float64]) -> Array:
+    """Beyond plenty a ratio counts for a tenth: bounded in effect, but rows never tie."""
+    over = np.maximum(ratio - _COLOUR_PLENTY, 0.0)
+    kept = np.minimum(ratio, _COLOUR_PLENTY) + 0.1 * np.minimum(over, 400.0)
+    return np.asarray(np.maximum(kept, _COLOUR_LEAST), dtype=np.float32)
 
 
 def edge_evidence(profile: TipProfile, slack: int = 2) -> Array:

@@ -22,6 +22,9 @@ from .trajectory import (
     Volumes,
 )
 
+_BLIND = 3e-3
+"""Chance per row that a frame's best meniscus is none: about one frame in two."""
+
 _SD = (0.004, 0.02)
 """Standard deviation of an empty tip's colour step: what a few dozen frames can prove, and what
 still tells anything."""
@@ -58,12 +61,13 @@ def learn_tip(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry) -
     empty = _empty_colour(trajectories, tip)
     blind = Reference(empty=empty)
     for _, look, volume in loaded:
-        evidence = np.clip(column_evidence(look, tip, blind) + step_evidence(look), 0.0, 15.0)
-        kernel = np.exp(-0.5 * (np.arange(-4, 5) / 1.5) ** 2)
-        smooth = np.convolve(evidence, kernel / kernel.sum(), mode="same")
+        evidence = (column_evidence(look, tip, blind) + step_evidence(look)).astype(np.float64)
+        chance = np.exp(np.clip(evidence - evidence.max(), -30.0, 0.0))
+        kernel = np.exp(-0.5 * (np.arange(-6, 7) / 2.0) ** 2)
+        chance = np.convolve(chance, kernel / kernel.sum(), mode="same")
         height = tip.height_of(volume) / tip.length_mm
-        votes += np.interp(1.0 - scales * height, look.u, smooth)
-    if not loaded or votes.max() <= 0:
+        votes += np.log(_BLIND + np.interp(1.0 - scales * height, look.u, chance / chance.sum()))
+    if not loaded or np.ptp(votes) <= 0:
         return TipModel(empty=empty)
     scale = float(scales[int(np.argmax(votes))])
     reference = Reference(empty=empty, height_scale=scale, height_sd=0.03)

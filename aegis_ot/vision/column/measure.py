@@ -12,9 +12,11 @@ from ..types import Image, TipDetection
 from .axis import rectify
 from .breaks import Break, find_break
 from .evidence import (
+    ELSEWHERE,
     IMPOSSIBLE,
     Dye,
     EmptyColour,
+    Strengths,
     colour_evidence,
     edge_evidence,
     long_step,
@@ -214,9 +216,16 @@ def column_evidence(profile: TipProfile, tip: TipGeometry, reference: Reference)
     return np.where(possible_tops(profile, tip), ratio, IMPOSSIBLE).astype(np.float32)
 
 
-def tip_colour_evidence(profile: TipProfile, tip: TipGeometry, reference: Reference) -> Array:
+def tip_colour_evidence(
+    profile: TipProfile,
+    tip: TipGeometry,
+    reference: Reference,
+    strengths: Strengths = ELSEWHERE,
+) -> Array:
     """Ratio from colour alone."""
-    return colour_evidence(profile, reference.dye, reference.empty, top=ceiling(tip))
+    return colour_evidence(
+        profile, reference.dye, reference.empty, top=ceiling(tip), strengths=strengths
+    )
 
 
 def possible_tops(profile: TipProfile, tip: TipGeometry) -> NDArray[np.bool_]:

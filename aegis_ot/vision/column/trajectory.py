@@ -15,6 +15,7 @@ import numpy as np
 from ...vocabulary import KeyframeKind
 from ..tips import TipGeometry
 from .evidence import (
+    ALIKE,
     IMPOSSIBLE,
     Dye,
     EmptyColour,
@@ -26,7 +27,6 @@ from .measure import (
     ColumnMeasurement,
     Reference,
     ceiling,
-    column_evidence,
     dye_at,
     expected_top,
     possible_tops,
@@ -34,7 +34,6 @@ from .measure import (
     tip_colour_evidence,
 )
 from .profile import TipProfile
-from .strip import Array
 
 LOADED = (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT)
 DELIVERED = (KeyframeKind.DISPENSE, KeyframeKind.POST_DISPENSE)
@@ -259,7 +258,7 @@ def _absent(
     if kind not in looks or volume <= 0 or dye is None or not _coloured(dye):
         return None
     look: TipProfile = looks[kind]
-    evidence: Array = column_evidence(look, tip, _reference(model, dye))
+    evidence = tip_colour_evidence(look, tip, _reference(model, dye), ALIKE)
     where = place(kind, volume, tip, model, run)
     near = np.abs(look.u - where) < 2 * NEAR
     return -float(evidence[near].max(initial=IMPOSSIBLE))

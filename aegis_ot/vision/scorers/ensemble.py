@@ -125,7 +125,8 @@ class EnsembleScorer:
         # The median excess of an exponential tail is log 2 times its scale, and does not mind
         # one normal of the fit that was none.
         over = known[known > start] - start
-        scale = float(np.median(over)) / np.log(2) if len(over) else 0.0
+        middle = float(np.quantile(over, 0.5, method="lower")) if len(over) else 0.0
+        scale = middle / np.log(2)
         return float(-np.log(_TAIL) + (total - start) / max(scale, _LEAST_SCALE))
 
     def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
