@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import os
 import time
 from collections.abc import Callable, Iterator
@@ -25,14 +26,20 @@ def main() -> None:
     parser.add_argument("--only", nargs="+", choices=GROUPS, default=GROUPS)
     asked = parser.parse_args()
     begun = time.monotonic()
-    print("Processor time of one core unless a line says otherwise. Ratios are of runs in turns.")
-    with folders(asked.datasets if asked.datasets else ()) as datasets:
+    print("Processor time, but keyframes by the clock. Ratios are of runs in turns.")
+    print(f"{os.cpu_count()} cores, load before the start {_load()}.", flush=True)
+    looks = bool({"vision", "quality"} & set(asked.only))
+    with folders(asked.datasets) if looks else contextlib.nullcontext([]) as datasets:
         for name, run in _groups(datasets).items():
             if name in asked.only:
                 print(f"\n{name}", flush=True)
                 for figure in run():
                     print(figure.line(), flush=True)
     print(f"\n{time.monotonic() - begun:.0f} s in all.")
+
+
+def _load() -> str:
+    return f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
 
 
 def _groups(datasets: list[Path]) -> dict[str, Callable[[], Iterator[Figure]]]:

@@ -203,7 +203,10 @@ def _wells_under(info: LabwareInfo, target: str, nozzles: Nozzles) -> tuple[str 
         shift_x = sum(x for x, _ in nozzles.offsets) / len(nozzles.offsets)
         shift_y = sum(y for _, y in nozzles.offsets) / len(nozzles.offsets)
     return tuple(
-        _well_at(info, aim.x + x - shift_x, aim.y + y - shift_y) for x, y in nozzles.offsets
+        target
+        if x == shift_x and y == shift_y
+        else _well_at(info, aim.x + x - shift_x, aim.y + y - shift_y)
+        for x, y in nozzles.offsets
     )
 
 

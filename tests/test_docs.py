@@ -1,0 +1,61 @@
+"""What the documentation says of settings and commands is what the code has."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import fields
+from pathlib import Path
+
+import pytest
+
+from aegis_ot.settings import Settings
+from aegis_ot.sidecar.config import ENVIRONMENT, SidecarConfig
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
+
+
+def rows(text: str) -> dict[str, str]:
+    """Default by setting, from the tables."""
+    return dict(re.findall(r"^\| `(\w+)` \| (.*?) \|", text, re.MULTILINE))
+
+
+def test_every_setting_of_the_guard_is_there_with_its_default():
+    text = (ROOT / "docs" / "settings.md").read_text(encoding="utf-8")
+    told = rows(text[: text.index("## Sidecar")])
+    assert set(told) == {field.name for field in fields(Settings)}
+    for name, default in told.items():
+        value = getattr(Settings(), name)
+        if not value and not isinstance(value, bool):
+            assert default == "none"
+        else:
+            shown = f'"{value}"' if isinstance(value, str) else str(value).lower()
+            assert default == f"`{shown}`"
+
+
+def test_every_setting_of_the_sidecar_is_there():
+    text = (ROOT / "docs" / "settings.md").read_text(encoding="utf-8")
+    text = text[text.index("## Sidecar") :]
+    for variable, place in ENVIRONMENT.items():
+        assert f"| `{variable}` | `{'.'.join(place)}` |" in text
+    for name, field in SidecarConfig.model_fields.items():
+        inner = getattr(field.annotation, "model_fields", None)
+        part = text.split(f"### `[{name}]`")[1].split("###")[0] if inner else text
+        for setting in inner or [name]:
+            assert setting in rows(part)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_and_named_files_exist(page):
+    text = page.read_text(encoding="utf-8")
+    for link in re.findall(r"\]\(([^)#]+)", text):
+        if not link.startswith("http"):
+            assert (page.parent / link).exists(), link
+    for path in re.findall(r"(?<![\w/])examples/[\w./-]+\w", text):
+        assert (ROOT / path).exists(), path
+
+
+def test_the_readme_shows_the_example_as_it_is():
+    example = (ROOT / "examples" / "demo" / "hello_guard.py").read_text(encoding="utf-8")
+    code = example[example.index("from aegis_ot") :]
+    assert code in (ROOT / "README.md").read_text(encoding="utf-8")
