@@ -57,6 +57,8 @@ class Look:
 
     profile: TipProfile
     tip: TipGeometry
+    light: float = 0.0
+    """Median brightness of the whole frame: the pipette covers little of it."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,8 @@ class _Found:
         place: Where the expected column should end, tip lengths below the collar.
         near: Largest raw evidence about there; minus infinity where nothing is expected.
         row: Row of the largest evidence elsewhere.
-        witness: Largest evidence about there in the ASPIRATE frame, if it shows the same column.
+        witness: Largest evidence about there in the ASPIRATE frame, where that has to stand in
+            for a frame at another exposure.
     """
 
     look: Look
@@ -100,7 +103,7 @@ class MeasuredColumns:
         self._near: list[tuple[float, float]] = []
         self._stray: dict[KeyframeKind, list[float]] = {}
         self._gaps: list[tuple[float, float]] = []
-        self._witness: list[float] = []
+        self._lights: list[float] = []
         self._usual: dict[KeyframeKind, list[Rows]] = {}
 
     def share_tip(self, other: object) -> None:
@@ -110,7 +113,8 @@ class MeasuredColumns:
 
     def look(self, view: TipView) -> Look:
         # Shared with the scorers: each frame is straightened once.
-        return Look(look(view.image, view.detection, view.pipette).profile, view.tip)
+        profile = look(view.image, view.detection, view.pipette).profile
+        return Look(profile, view.tip, float(np.median(view.image[::16, ::16])))
 
     def read(
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
@@ -127,13 +131,12 @@ class MeasuredColumns:
     ) -> None:
         for kind, found in self._find(looks, expected).items():
             volume = expected.get(kind, 0.0)
+            _keep(self._lights, found.look.light)
             rows = found.raw.copy()
             u = found.measured.profile.u
             if volume > 0:
                 rows[np.abs(u - found.place) < 2 * _NEAR] = np.nan
                 _keep(self._near, (volume, found.near))
-                if found.witness is not None:
-                    _keep(self._witness, found.witness)
                 self._learn_height(found, volume)
                 _keep(self._dyes, found.measured.dye)
                 if found.measured.gap is not None:
@@ -190,10 +193,16 @@ class MeasuredColumns:
                 elsewhere = ~close
             row = int(np.argmax(np.where(elsewhere, evidence, -np.inf)))
             witness = None
-            if volume > 0 and kind is KeyframeKind.TRANSIT:
+            if volume > 0 and self._off_exposure(first):
                 witness = self._at_aspirate(looks, expected, volume, place, reference)
             found[kind] = _Found(first, measured, evidence, raw, place, near, row, witness)
         return found
+
+    def _off_exposure(self, look: Look) -> bool:
+        if len(self._lights) < _ENOUGH:
+            return False
+        ratio = look.light / max(float(np.median(self._lights)), 1.0)
+        return not 1 / 1.4 < ratio < 1.4
 
     def _at_aspirate(
         self,
@@ -252,7 +261,7 @@ class MeasuredColumns:
             return _SEEN_AT_FIRST
         # Not the largest: a failed well that passed unseen must not blind the reader for good.
         most = max(_SEEN, float(np.percentile(stray, 95)) + 4.0)
-        # A column left over shows about as well as a full one.
+        # A column left over shows less than a full one, but of that order.
         most = max(most, 0.5 * float(np.median([near for _, near in self._near] or [0.0])))
         # A handful of wells has not shown the worst that is normal here.
         return most + (_SEEN_AT_FIRST - _SEEN) / len(stray)
@@ -275,16 +284,15 @@ class MeasuredColumns:
         if len(alike) >= _ENOUGH:
             middle = float(np.median(alike))
             weakest = min(alike) - 1.0 - 0.5 * (middle - min(alike))
-        if found.near >= min(weakest, 3.0) or found.near >= strongest:
+        blank = clear and found.near < 0
+        if found.near >= min(weakest, 3.0) or (found.near >= strongest and not blank):
             close = np.abs(u - found.place) < _NEAR
             return float(u[int(np.argmax(np.where(close, found.raw, -np.inf)))])
         if strongest >= max(seen, found.near + seen):
             return float(u[found.row])
-        if found.witness is not None and len(self._witness) >= _ENOUGH:
-            # One frame can be overexposed or blurred: an empty tip looks empty in both.
-            usual = float(np.percentile(self._witness, 25))
-            if found.witness >= max(usual, _SEEN):
-                return found.place
+        if found.witness is not None:
+            # A camera overexposes a frame now and then, and nothing is to be seen in it.
+            return found.place if found.witness >= _SEEN else None
         return 1.0 if clear and len(alike) >= _ENOUGH and found.near < 0 else None
 
     @property
