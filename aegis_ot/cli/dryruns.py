@@ -102,7 +102,7 @@ class _Shown(Progress):
 def show(result: DryRun) -> None:
     """Print a finished dry run."""
     if result.report is not None:
-        console.print(Text(f"Layer 1: {summary(result.report)}"))
+        console.print(Text(summary(result.report)))
     if result.outcome == "rejected":
         console.print(Text(result.detail, style="red"))
         console.print(f"{result.protocol}: rejected before anything moved.")
