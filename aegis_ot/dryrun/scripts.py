@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
+from ..checking.files import read_labware, read_protocol, read_values
 from ..errors import ConfigurationError
 from ..preflight.script import Script
 
@@ -17,51 +16,18 @@ def read_script(path: Path, labware: Sequence[Path] = (), parameters: Sequence[s
     Args:
         path: The protocol file.
         labware: Folders (or files) with custom labware definitions.
-        parameters: Runtime parameters as ``NAME=VALUE``; a value is read as JSON where it is
-            JSON (``4``, ``true``, ``2.5``), else as text.
+        parameters: Runtime parameters as ``NAME=VALUE``.
 
     Raises:
-        ConfigurationError: A file cannot be read, or a parameter has no ``=``.
+        ConfigurationError: A file cannot be read, or a parameter is not written so.
     """
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigurationError(f"Cannot read the protocol {path}: {error}") from error
+        text = read_protocol(path)
+    except ConfigurationError as error:
+        raise ConfigurationError(f"Cannot read the protocol {path}: {error}") from None
     return Script(
         text=text,
         file_name=path.name,
-        parameters=dict(_parameter(item) for item in parameters),
-        extra_labware=_definitions(labware),
+        parameters=read_values(parameters),
+        extra_labware=read_labware(labware),
     )
-
-
-def _parameter(item: str) -> tuple[str, Any]:
-    name, equals, value = item.partition("=")
-    if not equals or not name:
-        raise ConfigurationError(f"Runtime parameter {item!r}: write it as NAME=VALUE.")
-    try:
-        return name, json.loads(value)
-    except ValueError:
-        return name, value
-
-
-def _definitions(places: Sequence[Path]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for place in places:
-        files = sorted(place.rglob("*.json")) if place.is_dir() else [place]
-        if not files:
-            raise ConfigurationError(f"No labware definition (*.json) in {place}.")
-        for file in files:
-            try:
-                definition = json.loads(file.read_text(encoding="utf-8"))
-                uri = "{}/{}/{}".format(
-                    definition["namespace"],
-                    definition["parameters"]["loadName"],
-                    definition["version"],
-                )
-            except (OSError, UnicodeDecodeError, ValueError, KeyError, TypeError) as error:
-                raise ConfigurationError(
-                    f"{file} is no Opentrons labware definition: {type(error).__name__}: {error}"
-                ) from error
-            found[uri] = definition
-    return found

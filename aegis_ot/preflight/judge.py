@@ -115,29 +115,6 @@ class Report:
     notes: tuple[str, ...] = ()
     lines: tuple[str, ...] = ()
 
-    @property
-    def failed(self) -> bool:
-        """Whether errors stand."""
-        return self.verdict in (VerdictWord.FAIL, VerdictWord.ERROR)
-
-    def summary(self) -> str:
-        """One line for a run log."""
-        if not self.findings:
-            return f"{self.file}: no rule is broken ({self.family})."
-        count = len(self.findings)
-        rules = ", ".join(dict.fromkeys(finding.rule for finding in self.findings))
-        return f"{self.file}: {count} finding{'s' if count > 1 else ''}: {rules}."
-
-    def rejection(self) -> str:
-        """Why the protocol must not run: every error with rule, wells and lines."""
-        errors = [f for f in self.findings if f.severity is Severity.ERROR]
-        parts = [
-            f"{finding.rule}: {finding.message} Lines {_listed(finding.lines)}; "
-            f"wells {_listed(ref.address for ref in finding.wells)}. {finding.fix}"
-            for finding in errors
-        ]
-        return f"Layer 1 rejects {self.file}.\n" + "\n".join(parts)
-
 
 def judge(recording: Recording, database: Database, options: Options | None = None) -> Report:
     """Judge a recorded protocol by all rules in force.
@@ -408,11 +385,6 @@ def _first_statement(text: str) -> int:
         if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
             return node.lineno
     return len(text.splitlines()) + 1
-
-
-def _listed(items: Iterable[object]) -> str:
-    shown = [str(item) for item in items]
-    return ", ".join(shown[:12]) + (f" and {len(shown) - 12} more" if len(shown) > 12 else "")
 
 
 def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:
