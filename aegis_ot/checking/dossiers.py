@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..preflight import Options, Report
-from ..preflight.dossier import Dossier, check_with_dossier
+from ..preflight.dossier import Dossier
+from ..preflight.dossier_making import check_with_dossier
 from ..preflight.script import Script
 from .rehearser import Rehearser
 from .tasks import Check, RulePaths, _database

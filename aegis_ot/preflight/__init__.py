@@ -23,6 +23,7 @@ __all__ = [
     "check_script",
     "judge",
     "load_database",
+    "record",
 ]
 
 
@@ -65,11 +66,19 @@ def check_script(
         RehearsalError: It cannot be rehearsed.
         RuleError: A rule file cannot be used.
     """
+    return judge(record(script, timeout_s), database or load_database(), options)
+
+
+def record(script: Script, timeout_s: float = 120.0) -> Recording:
+    """Rehearse a protocol.
+
+    Raises:
+        RehearsalError: It cannot be rehearsed.
+    """
     from .rehearsal import rehearse
 
     recorder = Recorder()
     rehearsal = rehearse(script, [recorder], timeout_s=timeout_s)
-    recording = Recording(
+    return Recording(
         script.file_name, script.text, recorder.log, rehearsal.labware, rehearsal.names
     )
-    return judge(recording, database or load_database(), options)

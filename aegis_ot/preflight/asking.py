@@ -19,9 +19,11 @@ from urllib.parse import urlsplit
 from ..instrumentation import NameBinding
 from ..settings import Settings
 from ..vocabulary import Undecided, from_json
-from .dossier import Dossier, make_dossier
+from .dossier import Dossier
+from .dossier_making import make_dossier
 from .judge import Options, Recording, Report, judge
-from .opinion import MODEL, Opinion, merge, options_with_roles
+from .merging import merge, options_with_roles
+from .opinion import MODEL, Opinion
 from .recorder import Recorder
 from .rulefiles import load_database
 

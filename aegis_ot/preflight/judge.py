@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import gc
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -21,7 +20,7 @@ from .roles import Roles, assign_roles, derive, implied_contents, settle_diluent
 from .rulefiles import Common, Database, Family, RuleSpec
 from .source import SourceFacts, read_source
 from .trace import Trace, build_trace
-from .waivers import Waived, apply_waivers, read_waivers
+from .waivers import Waived, apply_waivers, first_statement, read_waivers
 from .words import Lexicon
 
 
@@ -291,7 +290,7 @@ class _Judge:
             for finding in _join(rule, violations, severity)
         ]
         findings.sort(key=lambda finding: (min(finding.lines, default=0), finding.rule))
-        waivers = read_waivers(self._facts, _first_statement(self._recording.text))
+        waivers = read_waivers(self._facts, first_statement(self._recording.text))
         standing, waived, notes = apply_waivers(findings, waivers)
         conflicts = dict.fromkeys(note for roles in self._roles for note in roles.conflicts)
         notes += [f"Evidence conflicts for {note}" for note in conflicts]
@@ -374,17 +373,6 @@ def _without_replaced(found: Sequence[Judged]) -> list[Judged]:
         )
         for rule, severity, violations in found
     ]
-
-
-def _first_statement(text: str) -> int:
-    try:
-        body = ast.parse(text).body
-    except (SyntaxError, ValueError):
-        return 1
-    for node in body:
-        if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
-            return node.lineno
-    return len(text.splitlines()) + 1
 
 
 def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:

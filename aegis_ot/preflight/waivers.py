@@ -7,6 +7,7 @@ covers nothing is stale and is reported.
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -74,6 +75,26 @@ def read_waivers(facts: SourceFacts, first_statement: int) -> list[Waiver]:
     return found
 
 
+def first_statement(text: str) -> int:
+    """The line where a protocol's code begins, after comments and docstring."""
+    try:
+        body = ast.parse(text).body
+    except (SyntaxError, ValueError):
+        return 1
+    for node in body:
+        if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
+            return node.lineno
+    return len(text.splitlines()) + 1
+
+
+def stale(waiver: Waiver) -> str:
+    """The note on a waiver that covers nothing."""
+    return (
+        f"The waiver of {', '.join(waiver.rules)} at line {waiver.line} is stale: "
+        "nothing is found there."
+    )
+
+
 def _next_code(facts: SourceFacts, line: int) -> int:
     line += 1
     while line in facts.own_line:
@@ -105,9 +126,5 @@ def apply_waivers(
             used.add(cover.line)
             waived.append(Waived(finding, cover))
     problems = [f"The waiver at line {w.line} {w.problem}." for w in waivers if w.problem]
-    problems += [
-        f"The waiver of {', '.join(w.rules)} at line {w.line} is stale: nothing is found there."
-        for w in waivers
-        if not w.problem and w.line not in used
-    ]
+    problems += [stale(w) for w in waivers if not w.problem and w.line not in used]
     return standing, waived, problems

@@ -1,7 +1,7 @@
 """The form in which a model answers about a protocol.
 
 Equal for all protocols, so that it stands in the cached prefix; which rules, wells and lines
-exist is checked afterwards (:func:`aegis_ot.preflight.opinion.read_opinion`). Every member is
+exist is checked afterwards (:mod:`aegis_ot.preflight.opinion_reading`). Every member is
 required and nothing else allowed: what the strict modes of the services ask for.
 """
 

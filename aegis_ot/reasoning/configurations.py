@@ -19,13 +19,9 @@ from enum import Enum
 
 from ..preflight import Database, Options, Report
 from ..preflight.dossier import Dossier
-from ..preflight.opinion import (
-    MODEL,
-    Opinion,
-    merge,
-    options_with_roles,
-    read_opinion,
-)
+from ..preflight.merging import merge, options_with_roles
+from ..preflight.opinion import MODEL, Opinion
+from ..preflight.opinion_reading import read_opinion
 from ..vocabulary import Severity, Undecided, VerdictWord
 from .backend import Backend, Reply, Request, State, Usage
 from .layer1_prompt import blind_request, hybrid_request, llm_only_request
@@ -86,7 +82,7 @@ def judge_in(
     Args:
         configuration: Which.
         report: What the checks say.
-        dossier: From :func:`aegis_ot.preflight.dossier.check_with_dossier`.
+        dossier: From :func:`aegis_ot.preflight.dossier_making.check_with_dossier`.
         database: The rules.
         backend: Whom to ask; not needed for ``rules-only``.
         options: How the checks judged.

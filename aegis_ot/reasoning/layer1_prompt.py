@@ -11,7 +11,8 @@ from __future__ import annotations
 import hashlib
 import re
 
-from ..preflight.dossier import Dossier, rule_text
+from ..preflight.dossier import Dossier
+from ..preflight.dossier_making import rule_text
 from ..preflight.rulefiles import Database
 from .answer import ANSWER_SCHEMA, BLIND_SCHEMA
 from .backend import Message, Passage, Request

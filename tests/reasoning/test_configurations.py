@@ -102,7 +102,7 @@ def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-
     import json
 
     from aegis_ot.preflight import load_database
-    from aegis_ot.preflight.dossier import check_with_dossier
+    from aegis_ot.preflight.dossier_making import check_with_dossier
     from aegis_ot.preflight.rulefiles import shipped_rules
 
     family = json.loads((shipped_rules() / "generic.json").read_text())

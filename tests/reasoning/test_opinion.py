@@ -8,7 +8,9 @@ import pytest
 
 from aegis_ot.preflight import Options, Report
 from aegis_ot.preflight.dossier import Dossier
-from aegis_ot.preflight.opinion import merge, read_opinion, unanswered
+from aegis_ot.preflight.merging import merge
+from aegis_ot.preflight.opinion import unanswered
+from aegis_ot.preflight.opinion_reading import read_opinion
 from aegis_ot.reasoning import Judgement, ScriptedBackend, State, judge_in
 from aegis_ot.vocabulary import Severity, VerdictWord, from_json, to_json
 
@@ -147,7 +149,7 @@ def test_rules_that_the_user_left_out_stay_out() -> None:
 
 
 def _with(options: Options) -> tuple[Report, Dossier]:
-    from aegis_ot.preflight.dossier import check_with_dossier
+    from aegis_ot.preflight.dossier_making import check_with_dossier
     from aegis_ot.preflight.script import Script
 
     return check_with_dossier(Script(SILENT, "protocol.py"), database(), options)
