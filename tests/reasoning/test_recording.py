@@ -11,6 +11,7 @@ import pytest
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.reasoning import (
     AnthropicBackend,
+    Manner,
     RecordingBackend,
     ReplayBackend,
     ScriptedBackend,
@@ -42,7 +43,7 @@ def test_what_was_recorded_is_replayed(tmp_path: Path) -> None:
 
 def test_a_recording_of_a_service_holds_no_secret(tmp_path: Path, server: WireServer) -> None:
     server.answers = [Answer(body=anthropic_message(GOOD), headers={"x-secret": KEY})]
-    live = AnthropicBackend("m", server.url, key=KEY, trust_env=False)
+    live = AnthropicBackend("m", server.url, manner=Manner(KEY, trust_env=False))
     RecordingBackend(live, tmp_path).ask(request())
     text = "".join(p.read_text() for p in tmp_path.rglob("*.json"))
     assert KEY not in text
@@ -72,7 +73,7 @@ def test_answers_of_several_models_are_told_apart(tmp_path: Path, server: WireSe
         server.seen.clear()
         body = anthropic_message(GOOD) | {"model": model}
         server.answers = [Answer(body=body)]
-        live = AnthropicBackend(model, server.url, key=KEY, trust_env=False)
+        live = AnthropicBackend(model, server.url, manner=Manner(KEY, trust_env=False))
         RecordingBackend(live, tmp_path).ask(request())
     unsure = ReplayBackend(tmp_path).ask(request())
     assert unsure.state is State.NOT_RECORDED

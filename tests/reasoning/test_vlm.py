@@ -13,6 +13,7 @@ import pytest
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.reasoning import (
     AnthropicBackend,
+    Manner,
     Picture,
     RecordingBackend,
     ReplayBackend,
@@ -161,7 +162,7 @@ def test_pictures_reach_a_service_and_replay_from_a_folder(
 ) -> None:
     answer = said("pass", "fail", "pass", routine_failure="no_tip")
     server.answers = [Answer(body=anthropic_message(answer, tool="gate"))]
-    live = AnthropicBackend("m", server.url, key="sk-test-123456", trust_env=False)
+    live = AnthropicBackend("m", server.url, manner=Manner("sk-test-123456", trust_env=False))
     first = VlmGate(RecordingBackend(live, tmp_path)).examine(case())
     blocks = server.seen[0].body["messages"][0]["content"]
     data = [base64.b64decode(b["source"]["data"]) for b in blocks if b["type"] == "image"]

@@ -12,7 +12,15 @@ from typing import Any
 
 import pytest
 
-from aegis_ot.reasoning import AnthropicBackend, Backend, OpenAIBackend, Patience, Reply, State
+from aegis_ot.reasoning import (
+    AnthropicBackend,
+    Backend,
+    Manner,
+    OpenAIBackend,
+    Patience,
+    Reply,
+    State,
+)
 
 from .samples import GOOD, PNG, FakeClock, request
 from .wire_server import (
@@ -40,7 +48,9 @@ class Service:
     def backend(self, url: str, **options: Any) -> Backend:
         base = url if self.name == "anthropic" else f"{url}/v1"
         values: dict[str, Any] = {"key": KEY, "trust_env": False, "clock": FakeClock()}
-        return self.make("some-model", base, **(values | options))
+        for name in [name for name in options if name in Manner.__dataclass_fields__]:
+            values[name] = options.pop(name)
+        return self.make("some-model", base, **options, manner=Manner(**values))
 
 
 SERVICES = [
@@ -93,7 +103,7 @@ def test_openais_key_stays_with_openai(server: WireServer, monkeypatch: pytest.M
     monkeypatch.setenv("OPENAI_API_KEY", KEY)
     monkeypatch.setenv("OPENAI_ORG_ID", "org-secret")
     server.answers = [Answer(body=openai_completion(json.dumps(GOOD)))]
-    backend = OpenAIBackend("m", f"{server.url}/v1", trust_env=False)
+    backend = OpenAIBackend("m", f"{server.url}/v1", manner=Manner(trust_env=False))
     assert backend.ask(request()).answered
     assert KEY not in json.dumps(server.seen[0].headers)
     assert "org-secret" not in json.dumps(server.seen[0].headers)

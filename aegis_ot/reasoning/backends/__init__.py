@@ -6,11 +6,13 @@ from .openai_api import OpenAIBackend
 from .recording import RecordingBackend, ReplayBackend
 from .retrying import Clock, Patience
 from .scripted import ScriptedBackend
+from .service import Manner
 
 __all__ = [
     "MODEL_VARIABLE",
     "AnthropicBackend",
     "Clock",
+    "Manner",
     "OpenAIBackend",
     "Patience",
     "RecordingBackend",

@@ -12,10 +12,11 @@ from urllib.parse import parse_qsl, urlsplit
 
 from ...errors import ConfigurationError
 from ..backend import Backend
-from .anthropic_api import KEY_VARIABLES, AnthropicBackend
+from .anthropic_api import AnthropicBackend
 from .openai_api import OpenAIBackend
 from .recording import RecordingBackend, ReplayBackend
 from .retrying import Patience
+from .service import Manner
 
 MODEL_VARIABLE = "AEGIS_OT_MODEL"
 RECORD_VARIABLE = "AEGIS_OT_MODEL_RECORD"
@@ -68,36 +69,20 @@ def _service(
     kind: str, rest: str, options: dict[str, str], timeout_s: float | None, trust_env: bool
 ) -> Backend:
     model, url = _split_url(rest)
-    patience = Patience(
-        timeout_s=_number(options, "timeout", timeout_s or Patience.timeout_s),
-        attempts=int(_number(options, "attempts", Patience.attempts)),
-    )
-    temperature = _number(options, "temperature", 0.0) if "temperature" in options else None
-    keys = (options["key"],) if "key" in options else None
-    # Models that think before they answer need room for both.
-    output = int(_number(options, "output", 0, 200_000)) or None
-    if kind == "anthropic":
-        return AnthropicBackend(
-            model,
-            url,
-            structured=options.get("structured", "tool"),
-            patience=patience,
-            temperature=temperature,
-            trust_env=trust_env,
-            output=output,
-            key_variables=keys or KEY_VARIABLES,
-        )
-    return OpenAIBackend(
-        model,
-        url,
-        structured=options.get("structured"),
-        limit=options.get("limit"),
-        patience=patience,
-        temperature=temperature,
+    manner = Manner(
+        patience=Patience(
+            timeout_s=_number(options, "timeout", timeout_s or Patience.timeout_s),
+            attempts=int(_number(options, "attempts", Patience.attempts)),
+        ),
+        temperature=_number(options, "temperature", 0.0) if "temperature" in options else None,
         trust_env=trust_env,
-        output=output,
-        key_variables=keys,
+        output=int(_number(options, "output", 0, 200_000)) or None,
     )
+    keys = (options["key"],) if "key" in options else None
+    structured = options.get("structured")
+    if kind == "anthropic":
+        return AnthropicBackend(model, url, structured, keys, manner)
+    return OpenAIBackend(model, url, structured, options.get("limit"), keys, manner)
 
 
 def _split_url(rest: str) -> tuple[str, str | None]:

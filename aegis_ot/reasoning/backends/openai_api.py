@@ -15,10 +15,9 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from ...errors import ConfigurationError
-from ..backend import Message, Picture, Reply, Request, State, Usage
-from ..schema import read_answer
-from .keys import GENERIC, key_from, one_line, without
-from .retrying import Clock, Patience, Trouble, ask_patiently, trouble_of_status
+from ..backend import Message, Picture, Request, Usage
+from .keys import GENERIC
+from .service import Manner, ServiceBackend, Written, count, member
 
 STRUCTURED = ("json_schema", "tool", "guided_json", "json_object")
 _OPENAI = "https://api.openai.com/v1"
@@ -56,44 +55,33 @@ PROFILES = {
 """By host; any other host is taken as a server of the user's own."""
 
 
-class OpenAIBackend:
+class OpenAIBackend(ServiceBackend):
     """Asks an OpenAI-compatible server.
 
     Args:
         model: As the server names it.
         base_url: Up to and with ``/v1``; ``None``: OpenAI itself.
-        key: The key; ``None``: from the environment, see :data:`PROFILES`. OpenAI's own key goes
-            to OpenAI only.
         structured: See :class:`Profile`; ``None``: the profile's.
         limit: Name of the length limit; ``None``: the profile's.
-        patience: How long and how often.
-        temperature: Sent if given; reasoning models refuse it.
-        trust_env: Whether the HTTP client may use the proxies of the environment.
-        clock: Time.
-        output: Longest answer, tokens, instead of what the request says: models that think
-            before they answer need room for both.
         key_variables: Environment variables that may hold the key; ``None``: the profile's.
+            OpenAI's own key goes to OpenAI only.
+        manner: How to ask.
     """
+
+    package = "openai"
 
     def __init__(
         self,
         model: str,
         base_url: str | None = None,
-        key: str | None = None,
         structured: str | None = None,
         limit: str | None = None,
-        patience: Patience | None = None,
-        temperature: float | None = None,
-        trust_env: bool = True,
-        clock: Clock | None = None,
-        output: int | None = None,
         key_variables: tuple[str, ...] | None = None,
+        manner: Manner | None = None,
     ) -> None:
-        self.name = f"openai:{model}" + (f"@{base_url}" if base_url else "")
-        self.model = model
         self._base_url = base_url or _OPENAI
-        self._host = urlsplit(self._base_url).hostname or self._base_url
-        profile = PROFILES.get(self._host, Profile())
+        host = urlsplit(self._base_url).hostname or self._base_url
+        profile = PROFILES.get(host, Profile())
         self._structured = structured or profile.structured
         if self._structured not in STRUCTURED:
             raise ConfigurationError(
@@ -101,71 +89,31 @@ class OpenAIBackend:
                 f"of {', '.join(STRUCTURED)}."
             )
         self._limit = limit or profile.limit
-        self._key = key
-        self._key_variables = key_variables or profile.keys
         self._strict = {"strict": True} if profile.strict else {}
-        self._needs_key = profile.needs_key or key_variables is not None
-        self._patience = patience or Patience()
-        self._temperature = temperature
-        self._trust_env = trust_env
-        self._clock = clock or Clock()
-        self._output = output
-        self._client: Any = None
-
-    def ask(self, request: Request) -> Reply:
-        """Answer one request; see :class:`~aegis_ot.reasoning.backend.Backend`."""
-        key = self._key if self._key is not None else key_from(self._key_variables)
-        if not key and self._needs_key:
-            return Reply(
-                State.NO_KEY,
-                self.model,
-                detail=f"Set {' or '.join(self._key_variables)} to ask {self.name}.",
-                attempts=0,
-            )
-        return ask_patiently(
-            lambda left: self._attempt(request, key, left), self.model, self._patience, self._clock
+        super().__init__(
+            f"openai:{model}" + (f"@{base_url}" if base_url else ""),
+            model,
+            host,
+            key_variables or profile.keys,
+            profile.needs_key or key_variables is not None,
+            manner or Manner(),
         )
 
-    def _attempt(self, request: Request, key: str, left: float) -> Reply:
-        sdk = _sdk()
-        try:
-            answer = self._connected(sdk, key).chat.completions.create(
-                **self._arguments(request), timeout=left
-            )
-        except sdk.APITimeoutError:
-            raise Trouble(
-                State.TIMEOUT, f"{self._host} gave no answer in {self._patience.timeout_s:g} s."
-            ) from None
-        except sdk.APIConnectionError as error:
-            cause = type(error.__cause__ or error).__name__
-            raise Trouble(
-                State.UNAVAILABLE, f"{self._host} cannot be reached ({cause}).", True
-            ) from None
-        except sdk.APIStatusError as error:
-            said = without(key, one_line(error.message))
-            raise trouble_of_status(
-                self._host, error.status_code, said, error.response.headers
-            ) from None
-        except (sdk.OpenAIError, ValueError, TypeError, AttributeError, KeyError) as error:
-            # An answer that the SDK cannot take apart, or a request it will not send.
-            said = without(key, one_line(error))
-            raise Trouble(State.INVALID, f"{self._host}: {type(error).__name__}: {said}") from None
-        return self._read(request, answer)
+    def _connect(self, sdk: Any, key: str, common: Mapping[str, Any]) -> Any:
+        # From the environment otherwise: OpenAI's account is none of other servers'
+        # business. Empty ones are not sent.
+        account = None if self._service == "api.openai.com" else ""
+        return sdk.OpenAI(
+            # The SDK insists on a key; servers of one's own ignore it.
+            api_key=key or "none",
+            base_url=self._base_url,
+            organization=account,
+            project=account,
+            **common,
+        )
 
-    def _connected(self, sdk: Any, key: str) -> Any:
-        if self._client is None:
-            self._client = sdk.OpenAI(
-                # The SDK insists on one; servers of one's own ignore it.
-                api_key=key or "none",
-                base_url=self._base_url,
-                # From the environment otherwise: OpenAI's account is none of other servers'
-                # business. Empty ones are not sent.
-                organization="" if self._host != "api.openai.com" else None,
-                project="" if self._host != "api.openai.com" else None,
-                max_retries=0,
-                http_client=sdk.DefaultHttpxClient(trust_env=self._trust_env),
-            )
-        return self._client
+    def _send(self, client: Any, request: Request, left: float) -> Any:
+        return client.chat.completions.create(**self._arguments(request), timeout=left)
 
     def _arguments(self, request: Request) -> dict[str, Any]:
         # Cached passages stand first: these services cache equal prefixes by themselves.
@@ -179,10 +127,10 @@ class OpenAIBackend:
                 {"role": "system", "content": system},
                 *(_message(message) for message in request.messages),
             ],
-            self._limit: self._output or request.max_output,
+            self._limit: self._room(request),
         }
-        if self._temperature is not None:
-            arguments["temperature"] = self._temperature
+        if self._manner.temperature is not None:
+            arguments["temperature"] = self._manner.temperature
         schema = {"name": request.purpose, "schema": request.schema, **self._strict}
         if self._structured == "json_schema":
             arguments["response_format"] = {"type": "json_schema", "json_schema": schema}
@@ -200,48 +148,23 @@ class OpenAIBackend:
             arguments["response_format"] = {"type": "json_object"}
         return arguments
 
-    def _read(self, request: Request, answer: Any) -> Reply:
-        usage = _usage(getattr(answer, "usage", None))
-        model = str(getattr(answer, "model", None) or self.model)
+    def _take_apart(self, answer: Any) -> Written:
+        usage = getattr(answer, "usage", None)
+        prompt = count(usage, "prompt_tokens")
+        cached = min(count(member(usage, "prompt_tokens_details"), "cached_tokens"), prompt)
         choices = getattr(answer, "choices", None) or []
         if not choices or getattr(choices[0], "message", None) is None:
-            raise Trouble(State.INVALID, f"{self._host} gave an answer without a choice.")
+            raise ValueError("the answer holds no choice")
         message, stop = choices[0].message, getattr(choices[0], "finish_reason", None)
         calls = getattr(message, "tool_calls", None) or []
-        content = str(getattr(message, "content", None) or "")
-        raw = str(calls[0].function.arguments) if calls else content
         refusal = getattr(message, "refusal", None)
-        if refusal or stop == "content_filter":
-            raise Trouble(
-                State.REFUSED,
-                f"{model} declined to answer. {one_line(refusal, 150)}".strip(),
-                usage=usage,
-                raw=raw,
-            )
-        if stop == "length":
-            raise Trouble(
-                State.TRUNCATED,
-                f"{model} did not finish within {self._output or request.max_output} tokens.",
-                usage=usage,
-                raw=raw,
-            )
-        value, problem = read_answer(raw, request.schema)
-        if value is None:
-            raise Trouble(
-                State.INVALID, f"{model} gave an answer that {problem}.", usage=usage, raw=raw
-            )
-        return Reply(State.ANSWERED, model, value, usage=usage, raw=raw)
-
-
-def _sdk() -> Any:
-    try:
-        import openai
-    except ImportError as error:
-        raise Trouble(
-            State.UNAVAILABLE,
-            f"The package {error.name!r} is not installed; pip install 'aegis-ot[llm]'.",
-        ) from None
-    return openai
+        return Written(
+            model=str(getattr(answer, "model", None) or ""),
+            text=str(calls[0].function.arguments if calls else message.content or ""),
+            usage=Usage(prompt - cached, cached, 0, count(usage, "completion_tokens")),
+            refusal=str(refusal or "") if refusal or stop == "content_filter" else None,
+            is_cut=stop == "length",
+        )
 
 
 def _message(message: Message) -> dict[str, Any]:
@@ -257,17 +180,3 @@ def _message(message: Message) -> dict[str, Any]:
         else:
             content.append({"type": "text", "text": part})
     return {"role": message.role, "content": content}
-
-
-def _usage(usage: Any) -> Usage:
-    def member(holder: Any, name: str) -> Any:
-        # Older SDKs leave members that they do not know as plain mappings.
-        return holder.get(name) if isinstance(holder, Mapping) else getattr(holder, name, None)
-
-    def count(holder: Any, name: str) -> int:
-        value = member(holder, name)
-        return value if isinstance(value, int) else 0
-
-    prompt = count(usage, "prompt_tokens")
-    cached = min(count(member(usage, "prompt_tokens_details"), "cached_tokens"), prompt)
-    return Usage(prompt - cached, cached, 0, count(usage, "completion_tokens"))

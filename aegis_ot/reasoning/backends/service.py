@@ -1,0 +1,201 @@
+"""What asking a service through its SDK has in common, whichever service it is.
+
+A service's own file says how a request is put to it and how its answer is taken apart; keys,
+patience, the meaning of errors and the check of the answer are here, once.
+"""
+
+from __future__ import annotations
+
+import importlib
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..backend import Reply, Request, State, Usage
+from ..schema import read_answer
+from .keys import key_from, one_line, without
+from .retrying import Clock, Patience, Trouble, ask_patiently, trouble_of_status
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How to ask, whoever is asked.
+
+    Attributes:
+        key: The key; ``None``: from the environment.
+        patience: How long and how often.
+        temperature: Sent if given; newer models refuse it.
+        trust_env: Whether the HTTP client may use the proxies of the environment.
+        clock: Time.
+        output: Longest answer, tokens, instead of what the request says: models that think
+            before they answer need room for both.
+    """
+
+    key: str | None = field(default=None, repr=False)
+    patience: Patience = field(default_factory=Patience)
+    temperature: float | None = None
+    trust_env: bool = True
+    clock: Clock = field(default_factory=Clock)
+    output: int | None = None
+
+
+@dataclass(frozen=True)
+class Written:
+    """A service's answer, taken apart.
+
+    Attributes:
+        model: Which model wrote it, as the service names it.
+        text: What it wrote.
+        usage: Tokens.
+        refusal: The words with which it declined, ``None`` if it did not.
+        is_cut: Whether it ran into the limit of its length.
+    """
+
+    model: str
+    text: str
+    usage: Usage
+    refusal: str | None = None
+    is_cut: bool = False
+
+
+class ServiceBackend(ABC):
+    """Asks one model of one service. See the subclasses.
+
+    Args:
+        name: As the user named it.
+        model: As the service names it.
+        service: What to call the service in messages.
+        key_variables: Environment variables that may hold the key.
+        needs_key: Whether asking without a key is pointless.
+        manner: How to ask.
+    """
+
+    package: str
+    """Name of the SDK."""
+
+    def __init__(
+        self,
+        name: str,
+        model: str,
+        service: str,
+        key_variables: tuple[str, ...],
+        needs_key: bool,
+        manner: Manner,
+    ) -> None:
+        self.name = name
+        self.model = model
+        self._service = service
+        self._key_variables = key_variables
+        self._needs_key = needs_key
+        self._manner = manner
+        self._client: Any = None
+
+    def ask(self, request: Request) -> Reply:
+        """Answer one request; see :class:`~aegis_ot.reasoning.backend.Backend`."""
+        key = self._manner.key
+        if key is None:
+            key = key_from(self._key_variables)
+        if not key and self._needs_key:
+            detail = f"Set {' or '.join(self._key_variables)} to ask {self.name}."
+            return Reply(State.NO_KEY, self.model, detail=detail, attempts=0)
+        return ask_patiently(
+            lambda left: self._attempt(request, key, left),
+            self.model,
+            self._manner.patience,
+            self._manner.clock,
+        )
+
+    @abstractmethod
+    def _connect(self, sdk: Any, key: str, common: Mapping[str, Any]) -> Any:
+        """A client of the SDK, with these arguments among others."""
+
+    @abstractmethod
+    def _send(self, client: Any, request: Request, left: float) -> Any:
+        """Put the request to the service; ``left`` is how long it may take, s."""
+
+    @abstractmethod
+    def _take_apart(self, answer: Any) -> Written:
+        """What the service sent; raises whatever it likes where that makes no sense."""
+
+    def _room(self, request: Request) -> int:
+        """Longest answer, tokens."""
+        return self._manner.output or request.max_output
+
+    def _attempt(self, request: Request, key: str, left: float) -> Reply:
+        sdk = _sdk(self.package)
+        try:
+            if self._client is None:
+                self._client = self._connect(sdk, key, self._common(sdk))
+            written = self._take_apart(self._send(self._client, request, left))
+        except sdk.APITimeoutError:
+            patience_s = self._manner.patience.timeout_s
+            raise Trouble(
+                State.TIMEOUT, f"{self._service} gave no answer in {patience_s:g} s."
+            ) from None
+        except sdk.APIConnectionError as error:
+            cause = type(error.__cause__ or error).__name__
+            raise Trouble(
+                State.UNAVAILABLE, f"{self._service} cannot be reached ({cause}).", True
+            ) from None
+        except sdk.APIStatusError as error:
+            said = without(key, one_line(_message_of(error.body) or error.message))
+            raise trouble_of_status(
+                self._service, error.status_code, said, error.response.headers
+            ) from None
+        except Exception as error:
+            # SDKs hand on what a server sends without looking at it: anything may come up.
+            said = without(key, one_line(error))
+            raise Trouble(
+                State.INVALID, f"{self._service}: {type(error).__name__}: {said}"
+            ) from None
+        return self._judged(request, written)
+
+    def _common(self, sdk: Any) -> Mapping[str, Any]:
+        # No redirects: another address would be sent the protocol, and may be sent the key.
+        client = sdk.DefaultHttpxClient(trust_env=self._manner.trust_env, follow_redirects=False)
+        return {"max_retries": 0, "http_client": client}
+
+    def _judged(self, request: Request, written: Written) -> Reply:
+        """The reply, if the answer is whole and fits its form."""
+        model, usage, raw = written.model or self.model, written.usage, written.text
+        value: dict[str, Any] | None = None
+        if written.refusal is not None:
+            state = State.REFUSED
+            problem = f"{model} declined to answer. {one_line(written.refusal, 150)}".strip()
+        elif written.is_cut:
+            state = State.TRUNCATED
+            problem = f"{model} did not finish within {self._room(request)} tokens."
+        else:
+            state = State.INVALID
+            value, problem = read_answer(raw, request.schema)
+            problem = f"{model} gave an answer that cannot be used: {problem}."
+        if value is None:
+            raise Trouble(state, problem, usage=usage, raw=raw)
+        return Reply(State.ANSWERED, model, value, usage=usage, raw=raw)
+
+
+def _sdk(package: str) -> Any:
+    try:
+        return importlib.import_module(package)
+    except ImportError as error:
+        raise Trouble(
+            State.UNAVAILABLE,
+            f"The package {error.name!r} is not installed; pip install 'aegis-ot[llm]'.",
+        ) from None
+
+
+def _message_of(body: Any) -> str:
+    error = body.get("error") if isinstance(body, Mapping) else None
+    return str(error.get("message", "")) if isinstance(error, Mapping) else ""
+
+
+def count(holder: Any, name: str) -> int:
+    """A number of tokens as a service says it; what it does not say is 0."""
+    value = member(holder, name)
+    return value if isinstance(value, int) and not isinstance(value, bool) else 0
+
+
+def member(holder: Any, name: str) -> Any:
+    """Older SDKs leave members that they do not know as plain mappings."""
+    return holder.get(name) if isinstance(holder, Mapping) else getattr(holder, name, None)
