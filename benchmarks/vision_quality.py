@@ -34,5 +34,5 @@ def figures(datasets: Sequence[Path]) -> Iterator[Figure]:
                 )  # fmt: skip
             yield Figure(
                 f"{scorer}: normal wells flagged", data, label(result.source),
-                100 * result.false_alarms.caught / max(result.false_alarms.total, 1), "%",
+                100 * result.flagged_normals.caught / max(result.flagged_normals.total, 1), "%",
             )  # fmt: skip

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ...errors import ConfigurationError
-from ...vision.column_reader import MeasuredColumns
-from ...vision.dataset import Dataset, TrueBoxes, first_normals, load_dataset
-from ...vision.gates import Case, VolumetricGate
-from ...vision.measuring import TipView
+from ...vision.dataset import Dataset, TrueBoxes, load_dataset
 from ...vision.scorers import BASELINES, make_scorer
-from ...vision.tips import pipette_class, tip_for
 from ...vision.types import Detector, Scorer, TrajectorySample
-from ...vocabulary import KeyframeKind, Outcome, Route
-from .lopo import ScoredWell, hold_out
+from ...vocabulary import KeyframeKind
+from .cascade import run_cascade
+from .lopo import hold_out
+from .progress import Progress
 from .result import Layer2Result, summarise
 
 PROTOCOLS = ("lopo", "cascade")
@@ -32,6 +29,8 @@ def evaluate_layer2(
     threshold: str = "",
     make: Callable[[], Scorer] | None = None,
     seed: int = 0,
+    samples: Sequence[TrajectorySample] | None = None,
+    progress: Progress | None = None,
 ) -> Layer2Result:
     """Evaluate one scorer, leaving one plate out at a time.
 
@@ -39,14 +38,17 @@ def evaluate_layer2(
         dataset: A data set, or its folder.
         scorer: Name of the scorer (:data:`~aegis_ot.vision.scorers.SCORERS`).
         protocol: ``"lopo"``: a well is flagged by its plate's threshold. ``"cascade"``: a well
-            beyond the threshold, or without a tip, goes to the volumetric gate, which knows the
-            plate's first normal; flagged is what the gate fails or leaves to the operator.
+            that triage does not pass goes to the volumetric gate (see :mod:`.cascade`);
+            flagged is what the gate fails or leaves to the operator.
         detector: ``"default"``, a detector file, ``"true"`` for the labelled boxes, or a
             detector.
         threshold: ``"first-normal"`` (the default for the paper's scorers), ``"p-value"`` (for
             those whose score is one) or ``"pooled"``; see :func:`~.lopo.hold_out`.
         make: Makes the scorer in ``make_scorer``'s place.
         seed: Of the bootstrap.
+        samples: The set's trajectories (:func:`find_tips`), to evaluate several scorers without
+            reading the frames again.
+        progress: Told how far it is.
 
     Raises:
         ConfigurationError: If a name is not known.
@@ -56,19 +58,28 @@ def evaluate_layer2(
     if protocol not in PROTOCOLS:
         raise ConfigurationError(f"protocol {protocol!r} is not one of {', '.join(PROTOCOLS)}")
     build = make or (lambda: make_scorer(scorer))
-    if not threshold:
-        own = "p-value" if hasattr(build(), "p_value") else "pooled"
-        threshold = "first-normal" if scorer in BASELINES else own
+    threshold = threshold or own_threshold(scorer, build)
     if threshold not in THRESHOLDS:
         raise ConfigurationError(f"threshold {threshold!r} is not one of {', '.join(THRESHOLDS)}")
     data = dataset if isinstance(dataset, Dataset) else load_dataset(dataset)
     finder, finder_name = find_detector(data, detector)
-    samples = data.samples(finder)
-    wells = hold_out(samples, build, threshold)
-    routed = [well.flagged for well in wells]
-    flagged, settled = routed, Counter[str]()
+    if samples is None:
+        samples = find_tips(data, finder, progress)
+    held = hold_out(samples, build, threshold, progress)
+    wells = list(held.wells)
+    routed = flagged = [well.flagged for well in wells]
+    settled: Counter[str] = Counter()
     if protocol == "cascade":
-        flagged, settled = _gate(samples, wells, p_values=threshold == "p-value")
+        judged = [well for well in run_cascade(held) if not well.calibration]
+        wells = [well.scored for well in judged]
+        routed = [well.triage.to_gate for well in judged]
+        flagged = [well.flagged for well in judged]
+        settled.update(
+            f"{well.decision.gate.value}_{well.decision.outcome.value}"
+            if well.triage.to_gate
+            else well.triage.route.value
+            for well in judged
+        )
     return summarise(
         wells,
         flagged,
@@ -84,10 +95,22 @@ def evaluate_layer2(
     )
 
 
+def own_threshold(scorer: str, make: Callable[[], Scorer]) -> str:
+    """The threshold that a scorer is meant to be used with."""
+    if scorer in BASELINES:
+        return "first-normal"
+    return "p-value" if hasattr(make(), "p_value") else "pooled"
+
+
 def find_detector(
     data: Dataset, detector: Detector | TrueBoxes | str
 ) -> tuple[Detector | TrueBoxes, str]:
-    """The detector that is meant, and what to call it."""
+    """The detector that is meant, and what to call it.
+
+    Raises:
+        DatasetError: If true boxes are asked for and the set has none.
+        ModelError: If a detector's file cannot be used.
+    """
     if not isinstance(detector, str):
         return detector, str(getattr(detector, "name", type(detector).__name__))
     if detector == "true":
@@ -97,45 +120,15 @@ def find_detector(
     return load_detector(detector), f"detector {Path(detector).name}"
 
 
-def _gate(
-    samples: Sequence[TrajectorySample], wells: Sequence[ScoredWell], p_values: bool
-) -> tuple[list[bool], Counter[str]]:
-    """Send routed wells through the volumetric gate; undecided ones stay flagged."""
-    first = first_normals(samples)
-    gate = VolumetricGate()
-    readers: dict[str, MeasuredColumns] = {}
-    flagged: list[bool] = []
-    settled: Counter[str] = Counter()
-    for well in wells:
-        sample = well.sample
-        if not well.flagged:
-            settled["silent_pass"] += 1
-            flagged.append(False)
-            continue
-        if sample.plate not in readers:
-            readers[sample.plate] = MeasuredColumns()
-            anchor = first[sample.plate]
-            readers[sample.plate].learn(_looks(readers[sample.plate], anchor), anchor.expected_ul)
-        reader = readers[sample.plate]
-        missing = tuple(kind for kind in KeyframeKind if sample.detections[kind] is None)
-        readings = reader.read(_looks(reader, sample), sample.expected_ul)
-        p_value = math.exp(-well.score) if p_values else None
-        case = Case(sample, Route.GREY_ZONE, {}, readings, missing, p_value=p_value)
-        outcome = gate.examine(case).outcome
-        settled[f"gate_{outcome.value}"] += 1
-        flagged.append(outcome is not Outcome.PASS)
-    return flagged, settled
-
-
-def _looks(reader: MeasuredColumns, sample: TrajectorySample) -> dict[KeyframeKind, object]:
-    tip = tip_for(sample.pipette)
-    looks: dict[KeyframeKind, object] = {}
-    for kind in KeyframeKind:
-        detection = sample.detections[kind]
-        if detection is not None:
-            expected = sample.expected_ul[kind]
-            pipette = pipette_class(sample.pipette)
-            looks[kind] = reader.look(
-                TipView(kind, sample.frames[kind], detection, tip, pipette, expected)
-            )
-    return looks
+def find_tips(
+    data: Dataset, finder: Detector | TrueBoxes, progress: Progress | None = None
+) -> list[TrajectorySample]:
+    """All trajectories of a set, with the tip looked for in every frame."""
+    progress = progress or Progress()
+    samples = data.samples(finder)
+    progress.begin("Finding tips", len(samples))
+    for sample in samples:
+        for kind in KeyframeKind:
+            sample.detections[kind]
+        progress.step()
+    return samples

@@ -148,7 +148,7 @@ def _sweep(axes: Any, samples: Sequence[TrajectorySample]) -> None:
     for components in SWEEP:
         wells = [
             well
-            for well in hold_out(samples, partial(PcaScorer, components), "first-normal")
+            for well in hold_out(samples, partial(PcaScorer, components), "first-normal").wells
             if not well.without_tip
         ]
         failed = np.array([well.failed for well in wells], dtype=bool)
@@ -181,7 +181,7 @@ def _complexity(
             rng = np.random.default_rng(seed)
             wells = [
                 well
-                for well in hold_out(samples, partial(_fewer, make, size, rng), threshold)
+                for well in hold_out(samples, partial(_fewer, make, size, rng), threshold).wells
                 if not well.without_tip
             ]
             failed = np.array([well.failed for well in wells], dtype=bool)

@@ -6,7 +6,7 @@ well sets its threshold, or calibrates the scorer, and is not scored.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +17,7 @@ from ...vision.crops import missing_tips
 from ...vision.dataset import first_normals
 from ...vision.scorers import Calibrating
 from ...vision.types import Scorer, TrajectorySample
+from .progress import Progress
 
 ALPHA = 0.05
 """Rate of false alarms asked of a threshold from other plates' normals."""
@@ -54,9 +55,35 @@ class ScoredWell:
         return self.standing > 0 or self.tips_missing
 
 
+@dataclass(frozen=True)
+class HeldOut:
+    """Every plate scored by a model that never saw it.
+
+    Attributes:
+        scorer: Name of the scorer.
+        gives_p_values: Whether a score is ``-log p``.
+        anchors: Each plate's calibration well; it has no standing.
+        wells: All other wells, plate by plate.
+    """
+
+    scorer: str
+    gives_p_values: bool
+    anchors: Sequence[ScoredWell]
+    wells: Sequence[ScoredWell]
+
+    def plates(self) -> Iterator[tuple[ScoredWell, list[ScoredWell]]]:
+        """Each plate's calibration well and its other wells."""
+        for anchor in self.anchors:
+            plate = anchor.sample.plate
+            yield anchor, [well for well in self.wells if well.sample.plate == plate]
+
+
 def hold_out(
-    samples: Sequence[TrajectorySample], make: Callable[[], Scorer], threshold: str
-) -> list[ScoredWell]:
+    samples: Sequence[TrajectorySample],
+    make: Callable[[], Scorer],
+    threshold: str,
+    progress: Progress | None = None,
+) -> HeldOut:
     """Score every well but the calibration wells, plate by plate.
 
     Args:
@@ -67,39 +94,59 @@ def hold_out(
             scores more than all but a fraction :data:`ALPHA` of other plates' normals would
             (see :func:`_pooled`). ``"p-value"``: if the scorer's own p-value, learned from the
             other plates' normals, is below :data:`ALPHA` (its score is ``-log p``).
+        progress: Told of each plate.
 
     Raises:
         ConfigurationError: If the scorer gives no p-values and they are asked for.
-        DatasetError: If there are fewer than two plates.
+        DatasetError: If there are fewer than two plates, or too few normals to learn from.
     """
-    if threshold == "p-value" and not hasattr(make(), "p_value"):
+    like = make()
+    if threshold == "p-value" and not hasattr(like, "p_value"):
         raise ConfigurationError(
-            f"scorer {make().name!r} gives no p-values; use the threshold 'pooled'"
-        )
-    plates = list(dict.fromkeys(sample.plate for sample in samples))
-    if len(plates) < 2:
-        raise DatasetError(
-            "leaving one plate out needs at least two plates; this set has "
-            f"{len(plates)}: record more, or evaluate with another protocol"
+            f"scorer {like.name!r} gives no p-values; use the threshold 'pooled'"
         )
     first = first_normals(samples)
+    if len(first) < 2:
+        raise DatasetError(
+            "leaving one plate out needs at least two plates, each with a normal well; this set "
+            f"has {len(first)}: record more plates, or put the recordings into one set, each "
+            "under a plate name of its own"
+        )
+    progress = progress or Progress()
+    progress.begin(f"Leaving one plate out, {like.name}", len(first))
+    anchors: list[ScoredWell] = []
     wells: list[ScoredWell] = []
-    for plate in plates:
+    for plate, anchor_well in first.items():
         scorer = make()
-        scorer.fit([s for s in samples if s.plate != plate and s.label == "normal"])
-        anchor_well = first[plate]
+        normals = [s for s in samples if s.plate != plate and s.label == "normal"]
+        try:
+            scorer.fit(normals)
+        except ValueError as error:
+            raise DatasetError(
+                f"plate {plate!r} held out: scorer {like.name!r} cannot learn from the other "
+                f"plates' {len(normals)} normal wells ({error}); record more of them"
+            ) from error
         if isinstance(scorer, Calibrating):
             scorer.calibrate([anchor_well])
         anchor = scorer.score(anchor_well)
+        anchors.append(ScoredWell(anchor_well, anchor, anchor, 0.0, _tipless(anchor_well)))
         for sample in samples:
             if sample.plate == plate and sample is not anchor_well:
-                missing = any(kind in DECISIVE for kind in missing_tips(sample))
-                wells.append(ScoredWell(sample, scorer.score(sample), anchor, 0.0, missing))
+                score = scorer.score(sample)
+                wells.append(ScoredWell(sample, score, anchor, 0.0, _tipless(sample)))
+        progress.step()
     if threshold == "p-value":
         limit = -float(np.log(ALPHA))
-        return [replace(well, standing=well.score - limit) for well in wells]
-    calibrates = isinstance(make(), Calibrating)
-    return _first_normal(wells) if threshold == "first-normal" else _pooled(wells, calibrates)
+        wells = [replace(well, standing=well.score - limit) for well in wells]
+    elif threshold == "first-normal":
+        wells = _first_normal(wells)
+    else:
+        wells = _pooled(wells, isinstance(like, Calibrating))
+    return HeldOut(like.name, hasattr(like, "p_value"), anchors, wells)
+
+
+def _tipless(sample: TrajectorySample) -> bool:
+    return any(kind in DECISIVE for kind in missing_tips(sample))
 
 
 def _first_normal(wells: Sequence[ScoredWell]) -> list[ScoredWell]:

@@ -11,15 +11,6 @@ import numpy as np
 from .lopo import ScoredWell
 from .metrics import Interval, bootstrap
 
-PAPER_P1000 = {
-    "average_precision": 0.887,
-    "auroc": 0.804,
-    "f1": 0.708,
-    "precision": 0.793,
-    "recall": 0.639,
-}
-"""The paper's own plates, p1000, for comparison: other data."""
-
 
 @dataclass(frozen=True)
 class Share:
@@ -51,6 +42,7 @@ class Layer2Result:
         flagged: Decision for each of them.
         no_tip: Those labelled ``no_tip``: how many were flagged.
         routed: Fraction of wells sent to a gate, by ``"normals"``, ``"failures"``, ``"all"``.
+        seed: Of the bootstrap.
         settled: For the cascade: how many wells each gate settled and how.
     """
 
@@ -65,10 +57,11 @@ class Layer2Result:
     flagged: Sequence[bool] = field(repr=False)
     no_tip: Share
     routed: Mapping[str, float]
+    seed: int = 0
     settled: Mapping[str, int] = field(default_factory=dict)
 
     @property
-    def false_alarms(self) -> Share:
+    def flagged_normals(self) -> Share:
         """Flagged among the scored normals."""
         flags = [f for w, f in zip(self.wells, self.flagged, strict=True) if not w.failed]
         return Share(sum(flags), len(flags))
@@ -90,6 +83,26 @@ class Layer2Result:
     def per_severity(self) -> dict[str, Share]:
         return self.by(severity)
 
+    def notes(self) -> list[str]:
+        """What a reader must know of the figures: those that are not defined here, and why."""
+        failures = sum(well.failed for well in self.wells)
+        notes = []
+        if not self.wells:
+            notes.append("No well is left to score: every well calibrates its plate.")
+        elif not failures:
+            notes.append(
+                "This set has no failures among the scored wells: average precision, AUROC and "
+                "recall are not defined."
+            )
+        elif not self.flagged_normals.total:
+            notes.append(
+                "No normal well is left to score: AUROC is not defined, and nothing is known of "
+                "false alarms."
+            )
+        if failures and not any(self.flagged):
+            notes.append("No well was flagged: precision is not defined.")
+        return notes
+
     def to_json(self) -> dict[str, Any]:
         """Plain values; the five metrics stand at the top level."""
         groups = {
@@ -99,24 +112,26 @@ class Layer2Result:
         }
         return {
             "dataset": self.dataset,
-            "source": self.source,
+            "data": self.source,
             "scorer": self.scorer,
             "protocol": self.protocol,
             "threshold": self.threshold,
             "detector": self.detector,
+            "seeds": {"bootstrap": self.seed},
             **{name: interval.to_json() for name, interval in self.metrics.items()},
             "wells": {
                 "scored": len(self.wells),
-                "normals": self.false_alarms.total,
+                "normals": self.flagged_normals.total,
                 "failures": sum(well.failed for well in self.wells),
             },
-            "false_alarms": self.false_alarms.to_json(),
+            "flagged_normals": self.flagged_normals.to_json(),
             "no_tip": self.no_tip.to_json(),
             "routed_fraction": {
                 name: None if np.isnan(value) else round(value, 4)
                 for name, value in self.routed.items()
             },
             "settled": dict(self.settled),
+            "notes": self.notes(),
             **{
                 name: {group: share.to_json() for group, share in shares.items()}
                 for name, shares in groups.items()
@@ -125,6 +140,7 @@ class Layer2Result:
                 {
                     "id": well.sample.id,
                     "plate": well.sample.plate,
+                    "well": well.sample.well,
                     "label": well.sample.label,
                     "failure_type": well.sample.failure_type,
                     "score": well.score,
@@ -137,26 +153,34 @@ class Layer2Result:
 
     def text(self) -> str:
         """A few lines for the terminal."""
-        title = f"{self.scorer} on {self.dataset} ({self.source}), {self.protocol}"
+        title = f"{self.scorer} on {self.dataset} ({self.source} frames), {self.protocol}"
         lines = [
             f"{title}, threshold {self.threshold}, tips by {self.detector}",
             *(
                 f"  {name.replace('_', ' '):18} {interval}"
                 for name, interval in self.metrics.items()
             ),
-            f"  normals flagged    {self.false_alarms}",
+            f"  normals flagged    {self.flagged_normals}",
             f"  no tip flagged     {self.no_tip} (counted apart)",
             "  sent to a gate     "
-            + ", ".join(f"{name} {value:.0%}" for name, value in self.routed.items()),
+            + ", ".join(
+                f"{name} {value:.0%}" for name, value in self.routed.items() if value == value
+            ),
         ]
         for name, shares in (
             ("failure types", self.per_failure_type()),
             ("reagents", self.per_reagent()),
             ("retained", self.per_severity()),
         ):
-            parts = ", ".join(f"{group} {share}" for group, share in shares.items())
-            lines.append(f"  {name:18} {parts}")
-        return "\n".join(lines)
+            if shares:
+                parts = ", ".join(f"{group} {share}" for group, share in shares.items())
+                lines.append(f"  {name:18} {parts}")
+        if self.settled:
+            parts = ", ".join(
+                f"{how.replace('_', ' ')} {count}" for how, count in sorted(self.settled.items())
+            )
+            lines.append(f"  {'settled by':18} {parts}")
+        return "\n".join([*lines, *(f"  Note: {note}" for note in self.notes())])
 
 
 def severity(well: ScoredWell) -> str:
@@ -201,6 +225,7 @@ def summarise(
             "failures": share(failed),
             "all": share(np.ones_like(failed)),
         },
+        seed=seed,
         settled=settled or {},
         **names,
     )
