@@ -15,7 +15,7 @@ from dataclasses import replace
 from ..vocabulary import Finding, Severity, Undecided, VerdictWord
 from .dossier import Dossier
 from .judge import Options, Report, RoleEvidence
-from .opinion import MODEL, Opinion
+from .opinion import Opinion, no_answer
 from .source import read_source
 from .waivers import Waived, apply_waivers, first_statement, read_waivers, stale
 
@@ -65,8 +65,7 @@ def merge(
         second: What the checks say with the roles that the model read, if that was tried.
     """
     if not opinion.answered:
-        reason = f"{opinion.model} gave no answer ({opinion.state}): {opinion.detail}"
-        return replace(report, undecided=(*report.undecided, Undecided(MODEL, reason)))
+        return replace(report, undecided=(*report.undecided, no_answer(opinion)))
     decided = {brief.id for brief in dossier.rules if brief.decided}
     notes = [f"{opinion.model}: {opinion.summary}"] if opinion.summary else []
     candidates: list[Finding] = []

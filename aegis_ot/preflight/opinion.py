@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..vocabulary import Finding, WellRef
+from ..vocabulary import Finding, Undecided, WellRef
 from .judge import Report
 
 MODEL = "MODEL"
@@ -61,6 +61,11 @@ class Opinion:
     def answered(self) -> bool:
         """Whether the model gave an answer."""
         return self.state == ANSWERED
+
+
+def no_answer(opinion: Opinion) -> Undecided:
+    """What a report says of a model that was asked in vain."""
+    return Undecided(MODEL, f"{opinion.model} gave no answer ({opinion.state}): {opinion.detail}")
 
 
 def unanswered(report: Report) -> str:

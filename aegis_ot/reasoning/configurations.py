@@ -14,13 +14,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from ..preflight import Database, Options, Report
 from ..preflight.dossier import Dossier
 from ..preflight.merging import merge, options_with_roles
-from ..preflight.opinion import MODEL, Opinion
+from ..preflight.opinion import Opinion, no_answer
 from ..preflight.opinion_reading import read_opinion
 from ..vocabulary import Severity, Undecided, VerdictWord
 from .backend import Backend, Reply, Request, State, Usage
@@ -47,25 +47,24 @@ class Judgement:
         configuration: Which.
         report: The verdict. Where the model gave no answer, ``undecided`` holds an entry for
             ``MODEL`` that says why; without checks beside it the verdict is ``error`` then.
-        state: How asking ended; ``None`` if no model was to be asked.
-        model: Which model answered.
-        usage: Tokens.
-        seconds: Time that the model took, s.
-        opinion: What the model said, held to what exists.
+        request: What the model was asked; ``None`` if none was to be asked.
+        reply: What came of that.
     """
 
     configuration: Configuration
     report: Report
-    state: State | None = None
-    model: str = ""
-    usage: Usage = field(default_factory=Usage)
-    seconds: float = 0.0
-    opinion: Opinion | None = None
+    request: Request | None = None
+    reply: Reply | None = None
 
     @property
     def unanswered(self) -> bool:
         """Whether a model was asked and gave no answer: a reason for exit code 2."""
-        return self.state not in (None, State.ANSWERED)
+        return self.reply is not None and not self.reply.answered
+
+    @property
+    def usage(self) -> Usage:
+        """Tokens."""
+        return self.reply.usage if self.reply else Usage()
 
 
 def judge_in(
@@ -126,34 +125,33 @@ def hybrid(
     rejudge: Rejudge | None = None,
 ) -> Judgement:
     """The checks, and a model that sees what they saw; it can only add."""
-    opinion, reply = give_opinion(dossier, database, backend)
+    request = hybrid_request(dossier, database)
+    reply = ask(backend, request)
+    opinion = opinion_of(reply, dossier)
     second = second_report(report, opinion, database, options or Options(), rejudge)
     merged = merge(report, opinion, dossier, second)
-    return _judgement(Configuration.HYBRID, merged, opinion, reply)
+    return Judgement(Configuration.HYBRID, merged, request, reply)
 
 
 def trace_blind(
     report: Report, dossier: Dossier, database: Database, backend: Backend | None
 ) -> Judgement:
     """A model with rules and source decides alone (the paper's hybrid)."""
-    reply = ask(backend, blind_request(dossier, database))
-    return _model_alone(Configuration.TRACE_BLIND, report, dossier, reply)
+    request = blind_request(dossier, database)
+    return _model_alone(Configuration.TRACE_BLIND, report, dossier, request, ask(backend, request))
 
 
 def llm_only(
     report: Report, dossier: Dossier, database: Database, backend: Backend | None
 ) -> Judgement:
     """A model with the source decides alone, by what it knows itself."""
-    reply = ask(backend, llm_only_request(dossier, database))
-    return _model_alone(Configuration.LLM_ONLY, report, dossier, reply)
+    request = llm_only_request(dossier, database)
+    return _model_alone(Configuration.LLM_ONLY, report, dossier, request, ask(backend, request))
 
 
-def give_opinion(
-    dossier: Dossier, database: Database, backend: Backend | None
-) -> tuple[Opinion, Reply]:
+def give_opinion(dossier: Dossier, database: Database, backend: Backend | None) -> Opinion:
     """Ask the hybrid question, and hold the answer to what exists."""
-    reply = ask(backend, hybrid_request(dossier, database))
-    return opinion_of(reply, dossier), reply
+    return opinion_of(ask(backend, hybrid_request(dossier, database)), dossier)
 
 
 def opinion_of(reply: Reply, dossier: Dossier, blind: bool = False) -> Opinion:
@@ -187,7 +185,11 @@ def ask(backend: Backend | None, request: Request) -> Reply:
 
 
 def _model_alone(
-    configuration: Configuration, report: Report, dossier: Dossier, reply: Reply
+    configuration: Configuration,
+    report: Report,
+    dossier: Dossier,
+    request: Request,
+    reply: Reply,
 ) -> Judgement:
     opinion = opinion_of(reply, dossier, blind=True)
     # No check stands beside these: what the model reports is what there is.
@@ -197,14 +199,12 @@ def _model_alone(
         for finding in opinion.findings
     )
     undecided: tuple[Undecided, ...] = ()
-    if not opinion.answered:
-        reason = f"{opinion.model} gave no answer ({opinion.state}): {opinion.detail}"
-        verdict = VerdictWord.ERROR
-        undecided = (Undecided(MODEL, reason),)
-    else:
+    if opinion.answered:
         errors = any(finding.severity is Severity.ERROR for finding in findings)
         verdict = VerdictWord.FAIL if errors else VerdictWord.WARN if findings else VerdictWord.PASS
-        undecided = ()
+    else:
+        verdict = VerdictWord.ERROR
+        undecided = (no_answer(opinion),)
     alone = Report(
         file=report.file,
         family=opinion.family,
@@ -214,12 +214,4 @@ def _model_alone(
         notes=tuple(f"{opinion.model}, left out: {text}" for text in opinion.left_out),
         lines=report.lines,
     )
-    return _judgement(configuration, alone, opinion, reply)
-
-
-def _judgement(
-    configuration: Configuration, report: Report, opinion: Opinion, reply: Reply
-) -> Judgement:
-    return Judgement(
-        configuration, report, reply.state, reply.model, reply.usage, reply.seconds, opinion
-    )
+    return Judgement(configuration, alone, request, reply)

@@ -92,7 +92,7 @@ class Opinions:
         try:
             if self._database is None:
                 self._database = load_database()
-            opinion, _ = give_opinion(dossier, self._database, self._backend)
+            opinion = give_opinion(dossier, self._database, self._backend)
         except Exception as error:  # a question must never stay pending for ever
             _log.exception("An opinion could not be had")
             detail = f"The sidecar failed ({type(error).__name__}); its log says more."

@@ -28,7 +28,7 @@ def test_rules_only_asks_nobody() -> None:
     backend = ScriptedBackend([])
     result = judge_in("rules-only", report, dossier, database(), backend)
     assert result.report is report
-    assert result.state is None
+    assert result.reply is None
     assert not result.unanswered
     assert backend.requests == []
 
@@ -39,7 +39,8 @@ def test_hybrid_keeps_and_counts() -> None:
     result = judge_in(Configuration.HYBRID, report, dossier, database(), backend)
     assert result.report.findings == report.findings
     assert result.usage == Usage(10, 20, 30, 40)
-    assert result.model == "scripted"
+    assert result.reply is not None
+    assert result.reply.model == "scripted"
 
 
 def test_trace_blind_is_the_models_verdict_alone() -> None:

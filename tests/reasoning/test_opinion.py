@@ -127,7 +127,9 @@ def test_no_answer_is_undecided_and_said() -> None:
         assert result.unanswered
         assert state.value in unanswered(result.report)
         assert set(checked(SILENT)[0].undecided) < set(result.report.undecided)
-    assert judge_in("hybrid", *checked(SILENT), database()).state is State.NO_MODEL
+    nobody = judge_in("hybrid", *checked(SILENT), database())
+    assert nobody.reply is not None
+    assert nobody.reply.state is State.NO_MODEL
 
 
 def test_a_waiver_covers_the_models_finding_too() -> None:
