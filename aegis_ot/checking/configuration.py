@@ -10,6 +10,7 @@
     labware = ["labware"]
     baseline = "aegis-baseline.json"
     timeout = 120
+    model = "openai:MODEL"              # or AEGIS_OT_MODEL; left out: no model is asked
 
     [tool.aegis-ot.severity]
     PCR-6 = "error"                     # error, warning or off
@@ -61,6 +62,7 @@ class Configuration:
     labware: tuple[str, ...] = ()
     baseline: str | None = None
     timeout: float | None = None
+    model: str | None = None
     severity: Mapping[str, str] = field(default_factory=dict)
     waivers: tuple[ConfiguredWaiver, ...] = ()
     folder: Path = field(default_factory=Path)
@@ -117,7 +119,7 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
         raise ConfigurationError(f"{name}: [{TABLE}] must be a table.")
     known = {
         "assay", "select", "ignore", "rules", "labware", "baseline", "timeout", "severity",
-        "waivers",
+        "waivers", "model",
     }  # fmt: skip
     for key in table:
         if key not in known:
@@ -140,6 +142,9 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
     baseline = table.get("baseline")
     if baseline is not None and not isinstance(baseline, str):
         raise ConfigurationError(f"{name}: {TABLE}.baseline: expected a path.")
+    model = table.get("model")
+    if model is not None and (not isinstance(model, str) or not model.strip()):
+        raise ConfigurationError(f"{name}: {TABLE}.model: expected a model's name.")
     return Configuration(
         assay=reader.texts(table, "assay"),
         select=reader.rules(table, "select"),
@@ -148,6 +153,7 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
         labware=tuple(str(folder / item) for item in reader.texts(table, "labware")),
         baseline=None if baseline is None else str(folder / baseline),
         timeout=None if timeout is None else float(timeout),
+        model=model,
         severity={str(rule).upper(): value for rule, value in severity.items()},
         waivers=reader.waivers(table.get("waivers", [])),
         folder=folder,

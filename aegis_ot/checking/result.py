@@ -5,12 +5,16 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..preflight import Database, Report
 from ..preflight.judge import RoleEvidence
+from ..preflight.opinion import unanswered
 from ..preflight.waivers import Waived
 from ..vocabulary import Finding, Severity, Undecided, VerdictWord
+
+if TYPE_CHECKING:
+    from ..reasoning import Judgement
 
 
 @dataclass(frozen=True)
@@ -75,6 +79,7 @@ class CheckedProtocol:
         baselined: Findings that the baseline file lists.
         notes: Remarks on waivers and baseline beyond the report's own.
         exploration: What ``--all-parameters`` tried.
+        judgement: What came of asking a model, where one was asked.
     """
 
     file: str
@@ -85,6 +90,7 @@ class CheckedProtocol:
     baselined: tuple[Finding, ...] = ()
     extra_notes: tuple[str, ...] = ()
     exploration: Exploration | None = None
+    judgement: Judgement | None = None
 
     @property
     def verdict(self) -> VerdictWord:
@@ -107,6 +113,11 @@ class CheckedProtocol:
     def undecided(self) -> tuple[Undecided, ...]:
         """Rules that could not be judged."""
         return self.report.undecided if self.report else ()
+
+    @property
+    def unanswered(self) -> str:
+        """Why the model that was asked gave no answer, ``""`` if it did or none was asked."""
+        return unanswered(self.report) if self.report else ""
 
     @property
     def waived(self) -> tuple[Waived, ...]:
@@ -142,8 +153,10 @@ class CheckRun:
 
     @property
     def exit_code(self) -> int:
-        """0 clean, 1 findings, 2 a protocol could not be judged."""
-        if any(checked.verdict is VerdictWord.ERROR for checked in self.protocols):
+        """0 clean, 1 findings, 2 a protocol could not be judged or a model did not answer."""
+        if any(
+            checked.verdict is VerdictWord.ERROR or checked.unanswered for checked in self.protocols
+        ):
             return 2
         return 1 if any(checked.findings for checked in self.protocols) else 0
 

@@ -12,6 +12,7 @@ from typing import Any
 from .. import __version__
 from ..errors import ConfigurationError
 from ..preflight import Database, Options, Report
+from ..preflight.dossier import Dossier
 from ..preflight.script import Script
 from ..vocabulary import Finding
 from .baseline import Baseline
@@ -19,9 +20,10 @@ from .configuration import ConfiguredWaiver
 from .exploring import explore
 from .files import read_protocol
 from .guard_arguments import guard_arguments
+from .modelled import Asking, ask_model
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, CheckRun, Problem, with_findings
-from .tasks import Check, api_level_line
+from .tasks import Check, CheckWithDossier, api_level_line
 from .waiving import waive
 
 
@@ -41,6 +43,7 @@ class CheckSettings:
         waiver_root: Folder that the waivers' file patterns are relative to.
         baseline: Findings known of old.
         explain_roles: Whether the reports are to show roles.
+        asking: A model to ask, if any.
     """
 
     options: Options = field(default_factory=Options)
@@ -54,6 +57,7 @@ class CheckSettings:
     waiver_root: Path = field(default_factory=Path)
     baseline: Baseline | None = None
     explain_roles: bool = False
+    asking: Asking | None = None
 
 
 def check_files(
@@ -118,32 +122,44 @@ def _check_file(
         csv_parameters=settings.csv_parameters,
         extra_labware=settings.labware,
     )
-    rehearser = rehearsers.get()
     options = options_for(text, settings.options)
     start = time.monotonic()
     try:
-        report: Report = rehearser.perform(
-            Check(script, options, settings.rules, settings.timeout_s)
-        )
-        exploration = None
-        if settings.all_parameters:
-            report, exploration = explore(
-                rehearser, script, options, settings.rules, settings.timeout_s, report
-            )
+        judged = _judge(rehearsers.get(), script, options, settings, database)
     except TaskFailed as failed:
         problem = failed.problem
         if problem.line is None and "API" in problem.message:
             problem = Problem(problem.message, api_level_line(text))
         seconds = time.monotonic() - start
         return CheckedProtocol(name, problem=problem, lines=lines, seconds=seconds)
-    checked = CheckedProtocol(
-        name,
-        report=report,
-        lines=lines,
-        seconds=time.monotonic() - start,
-        exploration=exploration,
+    seconds = time.monotonic() - start
+    checked = dataclasses.replace(judged, file=name, lines=lines, seconds=seconds)
+    return _settle(checked, settings)
+
+
+def _judge(
+    rehearser: Rehearser,
+    script: Script,
+    options: Options,
+    settings: CheckSettings,
+    database: Database,
+) -> CheckedProtocol:
+    """Rehearse and judge, with other parameters and with a model where that is asked for."""
+    how = (script, options, settings.rules, settings.timeout_s)
+    dossier: Dossier | None = None
+    if settings.asking is None:
+        report: Report = rehearser.perform(Check(*how))
+    else:
+        report, dossier = rehearser.perform(CheckWithDossier(*how))
+    exploration = judgement = None
+    if settings.all_parameters:
+        report, exploration = explore(rehearser, *how, report)
+    if settings.asking is not None and dossier is not None:
+        judgement = ask_model(settings.asking, rehearser, Check(*how), report, dossier, database)
+        report = judgement.report
+    return CheckedProtocol(
+        script.file_name, report=report, exploration=exploration, judgement=judgement
     )
-    return _settle(checked, report, settings)
 
 
 def options_for(text: str, options: Options) -> Options:
@@ -163,8 +179,11 @@ def options_for(text: str, options: Options) -> Options:
     return dataclasses.replace(options, **changes) if changes else options
 
 
-def _settle(checked: CheckedProtocol, report: Report, settings: CheckSettings) -> CheckedProtocol:
+def _settle(checked: CheckedProtocol, settings: CheckSettings) -> CheckedProtocol:
     """Apply what the project has waived or put off."""
+    report = checked.report
+    if report is None:
+        return checked
     standing, waived, notes = waive(
         checked.file, report.findings, settings.waivers, settings.waiver_root
     )

@@ -12,6 +12,8 @@ from typing import Any, Protocol, runtime_checkable
 
 from ..errors import AegisError, RehearsalError
 from ..preflight import Database, Options, Report, check_script, load_database
+from ..preflight.dossier import Dossier
+from ..preflight.dossier_making import check_with_dossier
 from ..preflight.examples import ExampleResult, run_examples
 from ..preflight.loading import line_of, load
 from ..preflight.script import Script
@@ -37,8 +39,8 @@ class Task(Protocol):
 
 
 @dataclass(frozen=True)
-class Check:
-    """Rehearse a protocol and judge it."""
+class _OfProtocol:
+    """What it takes to judge a protocol."""
 
     script: Script
     options: Options
@@ -50,9 +52,23 @@ class Check:
         """The protocol's."""
         return self.script.file_name
 
+
+@dataclass(frozen=True)
+class Check(_OfProtocol):
+    """Rehearse a protocol and judge it."""
+
     def perform(self) -> Report:
         """Judge."""
         return check_script(self.script, _database(self.rules), self.options, self.timeout_s)
+
+
+@dataclass(frozen=True)
+class CheckWithDossier(_OfProtocol):
+    """Rehearse a protocol, judge it, and put together what a model should know of it."""
+
+    def perform(self) -> tuple[Report, Dossier]:
+        """Judge."""
+        return check_with_dossier(self.script, _database(self.rules), self.options, self.timeout_s)
 
 
 @dataclass(frozen=True)

@@ -12,13 +12,21 @@ from typing import Annotated
 
 import typer
 
-from ..checking import CheckRun, CheckSettings, Configuration, check_files, find_configuration
+from ..checking import (
+    Asking,
+    CheckRun,
+    CheckSettings,
+    Configuration,
+    check_files,
+    find_configuration,
+)
 from ..checking.baseline import baseline_text, read_baseline
 from ..checking.files import read_csv_paths, read_labware, read_values
 from ..errors import ConfigurationError
 from ..preflight import Database, Options, load_database
 from ..reports import RENDERERS, check_text
 from .app import BROKEN, CLEAN, app
+from .models import ModelName, RecordFolder, backend_of
 
 DEFAULT_TIMEOUT_S = 120.0
 
@@ -65,10 +73,15 @@ def check(
     write_baseline: Annotated[
         Path | None, typer.Option(help="Write such a file from what is found now.")
     ] = None,
+    model: ModelName = None,
+    record: RecordFolder = None,
 ) -> None:
     """Check protocols before they run: rehearse them, and judge them by the rules.
 
-    Exit codes: 0 clean, 1 findings, 2 a protocol could not be judged or the call is wrong.
+    A model, where one is named, adds to what the rules decide, and never takes from it.
+
+    Exit codes: 0 clean, 1 findings, 2 a protocol could not be judged, a model that was asked
+    gave no answer, or the call is wrong.
     """
     one_of("--format", output_format, tuple(RENDERERS))
     if baseline and write_baseline:
@@ -87,6 +100,7 @@ def check(
         waivers=configured.waivers,
         waiver_root=configured.folder,
         explain_roles=explain_roles,
+        asking=_asking(model, record, configured),
     )
     known = baseline or (Path(configured.baseline) if configured.baseline else None)
     if known is not None and not write_baseline:
@@ -163,6 +177,11 @@ def _options(
             for rule, severity in configured.severity.items()
         },
     )
+
+
+def _asking(model: str | None, record: Path | None, configured: Configuration) -> Asking | None:
+    backend = backend_of(model, record, configured.model, configured.folder)
+    return None if backend is None else Asking(backend)
 
 
 def _seconds(given: float | None, configured: float | None) -> float:

@@ -7,76 +7,73 @@ from typing import Annotated
 
 import typer
 
-from ..checking import Rehearser, TaskFailed
-from ..checking.dossiers import CheckWithDossier
-from ..checking.files import read_protocol
-from ..checking.run import options_for
-from ..errors import ConfigurationError
-from ..preflight import Database, Options, load_database
-from ..preflight.script import Script
-from ..reasoning import Configuration, Request, export_requests, import_answers, request_in
+from ..checking import Asking, CheckSettings, check_files
+from ..checking.files import read_csv_paths, read_labware, read_values
+from ..preflight import Options, load_database
+from ..reasoning import Request, ScriptedBackend, export_requests, import_answers
 from .app import BROKEN, app
+from .checks import one_of
+from .models import ASKING
 
 llm = typer.Typer(
     help="Export requests to a model, and import answers got elsewhere.", no_args_is_help=True
 )
 app.add_typer(llm, name="llm")
 
-_ASKING = [c.value for c in Configuration if c is not Configuration.RULES_ONLY]
-
 
 @llm.command("export")
 def export(
     files: Annotated[list[Path], typer.Argument(help="Python protocols.")],
     out: Annotated[Path, typer.Option(help="File of requests, one JSON object a line.")],
-    config: Annotated[str, typer.Option(help=f"One of {', '.join(_ASKING)}.")] = "hybrid",
+    config: Annotated[
+        list[str] | None,
+        typer.Option(help=f"{', '.join(ASKING)}; may be given more than once [default: hybrid]."),
+    ] = None,
     assay: Annotated[list[str] | None, typer.Option(help="Assay family, if known.")] = None,
     rules: Annotated[list[Path] | None, typer.Option(help="Further rules.")] = None,
+    parameter: Annotated[
+        list[str] | None, typer.Option(help="Runtime parameter as NAME=VALUE.")
+    ] = None,
+    csv: Annotated[
+        list[str] | None, typer.Option(help="File of a CSV runtime parameter as NAME=PATH.")
+    ] = None,
+    labware: Annotated[
+        list[Path] | None, typer.Option(help="Folder or file with custom labware definitions.")
+    ] = None,
     timeout: Annotated[float, typer.Option(help="Longest rehearsal, s.")] = 120.0,
 ) -> None:
     """Write the requests that a check with a model would make.
 
     Exit codes: 0 all are written, 2 a protocol could not be rehearsed.
     """
-    if config not in _ASKING:
-        raise ConfigurationError(f"--config: {config!r} is not one of {', '.join(_ASKING)}.")
     paths = tuple(str(path.resolve()) for path in rules or ())
     database = load_database(paths)
     for family in assay or ():
         database.family(family)
-    options = Options(assay=tuple(assay or ()))
     requests: list[tuple[str, Request]] = []
-    failed = 0
-    with Rehearser(paths) as rehearser:
-        for file in files:
-            try:
-                requests.append(
-                    _request(rehearser, file, config, options, paths, timeout, database)
-                )
-            except (TaskFailed, ConfigurationError) as error:
-                typer.echo(f"{file}: {error}", err=True)
-                failed += 1
+    failed: dict[str, str] = {}
+    for name in config or ["hybrid"]:
+        settings = CheckSettings(
+            options=Options(assay=tuple(assay or ())),
+            rules=paths,
+            parameters=read_values(parameter or ()),
+            csv_parameters=read_csv_paths(csv or ()),
+            labware=read_labware(labware or ()),
+            timeout_s=timeout,
+            # Nobody answers: the check is made for its question.
+            asking=Asking(ScriptedBackend([]), one_of("--config", name, ASKING)),
+        )
+        for checked in check_files(files, settings, database).protocols:
+            if checked.judgement is not None and checked.judgement.request is not None:
+                requests.append((checked.file, checked.judgement.request))
+            elif checked.problem is not None:
+                failed[checked.file] = checked.problem.message
+    for file, problem in failed.items():
+        typer.echo(f"{file}: {problem}", err=True)
     count = export_requests(requests, out)
     typer.echo(f"{out}: {count} requests.")
     if failed:
         raise typer.Exit(BROKEN)
-
-
-def _request(
-    rehearser: Rehearser,
-    file: Path,
-    config: str,
-    options: Options,
-    rules: tuple[str, ...],
-    timeout_s: float,
-    database: Database,
-) -> tuple[str, Request]:
-    text = read_protocol(file)
-    task = CheckWithDossier(Script(text, file.name), options_for(text, options), rules, timeout_s)
-    _, dossier = rehearser.perform(task)
-    request = request_in(config, dossier, database)
-    assert request is not None  # _ASKING holds only configurations that ask
-    return file.as_posix(), request
 
 
 @llm.command("import")

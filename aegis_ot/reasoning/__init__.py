@@ -6,8 +6,10 @@ Door: :func:`make_backend` for a model by name, :func:`judge_in` for Layer 1 wit
 
 from .backend import Backend, Message, Passage, Picture, Reply, Request, State, Usage
 from .backends import (
+    MODEL_FORMS,
     MODEL_VARIABLE,
     AnthropicBackend,
+    ExportBackend,
     Manner,
     OpenAIBackend,
     Patience,
@@ -16,6 +18,8 @@ from .backends import (
     ScriptedBackend,
     make_backend,
     model_from_environment,
+    project_model,
+    record_from_environment,
 )
 from .batch import Imported, export_requests, import_answers
 from .configurations import Configuration, Judgement, judge_in, request_in
@@ -25,10 +29,12 @@ from .tokens import RequestSize, estimate_tokens, request_size
 from .vlm import VlmGate, gate_request
 
 __all__ = [
+    "MODEL_FORMS",
     "MODEL_VARIABLE",
     "AnthropicBackend",
     "Backend",
     "Configuration",
+    "ExportBackend",
     "Imported",
     "Judgement",
     "Manner",
@@ -57,6 +63,8 @@ __all__ = [
     "load_prices",
     "make_backend",
     "model_from_environment",
+    "project_model",
+    "record_from_environment",
     "request_in",
     "request_size",
 ]

@@ -14,7 +14,8 @@ from typing import Any
 
 from ..errors import ConfigurationError
 from .backend import Request
-from .backends.recording import FORMAT, keep_picture, read_entry, write_entry
+from .backends.exporting import lines_of, read_requests, request_line
+from .backends.recording import keep_picture, read_entry, write_entry
 from .schema import problem_of, read_answer
 
 
@@ -50,10 +51,8 @@ def export_requests(requests: Iterable[tuple[str, Request]], out: Path) -> int:
         for about, request in requests:
             for picture in request.pictures:
                 keep_picture(out.parent, picture)
-            line = {"format": FORMAT, "id": request.hash, "about": about, **request.to_json()}
-            lines.setdefault(request.hash, json.dumps(line, ensure_ascii=False))
-        text = "".join(f"{line}\n" for line in lines.values())
-        out.write_text(text, encoding="utf-8")
+            lines.setdefault(request.hash, request_line(about, request))
+        out.write_text("".join(lines.values()), encoding="utf-8")
     except OSError as error:
         raise ConfigurationError(f"Cannot write {out}: {error.strerror}.") from error
     return len(lines)
@@ -71,10 +70,10 @@ def import_answers(answers: Path, folder: Path, requests: Path | None = None) ->
     Raises:
         ConfigurationError: A file cannot be read, or the folder not written.
     """
-    asked = {} if requests is None else _asked(requests)
+    asked = {} if requests is None else read_requests(requests)
     kept = 0
     problems: list[str] = []
-    for number, line in enumerate(_lines(answers), 1):
+    for number, line in enumerate(lines_of(answers), 1):
         if not line.strip():
             continue
         where = f"{answers.name}, line {number}"
@@ -132,28 +131,3 @@ def _keep(folder: Path, given: Mapping[str, Any], request: Mapping[str, Any] | N
         }
     )
     write_entry(folder, given["id"], {"request": entry.get("request", request), "answers": answers})
-
-
-def _asked(requests: Path) -> dict[str, Mapping[str, Any]]:
-    found: dict[str, Mapping[str, Any]] = {}
-    for number, line in enumerate(_lines(requests), 1):
-        if not line.strip():
-            continue
-        try:
-            request = json.loads(line)
-            found[request["id"]] = {
-                name: request[name]
-                for name in ("purpose", "system", "messages", "schema", "max_output")
-            }
-        except (ValueError, KeyError, TypeError) as error:
-            raise ConfigurationError(
-                f"{requests}, line {number} is no exported request ({error})."
-            ) from error
-    return found
-
-
-def _lines(path: Path) -> list[str]:
-    try:
-        return path.read_text(encoding="utf-8").split("\n")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigurationError(f"{path} cannot be read: {error}.") from error

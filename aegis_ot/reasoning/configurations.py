@@ -26,8 +26,8 @@ from ..vocabulary import Severity, Undecided, VerdictWord
 from .backend import Backend, Reply, Request, State, Usage
 from .layer1_prompt import blind_request, hybrid_request, llm_only_request
 
-Rejudge = Callable[[Options], Report]
-"""Judges the same protocol once more, with other options."""
+Rejudge = Callable[[Options], "Report | None"]
+"""Judges the same protocol once more, with other options; ``None`` if that is not possible."""
 
 
 class Configuration(str, Enum):

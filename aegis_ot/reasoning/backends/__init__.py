@@ -1,7 +1,15 @@
 """Where answers come from: services, recordings, scripts. Door: :func:`make_backend`."""
 
 from .anthropic_api import AnthropicBackend
-from .naming import MODEL_VARIABLE, make_backend, model_from_environment
+from .exporting import ExportBackend
+from .naming import (
+    MODEL_FORMS,
+    MODEL_VARIABLE,
+    make_backend,
+    model_from_environment,
+    project_model,
+    record_from_environment,
+)
 from .openai_api import OpenAIBackend
 from .recording import RecordingBackend, ReplayBackend
 from .retrying import Clock, Patience
@@ -9,9 +17,11 @@ from .scripted import ScriptedBackend
 from .service import Manner
 
 __all__ = [
+    "MODEL_FORMS",
     "MODEL_VARIABLE",
     "AnthropicBackend",
     "Clock",
+    "ExportBackend",
     "Manner",
     "OpenAIBackend",
     "Patience",
@@ -20,4 +30,6 @@ __all__ = [
     "ScriptedBackend",
     "make_backend",
     "model_from_environment",
+    "project_model",
+    "record_from_environment",
 ]

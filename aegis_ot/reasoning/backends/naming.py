@@ -1,10 +1,11 @@
-"""Backends by name: ``anthropic:MODEL``, ``openai:MODEL@URL``, ``replay:DIR``.
+"""Backends by name: ``anthropic:MODEL``, ``openai:MODEL@URL``, ``replay:FOLDER``.
 
 Options follow a ``#``: ``openai:llama3.1:8b@http://127.0.0.1:11434/v1#structured=tool``.
 """
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -13,9 +14,11 @@ from urllib.parse import parse_qsl, urlsplit
 from ...errors import ConfigurationError
 from ..backend import Backend
 from .anthropic_api import AnthropicBackend
-from .openai_api import OpenAIBackend
+from .exporting import ExportBackend
+from .openai_api import PROFILES, OpenAIBackend
 from .recording import RecordingBackend, ReplayBackend
 from .retrying import Patience
+from .scripted import ScriptedBackend
 from .service import Manner
 
 MODEL_VARIABLE = "AEGIS_OT_MODEL"
@@ -24,8 +27,19 @@ _OPTIONS = {
     "anthropic": {"structured", "temperature", "key", "timeout", "attempts", "output"},
     "openai": {"structured", "limit", "temperature", "key", "timeout", "attempts", "output"},
     "replay": {"model"},
+    "scripted": set(),
+    "export": set(),
 }
-_FORMS = "anthropic:MODEL, openai:MODEL, openai:MODEL@URL, replay:FOLDER"
+MODEL_FORMS = (
+    "anthropic:MODEL, openai:MODEL, openai:MODEL@URL, replay:FOLDER, scripted:FILE, export:FILE"
+)
+
+
+def record_from_environment(environ: Mapping[str, str] | None = None) -> Path | None:
+    """The folder for recordings that ``AEGIS_OT_MODEL_RECORD`` names, if any."""
+    environ = os.environ if environ is None else environ
+    folder = environ.get(RECORD_VARIABLE, "").strip()
+    return Path(folder).expanduser() if folder else None
 
 
 def model_from_environment(environ: Mapping[str, str] | None = None) -> str | None:
@@ -56,10 +70,16 @@ def make_backend(
     kind, _, rest = name.strip().partition(":")
     rest, _, option_text = rest.partition("#")
     if kind not in _OPTIONS or not rest:
-        raise ConfigurationError(f"The model {_shown(name)!r} is not understood. Use {_FORMS}.")
+        raise ConfigurationError(
+            f"The model {_shown(name)!r} is not understood. Use {MODEL_FORMS}."
+        )
     options = _options(kind, option_text)
     if kind == "replay":
         backend: Backend = ReplayBackend(Path(rest).expanduser(), options.get("model"))
+    elif kind == "scripted":
+        backend = _scripted(Path(rest).expanduser())
+    elif kind == "export":
+        backend = ExportBackend(Path(rest).expanduser())
     else:
         backend = _service(kind, rest, options, timeout_s, trust_env)
     return backend if record is None else RecordingBackend(backend, record)
@@ -85,6 +105,50 @@ def _service(
     return OpenAIBackend(model, url, structured, options.get("limit"), keys, manner)
 
 
+def _scripted(path: Path) -> Backend:
+    try:
+        said = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise ConfigurationError(f"The script {path} cannot be read: {error}.") from None
+    if isinstance(said, dict):
+        return ScriptedBackend(lambda _: said)
+    if isinstance(said, list) and all(isinstance(answer, (dict, str)) for answer in said):
+        return ScriptedBackend(said)
+    raise ConfigurationError(
+        f"The script {path} holds neither an answer (an object), given to every request, nor a "
+        "list of answers, given one after the other."
+    )
+
+
+def project_model(name: str, folder: Path) -> str:
+    """A model's name as a project's own file may give it.
+
+    Whoever writes that file must not decide where a key goes: a project is often somebody
+    else's. So it names a service that is known, a server on this machine, or a folder.
+
+    Args:
+        name: See the module.
+        folder: That relative paths start from.
+
+    Raises:
+        ConfigurationError: It names another server, or a variable that holds a key.
+    """
+    kind, _, rest = name.strip().partition(":")
+    rest, mark, option_text = rest.partition("#")
+    if kind in ("replay", "scripted"):
+        return f"{kind}:{folder / Path(rest).expanduser()}{mark}{option_text}"
+    if kind in ("anthropic", "openai"):
+        _, url = _split_url(rest)
+        host = urlsplit(url).hostname if url else None
+        own = {"anthropic": set(), "openai": {*PROFILES, "127.0.0.1", "localhost", "::1"}}[kind]
+        if (host is not None and host not in own) or "key" in _options(kind, option_text):
+            raise ConfigurationError(
+                "A project's file cannot say where a key is sent. Name this model with --model "
+                "or in AEGIS_OT_MODEL."
+            )
+    return name
+
+
 def _split_url(rest: str) -> tuple[str, str | None]:
     """Model names hold slashes, colons and at signs; addresses begin with http."""
     for scheme in ("@http://", "@https://"):
@@ -98,7 +162,7 @@ def _split_url(rest: str) -> tuple[str, str | None]:
                     "query; keys come from the environment."
                 )
             if not model:
-                raise ConfigurationError(f"No model is named before {url}. Use {_FORMS}.")
+                raise ConfigurationError(f"No model is named before {url}. Use {MODEL_FORMS}.")
             return model, url.rstrip("/")
     return rest, None
 

@@ -8,6 +8,7 @@ header, no address, no key is ever written.
 from __future__ import annotations
 
 import json
+import logging
 import os
 import tempfile
 from collections.abc import Mapping
@@ -19,6 +20,7 @@ from ..backend import Backend, Picture, Reply, Request, State, Usage
 from ..schema import read_answer
 
 FORMAT = 1
+_log = logging.getLogger(__name__)
 _SUFFIX = {"image/jpeg": ".jpg", "image/png": ".png"}
 _KEPT = {State.ANSWERED, State.REFUSED, State.TRUNCATED, State.INVALID}
 """What the model itself said; outages are not worth remembering."""
@@ -50,7 +52,11 @@ class RecordingBackend:
         """Ask, then keep."""
         reply = self._backend.ask(request)
         if reply.state in _KEPT:
-            keep(self.folder, request, reply)
+            try:
+                keep(self.folder, request, reply)
+            except ConfigurationError as error:
+                # The answer is there, and may have been paid for.
+                _log.warning("An answer could not be recorded: %s", error)
         return reply
 
 

@@ -1,0 +1,58 @@
+"""Options that name a model, for every command that can ask one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..errors import ConfigurationError
+from ..reasoning import (
+    MODEL_FORMS,
+    Backend,
+    Configuration,
+    make_backend,
+    model_from_environment,
+    project_model,
+    record_from_environment,
+)
+
+ASKING = tuple(c.value for c in Configuration if c is not Configuration.RULES_ONLY)
+"""Configurations that ask a model."""
+
+ModelName = Annotated[
+    str | None,
+    typer.Option("--model", help=f"{MODEL_FORMS}, or none [default: AEGIS_OT_MODEL]."),
+]
+RecordFolder = Annotated[
+    Path | None,
+    typer.Option("--record", help="Keep requests and answers in this folder, for replay:FOLDER."),
+]
+
+
+def backend_of(
+    model: str | None,
+    record: Path | None,
+    configured: str | None = None,
+    folder: Path | None = None,
+) -> Backend | None:
+    """The model that the command line names, else the environment, else the project.
+
+    Args:
+        model: Of the command line; ``none``: no model, whoever else names one.
+        record: Folder for requests and answers.
+        configured: Of the project.
+        folder: The project's.
+
+    Raises:
+        ConfigurationError: Its name makes no sense, or there is nothing to record.
+    """
+    name = model or model_from_environment()
+    if name is None and configured is not None:
+        name = project_model(configured, folder or Path())
+    if name is not None and name.strip() not in ("", "none"):
+        return make_backend(name, record or record_from_environment())
+    if record is not None:
+        raise ConfigurationError("--record: no model is asked. Name one with --model.")
+    return None
