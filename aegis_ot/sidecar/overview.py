@@ -6,7 +6,8 @@ from typing import Any
 from urllib.parse import quote
 
 from ..vocabulary import to_json
-from .store import Store, effective
+from .decisions import effective
+from .store import Store
 
 
 def run_overview(store: Store, run: str) -> dict[str, Any]:

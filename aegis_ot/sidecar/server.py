@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import logging
 import socket
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from types import FrameType
@@ -25,6 +26,9 @@ KEEP_ALIVE = 3600
 """The robot keeps its connection open between keyframes, which may be minutes apart, s."""
 STARTING = 30.0
 GRACE = 3
+SWITCH_S = 0.0005
+"""How long a thread that computes may keep the interpreter from the one that answers, s. Python's
+own 5 ms is felt in every keyframe that comes while another is scored."""
 
 
 def serve(
@@ -45,6 +49,7 @@ def serve(
         StoreError: The data folder cannot be used.
     """
     with _listening(config) as (listener, url):
+        sys.setswitchinterval(SWITCH_S)
         app = create_app(config, camera, analyser)
         server = _Server(app, lambda: ready(url) if ready else None)
         server.run(sockets=[listener])

@@ -13,7 +13,8 @@ from ..vision.camera import Frame
 from ..vocabulary import Keyframe, Outcome, Verdict
 from .analysis import Analyser
 from .bell import Bell
-from .store import Captured, Store, effective
+from .decisions import effective
+from .store import Captured, Store
 from .wire import Decision, WireError
 from .worker import AnalysisWorker
 
@@ -54,6 +55,7 @@ class Session:
         self._operator_timeout = operator_timeout
         self._capturing = threading.Lock()
         self._state = threading.Lock()
+        store.forget_torn(run)
         self._next = store.next_sequence(run)
         judged = store.verdicts(run)
         self._verdicts: dict[int, Verdict] = {v.trajectory: v for v, _, _ in judged}

@@ -1,16 +1,15 @@
 """Keeps runs, keyframes, verdicts, holds and decisions in SQLite, and frames as JPEG files.
 
-A frame is on the disk before its row is, and both before the robot is answered, so an
-acknowledged keyframe survives a killed process and a power cut.
+A frame is written before its row is, and both before the robot is answered: an acknowledged
+keyframe survives a killed process. Nothing is forced onto the disk while a robot waits, so a
+power cut may take the last of them; then the store ends earlier, whole, and the robot, which
+keeps the keyframes of its run, sends them again.
 """
 
 from __future__ import annotations
 
 import contextlib
-import hashlib
 import json
-import os
-import re
 import sqlite3
 import threading
 import time
@@ -20,12 +19,12 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import StoreError
-from ..vocabulary import Gate, Keyframe, Outcome, Verdict, from_json, to_json
+from ..vocabulary import Keyframe, Verdict, from_json, to_json
+from .frames import FrameFiles, folder_name
 from .schema import migrate
 from .wire import Decision, Finish, Hold, RunStart
 
 DATABASE = "sidecar.sqlite"
-FRAMES = "frames"
 
 
 @dataclass(frozen=True)
@@ -57,12 +56,13 @@ class Store:
         self.folder = folder
         self._lock = threading.Lock()
         with self._plain_errors("open"):
-            (folder / FRAMES).mkdir(parents=True, exist_ok=True)
+            self._frames = FrameFiles(folder)
             self._db = sqlite3.connect(
                 folder / DATABASE, check_same_thread=False, isolation_level=None, timeout=5.0
             )
             self._db.execute("PRAGMA journal_mode = WAL")
-            self._db.execute("PRAGMA synchronous = FULL")
+            # With the write-ahead log the database stays whole in a power cut; see above.
+            self._db.execute("PRAGMA synchronous = NORMAL")
             self._db.execute("PRAGMA foreign_keys = ON")
             migrate(self._db)
 
@@ -75,7 +75,7 @@ class Store:
 
     def register(self, start: RunStart) -> None:
         """Keep a run; one that is known already stays as it is."""
-        row = (start.run, _folder_name(start.run), start.model_dump_json(), time.time())
+        row = (start.run, folder_name(start.run), start.model_dump_json(), time.time())
         self._write(
             "INSERT INTO runs (run, folder, start, registered) VALUES (?, ?, ?, ?) "
             "ON CONFLICT (run) DO NOTHING",
@@ -114,10 +114,8 @@ class Store:
     def add_keyframe(self, captured: Captured, jpeg: bytes) -> None:
         """Keep a keyframe and its frame. The same one again changes nothing."""
         keyframe = captured.keyframe
-        path = self._frame_path(keyframe.run, keyframe.sequence)
         with self._plain_errors("keep a frame in"):
-            path.parent.mkdir(parents=True, exist_ok=True)
-            _write_whole(path, jpeg)
+            self._frames.write(keyframe.run, keyframe.sequence, jpeg)
         self._write(
             "INSERT INTO keyframes VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING",
             (
@@ -150,7 +148,27 @@ class Store:
         if self.keyframe(run, sequence) is None:
             return None
         with self._plain_errors("read a frame from"):
-            return self._frame_path(run, sequence).read_bytes()
+            return self._frames.read(run, sequence)
+
+    def settle(self, run: str, sequence: int) -> None:
+        """Force a frame onto the disk; takes what the disk takes."""
+        with self._plain_errors("keep a frame in"):
+            self._frames.settle(run, sequence)
+
+    def forget_torn(self, run: str) -> None:
+        """Forget what a power cut tore: the keyframes from the first unjudged one on whose
+        frame is not whole. The robot has them still and sends them again.
+        """
+        rows = self._read(
+            "SELECT sequence FROM keyframes k WHERE run = ? AND NOT EXISTS "
+            "(SELECT 1 FROM verdicts v WHERE v.run = k.run AND v.trajectory = k.trajectory) "
+            "ORDER BY sequence",
+            run,
+        )
+        with self._plain_errors("read a frame from"):
+            torn = next((n for (n,) in rows if not self._frames.is_whole(run, n)), None)
+        if torn is not None:
+            self._write("DELETE FROM keyframes WHERE run = ? AND sequence >= ?", (run, torn))
 
     # Judgement
 
@@ -232,9 +250,6 @@ class Store:
 
     # Ground
 
-    def _frame_path(self, run: str, sequence: int) -> Path:
-        return self.folder / FRAMES / _folder_name(run) / f"{sequence:06d}.jpg"
-
     def _write(self, statement: str, values: tuple[Any, ...]) -> None:
         with self._lock, self._plain_errors("write to"):
             self._db.execute(statement, values)
@@ -254,43 +269,6 @@ class Store:
                 f"Cannot {what} the store in {self.folder}: {error}. "
                 "Check free space and permissions there."
             ) from error
-
-
-def effective(verdict: Verdict, decisions: list[dict[str, Any]]) -> Verdict:
-    """The verdict as it stands after the operator's last decision."""
-    if not decisions:
-        return verdict
-    last = decisions[-1]
-    outcome = Outcome(last["outcome"])
-    note = f": {last['note']}" if last["note"] else ""
-    return Verdict(
-        run=verdict.run,
-        trajectory=verdict.trajectory,
-        outcome=outcome,
-        route=verdict.route,
-        score=verdict.score,
-        gate=Gate.OPERATOR,
-        failure=verdict.failure if outcome is Outcome.FAIL else None,
-        reason=f"{last['by']} decided {outcome.value}{note}. Before: {verdict.reason}".rstrip(),
-        measured_ul=verdict.measured_ul,
-        expected_ul=verdict.expected_ul,
-    )
-
-
-def _folder_name(run: str) -> str:
-    """A folder name that is safe everywhere and different for every run."""
-    slug = re.sub(r"[^A-Za-z0-9-]+", "-", run).strip("-")[:40]
-    return f"{slug or 'run'}-{hashlib.sha256(run.encode()).hexdigest()[:8]}"
-
-
-def _write_whole(path: Path, data: bytes) -> None:
-    """Write a file so that it is whole or absent, on the disk when this returns."""
-    partial = path.with_suffix(".partial")
-    with partial.open("wb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-    partial.replace(path)
 
 
 def _run_row(row: sqlite3.Row) -> dict[str, Any]:

@@ -20,6 +20,7 @@ import pytest
 from aegis_ot.errors import StoreError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.cameras.codec import decode_jpeg
+from aegis_ot.sidecar.frames import FrameFiles
 from aegis_ot.sidecar.schema import MIGRATIONS
 from aegis_ot.sidecar.store import DATABASE, Captured, Store
 from aegis_ot.sidecar.wire import RunStart
@@ -153,7 +154,7 @@ def test_a_half_written_frame_is_written_again(tmp_path: Path) -> None:
     store = Store(tmp_path)
     store.register(RunStart(run="r"))
     keyframe = make_keyframe("r", 0)
-    path = store._frame_path("r", 0)
+    path = FrameFiles(tmp_path).path("r", 0)
     path.parent.mkdir(parents=True)
     path.write_bytes(b"old")
     assert store.next_sequence("r") == 0
@@ -161,6 +162,31 @@ def test_a_half_written_frame_is_written_again(tmp_path: Path) -> None:
     store.add_keyframe(Captured(keyframe, 0.01, 5.0), make_jpeg())
     assert Store(tmp_path).frame("r", 0) == make_jpeg()
     assert store.next_sequence("r") == 1
+
+
+@pytest.mark.parametrize("left", [b"", b"\xff\xd8\xff half a frame", None])
+def test_what_a_power_cut_tore_is_asked_for_again(
+    left: bytes | None, config: SidecarConfig
+) -> None:
+    """A row can outlive its frame: nothing is forced onto the disk while the robot waits."""
+    with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+        robot.register()
+        robot.cycle(0)
+        assert robot.verdict(0)["verdict"]["outcome"] == "pass"
+        for sequence in (4, 5, 6):
+            robot.send(sequence)
+    frames = FrameFiles(config.data)
+    for sequence in (0, 5):  # what was judged needs its frame no more
+        path = frames.path("run-1", sequence)
+        path.unlink() if left is None else path.write_bytes(left)
+    with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+        answer = robot.send(7)
+        assert (answer.status_code, answer.json()["expected"]) == (409, 5)
+        for sequence in (5, 6, 7):
+            assert robot.send(sequence, late=True).status_code == 200
+        assert robot.verdict(1)["verdict"]["outcome"] == "pass"
+        kept = [k["sequence"] for t in robot.overview()["trajectories"] for k in t["keyframes"]]
+        assert kept == list(range(8))
 
 
 def test_a_keyframe_is_kept_as_it_was_sent(tmp_path: Path) -> None:
