@@ -263,27 +263,36 @@ def random_frames(
     pipettes: tuple[str, ...] = _PIPETTES,
     sizes: tuple[tuple[int, int], ...] = _SIZES,
     frames_per_session: int = 6,
+    measured: float = 0.0,
+    without_tip: float = 0.125,
 ) -> Iterator[tuple[Image, FrameTruth]]:
     """Frames with their truth, without end, for training a detector.
 
     A new session (camera, light, deck, pipette, tip) is drawn every ``frames_per_session``
-    frames; reagent, volume, fault, well and height change with each frame. One frame in eight has
-    no tip. Synthetic, deterministic in ``seed``.
+    frames; reagent, volume, fault, well and height change with each frame. Synthetic,
+    deterministic in ``seed``.
 
     Args:
         seed: Fixes the sequence.
         pipettes: Pipettes to draw from, Opentrons names or classes.
         sizes: Frame sizes to draw from, px.
         frames_per_session: Frames that share a session.
+        measured: Share of sessions that stand where the measured webcam and the recommended one
+            do, whatever the pipette; their frame sizes are their own.
+        without_tip: Share of frames without a tip.
     """
     rng = np.random.default_rng((seed, 21))
     while True:
         pipette = pipettes[int(rng.integers(len(pipettes)))]
-        size = sizes[int(rng.integers(len(sizes)))]
-        session = SessionParameters.draw(rng, pipette=pipette, size=size)
+        if measured and rng.random() < measured:
+            fixed = SessionParameters.webcam if rng.random() < 0.7 else SessionParameters.bench
+            session = fixed(int(rng.integers(2**31)))
+        else:
+            size = sizes[int(rng.integers(len(sizes)))]
+            session = SessionParameters.draw(rng, pipette=pipette, size=size)
         tip = _any_tip(rng, pipette)
         for _ in range(frames_per_session):
-            jpeg, truth = render_jpeg(_random_state(rng, session, tip), session, rng)
+            jpeg, truth = render_jpeg(_random_state(rng, session, tip, without_tip), session, rng)
             yield decode(jpeg), truth
 
 
@@ -298,11 +307,11 @@ def _any_tip(rng: np.random.Generator, pipette: str) -> TipGeometry:
 
 
 def _random_state(
-    rng: np.random.Generator, session: SessionParameters, tip: TipGeometry
+    rng: np.random.Generator, session: SessionParameters, tip: TipGeometry, without_tip: float
 ) -> SceneState:
     kind = tuple(KeyframeKind)[int(rng.integers(4))]
     volume = tip.nominal_ul * float(rng.uniform(0.05, 1.0))
-    failure = "no_tip" if rng.random() < 0.125 else _random_failure(rng)
+    failure = "no_tip" if rng.random() < without_tip else _random_failure(rng)
     content = contents_of(failure, volume, rng, session.film)[0][kind]
     if content.present and rng.random() < 0.1:
         content = replace(content, drop_ul=float(rng.uniform(0.1, 4.0)))

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from ..errors import DatasetError
 from .axes import PlateCamera, TipLabel, rendered_labels
 from .photometry import photograph
+from .rooms import draw_room
+from .transplant import transplanted
 
 Image = NDArray[np.uint8]
 _KEYFRAMES = ("aspirate", "transit", "dispense", "post_dispense")
@@ -165,6 +167,10 @@ class FramePool:
         i = int(rng.integers(len(self._frames)))
         image, label, decoy = self._images[i], self._frames[i].label, None
         room = self._rooms.get(self._frames[i].plate)
+        if room is not None and rng.random() < 0.45:
+            background = draw_room(rng, image.shape[1], image.shape[0])
+            image = transplanted(rng, image, room, background, label)
+            room = background
         if label is not None and room is not None and rng.random() < 0.3:
             image, decoy, label = _without_tip(image, label, room), label, None
         return other_camera(rng, image, label, decoy)

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from .strokes import Image, polygon, random_colour
+from .strokes import Image, paint, polygon, random_colour
 
 Float = NDArray[np.float32]
 
@@ -29,6 +29,8 @@ def draw_room(rng: np.random.Generator, width: int, height: int) -> Image:
             ..., None
         ]
     image: Image = np.clip(canvas, 0, 255).astype(np.uint8)
+    if rng.random() < 0.25:
+        image = _patchwork(rng, image)
     for _ in range(int(rng.integers(0, 10)) if rng.random() < 0.6 else 0):
         _clutter(rng, image)
     if rng.random() < 0.5:  # out of focus, behind the pipette
@@ -45,6 +47,24 @@ def _texture(rng: np.random.Generator, height: int, width: int, cell: float) -> 
         small.astype(np.float32), (width, height), interpolation=cv2.INTER_CUBIC
     )
     return field
+
+
+def _patchwork(rng: np.random.Generator, image: Image) -> Image:
+    """A laboratory behind: things before things, large to small, each with its own light."""
+    height, width = image.shape[:2]
+    for scale in (0.5, 0.25, 0.12, 0.06):
+        for _ in range(int(rng.integers(2, 14))):
+            x, y = rng.uniform(-0.1, 1.1) * width, rng.uniform(-0.1, 1.1) * height
+            reach = scale * height * np.exp(rng.normal(0, 0.4, 2))
+            corners = int(rng.integers(3, 9))
+            turn = np.sort(rng.uniform(0, 2 * np.pi, corners))
+            if rng.random() < 0.5:  # most things indoors are upright boxes
+                turn = np.deg2rad([45, 135, 225, 315]) + rng.normal(0, 0.05, 4)
+            shape = np.array([x, y]) + np.stack([np.cos(turn), np.sin(turn)], -1) * reach
+            paint(image, shape, random_colour(rng, 5, 235, 0.35), rng.uniform(0.3, 1.0))
+    grain = _texture(rng, height, width, rng.uniform(2, 12))[..., None]
+    lit = image * (1 + rng.uniform(0, 0.3) * grain)
+    return np.clip(lit, 0, 255).astype(np.uint8)
 
 
 def _clutter(rng: np.random.Generator, image: Image) -> None:
@@ -138,18 +158,12 @@ def _labware(rng: np.random.Generator, image: Image, horizon: float) -> None:
     if rng.random() < 0.3:  # a row of things that stand in it: short, and collar upwards
         pitch, tall = w / columns, rng.uniform(6, 35)
         shade = random_colour(rng, 60, 250, 0.2).tolist()
+        end = 0.8
+        if rng.random() < 0.3:  # tips in an open rack: whole, tapered, and on no pipette
+            tall, end = tall * rng.uniform(1.5, 4), rng.uniform(0.15, 0.5)
         for j in range(columns):
             x = x0 + (j + 0.5) * pitch
             half = pitch * 0.3
-            polygon(
-                image,
-                np.array(
-                    [
-                        [x - half, y0 - tall],
-                        [x + half, y0 - tall],
-                        [x + half * 0.8, y0 + 2],
-                        [x - half * 0.8, y0 + 2],
-                    ]
-                ),
-                shade,
-            )
+            corners = [[-half, -tall], [half, -tall], [half * end, 2], [-half * end, 2]]
+            place = np.array([x, y0]) + np.array(corners)
+            paint(image, place, np.array(shade), 1.0 if end == 0.8 else rng.uniform(0.3, 0.9))

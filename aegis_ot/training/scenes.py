@@ -10,12 +10,12 @@ from __future__ import annotations
 import numpy as np
 
 from .axes import TipLabel
-from .photometry import photograph
+from .photometry import photograph, shows
 from .pipettes import draw_pipette, draw_tip
 from .rooms import draw_room
 from .strokes import Axis, Image, paint, random_colour
 
-SIZES = ((640, 480), (960, 540), (640, 360), (800, 600))
+SIZES = ((640, 480), (640, 480), (960, 540), (640, 360), (800, 600), (1280, 720))
 
 
 def draw_frame(
@@ -36,7 +36,7 @@ def draw_frame(
     if tip is None:
         tip = bool(rng.random() < 0.67)
     image = draw_room(rng, width, height)
-    length = float(np.exp(rng.uniform(np.log(55), np.log(min(430, height * 0.8)))))
+    length = float(np.exp(rng.uniform(np.log(0.06 * width), np.log(0.88 * height))))
     radius = max(2.5, length * rng.uniform(0.035, 0.09))
     angle = float(np.clip(rng.normal(0, 0.03), -0.12, 0.12))
     top = rng.uniform(-0.02, max(0.05, 0.95 - length / height)) * height
@@ -65,7 +65,7 @@ def draw_frame(
         if rng.random() < 0.3:
             _hide_end(rng, image, axis, length, radius)
     shown = photograph(rng, image)
-    if not _visible(shown, label):
+    if not shows(shown, label):
         return shown, None, None
     return (shown, label, None) if tip else (shown, None, label)
 
@@ -90,12 +90,3 @@ def _hide_end(
         random_colour(rng, 30, 235, 0.3),
         rng.uniform(0.2, 0.8) if seen_through else 1.0,
     )
-
-
-def _visible(image: Image, label: TipLabel) -> bool:
-    """Whether anything at all is to be seen where the tip is: exposure may have burnt it out."""
-    (cx, cy), (ox, oy) = label.collar, label.orifice
-    reach = 2 * label.radius
-    x0, x1 = int(max(0, min(cx, ox) - reach)), int(max(1, max(cx, ox) + reach))
-    part = image[int(max(0, cy)) : int(max(1, oy)), x0:x1]
-    return bool(part.size and np.ptp(part.astype(np.float32).mean(axis=(0, 2))) > 2.0)

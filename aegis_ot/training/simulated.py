@@ -21,7 +21,7 @@ class SimulatedFrames:
     """
 
     def __init__(self, seed: int) -> None:
-        self._frames = random_frames(seed, frames_per_session=3)
+        self._frames = random_frames(seed, frames_per_session=3, measured=0.3, without_tip=0.2)
 
     def draw(self, rng: np.random.Generator) -> tuple[Image, TipLabel | None, TipLabel | None]:
         """A frame, its tip, and where a tip is missing from a bare nozzle."""

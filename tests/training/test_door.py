@@ -32,7 +32,7 @@ def test_the_same_seed_trains_the_same_weights(tmp_path: Path) -> None:
     from aegis_ot.training.detector import DetectorSettings
     from aegis_ot.vision.detection import HeatmapDetector
 
-    settings = DetectorSettings(frames=8, epochs=1, batch=2, threshold_frames=8)
+    settings = DetectorSettings(rounds=2, frames=6, passes=1, frozen=1, batch=2, threshold_frames=8)
     first = train_detector([], tmp_path / "a" / "tip.onnx", 1, settings)
     second = train_detector([], tmp_path / "b" / "tip.onnx", 1, settings)
     other = train_detector([], tmp_path / "c" / "tip.onnx", 2, settings)
