@@ -74,4 +74,5 @@ def _tell(finding: Finding) -> str:
     wells = ", ".join(str(well) for well in finding.wells)
     where = f" Lines {lines}; wells {wells}." if lines and wells else ""
     fix = f" Fix: {finding.fix}" if finding.fix else ""
-    return f"{finding.rule}: {finding.message}{where}{fix}"
+    mark = " (found by the model)" if finding.source == "model" else ""
+    return f"{finding.rule}{mark}: {finding.message}{where}{fix}"

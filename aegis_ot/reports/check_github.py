@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from ..checking import CheckedProtocol, CheckRun
 from ..vocabulary import Severity
-from .words import listed, summary_line
+from .words import by_model, listed, summary_line
 
 
 def check_github(run: CheckRun) -> str:
@@ -34,17 +34,23 @@ def _annotations(checked: CheckedProtocol, names: dict[str, str]) -> Iterator[st
         line = finding.lines[-1] if finding.lines else None
         told = (finding.message, finding.why, f"Fix: {finding.fix}" if finding.fix else "")
         message = "\n".join(part for part in told if part)
-        title = f"{finding.rule} {names.get(finding.rule, '')}".strip()
+        title = " ".join(
+            part for part in (finding.rule, names.get(finding.rule), by_model(finding)) if part
+        )
         yield _command(kind, checked.file, line, title, message)
+    if checked.unanswered:
+        title = "aegis-ot: no answer of the model"
+        yield _command("error", checked.file, None, title, checked.unanswered)
     if checked.exploration is not None:
         for values, problem in checked.exploration.failures:
             title = f"aegis-ot: cannot be judged with {values}"
             yield _command("error", checked.file, problem.line, title, problem.message)
     for note in checked.notes:
         yield _command("notice", checked.file, None, "aegis-ot", note)
-    if checked.undecided:
-        rules = listed(list(dict.fromkeys(u.rule for u in checked.undecided)), 30)
-        reasons = "\n".join(dict.fromkeys(f"{u.rule}: {u.reason}" for u in checked.undecided))
+    questions = [u for u in checked.undecided if u.reason != checked.unanswered]
+    if questions:
+        rules = listed(list(dict.fromkeys(u.rule for u in questions)), 30)
+        reasons = "\n".join(dict.fromkeys(f"{u.rule}: {u.reason}" for u in questions))
         yield _command("notice", checked.file, None, f"aegis-ot: undecided: {rules}", reasons)
 
 

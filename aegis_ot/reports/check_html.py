@@ -6,7 +6,15 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from ..checking import CheckedProtocol, CheckRun
 from ..vocabulary import Finding
-from .words import listed, listed_wells, site_label, sites_by_line, summary_line
+from .words import (
+    by_model,
+    listed,
+    listed_wells,
+    model_line,
+    site_label,
+    sites_by_line,
+    summary_line,
+)
 
 Row = tuple[int, str, str]
 """Line number, source, and what happened there (empty: shown for context)."""
@@ -25,6 +33,8 @@ def check_html(run: CheckRun) -> str:
     )
     environment.filters["wells"] = lambda finding: listed_wells(finding.wells, 96)
     environment.filters["listed"] = lambda values: listed([str(v) for v in values], 16)
+    environment.filters["by_model"] = by_model
+    environment.filters["model_line"] = model_line
     template = environment.get_template("check.html")
     return template.render(
         run=run,

@@ -7,12 +7,15 @@
                     "undecided": [{"rule", "reason"}]}]}
 
 Wells are ``slot:well``. A protocol has further keys only where there is something to say:
-``error`` (``message``, ``line``) where it could not be judged, ``waived``, ``baselined``,
-``notes``, ``parameters`` and, on request, ``families`` and ``roles``.
+``error`` (``message``, ``line``) where it could not be judged, ``model`` (``name``, ``state``,
+``detail``, ``seconds``, ``tokens``) where a model was asked, ``waived``, ``baselined``,
+``notes``, ``parameters`` and, on request, ``families`` and ``roles``. A finding that a model
+made and no check has ``"source": "model"``.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from typing import Any
 
@@ -37,6 +40,15 @@ def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> di
     }
     if checked.problem is not None:
         values["error"] = {"message": checked.problem.message, "line": checked.problem.line}
+    reply = checked.judgement.reply if checked.judgement else None
+    if reply is not None:
+        values["model"] = {
+            "name": reply.model,
+            "state": reply.state.value,
+            "detail": reply.detail,
+            "seconds": round(reply.seconds, 3),
+            "tokens": dataclasses.asdict(reply.usage),
+        }
     if checked.waived:
         values["waived"] = [
             {**_finding(w.finding), "reason": w.waiver.reason} for w in checked.waived
@@ -67,7 +79,7 @@ def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> di
 
 
 def _finding(finding: Finding) -> dict[str, Any]:
-    return {
+    values = {
         "rule": finding.rule,
         "severity": finding.severity.value,
         "wells": [well.address for well in finding.wells],
@@ -75,6 +87,9 @@ def _finding(finding: Finding) -> dict[str, Any]:
         "message": finding.message,
         "fix": finding.fix,
     }
+    if finding.source != "rules":
+        values["source"] = finding.source
+    return values
 
 
 def _exploration(exploration: Exploration) -> dict[str, Any]:

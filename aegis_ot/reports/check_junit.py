@@ -8,8 +8,10 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element, SubElement
 
 from ..checking import CheckedProtocol, CheckRun
+from ..preflight.opinion import MODEL
 from ..preflight.rulefiles import RuleSpec
 from ..vocabulary import Finding
+from .words import by_model
 
 # What XML 1.0 cannot hold, even escaped.
 _UNWRITABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -36,6 +38,14 @@ def _suite(root: Element, checked: CheckedProtocol, run: CheckRun) -> None:
     for values, problem in failures:
         case = _case(suite, checked, f"rehearsal with {values}")
         _outcome(case, "error", problem.message, _where(checked, problem.line))
+    if checked.unanswered:
+        _outcome(_case(suite, checked, "model"), "error", checked.unanswered, "")
+    for finding in checked.findings:
+        if finding.rule == MODEL:  # beyond the rules, so no rule's case holds it
+            case = _case(suite, checked, MODEL)
+            _outcome(
+                case, "failure", finding.message, _told(checked, finding), finding.severity.value
+            )
     reasons = {undecided.rule: undecided.reason for undecided in checked.undecided}
     for rule in _rules(checked, run):
         case = _case(suite, checked, f"{rule.id} {rule.name}")
@@ -81,7 +91,8 @@ def _outcome(case: Element, tag: str, message: str, text: str, kind: str = "") -
 def _told(checked: CheckedProtocol, finding: Finding) -> str:
     wells = ", ".join(well.address for well in finding.wells)
     where = "\n".join(_where(checked, line) for line in finding.lines)
-    return f"{finding.message}\n{where}\nwells: {wells}\nwhy: {finding.why}\nfix: {finding.fix}"
+    told = f"{finding.message}\n{where}\nwells: {wells}\nwhy: {finding.why}\nfix: {finding.fix}"
+    return f"{told}\n{by_model(finding)}".rstrip("\n") if by_model(finding) else told
 
 
 def _where(checked: CheckedProtocol, line: int | None) -> str:

@@ -17,7 +17,7 @@ from urllib.parse import quote
 from ..checking import CheckedProtocol, CheckRun
 from ..preflight.rulefiles import RuleSpec
 from ..vocabulary import Finding, Severity, Site
-from .words import site_label, sites_by_line
+from .words import by_model, site_label, sites_by_line
 
 SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -90,7 +90,8 @@ def _result(
 ) -> dict[str, Any]:
     sites = sites_by_line(finding)
     places = [_location(checked, line, site_label(at)) for line, at in sites.items()]
-    message = " ".join(part for part in (finding.message, finding.why) if part)
+    mark = f"({by_model(finding)})" if by_model(finding) else ""
+    message = " ".join(part for part in (finding.message, mark, finding.why) if part)
     result: dict[str, Any] = {
         "ruleId": finding.rule,
         "level": "error" if finding.severity is Severity.ERROR else "warning",
@@ -102,6 +103,8 @@ def _result(
             "lines": list(finding.lines),
         },
     }
+    if finding.source != "rules":
+        result["properties"]["source"] = finding.source
     if finding.rule in index:
         result["ruleIndex"] = index[finding.rule]
     if len(places) > 1:
@@ -155,7 +158,7 @@ def _notifications(checked: CheckedProtocol, index: dict[str, int]) -> Iterator[
         }
     for undecided in checked.undecided:
         notification: dict[str, Any] = {
-            "level": "note",
+            "level": "error" if undecided.reason == checked.unanswered else "note",
             "message": {"text": f"{undecided.rule} is undecided: {undecided.reason}"},
             "locations": [_location(checked, None)],
         }

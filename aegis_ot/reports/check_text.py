@@ -9,7 +9,17 @@ from collections.abc import Iterable, Iterator, Sequence
 from ..checking import CheckedProtocol, CheckRun, Exploration, Problem
 from ..preflight.judge import RoleEvidence
 from ..vocabulary import Finding, Severity, VerdictWord
-from .words import counted, listed, listed_wells, location, site_label, sites_by_line, summary_line
+from .words import (
+    by_model,
+    counted,
+    listed,
+    listed_wells,
+    location,
+    model_line,
+    site_label,
+    sites_by_line,
+    summary_line,
+)
 
 _MOST_LINES = 6
 """Source lines shown per finding."""
@@ -56,16 +66,22 @@ def _protocol(
         yield _finding(checked, finding, names.get(finding.rule, ""), paint)
     if checked.exploration is not None:
         yield from _exploration(checked, checked.exploration, paint)
+    if checked.unanswered:
+        yield f"{checked.file}: {paint('error', _BOLD, _RED)}: {checked.unanswered}"
     rest = []
+    if model_line(checked):
+        rest.append(f"{checked.file}: model: {model_line(checked)}")
     for waived in checked.waived:
         finding = waived.finding
         where = location(checked, finding.lines[0] if finding.lines else None)
-        rest.append(f"{where}: {finding.rule} waived: {waived.waiver.reason}")
+        mark = f" ({by_model(finding)})" if by_model(finding) else ""
+        rest.append(f"{where}: {finding.rule}{mark} waived: {waived.waiver.reason}")
     for note in checked.notes:
         rest.append(f"{checked.file}: note: {note}")
     by_reason: dict[str, list[str]] = {}
     for undecided in checked.undecided:
-        by_reason.setdefault(undecided.reason, []).append(undecided.rule)
+        if undecided.reason != checked.unanswered:
+            by_reason.setdefault(undecided.reason, []).append(undecided.rule)
     for reason, rules in by_reason.items():
         rest.append(f"{checked.file}: undecided: {', '.join(rules)}: {reason}")
     if checked.baselined:
@@ -93,9 +109,10 @@ def _problem(checked: CheckedProtocol, problem: Problem, paint: _Paint) -> str:
 
 def _finding(checked: CheckedProtocol, finding: Finding, name: str, paint: _Paint) -> str:
     shade = _RED if finding.severity is Severity.ERROR else _YELLOW
+    mark = f" ({by_model(finding)})" if by_model(finding) else ""
     head = (
         f"{paint(finding.rule, _BOLD, shade)} {name} "
-        f"[{paint(finding.severity.value, shade)}]: {paint(finding.message, _BOLD)}"
+        f"[{paint(finding.severity.value, shade)}]{mark}: {paint(finding.message, _BOLD)}"
     )
     sites = sites_by_line(finding)
     lines = [head]

@@ -37,6 +37,9 @@ def summary_line(run: CheckRun) -> str:
     broken = words.count(VerdictWord.ERROR)
     if broken:
         parts.append(f"{broken} could not be judged")
+    silent = sum(bool(checked.unanswered) for checked in run.protocols)
+    if silent:
+        parts.append(f"{silent} without the model's answer")
     findings = [finding for checked in run.protocols for finding in checked.findings]
     errors = sum(finding.severity is Severity.ERROR for finding in findings)
     told = [counted(errors, "error"), counted(len(findings) - errors, "warning")]
@@ -47,6 +50,22 @@ def summary_line(run: CheckRun) -> str:
         if number:
             told.append(f"{number} {word}")
     return f"{counted(len(words), 'protocol')}: {', '.join(parts)}; {', '.join(told)}."
+
+
+def by_model(finding: Finding) -> str:
+    """The mark of a finding that no check made."""
+    return "found by the model" if finding.source == "model" else ""
+
+
+def model_line(checked: CheckedProtocol) -> str:
+    """Which model answered about a protocol, and what it took; ``""`` if none did."""
+    reply = checked.judgement.reply if checked.judgement else None
+    if reply is None or not reply.answered:
+        return ""
+    usage = reply.usage
+    cached = f", {usage.cached / usage.total_input:.0%} from the cache" if usage.cached else ""
+    tokens = f"{usage.total_input} tokens in{cached}, {usage.output} out, "
+    return f"{reply.model}: {tokens if usage.total_input else ''}{reply.seconds:.1f} s"
 
 
 def sites_by_line(finding: Finding) -> dict[int, list[Site]]:

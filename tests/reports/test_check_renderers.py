@@ -12,9 +12,12 @@ import pytest
 from syrupy.assertion import SnapshotAssertion
 
 from aegis_ot.checking import CheckedProtocol, CheckRun
+from aegis_ot.preflight.opinion import Opinion, no_answer
+from aegis_ot.reasoning import Configuration, Judgement, Reply, State, Usage
 from aegis_ot.reports import RENDERERS, check_github, check_html, check_json, check_sarif
 from aegis_ot.reports.check_junit import check_junit
 from aegis_ot.reports.check_text import check_text
+from aegis_ot.vocabulary import Finding, Severity
 
 from .sample import CARRY, DATABASE, LINES, RUN, report
 from .sarif_constraints import SARIF
@@ -125,3 +128,37 @@ def test_html_is_self_contained_and_escaped() -> None:
     assert "<script" not in page
     assert not re.search(r'(src|href)="(?!#)', page)
     assert "&lt;a&gt; &amp; b" in page
+
+
+def _asked(reply: Reply, *findings: Finding, **more: object) -> CheckRun:
+    judged = report(*findings, **more)
+    judgement = Judgement(Configuration.HYBRID, judged, None, reply)
+    checked = CheckedProtocol("f.py", judged, lines=LINES, judgement=judgement)
+    return CheckRun((checked,), DATABASE, "1")
+
+
+BEYOND = Finding(
+    "MODEL", Severity.WARNING, "It is diluted a thousandfold.", CARRY.sites, source="model"
+)
+
+
+@pytest.mark.parametrize("name", RENDERERS)
+def test_what_the_model_found_is_marked_and_what_the_checks_found_is_not(name: str) -> None:
+    reply = Reply(State.ANSWERED, "some-model", {}, usage=Usage(100, 300, 0, 50), seconds=2.0)
+    mark = '"source": "model"' if name == "json" else "found by the model"
+    for finding in (dataclasses.replace(CARRY, source="model"), BEYOND):
+        shown = RENDERERS[name](_asked(reply, finding))
+        assert shown.count(mark) == 1, shown
+        assert finding.message in shown
+    assert mark not in RENDERERS[name](_asked(reply, CARRY))
+
+
+@pytest.mark.parametrize("name", RENDERERS)
+def test_a_model_that_gave_no_answer_is_told_by_its_state(name: str) -> None:
+    reply = Reply(State.RATE_LIMITED, "some-model", detail="slow down")
+    question = no_answer(Opinion("rate_limited", "some-model", "slow down"))
+    run = _asked(reply, undecided=(question,))
+    assert run.exit_code == 2
+    shown = RENDERERS[name](run)
+    assert "some-model gave no answer (rate_limited): slow down" in shown
+    assert "error" in shown or name == "json"
