@@ -2,18 +2,21 @@
 
 from .axis import rectify
 from .breaks import Break
+from .contrast import WetAndDry, Wetness
 from .evidence import Dye, EmptyColour, combine, mean_dye
 from .learning import learn_run, learn_tip
 from .measure import (
     ColumnMeasurement,
     Reference,
     TipLook,
+    ceiling,
     expected_top,
     look_at_tip,
     measure_column,
     read_column,
     shape_for,
 )
+from .pair import column_left
 from .profile import TipProfile
 from .strip import TipShape
 from .trajectory import RunReference, Signs, TipModel, place, weigh
@@ -30,6 +33,10 @@ __all__ = [
     "TipModel",
     "TipProfile",
     "TipShape",
+    "WetAndDry",
+    "Wetness",
+    "ceiling",
+    "column_left",
     "combine",
     "expected_top",
     "learn_run",

@@ -17,6 +17,7 @@ the tip is: that cancels exposure and white balance.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import cv2
 import numpy as np
@@ -26,6 +27,7 @@ from .strip import Array, Strip, TipShape
 LANES = np.linspace(-2.6, 2.6, 53).astype(np.float32)
 """Positions across the axis at which rows are read, in outer radii of that row."""
 
+_SECTION = np.linspace(-1.05, 1.05, 8)
 _INSIDE = np.abs(LANES) < 0.7
 _WIDE = np.abs(LANES) < 1.3
 _BESIDE = np.abs(LANES) > 1.65
@@ -50,6 +52,7 @@ class TipProfile:
         background: ``(rows,)`` the same beside the tip.
         bar: ``(rows,)`` a thin bright bar across the bore, in standard deviations of the rows
             of this tip.
+        section: ``(rows, 7)`` brightness across the tip, from one wall to the other.
         length: Length of the tip in the frame, px.
         clarity: See :class:`~aegis_ot.vision.column.strip.Strip`.
     """
@@ -59,6 +62,7 @@ class TipProfile:
     brightness: Array
     background: Array
     bar: Array
+    section: Array
     length: float
     clarity: float
 
@@ -84,6 +88,7 @@ def tip_profile(strip: Strip, shape: TipShape, cone: Array | None = None) -> Tip
         brightness=brightness.astype(np.float32),
         background=background.astype(np.float32),
         bar=_bar(luminance, background, u),
+        section=_section(luminance),
         length=strip.length,
         clarity=strip.clarity,
     )
@@ -109,6 +114,15 @@ def unroll(strip: Strip, shape: TipShape) -> Array:
         ),
         dtype=np.float32,
     )
+
+
+def _section(luminance: Array) -> Array:
+    """Brightness across the tip in seven lanes: walls, core and the glints between them."""
+    lanes = [
+        luminance[:, (low <= LANES) & (high > LANES)].mean(axis=1)
+        for low, high in pairwise(_SECTION)
+    ]
+    return np.asarray(np.stack(lanes, axis=1), dtype=np.float32)
 
 
 def _colour(cone: Array) -> Array:

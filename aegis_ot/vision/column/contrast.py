@@ -1,0 +1,198 @@
+"""What liquid changes in a tip before this camera, row by row, learned from the run itself.
+
+A dye colours a row of the tip; water bends what is behind it, moves the glints and hides the
+bore's inner edge. All of it depends on lamp, panel, camera and tip, and all of it is the same
+in the next well. So the run's own empty tips and its own filled ones are the two templates, and
+each row of another frame is asked which of them it looks like (Fisher's linear discriminant).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from .profile import TipProfile
+from .strip import Array
+
+_MEMORY = 16
+"""Frames that a template is made of."""
+
+_SMOOTH = 15
+"""Rows over which the liquid's own look is smoothed: it changes slowly along the tip."""
+
+_POWER_MOST = 9.0
+"""Most that one row counts for: a glint, or an edge behind the tip, is no column."""
+
+_CORRELATED = 5.0
+"""Rows that say the same thing: blur, resampling, and what is behind the tip."""
+
+NOISE = np.array([0.05] * 7 + [0.02] * 2 + [0.05])
+"""Standard deviation of :func:`signals` before the run has shown its own."""
+
+_NOISE_ROWS = 150.0
+"""How many rows of the run's own that counts for."""
+
+
+def signals(profile: TipProfile) -> Array:
+    """What tells liquid from air in each row, ``(rows, 10)``.
+
+    Brightness across the tip, two colours, and the brightness beside the tip: the last says
+    nothing about liquid, but explains what shines through.
+    """
+    # Against what is beside the tip: how bright the nozzle looks depends on where it is cut.
+    beside = profile.background - np.median(profile.background)
+    raw = np.concatenate(
+        [profile.section - profile.background[:, None], 2 * profile.colour, beside[:, None]],
+        axis=1,
+    )
+    return np.asarray(cv2.blur(raw, (1, 3)), dtype=np.float32)
+
+
+@dataclass(frozen=True)
+class Wetness:
+    """Rows of one frame between the run's empty tip (0) and its filled one (1).
+
+    Attributes:
+        u: ``(rows,)`` 0 collar, 1 orifice.
+        share: ``(rows,)``.
+        weight: ``(rows,)`` precision of it, correlation counted; 0 where nothing is known.
+        power: Typical squared distance of filled from empty, in standard deviations: how well
+            this liquid shows before this camera.
+    """
+
+    u: Array
+    share: NDArray[np.float64]
+    weight: NDArray[np.float64]
+    power: float
+
+    def mean(self, low: float, high: float) -> tuple[float, float]:
+        """Weighted mean share of the rows between ``low`` and ``high`` (u), and their weight."""
+        rows = (self.u > low) & (self.u < high)
+        total = float(self.weight[rows].sum())
+        if total <= 0:
+            return 0.5, 0.0
+        return float(self.weight[rows] @ self.share[rows]) / total, total
+
+    def column(self, low: float, high: float) -> float:
+        """Where a column that reaches up from the orifice most likely ends (u), 1 for none.
+
+        It ends between ``low`` and ``high``; rows above ``low`` have no say.
+        """
+        inside = self.u > low
+        gain = np.where(inside, self.weight * (self.share - 0.5), 0.0)
+        below = np.cumsum(gain[::-1])[::-1]
+        ends = np.flatnonzero(inside & (self.u < high))
+        if not len(ends):
+            return 1.0
+        best = int(ends[np.argmax(below[ends])])
+        return float(self.u[best]) if below[best] > 0 else 1.0
+
+    def longest_gap(self, low: float, high: float) -> tuple[float, float, float]:
+        """Strongest run of empty rows between ``low`` and ``high``: strength, its ends (u)."""
+        rows = np.flatnonzero((self.u > low) & (self.u < high))
+        best, ends, start, total = 0.0, (high, high), 0, 0.0
+        for place, row in enumerate(rows):
+            if total <= 0:
+                start, total = place, 0.0
+            total += float(self.weight[row] * (0.5 - self.share[row]))
+            if total > best:
+                best, ends = total, (float(self.u[rows[start]]), float(self.u[row]))
+        return best, ends[0], ends[1]
+
+
+@dataclass(frozen=True)
+class _Templates:
+    """Empty tip, what liquid changes, and the discriminant: ``(rows, features)``."""
+
+    dry: NDArray[np.float64]
+    weights: NDArray[np.float64]
+    power: NDArray[np.float64]
+
+
+class WetAndDry:
+    """Empty and filled rows of one run's tips with one liquid.
+
+    Rows are those of :class:`TipProfile`, the same for all tips of a class.
+    """
+
+    def __init__(self) -> None:
+        self._dry: list[Array] = []
+        self._wet: list[Array] = []
+        self._templates: _Templates | None = None
+
+    def learn(self, profile: TipProfile, top: float, margin: float) -> None:
+        """Take a frame whose column ends at ``top`` (u; 1: an empty tip), give or take."""
+        seen = signals(profile)
+        u = profile.u
+        above = (u < top - margin) if top < 1.0 else np.ones(len(u), dtype=bool)
+        below = u > top + margin
+        for kept, rows in ((self._dry, above), (self._wet, below)):
+            if rows.any() and (not kept or kept[0].shape == seen.shape):
+                kept.append(np.where(rows[:, None], seen, np.nan).astype(np.float32))
+                del kept[:-_MEMORY]
+        self._templates = None
+
+    def prepare(self) -> None:
+        """Do the costly part now, while the robot moves."""
+        if self._templates is None and self._dry and self._wet:
+            self._templates = self._make()
+
+    def read(self, profile: TipProfile, low: float, high: float = 0.985) -> Wetness | None:
+        """How wet each row between ``low`` and ``high`` (u) is; ``None`` before one was learned."""
+        self.prepare()
+        if self._templates is None or self._templates.dry.shape[0] != len(profile.u):
+            return None
+        known = self._templates
+        inside = (profile.u > low) & (profile.u < high) & np.isfinite(known.power)
+        power = np.where(inside, known.power, 0.0)
+        score = np.nan_to_num((known.weights * (signals(profile) - known.dry)).sum(axis=1))
+        share = np.where(power > 0, score / np.maximum(power, 0.5), 0.0)
+        return Wetness(
+            profile.u,
+            np.clip(share, -1.0, 2.0),
+            np.minimum(power, _POWER_MOST) / _CORRELATED,
+            float(np.median(known.power[inside])) if inside.any() else 0.0,
+        )
+
+    def _make(self) -> _Templates | None:
+        dry, spread = _median(self._dry)
+        wet, _ = _median(self._wet)
+        known = np.isfinite(dry).all(axis=1)
+        if not (known & np.isfinite(wet).all(axis=1)).any():
+            return None
+        rest = (np.stack(self._dry) - dry)[:, known].reshape(-1, dry.shape[1])
+        rest = rest[np.isfinite(rest).all(axis=1)].astype(np.float64)
+        # A template made of few frames is itself uncertain.
+        scatter = rest.T @ rest * (1.0 + 1.0 / max(spread, 1.0))
+        prior = np.diag(NOISE**2) * _NOISE_ROWS
+        scatter = (scatter + prior) / (len(rest) + _NOISE_ROWS)
+        change = _smoothed(wet - dry)
+        weights = np.linalg.solve(scatter, change.T).T
+        return _Templates(dry, weights, (weights * change).sum(axis=1))
+
+
+def _median(frames: Sequence[Array]) -> tuple[NDArray[np.float64], float]:
+    """Median over frames and typical number of them; rows that none shows are NaN."""
+    stack = np.stack(frames).astype(np.float64)
+    count = np.isfinite(stack[:, :, 0]).sum(axis=0)
+    middle = np.full(stack.shape[1:], np.nan)
+    some = count > 0
+    middle[some] = np.nanmedian(stack[:, some], axis=0)
+    return middle, float(np.median(count[some])) if some.any() else 0.0
+
+
+def _smoothed(change: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Smoothed along the tip; NaN where no row near by was ever full."""
+    known = np.isfinite(change).all(axis=1)
+    kernel = np.ones((_SMOOTH, 1))
+    filled = np.where(known[:, None], change, 0.0)
+    total = cv2.filter2D(filled, cv2.CV_64F, kernel, borderType=cv2.BORDER_CONSTANT)
+    weight = cv2.filter2D(
+        known.astype(np.float64)[:, None], cv2.CV_64F, kernel, borderType=cv2.BORDER_CONSTANT
+    )
+    smooth = total / np.maximum(weight, 1.0)
+    return np.asarray(np.where(weight > 0.5, smooth, np.nan))
