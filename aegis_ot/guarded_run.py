@@ -21,7 +21,7 @@ from .instrumentation import NameCollector, Tap, tapped
 from .settings import Settings, load_settings
 
 if TYPE_CHECKING:
-    from .preflight.recorder import Recorder
+    from .preflight.rehearsal import Recorder
     from .runtime import Watcher
 
 # Which context is guarded, and not merely that one is: a robot server runs the next protocol
@@ -90,7 +90,7 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
 def _rehearse_by_running(
     call: Callable[[], Any], protocol: Any, settings: Settings, file_name: str, run: Any
 ) -> Any:
-    from .preflight.recorder import Recorder
+    from .preflight.rehearsal import Recorder
 
     recorder = Recorder() if settings.rules != "off" else None
     watcher = _new_watcher(protocol, settings, file_name)
@@ -114,9 +114,7 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
     """Rehearse and judge before anything moves; what there is to say of it."""
     if settings.rules == "off":
         return ""
-    from .preflight.recorder import Recorder
-    from .preflight.rehearsal import rehearse
-    from .preflight.script import find_script
+    from .preflight.rehearsal import Recorder, find_script, rehearse
     from .runtime.runstate import RunState
 
     script = find_script(file_name, protocol)
@@ -218,7 +216,7 @@ def _judge(
         ProtocolRejected: It found errors, and ``rules="on"``.
     """
     from .preflight.checking import check_recording, is_rejected, rejection, summary
-    from .preflight.script import find_script
+    from .preflight.rehearsal import find_script
 
     script = find_script(file_name, protocol)
     text = script.text if script is not None else ""

@@ -55,7 +55,7 @@ def check(path: Path) -> None:
     """File to verdict, as ``aegis-ot check`` does it once Opentrons is loaded."""
     from aegis_ot.checking.files import read_protocol
     from aegis_ot.preflight import check_script
-    from aegis_ot.preflight.script import Script
+    from aegis_ot.preflight.rehearsal import Script
 
     check_script(Script(read_protocol(path), path.name))
 
@@ -63,9 +63,7 @@ def check(path: Path) -> None:
 def _verdict_share(path: Path) -> float:
     """Time of the verdict, rules loaded, over the time of the rehearsal."""
     from aegis_ot.preflight import Recording, judge, load_database
-    from aegis_ot.preflight.recorder import Recorder
-    from aegis_ot.preflight.rehearsal import rehearse
-    from aegis_ot.preflight.script import Script
+    from aegis_ot.preflight.rehearsal import Recorder, Script, rehearse
 
     script, recorder, database = Script(path.read_text(), path.name), Recorder(), load_database()
     begun = time.process_time()

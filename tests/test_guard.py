@@ -190,8 +190,7 @@ class TestLive:
         assert len(keyframes) == 8
 
     def test_analysis_and_live_show_the_same_command_types(self, form):
-        from aegis_ot.preflight.rehearsal import play
-        from aegis_ot.preflight.script import Script
+        from aegis_ot.preflight.rehearsal import Script, play
 
         with stub_sidecar() as (url, _):
             text = protocol(GOOD, f'sidecar="{url}"', form)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ..preflight import Options, Report
-from ..preflight.script import Script
+from ..preflight.rehearsal import Script
 from ..vocabulary import Finding
 from .combinations import combinations, count_all, values_of
 from .rehearser import Rehearser, TaskFailed

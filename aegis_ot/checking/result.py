@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..preflight import Database, Report
-from ..preflight.judge import RoleEvidence
+from ..preflight.judging import RoleEvidence, Waived
 from ..preflight.opinion import unanswered
-from ..preflight.waivers import Waived
 from ..vocabulary import Finding, Severity, Undecided, VerdictWord
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from .. import __version__
 from ..errors import ConfigurationError
 from ..preflight import Database, Options, Report
 from ..preflight.dossier import Dossier
-from ..preflight.script import Script
+from ..preflight.rehearsal import Script
 from ..vocabulary import Finding
 from .baseline import Baseline
 from .configuration import ConfiguredWaiver

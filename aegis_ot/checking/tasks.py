@@ -15,8 +15,7 @@ from ..preflight import Database, Options, Report, check_script, load_database
 from ..preflight.dossier import Dossier
 from ..preflight.dossier_making import check_with_dossier
 from ..preflight.examples import ExampleResult, run_examples
-from ..preflight.loading import line_of, load
-from ..preflight.script import Script
+from ..preflight.rehearsal import Script, line_of, load
 from .result import Problem
 
 RulePaths = tuple[str, ...]

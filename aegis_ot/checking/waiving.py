@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from ..preflight.waivers import Waived, Waiver
+from ..preflight.judging import Waived, Waiver
 from ..vocabulary import Finding
 from .configuration import TABLE, ConfiguredWaiver
 

@@ -12,8 +12,8 @@ from ..checking import Rehearser, TaskFailed
 from ..checking.tasks import RunExamples
 from ..errors import ConfigurationError
 from ..preflight import Database, load_database
+from ..preflight.database import shipped_rules
 from ..preflight.examples import ExampleResult
-from ..preflight.rulefiles import shipped_rules
 from ..reports import rule_list, rule_pages, rule_text
 from .app import CLEAN, FINDINGS, app
 from .checks import known_rule, one_of, split, write_text

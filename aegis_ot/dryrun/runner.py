@@ -18,9 +18,7 @@ from ..errors import AegisError, ConfigurationError, RehearsalError, RunAborted
 from ..guard import guard
 from ..instrumentation import Event, Operation, OperationKind, tapped
 from ..preflight.checking import check_recording, is_rejected, rejection
-from ..preflight.recorder import Recorder
-from ..preflight.rehearsal import play, rehearse
-from ..preflight.script import Script
+from ..preflight.rehearsal import Recorder, Script, play, rehearse
 from ..runtime import Planner
 from ..settings import load_settings
 from ..sidecar import Analyser, Judged, RunAnalyser, SidecarConfig, running_sidecar

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..checking.files import read_labware, read_protocol, read_values
 from ..errors import ConfigurationError
-from ..preflight.script import Script
+from ..preflight.rehearsal import Script
 
 
 def read_script(path: Path, labware: Sequence[Path] = (), parameters: Sequence[str] = ()) -> Script:

@@ -1,17 +1,26 @@
-"""Layer 1: a protocol is rehearsed, read as a trace, and judged by the rules. Robot side."""
+"""Layer 1: a protocol is rehearsed, read as a trace, and judged by the rules. Robot side.
 
-from __future__ import annotations
+Each step is a room of its own, and imports run down this list only (a contract in
+``pyproject.toml``)::
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+    checking    a protocol, or what a guard recorded, to a report
+    database    the rule files: loaded, validated, their schema
+    judging     a recording to a verdict: cases, findings, waivers
+    checks      predicates over trace and roles, of which rules are made
+    roles       what each well is for, and which assay it is
+    trace       the recording read as tips, wells and liquids
+    text        what the protocol's text says
+    rules       what a rule file may say
+    rehearsal   the protocol run in the simulator, and recorded
 
-from .judge import Options, Recording, Report, judge
-from .recorder import Recorder
-from .rulefiles import Database, load_database
+Beside them, ``dossier`` and ``opinion`` are what is asked of a model and what it answered.
+"""
 
-if TYPE_CHECKING:
-    from ..instrumentation import NameBinding
-    from .script import Script
+from .checking import check_recording, check_script
+from .database import load_database
+from .judging import Options, Report, judge
+from .rehearsal import Recorder, Recording, Script, record
+from .rules import Database
 
 __all__ = [
     "Database",
@@ -19,66 +28,10 @@ __all__ = [
     "Recorder",
     "Recording",
     "Report",
+    "Script",
     "check_recording",
     "check_script",
     "judge",
     "load_database",
     "record",
 ]
-
-
-def check_recording(
-    recorder: Recorder,
-    names: Sequence[NameBinding],
-    text: str,
-    file_name: str,
-    settings: Any = None,
-) -> Report:
-    """Judge what a recorder heard.
-
-    Args:
-        recorder: The recorder, after the run.
-        names: Names that held wells.
-        text: The protocol's source, ``""`` if it cannot be had.
-        file_name: Its name.
-        settings: ``aegis_ot.settings.Settings``; ``None`` for defaults.
-
-    Raises:
-        RuleError: A rule file cannot be used.
-        ConfigurationError: A setting names what does not exist.
-    """
-    options = Options.from_settings(settings) if settings is not None else Options()
-    extra = getattr(settings, "rules_path", None)
-    database = load_database([extra] if extra else [])
-    recording = Recording(file_name, text, recorder.log, recorder.labware, names)
-    return judge(recording, database, options)
-
-
-def check_script(
-    script: Script,
-    database: Database | None = None,
-    options: Options | None = None,
-    timeout_s: float = 120.0,
-) -> Report:
-    """Rehearse a protocol and judge it.
-
-    Raises:
-        RehearsalError: It cannot be rehearsed.
-        RuleError: A rule file cannot be used.
-    """
-    return judge(record(script, timeout_s), database or load_database(), options)
-
-
-def record(script: Script, timeout_s: float = 120.0) -> Recording:
-    """Rehearse a protocol.
-
-    Raises:
-        RehearsalError: It cannot be rehearsed.
-    """
-    from .rehearsal import rehearse
-
-    recorder = Recorder()
-    rehearsal = rehearse(script, [recorder], timeout_s=timeout_s)
-    return Recording(
-        script.file_name, script.text, recorder.log, rehearsal.labware, rehearsal.names
-    )

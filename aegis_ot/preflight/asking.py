@@ -19,13 +19,13 @@ from urllib.parse import urlsplit
 from ..instrumentation import NameBinding
 from ..settings import Settings
 from ..vocabulary import Undecided, from_json
+from .database import load_database
 from .dossier import Dossier
 from .dossier_making import make_dossier
-from .judge import Options, Recording, Report, judge
+from .judging import Options, Report, judge
 from .merging import merge, options_with_roles
 from .opinion import MODEL, Opinion
-from .recorder import Recorder
-from .rulefiles import load_database
+from .rehearsal import Recorder, Recording
 
 LIVE_WAIT_S = 1.0
 """How long a live run waits for an opinion that should be remembered already, s."""

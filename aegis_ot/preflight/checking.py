@@ -1,4 +1,4 @@
-"""From a recording and the guard's settings to a report, and the report in plain words."""
+"""From a protocol, or from what a guard recorded, to a report; and the report in plain words."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from ..instrumentation import NameBinding
 from ..settings import Settings
 from ..vocabulary import Finding, Severity, VerdictWord
-from .judge import Options, Recording, Report, judge
-from .recorder import Recorder
-from .rulefiles import load_database
+from .database import load_database
+from .judging import Options, Report, judge
+from .rehearsal import Recorder, Recording, Script, record
+from .rules import Database
 
 
 def check_recording(
@@ -33,14 +34,23 @@ def check_recording(
         ConfigurationError: A setting names a rule, role or family that does not exist.
     """
     database = load_database([settings.rules_path] if settings.rules_path else [])
-    options = Options(
-        assay=(settings.assay,) if settings.assay else (),
-        roles=settings.roles,
-        select=settings.select,
-        ignore=settings.ignore,
-    )
     recording = Recording(file_name, text, recorder.log, recorder.labware, tuple(names))
-    return judge(recording, database, options)
+    return judge(recording, database, Options.from_settings(settings))
+
+
+def check_script(
+    script: Script,
+    database: Database | None = None,
+    options: Options | None = None,
+    timeout_s: float = 120.0,
+) -> Report:
+    """Rehearse a protocol and judge it.
+
+    Raises:
+        RehearsalError: It cannot be rehearsed.
+        RuleError: A rule file cannot be used.
+    """
+    return judge(record(script, timeout_s), database or load_database(), options)
 
 
 def is_rejected(report: Report) -> bool:

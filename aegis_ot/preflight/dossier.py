@@ -72,7 +72,7 @@ class Dossier:
         parameters: Values of runtime parameters, as JSON text.
         family: The likeliest assay family.
         family_known: Whether that is more than a guess.
-        table: The trace, see :mod:`~aegis_ot.preflight.trace_table`.
+        table: The trace, see :mod:`~aegis_ot.preflight.trace.table`.
         deck: Labware that can hold liquid.
         wells: Wells that the run uses, or that have a role.
         lines: Source lines that did something in the run.

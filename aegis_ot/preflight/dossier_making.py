@@ -9,15 +9,13 @@ from typing import Any
 from ..instrumentation import Event
 from ..vocabulary import Severity, WellRef
 from . import record
-from .clues import Strength
+from .database import load_database, shipped_rules
 from .dossier import DeckItem, Dossier, RoleLine, RuleBrief
-from .judge import Options, Recording, Report, RoleEvidence, judge
-from .replacements import Replacements
-from .roles import Assignment, Roles, implied_contents, usage_of
-from .rulefiles import Database, RuleSpec, load_database, shipped_rules
-from .script import Script
-from .trace import Trace, build_trace, row_column
-from .trace_table import places, trace_table
+from .judging import Options, Report, RoleEvidence, judge
+from .rehearsal import Recording, Script
+from .roles import Assignment, Roles, Strength, implied_contents, usage_of
+from .rules import Database, RuleSpec
+from .trace import Replacements, Trace, build_trace, places, row_column, trace_table
 
 LONGEST_SOURCE = 40_000
 """Characters of source that are shown; what is cut is said."""

@@ -10,8 +10,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from ..errors import AegisError
-from .judge import Options, Report
-from .rulefiles import Database, Example, Family, RuleSpec
+from .checking import check_script
+from .judging import Options, Report
+from .rehearsal import Script
+from .rules import Database, Example, Family, RuleSpec
 
 DECK = """metadata = {"apiLevel": "2.15"}
 
@@ -108,8 +110,5 @@ def _run(
 
 
 def _report(database: Database, family: Family, example: Example) -> Report:
-    from . import check_script
-    from .script import Script
-
     script = Script(text=protocol_text(example), file_name="example.py")
     return check_script(script, database, Options(assay=(family.family,)))

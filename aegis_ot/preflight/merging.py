@@ -14,10 +14,18 @@ from dataclasses import replace
 
 from ..vocabulary import Finding, Severity, Undecided, VerdictWord
 from .dossier import Dossier
-from .judge import Options, Report, RoleEvidence
+from .judging import (
+    Options,
+    Report,
+    RoleEvidence,
+    Waived,
+    apply_waivers,
+    first_statement,
+    read_waivers,
+    stale,
+)
 from .opinion import Opinion, no_answer
-from .source import read_source
-from .waivers import Waived, apply_waivers, first_statement, read_waivers, stale
+from .text import read_source
 
 
 def options_with_roles(

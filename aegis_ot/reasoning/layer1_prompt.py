@@ -13,7 +13,7 @@ import re
 
 from ..preflight.dossier import Dossier
 from ..preflight.dossier_making import rule_text
-from ..preflight.rulefiles import Database
+from ..preflight.rules import Database
 from .answer import ANSWER_SCHEMA, BLIND_SCHEMA
 from .backend import Message, Passage, Request
 from .prompts_text import prompt

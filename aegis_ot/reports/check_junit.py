@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element, SubElement
 
 from ..checking import CheckedProtocol, CheckRun
 from ..preflight.opinion import MODEL
-from ..preflight.rulefiles import RuleSpec
+from ..preflight.rules import RuleSpec
 from ..vocabulary import Finding
 from .words import by_model
 

@@ -15,7 +15,7 @@ from typing import Any
 from urllib.parse import quote
 
 from ..checking import CheckedProtocol, CheckRun
-from ..preflight.rulefiles import RuleSpec
+from ..preflight.rules import RuleSpec
 from ..vocabulary import Finding, Severity, Site
 from .words import by_model, site_label, sites_by_line
 

@@ -7,7 +7,7 @@ import tokenize
 from collections.abc import Iterable, Iterator, Sequence
 
 from ..checking import CheckedProtocol, CheckRun, Exploration, Problem
-from ..preflight.judge import RoleEvidence
+from ..preflight.judging import RoleEvidence
 from ..vocabulary import Finding, Severity, VerdictWord
 from .words import (
     by_model,

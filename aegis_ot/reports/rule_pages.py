@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ..preflight.checks import CHECKS
-from ..preflight.rulefiles import Database, Example, Family, RoleSpec, RuleSpec
+from ..preflight.rules import Database, Example, Family, RoleSpec, RuleSpec
 from .rule_text import code_of, needs_in_words
 
 _HEAD = "<!-- Written by `aegis-ot rules docs` from the rule files. Edit those. -->"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator
 
-from ..preflight.rulefiles import Database, Example, Family, RuleSpec
+from ..preflight.rules import Database, Example, Family, RuleSpec
 
 _WIDTH = 100
 

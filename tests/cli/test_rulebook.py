@@ -3,7 +3,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from aegis_ot.preflight.rulefiles import shipped_rules
+from aegis_ot.preflight.database import shipped_rules
 
 from .commands import Command
 

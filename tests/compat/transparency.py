@@ -137,7 +137,7 @@ def engine_commands(text, name):
     from opentrons.protocols.execution.execute_python import exec_add_parameters, exec_run
     from opentrons.protocols.parse import parse
 
-    from aegis_ot.preflight.simulated_context import simulated_context
+    from aegis_ot.preflight.rehearsal.simulated_context import simulated_context
 
     protocol = parse(text, name)
     if protocol.api_level < ENGINE_CORE_API_VERSION:

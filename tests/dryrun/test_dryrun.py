@@ -6,7 +6,7 @@ import pytest
 
 from aegis_ot.dryrun import DryRunSettings, dry_run
 from aegis_ot.errors import ConfigurationError, RehearsalError
-from aegis_ot.preflight.script import Script
+from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reports import dry_run_html
 from aegis_ot.sidecar import make_analyser
 from aegis_ot.vocabulary import KeyframeKind, Outcome, Route

@@ -13,11 +13,9 @@ from aegis_ot.instrumentation import (
     Pipette,
     WellInfo,
 )
-from aegis_ot.preflight.recorder import Recorder
-from aegis_ot.preflight.replacements import Replacements
-from aegis_ot.preflight.rulefiles import load_database
-from aegis_ot.preflight.trace import Trace, build_trace
-from aegis_ot.preflight.wells import Well
+from aegis_ot.preflight.database import load_database
+from aegis_ot.preflight.rehearsal import Recorder
+from aegis_ot.preflight.trace import Replacements, Trace, Well, build_trace
 from aegis_ot.vocabulary import WellRef
 
 PIPETTE = Pipette("left", "p300_single_gen2", "left", 1, 300.0)

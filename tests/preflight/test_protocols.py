@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from aegis_ot.preflight import Database, Report, check_script, load_database
-from aegis_ot.preflight.script import Script
+from aegis_ot.preflight.rehearsal import Script
 
 FILES = sorted((Path(__file__).parent / "protocols").glob("*.py"))
 

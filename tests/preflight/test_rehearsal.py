@@ -8,9 +8,8 @@ import time
 import pytest
 
 from aegis_ot.errors import RehearsalError, RehearsalTimeout
-from aegis_ot.preflight.haste import hasty_builtins
-from aegis_ot.preflight.rehearsal import rehearse
-from aegis_ot.preflight.script import Script
+from aegis_ot.preflight.rehearsal import Script, rehearse
+from aegis_ot.preflight.rehearsal.haste import hasty_builtins
 
 
 def script(body: str) -> Script:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from aegis_ot.instrumentation import EventKind
-from aegis_ot.preflight.tips import TipBox
+from aegis_ot.preflight.trace import TipBox
 from aegis_ot.vocabulary import WellRef
 
 from .streams import Bench, carried, well

@@ -9,7 +9,7 @@ from typing import Any
 from aegis_ot.preflight import Database, Options, Report, load_database
 from aegis_ot.preflight.dossier import Dossier
 from aegis_ot.preflight.dossier_making import check_with_dossier
-from aegis_ot.preflight.script import Script
+from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import Message, Passage, Picture, Request
 from aegis_ot.reasoning.answer import strict_object
 from aegis_ot.reasoning.backends import Clock

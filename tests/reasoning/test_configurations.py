@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from aegis_ot.preflight.script import Script
+from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import (
     Configuration,
     ReplayBackend,
@@ -103,8 +103,8 @@ def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-
     import json
 
     from aegis_ot.preflight import load_database
+    from aegis_ot.preflight.database import shipped_rules
     from aegis_ot.preflight.dossier_making import check_with_dossier
-    from aegis_ot.preflight.rulefiles import shipped_rules
 
     family = json.loads((shipped_rules() / "generic.json").read_text())
     rule = next(r for r in family["rules"] if r["id"] == "GEN-1")

@@ -152,7 +152,7 @@ def test_rules_that_the_user_left_out_stay_out() -> None:
 
 def _with(options: Options) -> tuple[Report, Dossier]:
     from aegis_ot.preflight.dossier_making import check_with_dossier
-    from aegis_ot.preflight.script import Script
+    from aegis_ot.preflight.rehearsal import Script
 
     return check_with_dossier(Script(SILENT, "protocol.py"), database(), options)
 

@@ -8,7 +8,7 @@ import pytest
 
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.preflight.dossier_making import check_with_dossier
-from aegis_ot.preflight.script import Script
+from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import Usage, load_prices, request_in, request_size
 from aegis_ot.reasoning.prompts_text import prompt
 from aegis_ot.reasoning.tokens import estimate_tokens

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 
 from aegis_ot.preflight.dossier import Dossier
-from aegis_ot.preflight.trace_table import places
+from aegis_ot.preflight.trace import places
 from aegis_ot.vocabulary import WellRef
 
 from .samples import checked

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from aegis_ot.checking import Broken, CheckedProtocol, CheckRun, Exploration, Problem
 from aegis_ot.preflight import Database, Report
-from aegis_ot.preflight.families import Inference
-from aegis_ot.preflight.judge import RoleEvidence
-from aegis_ot.preflight.rulefiles import Common, Example, Examples, Family, RoleSpec, RuleSpec
-from aegis_ot.preflight.waivers import Waived, Waiver
+from aegis_ot.preflight.judging import RoleEvidence, Waived, Waiver
+from aegis_ot.preflight.roles import Inference
+from aegis_ot.preflight.rules import Common, Example, Examples, Family, RoleSpec, RuleSpec
 from aegis_ot.vocabulary import Finding, Severity, Site, Undecided, VerdictWord, WellRef
 
 

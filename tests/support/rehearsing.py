@@ -6,8 +6,7 @@ import textwrap
 from dataclasses import dataclass, field
 
 from aegis_ot.instrumentation import Event, Operation, OperationKind
-from aegis_ot.preflight.rehearsal import Rehearsal, rehearse
-from aegis_ot.preflight.script import Script
+from aegis_ot.preflight.rehearsal import Rehearsal, Script, rehearse
 
 FILE_NAME = "protocol.py"
 

@@ -9,12 +9,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...errors import RuleError
-from ..reading import read_dataclass
+from ..rules import read_dataclass
 from .base import Case, Check, Doubt, Result, Violation
 from .carry import Carry, DoseOrder
-from .dilution import SeriesDirection, SeriesFilledFirst, SeriesFilledFrom, SeriesMixed, SeriesTip
+from .dilution import SeriesDirection, SeriesMixed
+from .filling import SeriesFilledFirst, SeriesFilledFrom
 from .order import MixedAfter, ReceivedBefore, RisingOrder
 from .receiving import NeverReceives, Receives, UniformVolume
+from .series_tip import SeriesTip
 from .volumes import VolumeBookkeeping
 
 CHECKS: dict[str, type[Check]] = {

@@ -8,13 +8,11 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 from ...vocabulary import Site, WellRef
-from ..levels import name_without_level
 from ..roles import Roles, Usage
-from ..rulefiles import Common, Family
-from ..series import Series, find_series
-from ..tips import Met
-from ..trace import Trace, Visit
-from ..wells import Well
+from ..rules import Common, Family
+from ..text import name_without_level
+from ..trace import Met, Trace, Visit, Well
+from .series import Series, find_series
 
 RoleSet = frozenset[str]
 

@@ -7,11 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
-from ..levels import name_without_level
-from ..tips import Met
-from ..trace import Visit
-from ..wells import Well
-from ..words import Lexicon
+from ..text import Lexicon, name_without_level
+from ..trace import Met, Visit, Well
 from .base import (
     Case,
     Check,

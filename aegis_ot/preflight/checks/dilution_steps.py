@@ -1,0 +1,40 @@
+"""What a dilution step is, and what fills a well of a series."""
+
+from __future__ import annotations
+
+from ..trace import Transfer, Well
+from .base import Case
+
+NO_SERIES = "no chain of transfers from well to well was found"
+
+
+def diluent_roles(case: Case) -> frozenset[str]:
+    """Roles that the family dilutes with."""
+    spec = case.family.series
+    return frozenset(spec.diluent) if spec else frozenset()
+
+
+def stock_roles(case: Case) -> frozenset[str]:
+    """Roles that the family dilutes."""
+    spec = case.family.series
+    return frozenset(spec.stock) if spec else frozenset()
+
+
+def diluent_arrivals(case: Case, well: Well) -> list[int]:
+    """Index of each delivery of diluent to a well."""
+    diluent = diluent_roles(case)
+    return [
+        visit.index
+        for visit in case.trace.deliveries(well)
+        if any(part[0] is not None and case.has(part[0], diluent) for part in visit.parts)
+    ]
+
+
+def is_dilution(case: Case, step: Transfer) -> bool:
+    """Whether a transfer is a dilution step.
+
+    Undiluted stock in an empty first well is none: that well never gets diluent.
+    """
+    if not step.from_stock:
+        return True
+    return bool(diluent_arrivals(case, step.well)) or case.has(step.well, diluent_roles(case))

@@ -1,0 +1,133 @@
+"""Checks on what the wells of a dilution series are filled with, and when."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...vocabulary import Site
+from ..trace import Transfer, Visit, Well
+from .base import Case, Check, Doubt, Result, Violation, at, place
+from .dilution_steps import NO_SERIES, diluent_arrivals, diluent_roles, is_dilution, stock_roles
+from .series import Series
+
+
+@dataclass(frozen=True)
+class SeriesFilledFirst(Check):
+    """Every well of the series holds its diluent before the more concentrated solution."""
+
+    name: ClassVar[str] = "series_filled_first"
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Look at what each well holds when its step comes."""
+        if not case.series:
+            yield Doubt(NO_SERIES)
+        for series in case.series:
+            done: set[Well] = set()
+            for step in series.steps:
+                well = step.well
+                if well in done or not is_dilution(case, step) or well.prefilled:
+                    continue
+                done.add(well)
+                fills = diluent_arrivals(case, well)
+                before = first_index(step)
+                if any(index < before for index in fills):
+                    continue
+                if not fills and wrong_fill(case, series, step) is not None:
+                    continue
+                if not fills and not _anyone_filled(case):
+                    yield Doubt("no diluent is seen to be added; it may be there already")
+                    return
+                message = (
+                    f"{place(well)} receives the more concentrated solution {at(step.visit.line)} "
+                    + ("before its diluent." if fills else "and never any diluent.")
+                )
+                sites = [
+                    Site(step.drawn, step.source.ref, "drew the more concentrated solution"),
+                    Site(step.visit.line, well.ref, "no diluent there yet"),
+                ]
+                if fills:
+                    late = next(v for v in well.visits if v.index == fills[0])
+                    sites.append(Site(late.line, well.ref, "the diluent comes only here"))
+                yield Violation(message, tuple(sites), well, (step.visit.line, bool(fills)))
+
+
+@dataclass(frozen=True)
+class SeriesFilledFrom(Check):
+    """What the wells of the series are filled with comes from the diluent's own reservoir."""
+
+    name: ClassVar[str] = "series_filled_from"
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Look at the source of each filling."""
+        if not case.series:
+            yield Doubt(NO_SERIES)
+        diluent, stock = diluent_roles(case), stock_roles(case)
+        known = any(
+            not diluent.isdisjoint(case.roles.closure(assigned.role))
+            for assigned in case.roles.by_well.values()
+        )
+        for series in case.series:
+            done: set[Well] = set()
+            for step in series.steps:
+                if step.well in done or (step.from_stock and not self._wants(case, series, step)):
+                    continue
+                done.add(step.well)
+                wrong = wrong_fill(case, series, step)
+                if wrong is None:
+                    continue
+                visit, source, line = wrong
+                if not known and not case.has(source, stock):
+                    yield Doubt("nothing says which reservoir holds the diluent")
+                    return
+                what = (
+                    f"the {case.title(source)} {place(source)}"
+                    if case.of(source)
+                    else f"{place(source)}, which is not the diluent"
+                )
+                yield Violation(
+                    f"{place(step.well)} is filled from {what}, {at(line)}, where its diluent "
+                    "should come.",
+                    (
+                        Site(line, source.ref, "drew this in the diluent's place"),
+                        Site(visit.line, step.well.ref, "filled with it"),
+                    ),
+                    step.well,
+                    (visit.line, id(source)),
+                )
+
+    @staticmethod
+    def _wants(case: Case, series: Series, step: Transfer) -> bool:
+        """Whether a first well that gets stock was meant to be diluted: something came before."""
+        return wrong_fill(case, series, step) is not None
+
+
+def first_index(step: Transfer) -> int:
+    """Index of the first delivery of a step that took several."""
+    return min(
+        visit.index
+        for visit in step.well.visits
+        if any(part[0] is step.source for part in visit.parts)
+    )
+
+
+def _anyone_filled(case: Case) -> bool:
+    return any(diluent_arrivals(case, well) for series in case.series for well in series.wells)
+
+
+def wrong_fill(case: Case, series: Series, step: Transfer) -> tuple[Visit, Well, int | None] | None:
+    """What a well of the series was filled with in the diluent's place, if anything."""
+    diluent, members = diluent_roles(case), set(series.wells)
+    if diluent_arrivals(case, step.well):
+        return None
+    before = first_index(step)
+    for visit in case.trace.deliveries(step.well):
+        if visit.index >= before:
+            return None
+        for source, volume, _, line in visit.parts:
+            if source is None or source is step.well or source in members or volume <= 0:
+                continue
+            if not case.has(source, diluent) and source is not step.source:
+                return visit, source, line
+    return None

@@ -1,0 +1,199 @@
+"""Finds dilution series: which wells follow one another, and which transfers are steps.
+
+A series is found from transfers between wells of one labware that form a chain, together with
+the roles of stock and diluent. Its order is the layout's (a row, a column, or the labware's own
+order), running away from the well in which the stock stands.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ...vocabulary import WellRef
+from ..roles import Roles, Usage
+from ..trace import Trace, Transfer, Well, chains_of, links_of
+from .series_order import best_order
+
+
+@dataclass
+class Series:
+    """One dilution series.
+
+    Attributes:
+        wells: Its wells, the most concentrated first if that is known.
+        position: Place of each well in that order.
+        steps: Its dilution steps, in the order in which they are made.
+        links: Those of them between two wells of the series.
+        directed: Whether the most concentrated end is known.
+        entered: Index at which each well first held stock (-1: before the run).
+    """
+
+    wells: list[Well]
+    position: dict[Well, int]
+    steps: list[Transfer]
+    links: list[Transfer]
+    directed: bool
+    entered: dict[Well, int] = field(default_factory=dict)
+
+
+def find_series(
+    trace: Trace, roles: Roles, usage: Mapping[WellRef, Usage], shortest: int = 2
+) -> list[Series]:
+    """All series with at least ``shortest`` transfers between their wells."""
+    spec = roles.family.series
+    stock = frozenset(spec.stock) if spec else frozenset()
+    diluent = frozenset(spec.diluent) if spec else frozenset()
+    named = frozenset(spec.wells) if spec else frozenset()
+    links = [
+        link
+        for link in links_of(trace)
+        if not roles.has(link.source.ref, diluent)
+        and not roles.has(link.well.ref, diluent)
+        and not roles.has(link.source.ref, stock)
+    ]
+    links = _dilutions(trace, roles, links, diluent)
+    found = []
+    for group in chains_of(links):
+        if len({(s.source, s.well) for s in group}) < shortest:
+            continue
+        found.append(_series(trace, roles, group, stock, diluent, named))
+    return found
+
+
+def _dilutions(
+    trace: Trace, roles: Roles, links: Sequence[Transfer], diluent: frozenset[str]
+) -> list[Transfer]:
+    """Leave out transfers that copy a dilution elsewhere instead of diluting it further.
+
+    A well that is given nothing but the one transfer, off the line along which the others
+    dilute, is a copy.
+    """
+    diluted = [
+        link
+        for link in links
+        if any(
+            source is not None and roles.has(source.ref, diluent)
+            for visit in trace.deliveries(link.well)
+            for source, _, _, _ in visit.parts
+        )
+    ]
+    if not diluted:
+        return list(links)
+    sure = {id(link) for link in diluted}
+    along_rows = sum(link.source.order[0] == link.well.order[0] for link in diluted)
+    along_columns = sum(link.source.order[1] == link.well.order[1] for link in diluted)
+    axis = 0 if along_rows >= along_columns else 1
+    lines = {(link.source.ref.labware, link.source.order[axis]) for link in diluted}
+    return [
+        link
+        for link in links
+        if id(link) in sure
+        or (
+            link.source.order[axis] == link.well.order[axis]
+            and (link.well.ref.labware, link.well.order[axis]) in lines
+        )
+    ]
+
+
+def _series(
+    trace: Trace,
+    roles: Roles,
+    links: list[Transfer],
+    stock: frozenset[str],
+    diluent: frozenset[str],
+    named: frozenset[str],
+) -> Series:
+    linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
+    members = _with_neighbours(trace, roles, linked, diluent | stock)
+    order = best_order(members, links)
+    steps: list[Transfer] = []
+    entries: list[Well] = []
+    entered: dict[Well, int] = {}
+    member_set = set(members)
+    linked_set = set(linked)
+    fed = _fed_from_outside(trace, members)
+    for well in members:
+        last: dict[int, Transfer] = {}
+        held_stock = well.prefilled and well in linked_set and not _feeds_last(well, links)
+        if held_stock and not roles.has(well.ref, diluent):
+            entries.append(well)
+            entered[well] = -1
+        for visit in trace.deliveries(well):
+            for source, volume, _, line in visit.parts:
+                if source is None or source is well or volume <= 0 or source in member_set:
+                    continue
+                if roles.has(source.ref, diluent):
+                    continue
+                if roles.has(source.ref, stock) or (
+                    # Unnamed, but it goes into one well only, and that one feeds the others.
+                    not roles.of(source.ref) and fed[source] == {well} and well in linked_set
+                ):
+                    last[id(source)] = Transfer(source, well, visit, line, True)
+                    entered.setdefault(well, visit.index)
+        for step in last.values():
+            entries.append(well)
+            steps.append(step)
+    position = {well: number for number, well in enumerate(order)}
+    directed = False
+    if entries:
+        ends = [position[well] for well in entries]
+        middle = sum(ends) / len(ends)
+        if middle != (len(order) - 1) / 2:
+            directed = True
+        if middle > (len(order) - 1) / 2:
+            order.reverse()
+    elif links:
+        up = sum(1 if position[s.well] > position[s.source] else -1 for s in links)
+        if up < 0:
+            order.reverse()
+    position = {well: number for number, well in enumerate(order)}
+    for link in sorted(links, key=lambda s: s.visit.index):
+        if link.source in entered and entered[link.source] < link.visit.index:
+            entered.setdefault(link.well, link.visit.index)
+    all_steps = sorted([*steps, *links], key=lambda s: s.visit.index)
+    return Series(order, position, all_steps, links, directed, entered)
+
+
+def _fed_from_outside(trace: Trace, members: Sequence[Well]) -> dict[Well, set[Well]]:
+    """For each source outside the series the wells of the series that it is given to."""
+    inside = set(members)
+    fed: dict[Well, set[Well]] = {}
+    for well in members:
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None and source not in inside:
+                    fed.setdefault(source, set()).add(well)
+    return fed
+
+
+def _feeds_last(well: Well, links: Sequence[Transfer]) -> bool:
+    """Whether a well only receives from the chain and feeds nothing in it."""
+    return all(link.source is not well for link in links)
+
+
+def _with_neighbours(
+    trace: Trace, roles: Roles, linked: list[Well], filling: frozenset[str]
+) -> list[Well]:
+    """Add wells of the same row or column that were given stock or diluent, but no link."""
+    rows = {well.order[0] for well in linked}
+    columns = {well.order[1] for well in linked}
+    if len(rows) != 1 and len(columns) != 1:
+        return linked
+    first = linked[0]
+    members = list(linked)
+    for well in trace.wells.values():
+        if well in members or well.ref.labware != first.ref.labware:
+            continue
+        if well.generation != first.generation:
+            continue
+        inside = (len(rows) == 1 and well.order[0] in rows) or (
+            len(columns) == 1 and well.order[1] in columns
+        )
+        if inside and any(
+            source is not None and roles.has(source.ref, filling)
+            for visit in trace.deliveries(well)
+            for source, _, _, _ in visit.parts
+        ):
+            members.append(well)
+    return members

@@ -1,0 +1,77 @@
+"""Loads the rule database: one JSON file per assay family, the shipped ones and a user's own."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ...errors import RuleError
+from ..rules import SCHEMA_VERSION, Common, Database, Family, read_dataclass
+from .validation import check_family, refuse_doubles
+
+
+def shipped_rules() -> Path:
+    """The folder of the rule database: inside the wheel, or beside the package in a checkout."""
+    package = Path(__file__).resolve().parents[2]
+    for folder in (package / "rules", package.parent / "rules"):
+        if (folder / "common.json").is_file():
+            return folder
+    raise RuleError(f"the rule database is missing: no rules/common.json beside {package}")
+
+
+def load_database(extra: Sequence[str | Path] = ()) -> Database:
+    """Load the shipped families and any of the user's own.
+
+    Args:
+        extra: Files or folders of further families. A family, role or rule that exists
+            already is refused, so that nothing is shadowed by accident.
+
+    Raises:
+        RuleError: With file, rule and field.
+    """
+    shipped = shipped_rules()
+    common = read_dataclass(Common, _json(shipped / "common.json"), "common.json")
+    files = sorted(path for path in shipped.glob("*.json") if _is_family_file(path))
+    for given in extra:
+        path = Path(given)
+        if path.is_dir():
+            files.extend(sorted(p for p in path.glob("*.json") if _is_family_file(p)))
+        elif path.is_file():
+            files.append(path)
+        else:
+            raise RuleError(f"{path}: no such file or folder of rules")
+    families = [load_family(path) for path in files]
+    refuse_doubles(families)
+    return Database(tuple(families), common)
+
+
+def _is_family_file(path: Path) -> bool:
+    return path.name != "common.json" and not path.name.endswith("schema.json")
+
+
+def load_family(path: Path) -> Family:
+    """Read and validate one family file.
+
+    Raises:
+        RuleError: With file, rule and field.
+    """
+    data = _json(path)
+    if isinstance(data, dict):
+        data.pop("$schema", None)
+    family = read_dataclass(Family, data, path.name)
+    if family.schema != SCHEMA_VERSION:
+        raise RuleError(f"{path.name}: schema: expected {SCHEMA_VERSION}, found {family.schema}")
+    check_family(family, path.name)
+    return dataclasses.replace(family, path=str(path))
+
+
+def _json(path: Path) -> Any:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise RuleError(f"{path.name}: cannot be read: {error.strerror}") from error
+    except ValueError as error:
+        raise RuleError(f"{path.name}: is not JSON: {error}") from error

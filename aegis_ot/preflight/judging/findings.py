@@ -1,0 +1,63 @@
+"""From the places where rules are broken to findings: one per cause, each told once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from ...vocabulary import Finding, Severity, Site, WellRef
+from ..checks import Violation
+from ..rules import RuleSpec
+
+
+class Broken(NamedTuple):
+    """A rule and the places where it is broken."""
+
+    rule: RuleSpec
+    severity: Severity
+    violations: list[Violation]
+
+
+def findings_of(broken: Sequence[Broken]) -> list[Finding]:
+    """The findings on one protocol, in the order of its lines."""
+    findings = [finding for one in without_replaced(broken) for finding in _joined(one)]
+    return sorted(findings, key=lambda finding: (min(finding.lines, default=0), finding.rule))
+
+
+def _joined(broken: Broken) -> Iterable[Finding]:
+    """One finding per cause, with all the wells that it spoils."""
+    rule = broken.rule
+    groups: dict[tuple[object, ...], list[Violation]] = {}
+    for violation in broken.violations:
+        groups.setdefault(violation.cause, []).append(violation)
+    for group in groups.values():
+        first = group[0]
+        wells = list(dict.fromkeys(violation.well.ref for violation in group))
+        message = first.message
+        if len(wells) > 1:
+            shown = ", ".join(ref.name for ref in wells[1:7])
+            more = f" and {len(wells) - 7} more" if len(wells) > 7 else ""
+            message = f"{message} Likewise {shown}{more}."
+        sites: dict[Site, None] = dict.fromkeys(first.sites)
+        for violation in group[1:]:
+            sites.update(dict.fromkeys(violation.sites))
+        yield Finding(
+            rule.id, broken.severity, message, tuple(sites), why=rule.rationale, fix=rule.fix
+        )
+
+
+def without_replaced(found: Sequence[Broken]) -> list[Broken]:
+    """Drop violations in wells that a more telling rule already reports."""
+    wells: dict[str, set[WellRef]] = {}
+    for one in found:
+        wells.setdefault(one.rule.id, set()).update(v.well.ref for v in one.violations)
+    return [
+        one._replace(
+            violations=[
+                violation
+                for violation in one.violations
+                if not any(violation.well.ref in wells.get(o, ()) for o in one.rule.unless_reported)
+            ]
+        )
+        for one in found
+    ]

@@ -1,0 +1,119 @@
+"""From a recorded rehearsal to a verdict: each rule is judged, what it finds is told once."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+
+from ...vocabulary import Severity, Undecided
+from ..checks import Case, Doubt, Violation, make_check
+from ..rehearsal import Recording
+from ..roles import Roles
+from ..rules import Database, Family, RuleSpec
+from .findings import Broken, findings_of
+from .options import Options, check_options
+from .reading import Reading, read_recording
+from .report import Report, RoleEvidence, verdict_of
+from .waivers import apply_waivers, first_statement, read_waivers
+
+
+def judge(recording: Recording, database: Database, options: Options | None = None) -> Report:
+    """Judge a recorded protocol by all rules in force.
+
+    Raises:
+        ConfigurationError: If an option names a rule, role or family that does not exist.
+        RuleError: If a family given by hand does not exist.
+    """
+    options = options or Options()
+    check_options(options, database)
+    with _uncollected():
+        reading = read_recording(recording, database, options)
+        broken: list[Broken] = []
+        undecided: list[Undecided] = []
+        for rule, case in reading.cases():
+            severity = options.severity_of(rule)
+            if severity == "off":
+                continue
+            violations, doubt = _judge_rule(rule, case, bool(options.assay))
+            broken.append(Broken(rule, Severity(severity), violations))
+            if doubt:
+                undecided.append(Undecided(rule.id, doubt))
+        return _report(recording, reading, broken, undecided)
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Hold the garbage collector: a trace is many small objects, none of them garbage."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
+
+
+def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Violation], str]:
+    """Where a rule is broken, or why that cannot be said (``""`` if it can)."""
+    missing = [
+        need for need in rule.needs if not any(case.roles.known(role) for role in need.split("|"))
+    ]
+    if missing:
+        return [], _missing(case.family, missing)
+    if not case.confident and not assay_given:
+        return [], 'the assay is not known; say it with assay="..."'
+    violations: list[Violation] = []
+    doubts: list[str] = []
+    for number, check in enumerate(rule.checks):
+        for result in make_check(check, rule.id).find(case):
+            if isinstance(result, Doubt):
+                doubts.append(result.reason)
+            else:
+                violations.append(replace(result, cause=(number, *result.cause)))
+    return violations, doubts[0] if doubts and not violations else ""
+
+
+def _report(
+    recording: Recording, reading: Reading, broken: Sequence[Broken], undecided: list[Undecided]
+) -> Report:
+    waivers = read_waivers(reading.facts, first_statement(recording.text))
+    standing, waived, notes = apply_waivers(findings_of(broken), waivers)
+    conflicts = dict.fromkeys(note for roles in reading.roles for note in roles.conflicts)
+    notes += [f"Evidence conflicts for {note}" for note in conflicts]
+    return Report(
+        file=recording.file,
+        family=reading.families[0].family if reading.families else "",
+        verdict=verdict_of(standing),
+        findings=tuple(standing),
+        undecided=tuple(dict.fromkeys(undecided)),
+        roles=tuple(_evidence(reading.roles)),
+        families=reading.families,
+        waived=tuple(waived),
+        notes=tuple(notes),
+        lines=tuple(recording.text.splitlines()),
+    )
+
+
+def _missing(family: Family, needs: Sequence[str]) -> str:
+    names = [" or ".join(family.roles[role].title for role in need.split("|")) for need in needs]
+    return f"nothing says which well is the {' and which the '.join(names)}"
+
+
+def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:
+    for roles in all_roles:
+        for ref, assigned in roles.by_well.items():
+            yield RoleEvidence(
+                roles.family.family,
+                ref,
+                assigned.role,
+                tuple(assigned.evidence),
+                roles.level(ref),
+                assigned.conflict,
+            )
+        for ref, derived in roles.derived.items():
+            for role in sorted(derived):
+                yield RoleEvidence(
+                    roles.family.family, ref, role, ("follows from what it receives",)
+                )

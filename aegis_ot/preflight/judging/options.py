@@ -1,0 +1,73 @@
+"""How a protocol is to be judged, and whether that names what exists."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ...errors import ConfigurationError
+from ...settings import Settings
+from ..rules import Database, RuleSpec
+
+
+@dataclass(frozen=True)
+class Options:
+    """How to judge.
+
+    Attributes:
+        assay: Families given by hand; empty to infer.
+        roles: Roles given by hand: role to places (``"4:H12"``, ``"PCR plate:A1-A8"``).
+        select: Only these rules; empty for all.
+        ignore: Not these rules.
+        severity: Severity in force for a rule: ``error``, ``warning`` or ``off``.
+    """
+
+    assay: Sequence[str] = ()
+    roles: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    select: Sequence[str] = ()
+    ignore: Sequence[str] = ()
+    severity: Mapping[str, str] = field(default_factory=dict)
+
+    @classmethod
+    def from_settings(cls, settings: Settings) -> Options:
+        """The part of the guard's settings that concerns judging."""
+        return cls(
+            assay=(settings.assay,) if settings.assay else (),
+            roles=settings.roles,
+            select=settings.select,
+            ignore=settings.ignore,
+        )
+
+    def severity_of(self, rule: RuleSpec) -> str:
+        """Severity in force for a rule: ``error``, ``warning``, or ``off`` if it is not judged."""
+        if (self.select and rule.id not in self.select) or rule.id in self.ignore:
+            return "off"
+        return self.severity.get(rule.id, rule.severity)
+
+
+def check_options(options: Options, database: Database) -> None:
+    """Refuse options that name what does not exist.
+
+    Raises:
+        ConfigurationError: A rule, role or severity is unknown.
+        RuleError: A family is unknown.
+    """
+    for name in options.assay:
+        database.family(name)
+    rules = {rule.id for rule in database.rules}
+    for rule_id in (*options.select, *options.ignore, *options.severity):
+        if rule_id not in rules:
+            raise ConfigurationError(
+                f"there is no rule {rule_id!r}; known are {', '.join(sorted(rules))}"
+            )
+    for rule_id, severity in options.severity.items():
+        if severity not in ("error", "warning", "off"):
+            raise ConfigurationError(
+                f"severity of {rule_id}: expected error, warning or off, found {severity!r}"
+            )
+    known = {role for family in database.families for role in family.roles}
+    for role in options.roles:
+        if role not in known:
+            raise ConfigurationError(
+                f"there is no role {role!r}; known are {', '.join(sorted(known))}"
+            )

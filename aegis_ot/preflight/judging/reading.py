@@ -1,0 +1,144 @@
+"""A recorded rehearsal as the rules see it: trace, families, roles, and a case for each rule."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from ...vocabulary import WellRef
+from ..checks import Case
+from ..rehearsal import Recording
+from ..roles import (
+    Clue,
+    Inference,
+    Roles,
+    Usage,
+    assign_roles,
+    derive,
+    gather,
+    implied_contents,
+    infer_families,
+    settle_diluent,
+    usage_of,
+)
+from ..rules import Common, Database, RuleSpec
+from ..text import Lexicon, SourceFacts, read_source
+from ..trace import Replacements, Trace, build_trace
+from .options import Options
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What a protocol is taken for.
+
+    Attributes:
+        facts: What its text says.
+        trace: What it does.
+        usage: How it uses each well.
+        families: All families, the likeliest first.
+        roles: What the wells are for, in each family that applies.
+        waste: Wells that are called waste.
+        loose_volumes: Whether its wells held liquid that nobody declares.
+        unsure: Wells that may have held liquid before the run, as the labware's name goes.
+        database: The rules.
+    """
+
+    facts: SourceFacts
+    trace: Trace
+    usage: Mapping[WellRef, Usage]
+    families: tuple[Inference, ...]
+    roles: tuple[Roles, ...]
+    waste: frozenset[WellRef]
+    loose_volumes: bool
+    unsure: frozenset[WellRef]
+    database: Database
+
+    def cases(self) -> Iterator[tuple[RuleSpec, Case]]:
+        """Every rule that concerns this protocol, with the case that it is judged on."""
+        sure = {inference.family: inference.sure for inference in self.families}
+        for roles in self.roles:
+            case = self._case(roles, sure[roles.family.family])
+            for rule in roles.family.rules:
+                if rule.scope == "family":
+                    yield rule, case
+        for family in self.database.families:
+            for rule in family.rules:
+                if rule.scope == "all":
+                    known = next((r for r in self.roles if r.family is family), Roles(family))
+                    yield rule, self._case(known, True)
+
+    def _case(self, roles: Roles, sure: bool) -> Case:
+        return Case(
+            self.trace,
+            roles,
+            self.usage,
+            self.database.common,
+            sure,
+            self.waste,
+            self.loose_volumes,
+            self.unsure,
+        )
+
+
+def read_recording(recording: Recording, database: Database, options: Options) -> Reading:
+    """Read a recording with the eyes of every family that applies."""
+    common = database.common
+    facts = read_source(recording.text)
+    replacements = Replacements(common.pauses)
+    trace = build_trace(recording.log, recording.labware, replacements)
+    clues = gather(trace, recording.names, facts, options.roles, common)
+    families = infer_families(database, facts, clues, trace, options.assay)
+    usage = usage_of(trace)
+    roles = [
+        assign_roles(database.family(inference.family), common, clues, usage, trace)
+        for inference in families
+        if inference.applies
+    ]
+    prefilled: set[WellRef] = set()
+    for one in roles:
+        prefilled |= implied_contents(one, trace)
+    # Read again, now that roles say which wells held liquid before the run.
+    prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
+    if prefilled & usage.keys():
+        trace = build_trace(recording.log, recording.labware, replacements, prefilled.__contains__)
+        usage = usage_of(trace)
+    for one in roles:
+        settle_diluent(one, trace)
+        derive(one, trace, usage)
+    return Reading(
+        facts=facts,
+        trace=trace,
+        usage=usage,
+        families=tuple(families),
+        roles=tuple(roles),
+        waste=_waste(clues, common),
+        loose_volumes=_loose_volumes(facts, common),
+        unsure=frozenset(_prefilled_by_words(clues, common)),
+        database=database,
+    )
+
+
+def _loose_volumes(facts: SourceFacts, common: Common) -> bool:
+    """Whether the protocol is of a kind whose wells held liquid that nobody declares."""
+    lexicon = Lexicon({"kind": common.protocol_prefilled})
+    texts = [text for _, text in facts.docstrings]
+    texts += list(facts.metadata.values())
+    texts += [text for _, text in facts.strings]
+    texts += list(facts.names)
+    return any(lexicon.find(text) for text in texts)
+
+
+def _prefilled_by_words(clues: Iterable[Clue], common: Common) -> set[WellRef]:
+    """Wells whose names say, in any family, that they held liquid before the run."""
+    lexicon = Lexicon({"prefilled": common.prefilled})
+    return {
+        ref
+        for clue in clues
+        if clue.whole and clue.subject and lexicon.find(clue.text)
+        for ref in clue.wells
+    }
+
+
+def _waste(clues: Iterable[Clue], common: Common) -> frozenset[WellRef]:
+    lexicon = Lexicon({"waste": common.waste})
+    return frozenset(ref for clue in clues if lexicon.find(clue.text) for ref in clue.wells)

@@ -1,0 +1,58 @@
+"""The verdict on one protocol, with all that led to it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ...vocabulary import Finding, Severity, Undecided, VerdictWord, WellRef
+from ..roles import Inference
+from .waivers import Waived
+
+
+@dataclass(frozen=True)
+class RoleEvidence:
+    """One well's role with its evidence, for ``--explain-roles``."""
+
+    family: str
+    well: WellRef
+    role: str
+    evidence: tuple[str, ...]
+    level: float | None = None
+    conflict: str = ""
+
+
+@dataclass(frozen=True)
+class Report:
+    """The verdict on one protocol.
+
+    Attributes:
+        file: Name of the protocol file.
+        family: The likeliest family.
+        verdict: ``fail`` with any error, ``warn`` with warnings only, ``pass`` otherwise.
+        findings: Violations that stand.
+        undecided: Rules that could not be judged.
+        roles: Every role assignment, with evidence.
+        families: All families, the likeliest first.
+        waived: Findings that a waiver covers.
+        notes: Stale waivers and conflicting evidence.
+        lines: The protocol's source lines.
+    """
+
+    file: str
+    family: str
+    verdict: VerdictWord
+    findings: tuple[Finding, ...]
+    undecided: tuple[Undecided, ...]
+    roles: tuple[RoleEvidence, ...] = ()
+    families: tuple[Inference, ...] = ()
+    waived: tuple[Waived, ...] = ()
+    notes: tuple[str, ...] = ()
+    lines: tuple[str, ...] = ()
+
+
+def verdict_of(findings: Sequence[Finding]) -> VerdictWord:
+    """``fail`` with any error, ``warn`` with warnings only, ``pass`` otherwise."""
+    if any(finding.severity is Severity.ERROR for finding in findings):
+        return VerdictWord.FAIL
+    return VerdictWord.WARN if findings else VerdictWord.PASS

@@ -1,0 +1,88 @@
+"""Ends a rehearsal that does not end by itself, or whose run is being stopped."""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from ...errors import RehearsalError, RehearsalTimeout
+from .loading import line_of
+
+_LOOK_S = 0.1
+
+_AGAIN_S = 1.0
+"""When to interrupt once more what swallowed the first interruption, s."""
+
+
+@contextmanager
+def interrupted_after(
+    timeout_s: float, file_name: str, is_stopping: Callable[[], bool] = lambda: False
+) -> Iterator[None]:
+    """Interrupt what this thread does in a ``with`` block, after ``timeout_s`` or on a stop.
+
+    An endless loop in plain Python never comes back to a listener, so it is interrupted from
+    another thread, again and again if it swallows that. A call that blocks inside C code is
+    interrupted when it returns.
+
+    Args:
+        timeout_s: Longest time, s.
+        file_name: For the message.
+        is_stopping: Asked every 0.1 s.
+
+    Raises:
+        RehearsalTimeout: The time was over.
+        RehearsalError: ``is_stopping`` said so.
+    """
+    thread = threading.get_ident()
+    lock = threading.Lock()
+    over = threading.Event()
+    deadline = time.monotonic() + timeout_s
+    reasons: list[RehearsalError] = []
+
+    def watch() -> None:
+        pause = _LOOK_S
+        while not over.wait(pause):
+            if is_stopping():
+                reason = RehearsalError(f"The run was stopped while {file_name} was rehearsed.")
+            elif time.monotonic() >= deadline:
+                reason = RehearsalTimeout(
+                    f"{file_name} did not end within {timeout_s:g} s of rehearsal."
+                )
+            else:
+                continue
+            pause = _AGAIN_S
+            with lock:
+                if not over.is_set():
+                    reasons.append(reason)
+                    _interrupt(thread)
+
+    def close() -> None:
+        try:
+            with lock:
+                over.set()
+            if reasons:
+                time.sleep(0.001)  # an interruption that is still on its way arrives here
+        except _Interrupted:
+            over.set()
+
+    threading.Thread(target=watch, name="aegis-ot-rehearsal", daemon=True).start()
+    try:
+        yield
+    except _Interrupted as error:
+        reasons[0].line = line_of(error, file_name)
+        raise reasons[0] from None
+    finally:
+        close()
+
+
+def _interrupt(thread: int) -> None:
+    ctypes.pythonapi.PyThreadState_SetAsyncExc(
+        ctypes.c_ulong(thread), ctypes.py_object(_Interrupted)
+    )
+
+
+class _Interrupted(BaseException):
+    """Not an ``Exception``, so that a protocol's own ``except Exception`` lets it pass."""

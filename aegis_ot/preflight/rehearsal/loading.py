@@ -1,0 +1,93 @@
+"""Loads a script as Opentrons does, and sets its runtime parameters."""
+
+from __future__ import annotations
+
+import traceback
+from copy import copy
+from typing import Any
+
+from ...errors import RehearsalError
+from .script import Script
+
+
+def load(script: Script) -> Any:
+    """The ``PythonProtocol`` that Opentrons makes of a script.
+
+    Raises:
+        RehearsalError: It cannot be parsed; with its line.
+    """
+    from opentrons.protocols.parse import parse
+    from opentrons.protocols.types import ApiDeprecationError, PythonProtocol
+
+    try:
+        compile(script.text, script.file_name, "exec", dont_inherit=True)
+    except (SyntaxError, ValueError) as error:
+        line = getattr(error, "lineno", None)
+        reason = getattr(error, "msg", None) or str(error)
+        where = f"{script.file_name}, line {line}" if line else script.file_name
+        raise RehearsalError(f"{where}: not valid Python: {reason}", line) from error
+    try:
+        protocol = parse(
+            script.text,
+            script.file_name,
+            extra_labware=dict(script.extra_labware),
+            extra_data=dict(script.data_files),
+        )
+    except ApiDeprecationError as error:
+        raise RehearsalError(
+            f"{script.file_name} uses an apiLevel that this opentrons no longer runs: {error}"
+        ) from error
+    except Exception as error:  # opentrons raises its own zoo, and plain RuntimeErrors
+        raise RehearsalError(f"Opentrons cannot load {script.file_name}: {error}") from error
+    if not isinstance(protocol, PythonProtocol):
+        raise RehearsalError(
+            f"{script.file_name} is a JSON protocol; only Python protocols can be rehearsed."
+        )
+    return protocol
+
+
+def runtime_parameters(protocol: Any, script: Script) -> Any:
+    """The ``Parameters`` of a loaded script, with the script's values set; ``None`` without any.
+
+    Raises:
+        RehearsalError: A value is not accepted.
+    """
+    from opentrons.protocol_api._parameter_context import ParameterContext
+    from opentrons.protocols.execution.execute_python import exec_add_parameters
+
+    known = dict(script.parameters)
+    try:
+        return exec_add_parameters(
+            protocol,
+            ParameterContext(api_version=protocol.api_level),
+            known or None,
+            dict(script.csv_parameters) or None,
+        )
+    except Exception as error:
+        raise RehearsalError(
+            f"The runtime parameters of {script.file_name} cannot be set: {error}",
+            line_of(error, script.file_name),
+        ) from error
+
+
+def copied_parameters(live: Any) -> Any:
+    """A copy of a live run's ``Parameters``; its CSV files are opened anew.
+
+    A file that the rehearsal has read, or closed, would be empty for the run itself.
+    """
+    values = {name: copy(value) for name, value in live.get_all().items()}
+    for value in values.values():
+        if hasattr(value, "_file"):
+            value._file = None
+    return type(live)(values)
+
+
+def line_of(error: BaseException, file_name: str) -> int | None:
+    """The innermost line of the protocol in a traceback."""
+    seen: BaseException | None = error
+    while seen is not None:
+        for entry in reversed(traceback.extract_tb(seen.__traceback__)):
+            if entry.filename == file_name:
+                return entry.lineno
+        seen = seen.__cause__
+    return getattr(error, "lineno", None)

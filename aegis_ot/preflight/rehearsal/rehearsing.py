@@ -1,0 +1,155 @@
+"""Runs a protocol in Opentrons' own simulator, with listeners on every instrument.
+
+The rehearsal executes the protocol's *text* afresh, in a namespace of its own, as Opentrons
+does on every load: nothing that the live protocol has at module level is touched by it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
+from typing import Any
+
+from ...errors import AegisError, RehearsalError
+from ...instrumentation import LabwareInfo, Listener, NameBinding, NameCollector, tapped
+from .haste import hasty_builtins
+from .interruption import interrupted_after
+from .loading import copied_parameters, line_of, load, runtime_parameters
+from .script import Script
+from .simulated_context import simulated_context
+
+Run = Callable[[Any], Any]
+
+_REHEARSING: ContextVar[bool] = ContextVar("aegis_ot_rehearsing", default=False)
+
+
+def is_rehearsing() -> bool:
+    """Whether the caller runs inside a rehearsal, where a guard has nothing to do."""
+    return _REHEARSING.get()
+
+
+@dataclass(frozen=True)
+class Rehearsal:
+    """What a rehearsal yields besides what its listeners heard.
+
+    Attributes:
+        names: Names that held wells.
+        labware: Every labware of the run, by key.
+        robot_type: ``"OT-2 Standard"`` or ``"OT-3 Standard"``.
+        api_level: ``"2.15"``.
+    """
+
+    names: tuple[NameBinding, ...]
+    labware: Mapping[str, LabwareInfo]
+    robot_type: str
+    api_level: str
+
+
+def rehearse(
+    script: Script,
+    listeners: Sequence[Listener],
+    *,
+    live_parameters: Any = None,
+    timeout_s: float = 120.0,
+    is_stopping: Callable[[], bool] = lambda: False,
+) -> Rehearsal:
+    """Run ``script`` in the simulator from its first line to its last.
+
+    Args:
+        script: The protocol.
+        listeners: Hear of every operation and event.
+        live_parameters: The ``Parameters`` object of a live run; a copy is used.
+        timeout_s: After this long the protocol is interrupted.
+        is_stopping: Asked every 0.1 s whether the live run is being stopped meanwhile.
+
+    Raises:
+        RehearsalError: It cannot be parsed, raised by itself, or was stopped; with its line.
+        RehearsalTimeout: It did not end in time.
+    """
+    protocol = load(script)
+    token = _REHEARSING.set(True)
+    try:
+        with (
+            _stage(protocol, script, live_parameters) as context,
+            tapped(context, listeners, script.file_name) as tap,
+        ):
+            names = NameCollector(tap.wells, script.file_name)
+
+            def watched(run: Run) -> Run:
+                def run_with_names(given: Any) -> None:
+                    with names.watching(namespace):
+                        run(given)
+
+                return run_with_names
+
+            limit = interrupted_after(timeout_s, script.file_name, is_stopping)
+            namespace = {"__builtins__": hasty_builtins()}
+            names.look(_perform(protocol, context, watched, limit, namespace), "<module>", 1)
+            return Rehearsal(
+                names.bindings,
+                dict(tap.wells.labware),
+                protocol.robot_type,
+                str(protocol.api_level),
+            )
+    finally:
+        _REHEARSING.reset(token)
+
+
+def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.0) -> None:
+    """Run ``script`` in the simulator with ``wrap`` around its ``run``, as no rehearsal.
+
+    A guard in it does its work. Used to try a protocol with both layers on one machine.
+
+    Raises:
+        RehearsalError: It cannot be parsed or raised by itself; with its line.
+        AegisError: Whatever ``wrap`` raises on purpose, unchanged.
+    """
+    protocol = load(script)
+    with _stage(protocol, script, None) as context:
+        _perform(protocol, context, wrap, interrupted_after(timeout_s, script.file_name), {})
+
+
+@contextmanager
+def _stage(protocol: Any, script: Script, live_parameters: Any) -> Iterator[Any]:
+    """A simulated context that is ready for this protocol."""
+    if live_parameters is None:
+        parameters = runtime_parameters(protocol, script)
+    else:
+        parameters = copied_parameters(live_parameters)
+    with simulated_context(
+        protocol.api_level,
+        protocol.robot_type,
+        extra_labware=protocol.extra_labware,
+        bundled_labware=protocol.bundled_labware,
+        bundled_data=protocol.bundled_data,
+    ) as context:
+        if parameters:
+            context._params = parameters
+        yield context
+
+
+def _perform(
+    protocol: Any,
+    context: Any,
+    wrap: Callable[[Run], Run],
+    limit: AbstractContextManager[None],
+    namespace: dict[str, Any],
+) -> dict[str, Any]:
+    """Execute a loaded protocol in ``namespace``, and its ``run``; returns the namespace."""
+    file_name = protocol.filename
+    try:
+        with limit:
+            exec(protocol.contents, namespace)
+            run = namespace.get("run")
+            if not callable(run):
+                raise RehearsalError(f"{file_name} defines no function run(protocol).")
+            wrap(run)(context)
+    except AegisError:
+        raise
+    except Exception as error:
+        line = line_of(error, file_name)
+        where = f"{file_name}, line {line}" if line else file_name
+        raise RehearsalError(f"{where}: {type(error).__name__}: {error}", line) from error
+    return namespace

@@ -1,0 +1,161 @@
+"""Infers the assay family from words and from the shape of the liquid's ways."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from ..rules import Common, Database, Family
+from ..text import Lexicon, SourceFacts, tokens
+from ..trace import Trace, longest_chain
+from .clues import Clue, Strength
+
+PLACES = {"metadata": 3.0, "liquid": 2.0, "name": 1.5, "text": 1.0, "string": 0.7}
+"""How much a word counts by where it stands: a title says more than a stray comment."""
+
+SURE = 4.0
+"""From this score on a family counts as known."""
+
+ALSO = 0.6
+"""A second family applies from this share of the first one's score on."""
+
+
+@dataclass(frozen=True)
+class Inference:
+    """How well one family fits.
+
+    Attributes:
+        family: Name of the family.
+        score: Weight of everything that speaks for it.
+        confidence: 0 to 1: its share among all families, damped for little evidence.
+        reasons: What speaks for it, strongest first.
+        applies: Whether its rules are judged.
+        sure: Whether it is more than a guess.
+    """
+
+    family: str
+    score: float
+    confidence: float
+    reasons: tuple[str, ...]
+    applies: bool
+    sure: bool
+
+
+def infer_families(
+    database: Database,
+    facts: SourceFacts,
+    clues: Sequence[Clue],
+    trace: Trace,
+    given: Sequence[str] = (),
+) -> list[Inference]:
+    """All families, the likeliest first.
+
+    Args:
+        database: The rule database.
+        facts: What the text says.
+        clues: Names, liquids and labels.
+        trace: For the shape: a chain of transfers speaks for a serial dilution.
+        given: Families given by hand; they apply, and no other does.
+    """
+    texts = list(_texts(facts, clues))
+    chain = longest_chain(trace)
+    scored = []
+    for family in database.families:
+        score, reasons = _score(family, texts, database.common)
+        if family.chain_weight and chain >= 3:
+            score += family.chain_weight * min(chain, 6) / 3
+            reasons.append(f"a chain of {chain} transfers from well to well")
+        scored.append((score, family, reasons))
+    scored.sort(key=lambda item: -item[0])
+    total = sum(score for score, _, _ in scored) or 1.0
+    best = scored[0][0] if scored else 0.0
+    inferences = []
+    for score, family, reasons in scored:
+        if given:
+            applies = sure = family.family in given
+        else:
+            sure = score >= SURE
+            applies = (
+                sure
+                and (score == best or score >= ALSO * best)
+                and not (family.default and score < best)
+            )
+        confidence = 1.0 if given and applies else score / total * min(1.0, score / (2 * SURE))
+        inferences.append(
+            Inference(family.family, score, round(confidence, 2), tuple(reasons[:6]), applies, sure)
+        )
+    if given or any(inference.applies for inference in inferences):
+        inferences.sort(key=lambda i: (not i.applies, -i.score))
+        return inferences
+    return [
+        _as_default(inference) if _is_default(database, inference.family) else inference
+        for inference in sorted(
+            inferences, key=lambda i: (not _is_default(database, i.family), -i.score)
+        )
+    ]
+
+
+def _is_default(database: Database, name: str) -> bool:
+    return database.family(name).default
+
+
+def _as_default(inference: Inference) -> Inference:
+    return Inference(
+        inference.family,
+        inference.score,
+        inference.confidence,
+        (*inference.reasons, "no other family fits"),
+        True,
+        inference.sure,
+    )
+
+
+def _texts(facts: SourceFacts, clues: Iterable[Clue]) -> Iterable[tuple[str, str]]:
+    for key in ("protocolName", "protocol_name", "description", "title"):
+        if key in facts.metadata:
+            yield "metadata", facts.metadata[key]
+    for clue in clues:
+        if clue.strength is Strength.LIQUID:
+            yield "liquid", clue.text
+        elif clue.strength in (Strength.NAME, Strength.LOOSE_NAME):
+            yield "name", clue.text
+    for name in facts.names:
+        yield "name", name
+    for _, text in facts.docstrings:
+        yield "text", text
+    for text in facts.comments.values():
+        yield "text", text
+    for _, text in facts.strings:
+        if len(text) < 200 and len(tokens(text)) < 30:
+            yield "string", text
+
+
+_LEXICONS: dict[int, tuple[Family, Lexicon]] = {}
+
+
+def _score(
+    family: Family, texts: Iterable[tuple[str, str]], common: Common
+) -> tuple[float, list[str]]:
+    known = _LEXICONS.get(id(family))
+    if known is None or known[0] is not family:
+        known = (
+            family,
+            Lexicon(
+                {str(n): signal.words for n, signal in enumerate(family.signals)}, common.aliases
+            ),
+        )
+        if len(_LEXICONS) > 64:
+            _LEXICONS.clear()
+        _LEXICONS[id(family)] = known
+    lexicon = known[1]
+    best: dict[tuple[str, str], tuple[float, str]] = {}
+    for where, text in texts:
+        for match in lexicon.find(text):
+            signal = family.signals[int(match.topic)]
+            worth = signal.weight * PLACES[where]
+            key = (match.topic, "" if signal.once else match.phrase)
+            if abs(worth) > abs(best.get(key, (0.0, ""))[0]):
+                best[key] = (worth, f"'{match.phrase}' in a {where}")
+    ranked = sorted(best.values(), reverse=True)
+    score = sum(worth for worth, _ in ranked)
+    return max(score, 0.0), [reason for worth, reason in ranked if worth > 0]

@@ -1,0 +1,108 @@
+"""Decides what each well is for, within one assay family, and keeps the evidence.
+
+Stronger evidence beats weaker; among names, those of fewer wells beat those of many, and a
+labware's name speaks only for wells that nothing else speaks for. What is not said stays
+unsaid: a well without evidence has no role, and rules that need one are undecided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from ...vocabulary import WellRef
+from ..rules import Common, Family
+from ..trace import Trace
+from .channels import spread_over_channels
+from .clues import Clue, Strength
+from .levels import level_of
+from .phrases import fitting_role, role_words, roles_named
+from .roles import Assignment, Roles
+from .usage import Sides, Usage
+
+Candidate = tuple[tuple[float, ...], str, Clue, "float | None"]
+
+
+def assign_roles(
+    family: Family,
+    common: Common,
+    clues: Sequence[Clue],
+    usage: Mapping[WellRef, Usage],
+    trace: Trace,
+) -> Roles:
+    """Give each well the role that the strongest evidence names.
+
+    Args:
+        family: Whose roles and words.
+        common: Words for levels.
+        clues: All evidence.
+        usage: How the run uses each well.
+        trace: For the columns that multi-channel pipettes reach.
+    """
+    roles = Roles(family)
+    lexicon = role_words(family, common)
+    candidates: dict[WellRef, list[Candidate]] = {}
+    sides = Sides(usage)
+    named_outright: set[str] = set()
+    for clue in sorted(clues, key=lambda clue: bool(clue.step)):
+        matches = lexicon.find(clue.text)
+        named = [clue.role] if clue.role in family.roles else roles_named(matches, clue, common)
+        if not named:
+            continue
+        for position, ref in enumerate(clue.wells):
+            role = fitting_role(named, roles, sides(ref), clue)
+            if role is None:
+                continue
+            if not clue.step and clue.strength >= Strength.DESCRIPTION and not clue.whole:
+                named_outright.add(role)
+            elif clue.step and role in named_outright and family.roles[role].one_liquid:
+                # The comment says what the step is for; which well holds that is said
+                # elsewhere, and this may be another one by mistake.
+                continue
+            level = level_of(clue, position, common) if clue.wells else None
+            candidates.setdefault(ref, []).append((_worth(clue), role, clue, level))
+    for ref, found in candidates.items():
+        assignment = _choose(roles, ref, found)
+        if assignment is not None:
+            roles.by_well[ref] = assignment
+    spread_over_channels(roles, trace)
+    return roles
+
+
+def _worth(clue: Clue) -> tuple[float, ...]:
+    return (float(clue.strength), 0.0 if clue.whole else 1.0, -float(len(set(clue.wells))))
+
+
+def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
+    found.sort(key=lambda candidate: candidate[0], reverse=True)
+    worth, role, clue, _ = found[0]
+    for _, other, hint, _ in found[1:]:
+        # Weaker evidence may say more exactly what the stronger leaves open: the liquid says
+        # "cells", the name says "vehicle_controls".
+        exact = not hint.whole and hint.strength is not Strength.LOOSE_NAME
+        said = exact or hint.strength == clue.strength
+        if said and role != other and role in roles.closure(other):
+            role = other
+    rivals = [
+        candidate
+        for candidate in found[1:]
+        if candidate[0] == worth
+        and candidate[1] != role
+        and candidate[1] not in roles.closure(role)
+        and role not in roles.closure(candidate[1])
+    ]
+    conflict = ""
+    if rivals:
+        conflict = f"{clue.said} against {rivals[0][2].said}"
+        roles.conflicts.append(f"{ref}: {conflict}")
+        if clue.strength <= Strength.LOOSE_NAME:
+            return None
+    agreeing = [c for c in found if role in roles.closure(c[1]) or c[1] in roles.closure(role)]
+    level = next((c[3] for c in agreeing if c[3] is not None), None)
+    return Assignment(
+        role,
+        list(dict.fromkeys(c[2].said for c in agreeing)),
+        clue.strength,
+        clue.text,
+        level,
+        conflict,
+    )

@@ -1,0 +1,42 @@
+"""A name for the well that a multi-channel pipette is aimed at names its whole column."""
+
+from __future__ import annotations
+
+from ..trace import Trace
+from .roles import Assignment, Roles
+
+
+def spread_over_channels(roles: Roles, trace: Trace) -> None:
+    """Give the other wells of a column the role of the one that is named.
+
+    Only where the named well is never used alone, and the others have no better evidence.
+    """
+    for first, group in trace.groups.items():
+        assigned = roles.by_well.get(first)
+        if assigned is None or first in trace.singles:
+            continue
+        for ref in group:
+            if ref == first or ref in trace.singles:
+                continue
+            other = roles.by_well.get(ref)
+            if other is not None and other.role == assigned.role:
+                if other.level is None:
+                    other.level = assigned.level
+            elif other is None or (
+                other.strength <= assigned.strength
+                and assigned.role != other.role
+                and assigned.role not in roles.closure(other.role)
+                and _is_wide(other)
+                and not _is_wide(assigned)
+            ):
+                roles.by_well[ref] = Assignment(
+                    assigned.role,
+                    [f"{said} (same channel group)" for said in assigned.evidence],
+                    assigned.strength,
+                    assigned.text,
+                    assigned.level,
+                )
+
+
+def _is_wide(assignment: Assignment) -> bool:
+    return all("label" in said for said in assignment.evidence)

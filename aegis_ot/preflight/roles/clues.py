@@ -1,0 +1,55 @@
+"""A clue: one piece of evidence for a well's role, before any family says what it means."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+from ...vocabulary import WellRef
+
+
+class Strength(IntEnum):
+    """How much a clue is worth; more beats less."""
+
+    MODEL = 1
+    COMMENT = 2
+    LOOSE_NAME = 3
+    DESCRIPTION = 4
+    NAME = 5
+    LIQUID = 6
+    GIVEN = 7
+
+
+@dataclass(frozen=True)
+class Clue:
+    """One piece of evidence.
+
+    Attributes:
+        strength: What kind it is.
+        text: The words.
+        wells: The wells it speaks of, in order.
+        line: Where it stands in the source, if it does.
+        said: For people: "name `ntc` at line 12".
+        whole: Whether it speaks of a whole labware rather than of chosen wells.
+        role: The role itself, where it was given outright.
+        levels: Concentrations or doses beside the wells, if any.
+        subject: Whether only the last word names the thing, as in ``sample_buffer``.
+        step: For a comment beside a transfer: ``source`` or ``destination`` of the transfer.
+    """
+
+    strength: Strength
+    text: str
+    wells: tuple[WellRef, ...]
+    line: int | None
+    said: str
+    whole: bool = False
+    role: str = ""
+    levels: tuple[float | None, ...] = ()
+    subject: bool = True
+    step: str = ""
+
+
+def shortened(text: str) -> str:
+    """A text that may be quoted in a clue."""
+    text = " ".join(text.split())
+    return text if len(text) <= 60 else text[:57] + "..."

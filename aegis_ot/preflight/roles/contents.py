@@ -1,0 +1,64 @@
+"""What roles imply of contents: which wells were full before the run, which buffer dilutes."""
+
+from __future__ import annotations
+
+from ...vocabulary import WellRef
+from ..trace import Trace
+from .roles import Roles
+
+
+def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
+    """Wells whose role says that they held liquid before the run.
+
+    Not those that are given in the run what such a well is made of, or something unknown.
+    """
+    found = {
+        ref: frozenset(roles.family.roles[assigned.role].filled_by)
+        for ref, assigned in roles.by_well.items()
+        if roles.family.roles[assigned.role].implies_contents
+    }
+    if not found:
+        return set()
+    for well in trace.wells.values():
+        if well.ref not in found:
+            continue
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is None or source is well or well.ref not in found:
+                    continue
+                theirs = roles.of(source.ref)
+                if not theirs or not found[well.ref].isdisjoint(theirs):
+                    del found[well.ref]
+    return set(found)
+
+
+def settle_diluent(roles: Roles, trace: Trace) -> None:
+    """Where nothing is called the diluent, find it among the buffers.
+
+    It is the one that most wells are filled from, together with others that fill at least
+    three in ten (two series may have a diluent each). A buffer that fills one well of many is
+    rather a mistake than a second diluent.
+    """
+    spec = roles.family.series
+    if spec is None or not spec.diluent or any(roles.known(role) for role in spec.diluent):
+        return
+    otherwise = frozenset(spec.diluent_else)
+    filled: dict[str, set[WellRef]] = {}
+    sources: dict[str, set[WellRef]] = {}
+    for well in trace.wells.values():
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None and roles.has(source.ref, otherwise):
+                    text = roles.by_well[source.ref].text
+                    filled.setdefault(text, set()).add(well.ref)
+                    sources.setdefault(text, set()).add(source.ref)
+    if not filled:  # named, and never used: then something else is used in its place
+        for ref, assigned in roles.by_well.items():
+            if assigned.role in otherwise:
+                sources.setdefault(assigned.text, set()).add(ref)
+        filled = {text: set() for text in sources} if len(sources) == 1 else {}
+    total = len(set().union(*filled.values())) if filled else 0
+    for text, wells in filled.items():
+        if len(wells) >= 0.3 * total:
+            for ref in sources[text]:
+                roles.by_well[ref].role = spec.diluent[0]

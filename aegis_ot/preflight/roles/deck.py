@@ -1,0 +1,79 @@
+"""Finds wells by the labware's name, label or slot and by well names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ...instrumentation import LabwareInfo, NameBinding
+from ...vocabulary import WellRef
+from ..text import tokens
+from ..trace import Trace
+
+
+class Deck:
+    """Finds wells by the labware's name, label or slot and by well names."""
+
+    def __init__(self, trace: Trace, names: Sequence[NameBinding]) -> None:
+        self.trace = trace
+        self.refs: dict[tuple[str, str], WellRef] = {}
+        for well in trace.wells.values():
+            self.refs.setdefault((well.ref.labware, well.ref.name), well.ref)
+        self.by_name: dict[str, set[str]] = {}
+        for binding in names:
+            if binding.labware and not binding.wells:
+                self.by_name.setdefault(binding.name, set()).update(binding.labware)
+        self.received = {
+            (well.ref.labware, well.ref.name)
+            for well in trace.wells.values()
+            if any(True for _ in trace.deliveries(well))
+        }
+
+    def ref(self, labware: str, name: str) -> WellRef:
+        """The reference of a well, made up where the run never used it."""
+        known = self.refs.get((labware, name))
+        if known is not None:
+            return known
+        info = self.trace.labware[labware]
+        return WellRef(labware, name, info.label or info.display_name, info.slot)
+
+    def used_wells(self, labware: Sequence[str]) -> tuple[WellRef, ...]:
+        """The wells of these labware that the run uses."""
+        return tuple(ref for (key, _), ref in self.refs.items() if key in labware)
+
+    def plates(self) -> list[LabwareInfo]:
+        """Labware that holds liquid."""
+        return [
+            info
+            for info in self.trace.labware.values()
+            if not info.is_tip_rack and not info.is_trash and info.wells
+        ]
+
+    def labware_called(self, words: str) -> list[str]:
+        """Keys of labware by slot, label or the name of a variable."""
+        wanted = tokens(words)
+        found = []
+        for info in self.plates():
+            if wanted and (
+                wanted == tokens(info.slot)
+                or wanted == tokens(info.label)
+                or wanted == tokens(info.key)
+                or wanted == tokens(info.load_name)
+            ):
+                found.append(info.key)
+        return found or sorted(self.by_name.get(words, ()))
+
+    def most_likely(self, names: Iterable[str]) -> str:
+        """The one labware in which all these wells were used, or ``""``."""
+        names = list(names)
+        used = [
+            info.key
+            for info in self.plates()
+            if all(name in info.wells for name in names)
+            and any((info.key, name) in self.refs for name in names)
+        ]
+        full = [key for key in used if all((key, name) in self.refs for name in names)] or used
+        if len(full) > 1:
+            full = [
+                key for key in full if any((key, name) in self.received for name in names)
+            ] or full
+        return full[0] if len(full) == 1 else ""

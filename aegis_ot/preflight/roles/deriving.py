@@ -1,0 +1,91 @@
+"""Roles that follow from the liquid's ways: what a well feeds, and what it receives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from ...vocabulary import WellRef
+from ..rules import RoleSpec
+from ..trace import Trace
+from .roles import Roles
+from .usage import Usage
+
+
+def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
+    """Roles that follow from what a well receives: a reaction is what template goes into.
+
+    Wells that only pass liquid on (a dilution plate) are left out.
+    """
+    for name, spec in roles.family.roles.items():
+        if spec.feeds:
+            _derive_source(roles, name, spec, trace)
+        if spec.one_to_one:
+            _derive_one_to_one(roles, name, trace)
+    for name, spec in roles.family.roles.items():
+        if spec.receives:
+            _derive_one(roles, name, spec, trace, usage)
+
+
+def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
+    """A source without a name that goes into named wells of ``spec.feeds``, mostly."""
+    wanted = frozenset(spec.feeds)
+    fed: dict[WellRef, set[WellRef]] = {}
+    for well in trace.wells.values():
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None and source.prefilled:
+                    fed.setdefault(source.ref, set()).add(well.ref)
+    for ref, wells in fed.items():
+        if roles.of(ref):
+            continue
+        right = sum(roles.has(well, wanted) for well in wells)
+        if right * 2 > len(wells):
+            roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+_FEWEST_PAIRS = 3
+
+_SMALLEST_PLATE = 24
+
+
+def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
+    """Wells of a plate that each serve one well of their own hold each something of its own.
+
+    A liquid that stands in several wells (a strip of master mix) serves several wells each.
+    """
+    served: dict[WellRef, set[WellRef]] = {}
+    for well in trace.wells.values():
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None and source is not well and source.prefilled:
+                    served.setdefault(source.ref, set()).add(well.ref)
+    plates: dict[str, list[WellRef]] = {}
+    for ref in served:
+        info = trace.labware.get(ref.labware)
+        if info is None or info.centers_channels or len(info.wells) < _SMALLEST_PLATE:
+            continue
+        plates.setdefault(ref.labware, []).append(ref)
+    for refs in plates.values():
+        pairs = all(len(served[ref]) == 1 and not roles.of(ref) for ref in refs)
+        into = {well for ref in refs for well in served[ref]}
+        if pairs and len(refs) >= _FEWEST_PAIRS and len(into) == len(refs):
+            for ref in refs:
+                roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+def _derive_one(
+    roles: Roles, name: str, spec: RoleSpec, trace: Trace, usage: Mapping[WellRef, Usage]
+) -> None:
+    wanted = frozenset(spec.receives)
+    is_wanted: Callable[[WellRef], bool] = lambda ref: roles.has(ref, wanted)  # noqa: E731
+    for well in trace.wells.values():
+        used = usage.get(well.ref)
+        if used is None or used.feeds or not used.received or used.first_drawn:
+            continue
+        assigned = roles.by_well.get(well.ref)
+        if assigned is not None and assigned.role not in roles.closure(name):
+            continue
+        for visit in trace.deliveries(well):
+            if any(is_wanted(o.ref) for part in visit.parts for o in part[2]):
+                roles.derived.setdefault(well.ref, set()).update(roles.closure(name))
+                break

@@ -1,0 +1,95 @@
+"""Gathers all that speaks for the roles of wells. ``spec/rules.md`` orders the strengths."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from ...instrumentation import NameBinding
+from ...vocabulary import WellRef
+from ..rules import Common
+from ..text import SourceFacts
+from ..trace import Trace
+from .clues import Clue, Strength, shortened
+from .deck import Deck
+from .names import call_arguments, named_wells
+from .places import indexing_names
+from .plate_maps import plate_maps
+from .remarks import step_comments, written_wells
+from .well_names import spec_wells
+
+
+def gather(
+    trace: Trace,
+    names: Sequence[NameBinding],
+    facts: SourceFacts,
+    given: Mapping[str, Sequence[str]],
+    common: Common,
+) -> list[Clue]:
+    """All clues of one protocol.
+
+    Args:
+        trace: A first reading of the run, to know labware, liquids and used wells.
+        names: Names that held wells, from the rehearsal.
+        facts: What the text says.
+        given: Roles given outright: role to places (``"4:H12"``, ``"PCR plate:A1-A8"``).
+        common: Words for amounts.
+    """
+    deck = Deck(trace, names)
+    clues = [
+        *_given(deck, given),
+        *_liquids(trace, facts),
+        *named_wells(deck, names, facts, common),
+        *_labels(deck),
+        *indexing_names(deck, facts),
+        *plate_maps(deck, facts),
+        *written_wells(deck, facts),
+        *step_comments(trace, facts, common),
+        *call_arguments(trace, facts),
+    ]
+    return list(dict.fromkeys(clue for clue in clues if clue.wells))
+
+
+def _given(deck: Deck, given: Mapping[str, Sequence[str]]) -> Iterator[Clue]:
+    for role, places in given.items():
+        wells: list[WellRef] = []
+        for place in places:
+            labware, _, spec = str(place).rpartition(":")
+            for key in deck.labware_called(labware):
+                wells.extend(
+                    deck.ref(key, name) for name in spec_wells(spec, deck.trace.labware[key])
+                )
+        yield Clue(
+            Strength.GIVEN, role, tuple(wells), None, f"given to the guard as {role}", role=role
+        )
+
+
+def _liquids(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
+    by_name: dict[str, list[WellRef]] = {}
+    for well in trace.wells.values():
+        for liquid in well.liquids:
+            by_name.setdefault(liquid, []).append(well.ref)
+    for liquid, wells in by_name.items():
+        yield Clue(Strength.LIQUID, liquid, tuple(wells), None, f"liquid '{liquid}'")
+        description = facts.liquids.get(liquid)
+        if description:
+            yield Clue(
+                Strength.DESCRIPTION,
+                description,
+                tuple(wells),
+                None,
+                f"liquid '{liquid}', described as '{shortened(description)}'",
+                subject=False,
+            )
+
+
+def _labels(deck: Deck) -> Iterator[Clue]:
+    for info in deck.trace.labware.values():
+        if info.label and not info.is_tip_rack and not info.is_trash:
+            yield Clue(
+                Strength.NAME,
+                info.label,
+                deck.used_wells((info.key,)),
+                None,
+                f"label '{info.label}'",
+                whole=True,
+            )

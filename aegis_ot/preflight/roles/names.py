@@ -1,0 +1,152 @@
+"""Names that held wells in the rehearsal, and what stands beside those wells."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from ...instrumentation import NameBinding
+from ...vocabulary import WellRef
+from ..rules import Common
+from ..text import Lexicon, SourceFacts, tokens
+from ..trace import Trace
+from .clues import Clue, Strength, shortened
+from .deck import Deck
+from .plate_maps import is_number
+from .well_names import WELL_NAME
+
+
+def named_wells(
+    deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
+) -> Iterator[Clue]:
+    """What variables were called that held wells or whole labware."""
+    comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
+    keyed = _numeric_keys(names)
+    for binding in names:
+        base = binding.name.split("[", 1)[0]
+        loose = (binding.function, base) in facts.loose or (
+            binding.function.startswith("<") and base in comprehension
+        )
+        line = facts.assigned.get(base, binding.line)
+        if (binding.function, base) in facts.loops:
+            continue  # its last value only; see call_arguments
+        whole = not binding.wells
+        wells = binding.wells or deck.used_wells(binding.labware)
+        yield Clue(
+            Strength.LOOSE_NAME if loose else Strength.NAME,
+            binding.name,
+            wells,
+            line,
+            f"name `{binding.name}` at line {line}",
+            whole=whole,
+            levels=(keyed[binding.name],) * len(wells) if binding.name in keyed else (),
+        )
+        if binding.name == base and binding.wells:
+            yield from _beside(binding, facts, line)
+            yield from _parallel(binding, facts, common)
+        note = facts.notes.get(base)
+        if note and not loose and binding.name == base:
+            yield Clue(
+                Strength.COMMENT,
+                note,
+                wells,
+                line,
+                f"comment '{shortened(note)}' at line {line}",
+                whole=whole,
+                subject=False,
+            )
+
+
+def call_arguments(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
+    """Names of what calls draw from and give to: every value that a loop variable took."""
+    used: dict[tuple[str, str], dict[WellRef, None]] = {}
+    at_line: dict[str, int] = {}
+    for visit in trace.visits:
+        if visit.mixing or visit.line not in facts.arguments:
+            continue
+        side = "source" if visit.kind.value == "aspirate" else "destination"
+        for wanted, name in facts.arguments[visit.line]:
+            if wanted == side:
+                used.setdefault((side, name), {})[visit.well.ref] = None
+                at_line.setdefault(name, visit.line)
+    for (_, name), wells in used.items():
+        line = at_line[name]
+        yield Clue(
+            Strength.LOOSE_NAME, name, tuple(wells), line, f"name `{name}` used at line {line}"
+        )
+
+
+def _numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
+    """Level of each name like ``standards[125]``; ``None`` where the keys only count."""
+    groups: dict[str, dict[str, float]] = {}
+    for binding in names:
+        match = re.fullmatch(r"(.*)\[(-?\d+(?:\.\d+)?)\]", binding.name)
+        if match:
+            groups.setdefault(match[1], {})[binding.name] = float(match[2])
+    found: dict[str, float | None] = {}
+    for group in groups.values():
+        values = sorted(group.values())
+        counting = values in (
+            [float(n) for n in range(len(values))],
+            [float(n + 1) for n in range(len(values))],
+        )
+        found.update({name: None if counting else value for name, value in group.items()})
+    return found
+
+
+def _beside(binding: NameBinding, facts: SourceFacts, line: int) -> Iterator[Clue]:
+    """What stands beside each well in a list of rows: ``[(plate["H12"], "NTC", 0.5), ...]``."""
+    rows = facts.tables.get(binding.name)
+    if rows is None or len(rows) != len(binding.wells):
+        return
+    for row, ref in zip(rows, binding.wells, strict=False):
+        for text in row:
+            if isinstance(text, str) and not WELL_NAME.match(text):
+                yield Clue(
+                    Strength.NAME,
+                    text,
+                    (ref,),
+                    line,
+                    f"'{text}' beside it in `{binding.name}` at line {line}",
+                )
+    columns = [[item for item in row if is_number(item)] for row in rows]
+    if all(len(numbers) == 1 for numbers in columns):
+        levels = tuple(float(numbers[0]) for numbers in columns)
+        if len(set(levels)) > 1:
+            yield Clue(
+                Strength.NAME,
+                binding.name,
+                binding.wells,
+                line,
+                f"numbers beside it in `{binding.name}` at line {line}",
+                levels=levels,
+            )
+
+
+def _parallel(binding: NameBinding, facts: SourceFacts, common: Common) -> Iterator[Clue]:
+    """A list of concentrations as long as the list of wells: ``standard_concs``."""
+    amounts = Lexicon({"amount": common.amounts})
+    lists = []
+    for name, value in facts.constants.items():
+        if not isinstance(value, (list, tuple)) or len(value) != len(binding.wells):
+            continue
+        if len(value) < 2 or not all(is_number(item) for item in value):
+            continue
+        if amounts.find(name):
+            shared = set(tokens(name)) & set(tokens(binding.name))
+            lists.append((len(shared), name, tuple(float(item) for item in value)))
+    if not lists:
+        return
+    best = max(shared for shared, _, _ in lists)
+    chosen = [entry for entry in lists if entry[0] == best]
+    if len({levels for _, _, levels in chosen}) == 1:
+        _, name, levels = chosen[0]
+        line = facts.assigned.get(name)
+        yield Clue(
+            Strength.NAME,
+            binding.name,
+            binding.wells,
+            line,
+            f"`{name}` at line {line}",
+            levels=levels,
+        )

@@ -1,0 +1,83 @@
+"""Which roles a text names, and whether it speaks of one thing or of several."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ..rules import Common, Family
+from ..text import Lexicon, Match, tokens
+from .clues import Clue, Strength
+from .roles import Roles
+
+_LEXICONS: dict[int, tuple[Family, Lexicon]] = {}
+
+
+def role_words(family: Family, common: Common) -> Lexicon:
+    """The words of all roles of a family; those that speak against one stand under ``!role``."""
+    known = _LEXICONS.get(id(family))
+    if known is None or known[0] is not family:
+        phrases: dict[str, Sequence[str]] = {}
+        for name, spec in family.roles.items():
+            phrases[name] = spec.words
+            phrases[f"!{name}"] = spec.never
+        known = (family, Lexicon(phrases, common.aliases))
+        if len(_LEXICONS) > 64:
+            _LEXICONS.clear()
+        _LEXICONS[id(family)] = known
+    return known[1]
+
+
+_BOTH = frozenset({"and", "plus", "all", "und", "et", "y"})
+
+
+def roles_named(matches: Sequence[Match], clue: Clue, common: Common) -> list[str]:
+    """The roles that a text names, the head of the phrase first.
+
+    English puts the head last: ``sample_buffer`` is a buffer; but what follows "in" or "for"
+    only says more about it.
+    """
+    places: dict[int, list[str]] = {}
+    for match in matches:
+        places.setdefault(match.start, []).append(match.topic)
+    words = tokens(clue.text)
+    joints = [at for at, word in enumerate(words) if word in common.joints]
+    if joints and any(at < joints[0] for at in places):
+        # "drug in medium" is a drug.
+        places = {at: topics for at, topics in places.items() if at < joints[0]}
+    ordered = [places[at] for at in sorted(places, reverse=True)]
+    return [topic for group in ordered for topic in group if not topic.startswith("!")]
+
+
+def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:
+    """A text that joins several different things speaks of none of them in particular.
+
+    In a name the last word is the head, unless the name joins several with "and".
+    """
+    if clue.subject and not _BOTH & set(tokens(clue.text)):
+        return False
+    return any(
+        one not in roles.closure(other) and other not in roles.closure(one)
+        for one in fitting
+        for other in fitting
+    )
+
+
+def fitting_role(
+    named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: Clue
+) -> str | None:
+    """The first named role whose side agrees with how the run uses the well."""
+    named = list(dict.fromkeys(named))
+    if clue.strength is Strength.GIVEN:
+        return named[0]
+    specs = roles.family.roles
+    side, passes_on = sides
+    if clue.step == "destination" and len(named) > 1:
+        return None
+    if clue.step and clue.step != side:
+        return None
+    fitting = [role for role in named if specs[role].side in ("any", side)]
+    if not fitting and passes_on and not clue.whole and clue.strength is not Strength.COMMENT:
+        fitting = [role for role in named if specs[role].side == "source"]
+    if not fitting or _ambiguous(fitting, roles, clue):
+        return None
+    return fitting[0]

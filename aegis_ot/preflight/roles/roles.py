@@ -1,0 +1,92 @@
+"""What each well is for in the eyes of one assay family, with the evidence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from ...vocabulary import WellRef
+from ..rules import Family
+from .clues import Strength
+
+
+@dataclass
+class Assignment:
+    """One well's role in one family.
+
+    Attributes:
+        role: Name of the role.
+        evidence: What speaks for it, strongest first, in words.
+        strength: Of the strongest evidence.
+        text: The words that named it.
+        level: Concentration or dose, if known, on a scale within the family.
+        conflict: What contradicts it, in words; empty if nothing.
+    """
+
+    role: str
+    evidence: list[str]
+    strength: Strength
+    text: str
+    level: float | None = None
+    conflict: str = ""
+
+
+@dataclass
+class Roles:
+    """All role assignments of one family in one protocol.
+
+    Attributes:
+        family: The family.
+        by_well: The role of each well that has one.
+        conflicts: Wells whose evidence conflicts, in words.
+    """
+
+    family: Family
+    by_well: dict[WellRef, Assignment] = field(default_factory=dict)
+    conflicts: list[str] = field(default_factory=list)
+    derived: dict[WellRef, set[str]] = field(default_factory=dict)
+    _closure: dict[str, frozenset[str]] = field(default_factory=dict)
+
+    def of(self, ref: WellRef) -> frozenset[str]:
+        """All roles that a well counts as, general ones included."""
+        assigned = self.by_well.get(ref)
+        roles = self.closure(assigned.role) if assigned else frozenset()
+        extra = self.derived.get(ref)
+        return roles | extra if extra else roles
+
+    def has(self, ref: WellRef, wanted: frozenset[str]) -> bool:
+        """Whether a well has any of these roles."""
+        return not wanted.isdisjoint(self.of(ref))
+
+    def level(self, ref: WellRef) -> float | None:
+        """Concentration or dose of a well, if known."""
+        assigned = self.by_well.get(ref)
+        if assigned is None:
+            return None
+        if assigned.level is not None:
+            return assigned.level
+        return self.family.roles[assigned.role].level
+
+    def closure(self, role: str) -> frozenset[str]:
+        """A role and all roles above it."""
+        known = self._closure.get(role)
+        if known is None:
+            found = {role}
+            for parent in self.family.roles[role].parents:
+                found |= self.closure(parent)
+            known = self._closure[role] = frozenset(found)
+        return known
+
+    def known(self, role: str) -> bool:
+        """Whether any well has this role."""
+        if any(role in self.closure(a.role) for a in self.by_well.values()):
+            return True
+        return any(role in extra for extra in self.derived.values())
+
+    def title(self, ref: WellRef) -> str:
+        """What a well is, for a message: "no-template control"."""
+        assigned = self.by_well.get(ref)
+        if assigned is not None:
+            return self.family.roles[assigned.role].title
+        for role in sorted(self.derived.get(ref, ())):
+            return self.family.roles[role].title
+        return "well"

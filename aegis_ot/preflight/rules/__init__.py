@@ -1,0 +1,34 @@
+"""What rule files say, as dataclasses, and how JSON is read into them.
+
+Nothing here knows what a protocol is. The files themselves are loaded, and held against the
+checks that they name, in :mod:`aegis_ot.preflight.database`.
+"""
+
+from .reading import json_schema, read_dataclass
+from .specs import (
+    SCHEMA_VERSION,
+    Common,
+    Database,
+    Example,
+    Examples,
+    Family,
+    RoleSpec,
+    RuleSpec,
+    SeriesSpec,
+    Signal,
+)
+
+__all__ = [
+    "SCHEMA_VERSION",
+    "Common",
+    "Database",
+    "Example",
+    "Examples",
+    "Family",
+    "RoleSpec",
+    "RuleSpec",
+    "SeriesSpec",
+    "Signal",
+    "json_schema",
+    "read_dataclass",
+]

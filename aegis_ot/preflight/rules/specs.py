@@ -1,0 +1,211 @@
+"""What a rule file may say: an assay family, its roles, its rules.
+
+A family says which words reveal it, which roles its wells play, and which rules hold. A rule
+names checks (:mod:`aegis_ot.preflight.checks`) and their parameters; it holds no code.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from ...errors import RuleError
+
+SCHEMA_VERSION = 1
+
+
+@dataclass(frozen=True)
+class Signal:
+    """Words that speak for a family.
+
+    Attributes:
+        words: Phrases, see :mod:`aegis_ot.preflight.text.words`.
+        weight: How much a mention counts; negative words speak against the family.
+        once: Whether the signal counts once, however often it is mentioned.
+    """
+
+    words: tuple[str, ...]
+    weight: float = 1.0
+    once: bool = True
+
+
+@dataclass(frozen=True)
+class RoleSpec:
+    """What a well may be for, and which words say so.
+
+    Attributes:
+        title: In words, for messages: "no-template control".
+        parents: More general roles that it also counts as.
+        side: ``source`` if the words mean this role only in wells that liquid is drawn from
+            first, ``destination`` if only in wells that liquid is put into first, or ``any``.
+        words: Phrases that name it.
+        never: Phrases that hold one of the words and still do not name it.
+        implies_contents: Whether such a well held liquid before the run.
+        filled_by: Roles whose liquid, given in the run, would make up those contents.
+        feeds: Derived: an unnamed source that mostly feeds wells of these roles.
+        one_liquid: Whether all wells of this role hold the same liquid unless named apart.
+        one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
+        level: Value on the scale of concentrations or doses that this role has by itself.
+        receives: Derived: a destination that is given liquid of one of these roles.
+    """
+
+    title: str
+    parents: tuple[str, ...] = ()
+    side: str = "any"
+    words: tuple[str, ...] = ()
+    never: tuple[str, ...] = ()
+    implies_contents: bool = False
+    filled_by: tuple[str, ...] = ()
+    feeds: tuple[str, ...] = ()
+    one_to_one: bool = False
+    one_liquid: bool = False
+    level: float | None = None
+    receives: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class SeriesSpec:
+    """Which roles make a dilution series.
+
+    Attributes:
+        wells: Wells of the series.
+        stock: What is diluted.
+        diluent: What it is diluted with.
+        diluent_else: What counts as diluent where nothing is called so: the one of these that
+            the wells are mostly filled from.
+    """
+
+    wells: tuple[str, ...]
+    stock: tuple[str, ...]
+    diluent: tuple[str, ...]
+    diluent_else: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Example:
+    """A snippet: the body of ``run`` (or a whole protocol) and what it shows."""
+
+    title: str
+    code: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Examples:
+    """At least one of each."""
+
+    passing: tuple[Example, ...]
+    failing: tuple[Example, ...]
+
+
+@dataclass(frozen=True)
+class RuleSpec:
+    """One rule.
+
+    Attributes:
+        id: ``"PCR-2"``.
+        name: ``"fresh-tip-template-to-ntc"``.
+        statement: What must hold.
+        severity: ``error`` or ``warning``.
+        scope: ``family`` or ``all``: whether it is judged in every family's protocols.
+        needs: Roles that must be known to judge it; ``"a|b"`` for either.
+        checks: Checks that decide it, with their parameters; all of them must hold.
+        unless_reported: Rules whose findings on the same wells replace this one's.
+        indicators: What to look for in the source, for a model.
+        prompt: Instruction for a model.
+        rationale: Why it matters.
+        reference: Where that is written.
+        fix: How to mend a violation.
+        examples: Passing and failing snippets.
+    """
+
+    id: str
+    name: str
+    statement: str
+    severity: str
+    needs: tuple[str, ...]
+    checks: tuple[Mapping[str, Any], ...]
+    rationale: str
+    reference: str
+    fix: str
+    examples: Examples
+    scope: str = "family"
+    unless_reported: tuple[str, ...] = ()
+    indicators: tuple[str, ...] = ()
+    prompt: str = ""
+
+
+@dataclass(frozen=True)
+class Family:
+    """One assay family, as its file describes it."""
+
+    family: str
+    title: str
+    description: str
+    signals: tuple[Signal, ...]
+    roles: Mapping[str, RoleSpec]
+    rules: tuple[RuleSpec, ...]
+    schema: int = SCHEMA_VERSION
+    series: SeriesSpec | None = None
+    chain_weight: float = 0.0
+    default: bool = False
+    path: str = field(default="", compare=False, metadata={"internal": True})
+
+
+@dataclass(frozen=True)
+class Common:
+    """``common.json``: word lists that belong to no family."""
+
+    pauses: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    prefilled: tuple[str, ...] = ()
+    protocol_prefilled: tuple[str, ...] = ()
+    levels: Mapping[str, float] = field(default_factory=dict)
+    rising: tuple[str, ...] = ()
+    falling: tuple[str, ...] = ()
+    amounts: tuple[str, ...] = ()
+    waste: tuple[str, ...] = ()
+    negations: tuple[str, ...] = ()
+    joints: tuple[str, ...] = ()
+    aliases: Mapping[str, str] = field(default_factory=dict)
+    noise: tuple[str, ...] = ()
+    distinct: tuple[str, ...] = ()
+    dosed: tuple[str, ...] = ()
+    schema: int = SCHEMA_VERSION
+
+
+@dataclass(frozen=True)
+class Database:
+    """All families and common words in force."""
+
+    families: tuple[Family, ...]
+    common: Common
+
+    @property
+    def rules(self) -> tuple[RuleSpec, ...]:
+        """Every rule, in file order."""
+        return tuple(rule for family in self.families for rule in family.rules)
+
+    def rule(self, rule_id: str) -> tuple[Family, RuleSpec]:
+        """Find a rule.
+
+        Raises:
+            RuleError: If there is none with this identifier.
+        """
+        for family in self.families:
+            for rule in family.rules:
+                if rule.id == rule_id:
+                    return family, rule
+        known = ", ".join(rule.id for rule in self.rules)
+        raise RuleError(f"there is no rule {rule_id!r}; known are {known}")
+
+    def family(self, name: str) -> Family:
+        """Find a family.
+
+        Raises:
+            RuleError: If there is none of this name.
+        """
+        for family in self.families:
+            if family.family == name:
+                return family
+        known = ", ".join(family.family for family in self.families)
+        raise RuleError(f"there is no assay family {name!r}; known are {known}")

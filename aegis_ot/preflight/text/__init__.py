@@ -1,0 +1,19 @@
+"""What the text of a protocol says: its comments, its constants, the words in its names."""
+
+from .facts import Place, SourceFacts
+from .levels import direction_in, level_in, name_without_level, numbers_in_order
+from .reading import read_source
+from .words import Lexicon, Match, tokens
+
+__all__ = [
+    "Lexicon",
+    "Match",
+    "Place",
+    "SourceFacts",
+    "direction_in",
+    "level_in",
+    "name_without_level",
+    "numbers_in_order",
+    "read_source",
+    "tokens",
+]

@@ -1,0 +1,70 @@
+"""What only the text of a protocol can tell: comments, docstrings, constants, subscripts.
+
+The rehearsal knows which wells were used; the text knows what the scientist wrote about them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Place:
+    """``rack[MASTER_MIX]``: a labware name, how it was indexed, and by which names.
+
+    Attributes:
+        labware: The expression that holds the labware, ``"rack"``.
+        names: Names that stand in the index, ``("MASTER_MIX",)``.
+        value: The index, where constants give it: ``"A1"``, ``95``, a list of these; else
+            ``None``.
+        kind: ``well``, ``wells``, ``columns`` or ``rows``: what is indexed.
+        line: Where it stands.
+    """
+
+    labware: str
+    names: tuple[str, ...]
+    value: Any
+    kind: str
+    line: int
+
+
+@dataclass
+class SourceFacts:
+    """The facts of one protocol text.
+
+    Attributes:
+        comments: Comment text by line.
+        own_line: Lines that hold nothing but a comment.
+        docstrings: Module and function docstrings, and other free-standing strings.
+        metadata: Values of the ``metadata`` dict.
+        constants: Names bound to literals, by name.
+        places: Subscripts of labware by names or constants.
+        loose: Names that are loop variables or parameters, as ``(function, name)``.
+        loops: Those of them that are loop variables.
+        notes: Comment beside or right above the assignment of a name, by that name.
+        assigned: Line of the first assignment of each name.
+        tables: For names bound to a list of rows or to a dict, the constants of each row.
+        blocks: For the first line of a run of statements without a gap, all lines of it.
+        arguments: By line, the names that calls draw from and give to, as ``(side, name)``.
+        liquids: Description of each liquid defined in the text, by its name.
+        names: Every identifier of the text, once.
+        strings: Every other string of the text, with its line.
+    """
+
+    comments: dict[int, str] = field(default_factory=dict)
+    own_line: set[int] = field(default_factory=set)
+    docstrings: list[tuple[int, str]] = field(default_factory=list)
+    metadata: dict[str, str] = field(default_factory=dict)
+    constants: dict[str, Any] = field(default_factory=dict)
+    places: list[Place] = field(default_factory=list)
+    loose: set[tuple[str, str]] = field(default_factory=set)
+    loops: set[tuple[str, str]] = field(default_factory=set)
+    notes: dict[str, str] = field(default_factory=dict)
+    assigned: dict[str, int] = field(default_factory=dict)
+    tables: dict[str, list[tuple[Any, ...]]] = field(default_factory=dict)
+    blocks: dict[int, tuple[int, ...]] = field(default_factory=dict)
+    arguments: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
+    liquids: dict[str, str] = field(default_factory=dict)
+    names: set[str] = field(default_factory=set)
+    strings: list[tuple[int, str]] = field(default_factory=list)

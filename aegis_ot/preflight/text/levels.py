@@ -1,0 +1,127 @@
+"""Reads concentrations and doses in names and other texts.
+
+Only the order of levels matters to the rules, so a number without a unit is good enough,
+as long as it is a concentration and no running number: ``std_125`` is one, ``std_3`` is not
+known to be.
+"""
+
+from __future__ import annotations
+
+import re
+
+from ..rules import Common
+from .words import Lexicon, tokens
+
+_NUMBER = r"(?<![\w.])(\d+(?:[.,]\d+)?(?:[eE]-?\d+)?)"
+
+_UNITS: dict[str, float] = {
+    "pm": 1e-12,
+    "nm": 1e-9,
+    "um": 1e-6,
+    "mm": 1e-3,
+    "m": 1.0,
+    "pg/ul": 1e-6,
+    "ng/ul": 1e-3,
+    "ug/ul": 1.0,
+    "mg/ul": 1e3,
+    "pg/ml": 1e-9,
+    "ng/ml": 1e-6,
+    "ug/ml": 1e-3,
+    "mg/ml": 1.0,
+    "g/l": 1.0,
+    "mg/l": 1e-3,
+    "%": 1.0,
+    "x": 1.0,
+}
+
+_WITH_UNIT = re.compile(
+    r"(?<![A-Za-z.\d])(\d+(?:[.,p]\d+)?)[\s_]*"
+    r"((?:pg|ng|ug|mg)\s*(?:/|per|_)\s*(?:ul|ml|l)|g/l|pm|nm|um|mm|m|%|x)(?![a-z])",
+    re.IGNORECASE,
+)
+
+_LONG_NUMBER = re.compile(r"(?<![\d.])(\d{2,}(?:\.\d+)?|\d+\.\d+|0)(?![\d.])")
+
+_RATIO = re.compile(r"\b1\s*(?::|/|to|in)\s*(\d+)\b", re.IGNORECASE)
+
+_LEXICONS: dict[int, tuple[Common, Lexicon]] = {}
+
+
+def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | None:
+    """The one level that a text states: with a unit, in words, or as a plain number.
+
+    Plain numbers count in names and liquids only: in a comment they may be anything.
+    """
+    plain = text.replace("µ", "u").replace("μ", "u").lower()
+    with_unit = {
+        _number(value) * _UNITS.get(_unit(unit), 1.0) for value, unit in _WITH_UNIT.findall(plain)
+    }
+    if len(with_unit) == 1:
+        return with_unit.pop()
+    if with_unit:
+        return None
+    ratios = {1.0 / float(value) for value in _RATIO.findall(plain) if float(value) > 0}
+    if len(ratios) == 1:
+        return ratios.pop()
+    words = {common.levels[match.topic] for match in _level_words(common).find(text)}
+    if len(words) == 1:
+        return words.pop()
+    if not plain_numbers:
+        return None
+    numbers = set(_LONG_NUMBER.findall(plain.replace("_", " ")))
+    if len(numbers) == 1:
+        return float(numbers.pop())
+    return None
+
+
+def name_without_level(text: str, common: Common) -> tuple[str, ...]:
+    """The words of a name that say neither how much nor what sort of thing it is.
+
+    Two liquids whose names differ in these are different compounds; those whose names do not
+    differ are doses of one.
+    """
+    plain = _WITH_UNIT.sub(" ", text.replace("µ", "u").replace("μ", "u"))
+    lexicon = Lexicon({"noise": (*common.noise, *common.levels)})
+    words = tokens(plain)
+    covered = {at for match in lexicon.find(plain) for at in range(match.start, match.end)}
+    return tuple(
+        word
+        for at, word in enumerate(words)
+        if at not in covered and not word.replace(".", "").isdigit()
+    )
+
+
+def numbers_in_order(text: str) -> list[float]:
+    """All plain numbers of a text, in order, well names and units apart."""
+    cleaned = re.sub(r"\b[A-P]\d{1,2}\b", " ", text)
+    return [float(value.replace(",", "")) for value in re.findall(_NUMBER, cleaned)]
+
+
+def direction_in(text: str, common: Common) -> int:
+    """1 where a text says that levels rise, -1 where they fall, 0 where it says neither."""
+    topics = {match.topic for match in _direction_words(common).find(text)}
+    if topics == {"rising"}:
+        return 1
+    if topics == {"falling"}:
+        return -1
+    return 0
+
+
+def _level_words(common: Common) -> Lexicon:
+    known = _LEXICONS.get(id(common))
+    if known is None or known[0] is not common:
+        known = (common, Lexicon({word: (word,) for word in common.levels}))
+        _LEXICONS[id(common)] = known
+    return known[1]
+
+
+def _direction_words(common: Common) -> Lexicon:
+    return Lexicon({"rising": common.rising, "falling": common.falling})
+
+
+def _unit(unit: str) -> str:
+    return re.sub(r"\s|per|_", lambda m: "/" if m.group() in ("per", "_") else "", unit.lower())
+
+
+def _number(text: str) -> float:
+    return float(text.replace(",", ".").replace("p", "."))

@@ -1,0 +1,91 @@
+"""Values that a protocol writes down: rows of a table, an index made of constants."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+
+def index_value(node: ast.expr, constants: Mapping[str, Any]) -> Any:
+    """The value of an index made of constants and simple arithmetic."""
+    if isinstance(node, ast.Constant):
+        return node.value
+    if isinstance(node, ast.Name):
+        return constants.get(node.id)
+    if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub):
+        value = index_value(node.operand, constants)
+        return -value if isinstance(value, int) else None
+    if isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub)):
+        left, right = index_value(node.left, constants), index_value(node.right, constants)
+        if isinstance(left, int) and isinstance(right, int):
+            return left + right if isinstance(node.op, ast.Add) else left - right
+        return None
+    if isinstance(node, ast.Slice):
+        low = index_value(node.lower, constants) if node.lower else None
+        high = index_value(node.upper, constants) if node.upper else None
+        given = [(node.lower, low), (node.upper, high)]
+        if any(bound is not None and not isinstance(v, int) for bound, v in given):
+            return None
+        return slice(low, high)
+    if isinstance(node, ast.Subscript):
+        holder, key = index_value(node.value, constants), index_value(node.slice, constants)
+        try:
+            return holder[key]
+        except (TypeError, KeyError, IndexError):
+            return None
+    return None
+
+
+def rows_of(value: ast.expr) -> Iterator[tuple[Any, ...]]:
+    """The constants that stand in each row of a list of tuples, dicts or calls, or of a dict.
+
+    ``[("NTC", plate["H12"], 5)]`` yields ``("NTC", 5)``: what stands beside the well, but
+    not the indices inside an expression.
+    """
+    if isinstance(value, ast.Dict):
+        for key, item in zip(value.keys, value.values, strict=False):
+            if key is not None:
+                yield tuple(constants_in([key, item]))
+    elif isinstance(value, (ast.List, ast.Tuple)):
+        for element in value.elts:
+            if isinstance(element, (ast.Tuple, ast.List)):
+                yield tuple(constants_in(element.elts))
+            elif isinstance(element, ast.Dict):
+                yield tuple(constants_in(element.values))
+            elif isinstance(element, ast.Call):
+                yield tuple(constants_in([*element.args, *(k.value for k in element.keywords)]))
+            else:
+                return
+
+
+def constants_in(nodes: Iterable[ast.expr | None]) -> Iterator[Any]:
+    """Strings and numbers among some expressions, those in nested lists included."""
+    for node in nodes:
+        if isinstance(node, ast.UnaryOp) and isinstance(node.operand, ast.Constant):
+            node = node.operand
+        if isinstance(node, ast.Constant) and isinstance(node.value, (str, int, float)):
+            yield node.value
+        elif isinstance(node, (ast.Tuple, ast.List)):
+            yield from constants_in(node.elts)
+
+
+def last_name(node: ast.expr) -> str:
+    """``plate`` or ``self.plate``, as the last name."""
+    if isinstance(node, ast.Name):
+        return node.id
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return ""
+
+
+def plain_text(node: ast.expr) -> str:
+    """A string constant, else ``""``."""
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else ""
+
+
+def names_in(node: ast.AST) -> Iterator[str]:
+    """Every name that stands anywhere in an expression."""
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Name):
+            yield inner.id

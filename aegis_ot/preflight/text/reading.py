@@ -1,0 +1,22 @@
+"""From a protocol's text to its facts."""
+
+from __future__ import annotations
+
+import ast
+
+from .comments import read_blocks, read_comments
+from .facts import SourceFacts
+from .syntax import SyntaxReader
+
+
+def read_source(text: str) -> SourceFacts:
+    """Read a protocol's text. Text that does not parse yields what its comments say."""
+    facts = SourceFacts()
+    read_comments(text, facts)
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError):
+        return facts
+    SyntaxReader(facts).visit_module(tree)
+    read_blocks(text, tree, facts)
+    return facts

@@ -1,0 +1,172 @@
+"""Reads the syntax tree of a protocol: assignments, loops, subscripts and calls."""
+
+from __future__ import annotations
+
+import ast
+
+from .facts import Place, SourceFacts
+from .literals import index_value, last_name, names_in, plain_text, rows_of
+
+_SIDES: dict[str, dict[int | str, str]] = {
+    "aspirate": {1: "source", "location": "source"},
+    "dispense": {1: "destination", "location": "destination"},
+    **{
+        method: {1: "source", "source": "source", 2: "destination", "dest": "destination"}
+        for method in ("transfer", "distribute", "consolidate", "transfer_with_liquid_class")
+    },
+}
+
+
+class SyntaxReader:
+    """Walks a parsed protocol and notes what it finds."""
+
+    def __init__(self, facts: SourceFacts) -> None:
+        self._facts = facts
+        self._documents: set[int] = set()
+
+    def visit_module(self, tree: ast.Module) -> None:
+        """Note the facts of a whole module."""
+        facts = self._facts
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Assign):
+                for target in node.targets:
+                    self._assign(target, node.value, node.lineno)
+            elif isinstance(node, ast.AnnAssign) and node.value is not None:
+                self._assign(node.target, node.value, node.lineno)
+            elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+                if isinstance(node.value.value, str):
+                    facts.docstrings.append((node.lineno, node.value.value))
+                    self._documents.add(id(node.value))
+            elif isinstance(node, (ast.FunctionDef, ast.Lambda)):
+                function = node.name if isinstance(node, ast.FunctionDef) else "<lambda>"
+                arguments = node.args
+                for argument in (
+                    *arguments.posonlyargs,
+                    *arguments.args,
+                    *arguments.kwonlyargs,
+                ):
+                    facts.loose.add((function, argument.arg))
+        self._functions(tree, "<module>")
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Name):
+                facts.names.add(node.id)
+            elif isinstance(node, ast.FunctionDef):
+                facts.names.add(node.name)
+            elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                if id(node) not in self._documents:
+                    facts.strings.append((node.lineno, node.value))
+            elif isinstance(node, ast.Subscript):
+                self._subscript(node)
+            elif isinstance(node, ast.Call):
+                self._call(node)
+        metadata = facts.constants.get("metadata")
+        if isinstance(metadata, dict):
+            facts.metadata = {
+                str(key): value for key, value in metadata.items() if isinstance(value, str)
+            }
+
+    def _assign(self, target: ast.expr, value: ast.expr, line: int) -> None:
+        facts = self._facts
+        if isinstance(target, (ast.Tuple, ast.List)):
+            for element in target.elts:
+                if isinstance(element, ast.Name):
+                    facts.assigned.setdefault(element.id, line)
+            return
+        name = last_name(target)
+        if not name:
+            return
+        facts.assigned.setdefault(name, line)
+        note = facts.comments.get(line)
+        last = getattr(value, "end_lineno", line) or line
+        if note is None and last != line:
+            note = facts.comments.get(last)
+        if note is None and line - 1 in facts.own_line and line - 2 not in facts.own_line:
+            above = facts.comments[line - 1]
+            # A comment above a block of assignments heads them all; one above a single
+            # assignment speaks of it.
+            if line + 1 not in facts.assigned.values():
+                note = above
+        if note:
+            facts.notes.setdefault(name, note)
+        rows = list(rows_of(value))
+        if rows:
+            facts.tables.setdefault(name, rows)
+        try:
+            literal = ast.literal_eval(value)
+        except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
+            return
+        facts.constants.setdefault(name, literal)
+
+    def _functions(self, node: ast.AST, function: str) -> None:
+        for child in ast.iter_child_nodes(node):
+            inside = child.name if isinstance(child, ast.FunctionDef) else function
+            if isinstance(child, (ast.For, ast.AsyncFor)):
+                for name in names_in(child.target):
+                    self._facts.loose.add((inside, name))
+                    self._facts.loops.add((inside, name))
+            elif isinstance(child, ast.comprehension):
+                for name in names_in(child.target):
+                    self._facts.loose.add(("<comprehension>", name))
+            self._functions(child, inside)
+
+    def _subscript(self, node: ast.Subscript) -> None:
+        base: ast.expr = node.value
+        kind = "well"
+        if isinstance(base, ast.Call) and isinstance(base.func, ast.Attribute):
+            kinds = {
+                "wells": "wells",
+                "columns": "columns",
+                "rows": "rows",
+                "wells_by_name": "well",
+                "columns_by_name": "column",
+                "rows_by_name": "row",
+            }
+            if base.func.attr not in kinds or base.args:
+                return
+            kind, base = kinds[base.func.attr], base.func.value
+        labware = last_name(base)
+        if labware:
+            self._place(labware, node.slice, kind, node.lineno)
+
+    def _call(self, node: ast.Call) -> None:
+        if isinstance(node.func, ast.Attribute) and node.func.attr == "define_liquid":
+            self._liquid(node)
+        if isinstance(node.func, ast.Attribute):
+            self._arguments(node, node.func.attr)
+        if (
+            isinstance(node.func, ast.Attribute)
+            and node.func.attr in ("well", "wells")
+            and len(node.args) == 1
+        ):
+            labware = last_name(node.func.value)
+            if labware:
+                self._place(labware, node.args[0], "well", node.lineno)
+
+    def _arguments(self, node: ast.Call, method: str) -> None:
+        """``p20.transfer(2, sample, well)``: wells drawn from are samples, whatever the loop."""
+        sides = _SIDES.get(method, {})
+        given = [(sides.get(n), a) for n, a in enumerate(node.args)]
+        given += [(sides.get(k.arg), k.value) for k in node.keywords if k.arg]
+        for side, value in given:
+            while isinstance(value, (ast.Call, ast.Attribute)):
+                value = value.func if isinstance(value, ast.Call) else value.value
+            if side and isinstance(value, ast.Name):
+                self._facts.arguments.setdefault(node.lineno, []).append((side, value.id))
+
+    def _liquid(self, node: ast.Call) -> None:
+        values = dict(
+            zip(("name", "description"), (plain_text(a) for a in node.args), strict=False)
+        )
+        values.update(
+            {k.arg: plain_text(k.value) for k in node.keywords if k.arg in values or k.arg}
+        )
+        name, description = values.get("name"), values.get("description")
+        if name and description:
+            self._facts.liquids.setdefault(name, description)
+
+    def _place(self, labware: str, index: ast.expr, kind: str, line: int) -> None:
+        names = tuple(dict.fromkeys(names_in(index)))
+        if names:
+            self._facts.places.append(
+                Place(labware, names, index_value(index, self._facts.constants), kind, line)
+            )

@@ -1,0 +1,38 @@
+"""A recorded run, read as tips that meet wells, and liquids that move between them.
+
+Door: :func:`build_trace` gives a :class:`Trace`.
+"""
+
+from .building import build_trace
+from .chains import Transfer, chains_of, links_of, longest_chain
+from .plates import Plates
+from .replacements import Intervention, Replacements
+from .table import places, trace_table
+from .tips import Layer, Met, Tip, TipBox
+from .trace import PlaceKey, Trace
+from .visits import Imbalance, Visit
+from .wells import Composition, Well, row_column
+
+__all__ = [
+    "Composition",
+    "Imbalance",
+    "Intervention",
+    "Layer",
+    "Met",
+    "PlaceKey",
+    "Plates",
+    "Replacements",
+    "Tip",
+    "TipBox",
+    "Trace",
+    "Transfer",
+    "Visit",
+    "Well",
+    "build_trace",
+    "chains_of",
+    "links_of",
+    "longest_chain",
+    "places",
+    "row_column",
+    "trace_table",
+]

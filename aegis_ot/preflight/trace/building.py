@@ -1,0 +1,242 @@
+"""Reads a recorded run, step by step, as tips that meet wells and liquids that move.
+
+What counts as a touch, an empty well, a carry or air is fixed in ``spec/rules.md``; this
+module is where those words become values. One pass over the recorded steps, no rule in sight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+
+from ...instrumentation import Event, EventKind, LabwareInfo, OperationKind
+from ...vocabulary import WellRef
+from ..rehearsal import Record, Step
+from .plates import Plates
+from .replacements import Replacements
+from .tips import Layer, Tip, TipBox
+from .trace import Trace
+from .visits import Imbalance, Visit
+from .wells import Well
+
+_REPEATED = "(repeated)"
+
+
+def build_trace(
+    log: Iterable[Record],
+    labware: Mapping[str, LabwareInfo],
+    replacements: Replacements,
+    prefilled: Callable[[WellRef], bool] = lambda ref: False,
+) -> Trace:
+    """Read a recorded run.
+
+    Args:
+        log: Steps and events, in order.
+        labware: Facts of each labware, by key.
+        replacements: Reads pauses: was a plate replaced, shaken, refilled?
+        prefilled: Whether a well's role implies that it held liquid before the run.
+    """
+    return _Builder(labware, replacements, prefilled).run(log)
+
+
+class _Builder:
+    def __init__(
+        self,
+        labware: Mapping[str, LabwareInfo],
+        replacements: Replacements,
+        prefilled: Callable[[WellRef], bool],
+    ) -> None:
+        self._trace = Trace(labware)
+        self._replacements = replacements
+        self._plates = Plates(labware, prefilled, self._trace.wells)
+        self._box = TipBox()
+        self._slots = {key: info.slot for key, info in labware.items()}
+        self._index = 0
+        self._last: dict[Tip, Visit] = {}
+        self._cycle: dict[str, Step] = {}
+
+    def run(self, log: Iterable[Record]) -> Trace:
+        for record in log:
+            self._index += 1
+            if isinstance(record, Event):
+                self._event(record)
+            else:
+                self._step(record)
+                self._trace.steps += 1
+        self._trace.tips = self._box.tips
+        return self._trace
+
+    # -- events
+
+    def _event(self, event: Event) -> None:
+        kind = event.kind
+        if kind is EventKind.LABWARE_LOADED:
+            self._slots[event.labware] = event.text
+        elif kind is EventKind.LIQUID_LOADED:
+            for ref in event.wells:
+                well = self._plates.well(ref)
+                if event.text and event.text not in well.liquids:
+                    well.liquids.append(event.text)
+                well.fill_before_run(event.volume)
+        elif kind is EventKind.TIPS_RESET:
+            self._box.refill_rack(event.labware)
+        elif kind is EventKind.LABWARE_MOVED:
+            self._slots[event.labware] = event.text
+            if not event.text:
+                self._replace(event.labware)
+        elif kind is EventKind.PAUSED:
+            self._paused(event)
+        elif kind is EventKind.MODULE:
+            if self._replacements.shakes(event.text):
+                self._trace.shaken.append((self._index, None))
+        elif kind is EventKind.COMMENT:
+            self._trace.comments.append((event.line, event.text))
+
+    def _paused(self, event: Event) -> None:
+        self._trace.comments.append((event.line, event.text))
+        said = self._replacements.read(event.text, self._trace.labware, self._slots)
+        if said.shaken:
+            self._trace.shaken.append((self._index, None))
+        if said.all_tips:
+            self._box.replace_all_racks()
+        for key in said.replaced:
+            self._replace(key)
+        if said.volumes_unsure:
+            self._plates.forget_volumes()
+
+    def _replace(self, key: str) -> None:
+        info = self._trace.labware.get(key)
+        if info is not None and info.is_tip_rack:
+            self._box.replace_rack(key)
+            return
+        self._plates.replace(key)
+
+    # -- steps
+
+    def _step(self, step: Step) -> None:
+        kind = step.kind
+        if kind is OperationKind.PICK_UP_TIP:
+            self._box.pick_up(step.pipette, step.nozzles, step.wells, step.line)
+        elif kind is OperationKind.DROP_TIP:
+            homes = (None,) * len(step.nozzles) if step.disposal else step.wells
+            self._box.drop(step.pipette, step.nozzles, homes)
+        elif not self._repeats(step):
+            self._note_group(step)
+            for nozzle, ref in zip(step.nozzles, step.wells, strict=False):
+                tip = self._box.on(step.pipette, nozzle, step.line)
+                if tip is None:
+                    continue  # a multi-channel pipette that took up fewer tips
+                well = None if ref is None or step.disposal else self._plates.well(ref)
+                self._act(step, kind, tip, well)
+
+    def _repeats(self, step: Step) -> bool:
+        """Whether a step only repeats a mixing cycle that is noted already.
+
+        A further cycle of the same volume in the same wells leaves tips and wells as they are.
+        """
+        before = self._cycle.get(step.pipette)
+        ends_a_cycle = before is not None and (
+            before.kind is OperationKind.DISPENSE or before.call == _REPEATED
+        )
+        if (
+            before is not None
+            and ends_a_cycle
+            and step.mixing
+            and before.mixing
+            and before.kind is not step.kind
+            and before.wells == step.wells
+            and before.volume == step.volume
+            and before.line == step.line
+        ):
+            self._cycle[step.pipette] = step._replace(call=_REPEATED)
+            return True
+        self._cycle[step.pipette] = step
+        return False
+
+    def _note_group(self, step: Step) -> None:
+        refs = step.wells
+        if len(refs) > 1:
+            first = refs[0]
+            if first is not None and len(set(refs)) > 1:
+                self._trace.groups.setdefault(first, tuple(ref for ref in refs if ref))
+        elif refs and refs[0] is not None:
+            self._trace.singles.add(refs[0])
+
+    def _act(self, step: Step, kind: OperationKind, tip: Tip, well: Well | None) -> None:
+        if kind is OperationKind.AIR_GAP or (kind is OperationKind.ASPIRATE and step.air):
+            tip.push(None, step.volume, {}, step.line)
+        elif kind is OperationKind.ASPIRATE:
+            if well is None:
+                tip.push(None, step.volume, {}, step.line)
+            else:
+                self._aspirate(step, tip, well)
+        elif kind is OperationKind.DISPENSE or kind is OperationKind.BLOW_OUT:
+            blown = kind is OperationKind.BLOW_OUT
+            parts = tip.pop_all() if blown else tip.pop(step.volume)
+            if well is not None:
+                self._give(step, tip, well, parts)
+        elif kind is OperationKind.TOUCH_TIP and well is not None and not well.empty:
+            visit = self._visit(step, tip, well)
+            visit.below = visit.touch = True
+            tip.touch(well, step.line, self._index)
+
+    def _visit(self, step: Step, tip: Tip, well: Well) -> Visit:
+        visit = Visit(step.kind, tip, well, self._index, step.line, step.lines, step.mixing)
+        visit.carried = len(tip.origins)
+        visit.met = len(tip.touched)
+        visit.empty_before = well.empty
+        well.visits.append(visit)
+        self._trace.visits.append(visit)
+        return visit
+
+    def _aspirate(self, step: Step, tip: Tip, well: Well) -> None:
+        if well.empty and not well.fed and not well.prefilled:
+            well.fill_before_run(None)  # first drawn from: it must have held something
+        visit = self._visit(step, tip, well)
+        visit.volume = step.volume
+        visit.below = visit.touch = True
+        tip.touch(well, step.line, self._index)
+        liquid = well.liquid()
+        held = well.volume
+        missing = well.draw(step.volume)
+        if missing > _slack(step.volume):
+            self._trace.imbalances.append(
+                Imbalance(well, self._index, step.line, False, step.volume, held)
+            )
+        tip.push(well, step.volume, liquid, step.line)
+        self._last[tip] = visit
+
+    def _give(self, step: Step, tip: Tip, well: Well, parts: list[Layer]) -> None:
+        visit = self._visit(step, tip, well)
+        visit.parts = parts
+        for _, volume, liquid, _ in parts:
+            visit.volume += volume
+            well.add(volume, liquid)
+        if well.volume > well.capacity + _slack(well.capacity) and visit.volume > 0:
+            self._trace.imbalances.append(
+                Imbalance(well, self._index, step.line, True, well.volume, well.capacity)
+            )
+        visit.below = step.from_top is None or step.from_top < 0
+        if visit.below and not visit.empty_before and not well.clear_of_liquid(step.from_bottom):
+            visit.touch = True
+            tip.touch(well, step.line, self._index)
+        self._note_mix(tip, visit)
+
+    def _note_mix(self, tip: Tip, visit: Visit) -> None:
+        """Liquid drawn from a well and given straight back mixes it, whoever calls it what."""
+        drawn = self._last.get(tip)
+        if drawn is None or drawn.well is not visit.well or visit.volume <= 0:
+            return
+        if any(part[0] is not visit.well for part in visit.parts):
+            return
+        drawn.mixing = visit.mixing = True
+        mixes = visit.well.mixes
+        if mixes and mixes[-1][1] >= drawn.index - 1:
+            mixes[-1] = (mixes[-1][0], visit.index, mixes[-1][2])
+        else:
+            mixes.append((drawn.index, visit.index, drawn.line))
+        del self._last[tip]
+
+
+def _slack(volume: float) -> float:
+    """Rounding that volumes computed in a protocol may show, µL."""
+    return max(0.01, abs(volume) * 1e-4)

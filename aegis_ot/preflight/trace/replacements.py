@@ -1,0 +1,92 @@
+"""What a person did during a pause: replaced a plate, shook it, refilled a reservoir.
+
+A pause hides what happens on the deck. Its message often says it. The words come from the
+rule files (``rules/common.json``), so that other languages can be added there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from ...instrumentation import LabwareInfo
+from ..text import Lexicon, tokens
+
+
+@dataclass(frozen=True)
+class Intervention:
+    """What one pause message says.
+
+    Attributes:
+        replaced: Keys of labware that are new afterwards.
+        all_tips: Whether used tips were replaced.
+        shaken: Whether plates were mixed by hand or on a shaker.
+        volumes_unsure: Whether wells may have been filled or emptied by hand.
+    """
+
+    replaced: frozenset[str] = frozenset()
+    all_tips: bool = False
+    shaken: bool = False
+    volumes_unsure: bool = False
+
+
+@dataclass
+class Replacements:
+    """Reads pause messages with word lists.
+
+    Args:
+        words: Phrases by topic: ``replace``, ``plate``, ``tips``, ``refill``,
+            ``shake``, ``away``, ``spin``.
+    """
+
+    words: Mapping[str, Sequence[str]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._lexicon = Lexicon({topic: tuple(phrases) for topic, phrases in self.words.items()})
+
+    def shakes(self, text: str) -> bool:
+        """Whether a text speaks of shaking or mixing a plate."""
+        return any(match.topic == "shake" for match in self._lexicon.find(text))
+
+    def read(
+        self, text: str, labware: Mapping[str, LabwareInfo], slots: Mapping[str, str]
+    ) -> Intervention:
+        """Read a pause message; an empty one says nothing, so anything may have happened."""
+        if not text.strip():
+            return Intervention(volumes_unsure=True)
+        topics = {match.topic for match in self._lexicon.find(text)}
+        shaken = "shake" in topics
+        tips_only = "tips" in topics and "plate" not in topics
+        if "replace" in topics and tips_only:
+            return Intervention(all_tips=True, shaken=shaken)
+        away = "replace" in topics or "away" in topics
+        if away and ("spin" not in topics or "replace" in topics):
+            named = self._named(text, labware, slots)
+            plates = named or {
+                key
+                for key, info in labware.items()
+                if not info.is_tip_rack
+                and not info.is_trash
+                and len(info.wells) >= 6
+                and not info.centers_channels
+            }
+            return Intervention(frozenset(plates), "tips" in topics, shaken, "refill" in topics)
+        unsure = "refill" in topics or not topics
+        return Intervention(all_tips="tips" in topics, shaken=shaken, volumes_unsure=unsure)
+
+    @staticmethod
+    def _named(text: str, labware: Mapping[str, LabwareInfo], slots: Mapping[str, str]) -> set[str]:
+        """Labware that the message names, by label or by slot."""
+        said = tokens(text)
+        joined = f" {' '.join(said)} "
+        found: set[str] = set()
+        for key, info in labware.items():
+            if info.is_trash:
+                continue
+            slot = slots.get(key, "").lower()
+            label = " ".join(tokens(info.label))
+            if (slot and f" slot {' '.join(tokens(slot))} " in joined) or (
+                label and f" {label} " in joined
+            ):
+                found.add(key)
+        return found

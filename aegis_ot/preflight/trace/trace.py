@@ -1,0 +1,57 @@
+"""The trace: everything that one rehearsal's tips did to one rehearsal's wells."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+
+from ...instrumentation import LabwareInfo
+from ...vocabulary import WellRef
+from .tips import Tip
+from .visits import Imbalance, Visit
+from .wells import Well
+
+PlaceKey = tuple[str, int, str]
+"""Labware key, generation of the plate, well name."""
+
+
+@dataclass
+class Trace:
+    """Everything that checks may ask about one rehearsal.
+
+    Attributes:
+        labware: Facts of each labware, by key.
+        wells: Every well that was visited or filled, by place.
+        tips: Every tip.
+        visits: Every visit, in order.
+        imbalances: Volumes that do not add up.
+        shaken: Index, labware keys (``None``: any) of each time a plate was shaken.
+        comments: What the run said or asked, with its line.
+        steps: Number of recorded operations.
+    """
+
+    labware: Mapping[str, LabwareInfo]
+    wells: dict[PlaceKey, Well] = field(default_factory=dict)
+    tips: list[Tip] = field(default_factory=list)
+    visits: list[Visit] = field(default_factory=list)
+    imbalances: list[Imbalance] = field(default_factory=list)
+    shaken: list[tuple[int, frozenset[str] | None]] = field(default_factory=list)
+    comments: list[tuple[int | None, str]] = field(default_factory=list)
+    groups: dict[WellRef, tuple[WellRef, ...]] = field(default_factory=dict)
+    singles: set[WellRef] = field(default_factory=set)
+    steps: int = 0
+
+    def deliveries(self, well: Well) -> Iterator[Visit]:
+        """Visits that brought liquid from elsewhere into ``well``."""
+        for visit in well.visits:
+            if visit.parts and any(part[0] is not well for part in visit.parts):
+                yield visit
+
+    def mixed_since(self, well: Well, index: int, before: float) -> bool:
+        """Whether ``well`` was mixed or shaken after ``index`` and before ``before``."""
+        if any(index < last and first < before for first, last, _ in well.mixes):
+            return True
+        return any(
+            index < at < before and (keys is None or well.ref.labware in keys)
+            for at, keys in self.shaken
+        )
