@@ -1,25 +1,36 @@
-"""``aegis-ot evaluate``: scores on labelled data."""
+"""``aegis-ot evaluate``: scores on labelled data. Here: Layer 1."""
 
 from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ..checking import CheckSettings
+from ..checking import Asking, CheckSettings
 from ..checking.files import read_labware
-from ..evaluation.layer1 import Prediction, RulesOnly, evaluate_layer1, read_labels
+from ..errors import ConfigurationError
+from ..evaluation.layer1 import (
+    Checking,
+    Layer1Result,
+    Prediction,
+    draw_ablation,
+    evaluate_layer1,
+    read_labels,
+)
 from ..preflight import load_database
+from ..reasoning import Configuration, load_prices
 from .app import BROKEN, CLEAN, app
-from .checks import one_of, write_text
+from .checks import one_of, split, write_text
+from .models import RecordFolder, backend_of
 
 evaluate = typer.Typer(no_args_is_help=True, help="Score a layer on labelled data.")
 app.add_typer(evaluate, name="evaluate")
 
-LAYER1_CONFIGS = ("rules-only",)
+LAYER1_CONFIGS = tuple(configuration.value for configuration in Configuration)
 """Judges of protocols that this command can score."""
 
 
@@ -34,9 +45,24 @@ def layer1(
     json_out: Annotated[
         Path | None, typer.Option("--json", help="Write all figures here as JSON.")
     ] = None,
+    figures: Annotated[
+        Path | None, typer.Option(help="Draw the ablation bar charts into this folder.")
+    ] = None,
     config: Annotated[
-        str, typer.Option(help=f"Who judges: {', '.join(LAYER1_CONFIGS)}.")
-    ] = "rules-only",
+        list[str] | None,
+        typer.Option(
+            help=f"Who judges: {', '.join(LAYER1_CONFIGS)}. Repeatable, or a comma list "
+            "[default: rules-only]."
+        ),
+    ] = None,
+    model: Annotated[
+        list[str] | None,
+        typer.Option(help="Model to ask, see `check --model`; repeatable, to compare models."),
+    ] = None,
+    record: RecordFolder = None,
+    prices: Annotated[
+        Path | None, typer.Option(help="Price table of your own [default: AEGIS_OT_PRICES].")
+    ] = None,
     rules: Annotated[
         list[Path] | None, typer.Option(help="File or folder of further rules.")
     ] = None,
@@ -48,34 +74,67 @@ def layer1(
 ) -> None:
     """Score Layer 1 on a folder in the protocol benchmark format.
 
-    Exit codes: 0 scored, 2 a protocol could not be judged, or the folder is no good.
+    Exit codes: 0 scored, 2 a protocol could not be judged, a model that was asked gave no
+    answer, or the folder is no good.
     """
-    one_of("--config", config, LAYER1_CONFIGS)
+    askings = list(_askings(split(config) or ["rules-only"], model or [], record))
+    table = load_prices(prices)
     database = load_database(tuple(str(path) for path in rules or ()))
     labels = read_labels(
         folder,
         [family.family for family in database.families],
         [rule.id for rule in database.rules],
     )
-    settings = CheckSettings(
-        rules=tuple(str(path.resolve()) for path in rules or ()),
-        labware=read_labware(labware or ()),
-        timeout_s=timeout,
-    )
-    progress = _Progress(len(labels))
-    result = evaluate_layer1(
-        folder.resolve(),
-        labels,
-        RulesOnly(settings, database),
-        config,
-        seed=seed,
-        done=progress.done,
-    )
-    progress.end()
-    typer.echo(result.text(), nl=False)
+    results: list[Layer1Result] = []
+    for asking in askings:
+        settings = CheckSettings(
+            rules=tuple(str(path.resolve()) for path in rules or ()),
+            labware=read_labware(labware or ()),
+            timeout_s=timeout,
+            asking=asking,
+        )
+        progress = _Progress(len(labels))
+        result = evaluate_layer1(
+            folder.resolve(),
+            labels,
+            Checking(settings, database),
+            asking.configuration if asking else Configuration.RULES_ONLY.value,
+            seed=seed,
+            prices=table,
+            model=asking.backend.name if asking else "",
+            done=progress.done,
+        )
+        progress.end()
+        typer.echo(result.text(), nl=False)
+        results.append(result)
     if json_out is not None:
-        write_text(json_out, json.dumps(result.to_json(), indent=1, ensure_ascii=False) + "\n")
-    raise typer.Exit(BROKEN if result.unjudged else CLEAN)
+        values = [result.to_json() for result in results]
+        shown = values[0] if len(values) == 1 else {"results": values}
+        write_text(json_out, json.dumps(shown, indent=1, ensure_ascii=False) + "\n")
+    if figures is not None:
+        for path in draw_ablation(results, figures):
+            typer.echo(f"figure: {path}", err=True)
+    broken = any(result.unjudged or result.unanswered for result in results)
+    raise typer.Exit(BROKEN if broken else CLEAN)
+
+
+def _askings(
+    configs: Sequence[str], models: Sequence[str], record: Path | None
+) -> Iterator[Asking | None]:
+    """One for each configuration and model; ``None`` stands for the rules alone."""
+    for name in dict.fromkeys(configs):
+        one_of("--config", name, LAYER1_CONFIGS)
+        if name == Configuration.RULES_ONLY.value:
+            yield None
+            continue
+        chosen: Sequence[str | None] = models or (None,)
+        for model in chosen:
+            backend = backend_of(model, record)
+            if backend is None:
+                raise ConfigurationError(
+                    f"--config {name} asks a model. Name one with --model or in AEGIS_OT_MODEL."
+                )
+            yield Asking(backend, name)
 
 
 class _Progress:

@@ -6,7 +6,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ...errors import DatasetError
+from ...reasoning import PriceTable, Usage, load_prices
 from ...vocabulary import Finding
+from .bill import bill_of, cost_of
 from .labels import Label
 from .metrics import Scores, score
 from .overlap import Overlap, add_lines, add_wells
@@ -21,6 +23,8 @@ def evaluate_layer1(
     judge_name: str,
     *,
     seed: int = 0,
+    prices: PriceTable | None = None,
+    model: str = "",
     done: Callable[[Prediction], None] = lambda prediction: None,
 ) -> Layer1Result:
     """Judge every labelled protocol of a folder and score the judgements.
@@ -31,12 +35,16 @@ def evaluate_layer1(
         judge: Judges files.
         judge_name: What to call it: ``"rules-only"``.
         seed: Of the bootstrap.
+        prices: What tokens cost; the shipped table if left out.
+        model: Who was asked, as the user named it; ``""`` for nobody.
         done: Told of each prediction.
     """
     predictions = judge([folder / label.file for label in labels], done)
     if [prediction.file for prediction in predictions] != [Path(lb.file).name for lb in labels]:
         raise DatasetError(f"{judge_name} did not judge every protocol of {folder}.")
-    return score_predictions(folder.name, labels, predictions, judge_name, seed=seed)
+    return score_predictions(
+        folder.name, labels, predictions, judge_name, seed=seed, prices=prices, model=model
+    )
 
 
 def score_predictions(
@@ -46,12 +54,15 @@ def score_predictions(
     judge_name: str,
     *,
     seed: int = 0,
+    prices: PriceTable | None = None,
+    model: str = "",
 ) -> Layer1Result:
     """Score judgements against labels, one prediction per label in the same order.
 
     A protocol that could not be judged counts as wrong, whatever its label.
     """
     pairs = list(zip(labels, predictions, strict=True))
+    prices = prices or load_prices()
     return Layer1Result(
         benchmark=name,
         judge=judge_name,
@@ -61,7 +72,9 @@ def score_predictions(
         family_right=sum(label.family == p.family for label, p in pairs),
         rules_strict=_rule_level(pairs, adjusted=False),
         rules_adjusted=_rule_level(pairs, adjusted=True),
-        rows=tuple(_row(label, prediction) for label, prediction in pairs),
+        rows=tuple(_row(label, prediction, prices) for label, prediction in pairs),
+        model=model,
+        bill=bill_of([prediction.reply for prediction in predictions], prices),
     )
 
 
@@ -120,8 +133,9 @@ def false_findings(label: Label, prediction: Prediction) -> list[Finding]:
     return [f for f in prediction.findings if f.rule not in label.acceptable]
 
 
-def _row(label: Label, prediction: Prediction) -> Row:
+def _row(label: Label, prediction: Prediction, prices: PriceTable) -> Row:
     citing = cite(label, prediction)
+    reply = prediction.reply
     return Row(
         file=label.file,
         labelled="fail" if label.is_bad else "pass",
@@ -135,6 +149,7 @@ def _row(label: Label, prediction: Prediction) -> Row:
         undecided=tuple(dict.fromkeys(u.rule for u in prediction.undecided)),
         problem=prediction.problem,
         seconds=prediction.seconds,
-        tokens=prediction.tokens,
-        cost_usd=prediction.cost_usd,
+        usage=reply.usage if reply else Usage(),
+        cost=cost_of(reply, prices),
+        unanswered="" if reply is None or reply.answered else reply.state.value,
     )

@@ -9,7 +9,8 @@ from typing import Protocol
 
 from ...checking import CheckedProtocol, CheckSettings, check_files
 from ...preflight import Database
-from ...vocabulary import Finding, Undecided
+from ...reasoning import Reply
+from ...vocabulary import Finding, Undecided, VerdictWord
 
 
 @dataclass(frozen=True)
@@ -21,10 +22,9 @@ class Prediction:
         family: The family that it takes the protocol for.
         findings: What it holds against it.
         undecided: Rules that it could not judge.
-        seconds: How long it took, s.
+        seconds: How long it took, the model's time included, s.
         problem: Why the protocol could not be judged, or ``""``.
-        tokens: Asked of and answered by a model; 0 where none was asked.
-        cost_usd: What that cost, US dollars.
+        reply: What came of asking a model, where one was asked.
     """
 
     file: str
@@ -33,8 +33,7 @@ class Prediction:
     undecided: tuple[Undecided, ...] = ()
     seconds: float = 0.0
     problem: str = ""
-    tokens: int = 0
-    cost_usd: float = 0.0
+    reply: Reply | None = None
 
     @property
     def is_flagged(self) -> bool:
@@ -51,11 +50,12 @@ class Judge(Protocol):
         """One prediction per file, in the order of the files."""
 
 
-class RulesOnly:
-    """The rules, with no model.
+class Checking:
+    """The rules, or a model, or both: as :func:`~aegis_ot.checking.check_files` judges.
 
     Args:
-        settings: How to check. Waivers and a baseline are left out: they would hide findings.
+        settings: How to check; ``asking`` says with which model, in which configuration. Waivers
+            and a baseline are left out: they would hide findings.
         database: The rules.
     """
 
@@ -78,11 +78,17 @@ def _prediction(checked: CheckedProtocol) -> Prediction:
     if checked.problem is not None:
         line = f"line {checked.problem.line}: " if checked.problem.line else ""
         problem = f"{line}{checked.problem.message}"
+    elif checked.verdict is VerdictWord.ERROR:
+        problem = checked.unanswered
+    reply = checked.judgement.reply if checked.judgement else None
+    # A replayed answer took no time now, and counts with the time that it once took.
+    replayed_s = reply.seconds if reply is not None and reply.attempts == 0 else 0.0
     return Prediction(
         file=Path(checked.file).name,
         family=checked.family,
         findings=checked.findings,
         undecided=checked.undecided,
-        seconds=checked.seconds,
+        seconds=checked.seconds + replayed_s,
         problem=problem,
+        reply=reply,
     )

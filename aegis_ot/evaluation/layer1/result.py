@@ -5,9 +5,11 @@ from __future__ import annotations
 import dataclasses
 import statistics
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
+from ...reasoning import Usage
+from .bill import Bill
 from .metrics import Scores
 from .overlap import Overlap
 
@@ -54,8 +56,9 @@ class Row:
         undecided: Rules left undecided.
         problem: Why it could not be judged, or ``""``.
         seconds: Time taken, s.
-        tokens: Of a model.
-        cost_usd: Of a model.
+        usage: Tokens of a model.
+        cost: Of a model, in the price table's currency; ``None`` if it is not known.
+        unanswered: How asking a model ended, where it gave no answer.
     """
 
     file: str
@@ -70,19 +73,9 @@ class Row:
     undecided: tuple[str, ...]
     problem: str
     seconds: float
-    tokens: int = 0
-    cost_usd: float = 0.0
-
-    @property
-    def is_right(self) -> bool:
-        """Nothing missed, nothing false, the family right, by the adjusted label."""
-        return (
-            not self.problem
-            and self.flagged == (self.adjusted == "fail")
-            and not (self.missed and self.adjusted == "fail")
-            and not self.false
-            and self.family == self.family_found
-        )
+    usage: Usage = field(default_factory=Usage)
+    cost: float | None = 0.0
+    unanswered: str = ""
 
 
 @dataclass(frozen=True)
@@ -91,7 +84,7 @@ class Layer1Result:
 
     Attributes:
         benchmark: Name of the folder.
-        judge: Who judged: ``"rules-only"``.
+        judge: Who judged: ``"rules-only"``, ``"hybrid"``.
         seed: Of the bootstrap.
         strict: Protocol level, strict labels.
         adjusted: Protocol level, adjusted labels.
@@ -99,6 +92,8 @@ class Layer1Result:
         rules_strict: Rule level, strict labels.
         rules_adjusted: Rule level, adjusted labels.
         rows: One per protocol.
+        model: Who was asked, as the user named it; ``""`` for nobody.
+        bill: What that took; ``None`` if no model was asked.
     """
 
     benchmark: str
@@ -110,11 +105,23 @@ class Layer1Result:
     rules_strict: RuleLevel
     rules_adjusted: RuleLevel
     rows: tuple[Row, ...]
+    model: str = ""
+    bill: Bill | None = None
 
     @property
     def unjudged(self) -> tuple[Row, ...]:
         """Protocols that could not be judged."""
         return tuple(row for row in self.rows if row.problem)
+
+    @property
+    def unanswered(self) -> tuple[Row, ...]:
+        """Protocols about which a model was asked in vain."""
+        return tuple(row for row in self.rows if row.unanswered)
+
+    @property
+    def names_rules(self) -> bool:
+        """Whether the judge knew the rules; else its findings cannot name the right ones."""
+        return self.judge != "llm-only"
 
     def to_json(self) -> dict[str, Any]:
         """As plain values."""
@@ -122,23 +129,26 @@ class Layer1Result:
         return {
             "benchmark": self.benchmark,
             "judge": self.judge,
+            "model": self.model or None,
             "seed": self.seed,
             "protocols": len(self.rows),
             "unjudged": [row.file for row in self.unjudged],
+            "unanswered": {row.file: row.unanswered for row in self.unanswered},
             "strict": _scores(self.strict),
             "adjusted": _scores(self.adjusted),
             "family_accuracy": self.family_right / len(self.rows),
             "rule_level": {
                 "strict": _rule_level(self.rules_strict),
                 "adjusted": _rule_level(self.rules_adjusted),
-            },
+            }
+            if self.names_rules
+            else None,
             "seconds": {
                 "mean": statistics.fmean(seconds),
                 "median": statistics.median(seconds),
                 "max": max(seconds),
             },
-            "tokens": sum(row.tokens for row in self.rows),
-            "cost_usd": sum(row.cost_usd for row in self.rows),
+            "asked": None if self.bill is None else self.bill.to_json(),
             "rows": [dataclasses.asdict(row) for row in self.rows],
         }
 
@@ -148,10 +158,12 @@ class Layer1Result:
 
     def _lines(self) -> Iterator[str]:
         for row in self.rows:
-            if not row.is_right:
-                yield f"{row.file}: {'; '.join(_mistakes(row))}"
+            mistakes = list(_mistakes(row, self.names_rules))
+            if mistakes:
+                yield f"{row.file}: {'; '.join(mistakes)}"
         total = len(self.rows)
-        yield f"{self.benchmark}, {self.judge}: {total} protocols, 95 % bootstrap intervals"
+        judge = f"{self.judge} ({self.model})" if self.model else self.judge
+        yield f"{self.benchmark}, {judge}: {total} protocols, 95 % bootstrap intervals"
         for name, scores in (("strict", self.strict), ("adjusted", self.adjusted)):
             yield (
                 f"  {name:9} F1 {scores.f1}  precision {scores.precision}  recall {scores.recall}"
@@ -159,6 +171,27 @@ class Layer1Result:
                 f"FN {scores.false_negatives}, TN {scores.true_negatives})"
             )
         yield f"  family    {self.family_right}/{total} right"
+        yield from self._rule_lines()
+        seconds = [row.seconds for row in self.rows]
+        yield (
+            f"  seconds   {statistics.fmean(seconds):.2f} mean, "
+            f"{statistics.median(seconds):.2f} median, {max(seconds):.2f} longest"
+        )
+        if self.bill is None:
+            yield "  model     none asked"
+        else:
+            yield from self.bill.lines()
+        if self.unanswered:
+            states = ", ".join(f"{row.file} {row.unanswered}" for row in self.unanswered[:8])
+            more = f" and {len(self.unanswered) - 8} more" if len(self.unanswered) > 8 else ""
+            yield f"  {len(self.unanswered)} without the model's answer: {states}{more}"
+        if self.unjudged:
+            yield f"  {len(self.unjudged)} could not be judged and count as wrong"
+
+    def _rule_lines(self) -> Iterator[str]:
+        if not self.names_rules:
+            yield "  rules     withheld from this judge, so not scored"
+            return
         for name, level in (("strict", self.rules_strict), ("adjusted", self.rules_adjusted)):
             yield (
                 f"  rules, {name}: {level.reported}/{level.violations} violations reported, "
@@ -167,30 +200,25 @@ class Layer1Result:
             )
         yield f"  wells     {self.rules_adjusted.wells}"
         yield f"  lines     {self.rules_adjusted.lines}"
-        seconds = [row.seconds for row in self.rows]
-        yield (
-            f"  seconds   {statistics.fmean(seconds):.2f} mean, "
-            f"{statistics.median(seconds):.2f} median, {max(seconds):.2f} longest"
-        )
-        tokens = sum(row.tokens for row in self.rows)
-        cost = sum(row.cost_usd for row in self.rows)
-        yield f"  model     {f'{tokens} tokens, ${cost:.3f}' if tokens else 'none asked'}"
-        if self.unjudged:
-            yield f"  {len(self.unjudged)} could not be judged and count as wrong"
 
 
-def _mistakes(row: Row) -> Iterator[str]:
+def _mistakes(row: Row, names_rules: bool) -> Iterator[str]:
     if row.problem:
         yield f"cannot be judged: {' '.join(row.problem.split())}"
         return
-    if row.missed and row.adjusted == "fail":
+    wrong = row.flagged != (row.adjusted == "fail")
+    told = f"labelled {row.adjusted}, {'flagged' if row.flagged else 'not flagged'}"
+    if not names_rules:
+        if wrong:
+            yield told
+    elif row.missed and row.adjusted == "fail":
         found = f" (found {', '.join(row.found)})" if row.found else ""
         undecided = [rule for rule in row.missed if rule in row.undecided]
-        told = f" (undecided: {', '.join(undecided)})" if undecided else ""
-        yield f"missed {', '.join(row.missed)}{found}{told}"
-    elif row.flagged != (row.adjusted == "fail") and not row.false:
-        yield f"labelled {row.adjusted}, {'flagged' if row.flagged else 'not flagged'}"
-    if row.false:
+        open_ = f" (undecided: {', '.join(undecided)})" if undecided else ""
+        yield f"missed {', '.join(row.missed)}{found}{open_}"
+    elif wrong and not row.false:
+        yield told
+    if names_rules and row.false:
         yield f"false {', '.join(row.false)}"
     if row.family != row.family_found:
         yield f"family {row.family} taken for {row.family_found or 'none'}"

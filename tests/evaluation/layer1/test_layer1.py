@@ -8,10 +8,10 @@ import pytest
 
 from aegis_ot.errors import DatasetError
 from aegis_ot.evaluation.layer1 import (
+    Checking,
     Label,
     Layer1Result,
     Prediction,
-    RulesOnly,
     evaluate_layer1,
     read_labels,
     score_predictions,
@@ -198,7 +198,7 @@ def test_the_rules_judge_a_real_folder() -> None:
     labels = read_labels(benchmark, families, [rule.id for rule in database.rules])
     assert sum(entry.is_bad for entry in labels) == 13
     some = [entry for entry in labels if entry.file in ("b02.py", "b04.py", "b06.py")]
-    judge = RulesOnly(CheckSettings(), database)
+    judge = Checking(CheckSettings(), database)
     result = evaluate_layer1(benchmark, some, judge, "rules-only")
     assert result.adjusted.f1.value == 1.0
     assert result.family_right == 3
