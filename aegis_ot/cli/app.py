@@ -64,4 +64,4 @@ def run() -> None:
 
 
 # Each module adds its commands to the app.
-from . import checks, demo, dryruns, evaluations, llm, rulebook, sidecars  # noqa: E402, F401
+from . import checks, demo, dryruns, evaluations, layer2, llm, rulebook, sidecars  # noqa: E402, F401

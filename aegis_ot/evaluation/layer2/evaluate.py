@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from ...errors import ConfigurationError
@@ -29,7 +30,7 @@ def evaluate_layer2(
     threshold: str = "",
     make: Callable[[], Scorer] | None = None,
     seed: int = 0,
-    samples: Sequence[TrajectorySample] | None = None,
+    tips: FoundTips | None = None,
     progress: Progress | None = None,
 ) -> Layer2Result:
     """Evaluate one scorer, leaving one plate out at a time.
@@ -46,8 +47,8 @@ def evaluate_layer2(
             those whose score is one) or ``"pooled"``; see :func:`~.lopo.hold_out`.
         make: Makes the scorer in ``make_scorer``'s place.
         seed: Of the bootstrap.
-        samples: The set's trajectories (:func:`find_tips`), to evaluate several scorers without
-            reading the frames again.
+        tips: What :func:`find_tips` found in this set, in ``detector``'s place: several scorers
+            then share what was read from the frames.
         progress: Told how far it is.
 
     Raises:
@@ -62,10 +63,8 @@ def evaluate_layer2(
     if threshold not in THRESHOLDS:
         raise ConfigurationError(f"threshold {threshold!r} is not one of {', '.join(THRESHOLDS)}")
     data = dataset if isinstance(dataset, Dataset) else load_dataset(dataset)
-    finder, finder_name = find_detector(data, detector)
-    if samples is None:
-        samples = find_tips(data, finder, progress)
-    held = hold_out(samples, build, threshold, progress)
+    tips = tips or find_tips(data, detector, progress)
+    held = hold_out(tips.samples, build, threshold, progress)
     wells = list(held.wells)
     routed = flagged = [well.flagged for well in wells]
     settled: Counter[str] = Counter()
@@ -91,7 +90,7 @@ def evaluate_layer2(
         scorer=scorer,
         protocol=protocol,
         threshold=threshold,
-        detector=finder_name,
+        detector=tips.detector,
     )
 
 
@@ -120,15 +119,34 @@ def find_detector(
     return load_detector(detector), f"detector {Path(detector).name}"
 
 
+@dataclass(frozen=True)
+class FoundTips:
+    """The trajectories of a set with the tip in every frame.
+
+    Attributes:
+        samples: All trajectories, in order.
+        detector: What found the tips.
+    """
+
+    samples: Sequence[TrajectorySample]
+    detector: str
+
+
 def find_tips(
-    data: Dataset, finder: Detector | TrueBoxes, progress: Progress | None = None
-) -> list[TrajectorySample]:
-    """All trajectories of a set, with the tip looked for in every frame."""
+    data: Dataset, detector: Detector | TrueBoxes | str, progress: Progress | None = None
+) -> FoundTips:
+    """Look for the tip in every frame of a set.
+
+    Raises:
+        DatasetError: If true boxes are asked for and a frame has none.
+        ModelError: If a detector's file cannot be used.
+    """
     progress = progress or Progress()
+    finder, name = find_detector(data, detector)
     samples = data.samples(finder)
     progress.begin("Finding tips", len(samples))
     for sample in samples:
         for kind in KeyframeKind:
             sample.detections[kind]
         progress.step()
-    return samples
+    return FoundTips(samples, name)

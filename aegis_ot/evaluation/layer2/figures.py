@@ -3,80 +3,99 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from sklearn.metrics import precision_recall_curve, roc_curve
 
-from ...vision.scorers.pca import COMPONENTS, PcaScorer, matrix
-from ...vision.types import Scorer, TrajectorySample
-from .lopo import hold_out
-from .metrics import auroc, f1, precision, recall
+from ...vision.scorers import make_scorer
+from ...vision.scorers.pca import COMPONENTS
+from ...vision.types import TrajectorySample
+from .progress import Progress
 from .result import Layer2Result
+from .studies import component_sweep, explained_variance, sample_complexity
 
-SWEEP = (2, 5, 8, 10, 12, 15, 18, 20, 25)
-"""The paper's numbers of components (SI C)."""
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
+"""Told apart with any colour vision (Okabe and Ito, 2008)."""
+
+_NORMAL, _FAILED, _GREY = "#009E73", "#D55E00", "#8a94a0"
+_STYLE = {
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": _GREY,
+    "axes.grid": True,
+    "grid.color": "#e6eaee",
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "savefig.dpi": 160,
+}
+
+Drawing = Callable[[Any], None]
 
 
 def draw_figures(
-    result: Layer2Result,
+    results: Layer2Result | Sequence[Layer2Result],
     folder: str | Path,
     samples: Sequence[TrajectorySample] = (),
-    make: Callable[[], Scorer] | None = None,
+    progress: Progress | None = None,
 ) -> list[Path]:
     """Draw all figures that the material allows, as PNG files.
 
     Args:
-        result: An evaluation.
+        results: Evaluations of one or several scorers on one data set.
         folder: Where to write; made if need be.
-        samples: The set's trajectories: with them, scree, component sweep and sample complexity
-            are drawn too (minutes for slow scorers).
-        make: Makes the scorer of the sample-complexity curve, which the result's threshold must
-            fit; by default the paper's PCA with the paper's threshold.
+        samples: The set's trajectories: with them, scree and component sweep (of the paper's
+            scorer) and the sample complexity of the paper's and of the first scorer are drawn
+            too (minutes for slow scorers).
+        progress: Told how far it is.
+
+    Returns:
+        The files, in the order drawn.
     """
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    figures = {
-        "precision_recall": _precision_recall,
-        "roc": _roc,
-        "failure_types": _bars,
-        "scores": _strip,
-    }
-    paths = [_draw(folder / f"{name}.png", result, draw) for name, draw in figures.items()]
+    several = [results] if isinstance(results, Layer2Result) else list(results)
+    first = several[0]
+    canvas = _Canvas(Path(folder), f"{first.dataset} ({first.source} frames), {first.protocol}")
+    canvas.draw("precision_recall", lambda axes: _precision_recall(axes, several))
+    canvas.draw("roc", lambda axes: _roc(axes, several))
+    canvas.draw("failure_types", lambda axes: _bars(axes, several), width=8.0)
+    for result in several:
+        name = "scores" if len(several) == 1 else f"scores_{result.scorer}"
+        canvas.draw(name, lambda axes, shown=result: _strip(axes, shown), width=7.0)  # type: ignore[misc]
     if samples:
-        paths.append(_draw(folder / "scree.png", result, lambda axes, _: _scree(axes, samples)))
-        paths.append(
-            _draw(folder / "components.png", result, lambda axes, _: _sweep(axes, samples))
-        )
-        paths.append(
-            _draw(
-                folder / "sample_complexity.png",
-                result,
-                lambda axes, _: _complexity(
-                    axes,
-                    samples,
-                    make or PcaScorer,
-                    result.threshold if make else "first-normal",
-                ),
-            )
-        )
-    return paths
+        canvas.draw("scree", lambda axes: _scree(axes, samples))
+        canvas.draw("components", lambda axes: _sweep(axes, samples, progress))
+        canvas.draw("sample_complexity", lambda axes: _complexity(axes, samples, first, progress))
+    return canvas.paths
 
 
-def _draw(path: Path, result: Layer2Result, draw: Callable[[Any, Layer2Result], None]) -> Path:
-    # The object interface of matplotlib: no window system, no state shared between threads.
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
+class _Canvas:
+    """Draws one figure after another in one style."""
 
-    figure = Figure(figsize=(5.2, 3.6), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
-    draw(axes, result)
-    axes.set_title(f"{result.scorer}, {result.dataset} ({result.source} frames)", fontsize=9)
-    figure.savefig(path, dpi=150)
-    return path
+    def __init__(self, folder: Path, title: str) -> None:
+        self._folder, self._title = folder, title
+        self.paths: list[Path] = []
+        folder.mkdir(parents=True, exist_ok=True)
+
+    def draw(self, name: str, drawing: Drawing, width: float = 5.4) -> None:
+        # The object interface of matplotlib: no window system, no state shared between threads.
+        from matplotlib import rc_context
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        path = self._folder / f"{name}.png"
+        with rc_context(_STYLE):
+            figure = Figure(figsize=(width, 3.9), layout="constrained")
+            FigureCanvasAgg(figure)
+            axes = figure.add_subplot()
+            drawing(axes)
+            axes.set_title(self._title)
+            figure.savefig(path)
+        self.paths.append(path)
 
 
 def _arrays(result: Layer2Result) -> tuple[Any, Any, Any]:
@@ -85,136 +104,143 @@ def _arrays(result: Layer2Result) -> tuple[Any, Any, Any]:
     return failed, standing, np.array(result.flagged, dtype=bool)
 
 
-def _precision_recall(axes: Any, result: Layer2Result) -> None:
-    failed, standing, _ = _arrays(result)
-    axes.set(xlabel="recall", ylabel="precision", xlim=(0, 1.02), ylim=(0, 1.02))
-    if failed.any():
+def _precision_recall(axes: Any, results: Sequence[Layer2Result]) -> None:
+    axes.set(xlabel="recall", ylabel="precision", xlim=(0, 1.03), ylim=(0, 1.05))
+    failed, _, _ = _arrays(results[0])
+    if not failed.any():
+        _say(axes, "no failures in this set")
+        return
+    axes.axhline(failed.mean(), ls=":", c=_GREY)
+    axes.text(0.01, failed.mean() + 0.01, "all wells flagged", color=_GREY, fontsize=8)
+    for colour, result in zip(_cycle(results), results, strict=True):
+        failed, standing, _ = _arrays(result)
         up, along, _ = precision_recall_curve(failed, standing)
-        axes.step(along, up, where="post", label=f"AP {result.metrics['average_precision']}")
-        axes.axhline(failed.mean(), ls=":", c="grey", label=f"prevalence {failed.mean():.2f}")
-    point = result.metrics["recall"].value, result.metrics["precision"].value
-    axes.plot(*point, "o", c="black", label=f"operating point, F1 {result.metrics['f1'].value:.3f}")
-    axes.legend(fontsize=7, loc="lower left")
+        label = f"{result.scorer}, AP {result.metrics['average_precision']}"
+        axes.step(along, up, where="pre", color=colour, label=label)
+        point = result.metrics["recall"].value, result.metrics["precision"].value
+        axes.plot(*point, "o", color=colour, mec="white", clip_on=False)
+    axes.legend(loc="lower left", title="points: as flagged", title_fontsize=8)
 
 
-def _roc(axes: Any, result: Layer2Result) -> None:
-    failed, standing, flagged = _arrays(result)
-    axes.set(xlabel="false alarm rate", ylabel="recall", xlim=(-0.02, 1), ylim=(0, 1.02))
-    axes.plot([0, 1], [0, 1], ls=":", c="grey")
-    if failed.any() and not failed.all():
+def _roc(axes: Any, results: Sequence[Layer2Result]) -> None:
+    axes.set(xlabel="normal wells flagged", ylabel="recall", xlim=(-0.02, 1.02), ylim=(0, 1.05))
+    axes.plot([0, 1], [0, 1], ls=":", c=_GREY)
+    failed, _, _ = _arrays(results[0])
+    if not failed.any() or failed.all():
+        _say(axes, "not defined: one kind of well only")
+        return
+    for colour, result in zip(_cycle(results), results, strict=True):
+        failed, standing, flagged = _arrays(result)
         along, up, _ = roc_curve(failed, standing)
-        axes.plot(along, up, label=f"AUROC {result.metrics['auroc']}")
-        axes.plot(flagged[~failed].mean(), flagged[failed].mean(), "o", c="black")
-        axes.legend(fontsize=7, loc="lower right")
+        axes.plot(along, up, color=colour, label=f"{result.scorer}, {result.metrics['auroc']}")
+        point = flagged[~failed].mean(), flagged[failed].mean()
+        axes.plot(*point, "o", color=colour, mec="white", clip_on=False)
+    axes.legend(loc="lower right", title="AUROC (points: as flagged)", title_fontsize=8)
 
 
-def _bars(axes: Any, result: Layer2Result) -> None:
-    shares = {**result.per_failure_type(), **result.per_reagent()}
-    if result.no_tip.total:
-        shares["no_tip"] = result.no_tip
-    heights = [share.caught / share.total for share in shares.values()]
-    positions = np.arange(len(shares))
-    axes.bar(positions, heights, color="tab:blue")
-    for position, share in zip(positions, shares.values(), strict=True):
-        axes.text(position, 1.02, str(share), ha="center", fontsize=7)
-    axes.set_xticks(positions, list(shares), rotation=45, ha="right", fontsize=7)
-    axes.set(ylabel="caught", ylim=(0, 1.12))
+def _bars(axes: Any, results: Sequence[Layer2Result]) -> None:
+    groups = [
+        {
+            "normal\n(flagged)": result.flagged_normals,
+            **result.per_failure_type(),
+            **({"no_tip": result.no_tip} if result.no_tip.total else {}),
+            **result.per_reagent(),
+        }
+        for result in results
+    ]
+    names = list(groups[0])
+    positions = np.arange(len(names), dtype=float)
+    # A gap between failure types and reagents: the same wells, grouped anew.
+    positions[len(names) - len(results[0].per_reagent()) :] += 0.6
+    positions[1:] += 0.6
+    width = 0.8 / len(results)
+    for i, (colour, shares) in enumerate(zip(_cycle(results), groups, strict=True)):
+        heights = [share.caught / share.total if share.total else 0.0 for share in shares.values()]
+        places = positions + (i - (len(results) - 1) / 2) * width
+        axes.bar(places, heights, 0.92 * width, color=colour, label=results[i].scorer)
+        if len(results) <= 2:
+            for place, height, share in zip(places, heights, shares.values(), strict=True):
+                axes.text(place, height + 0.015, str(share), ha="center", fontsize=7)
+    labels = [name.replace("_", " ") for name in names]
+    axes.set_xticks(positions, labels, rotation=40, ha="right")
+    axes.set(ylabel="share flagged", ylim=(0, 1.1))
+    axes.grid(visible=False, axis="x")
+    if len(results) > 1:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
 def _strip(axes: Any, result: Layer2Result) -> None:
     kinds = ["normal", *result.per_failure_type()]
     rng = np.random.default_rng(0)
     for position, kind in enumerate(kinds):
-        values = [w.standing for w in result.wells if (w.sample.failure_type or "normal") == kind]
-        spread = rng.uniform(-0.2, 0.2, len(values))
-        axes.plot(position + spread, values, "o", ms=3, alpha=0.7)
-    axes.axhline(0, ls="--", c="black", lw=0.8)
-    axes.set_xticks(np.arange(len(kinds)), kinds, rotation=45, ha="right", fontsize=7)
-    axes.set(ylabel="score against the threshold")
+        values = np.array(
+            [w.standing for w in result.wells if (w.sample.failure_type or "normal") == kind]
+        )
+        spread = rng.uniform(-0.18, 0.18, len(values))
+        colour = _NORMAL if kind == "normal" else _FAILED
+        axes.plot(position + spread, values, "o", ms=4, alpha=0.75, color=colour, mec="white")
+    axes.axhline(0, ls="--", c=_GREY)
+    axes.text(1.005, 0, "threshold", transform=axes.get_yaxis_transform(), va="center", fontsize=8)
+    axes.set_xticks(
+        np.arange(len(kinds)), [kind.replace("_", " ") for kind in kinds], rotation=40, ha="right"
+    )
+    axes.grid(visible=False, axis="x")
+    axes.set(ylabel=f"{result.scorer} score above its plate's threshold")
 
 
 def _scree(axes: Any, samples: Sequence[TrajectorySample]) -> None:
-    normals = [sample for sample in samples if sample.label == "normal"]
-    pca = PcaScorer(len(normals))
-    pca.fit_vectors(matrix(normals))
-    explained = pca.explained
-    axes.plot(np.arange(1, len(explained) + 1), explained, "o-", ms=3)
-    axes.axvline(COMPONENTS, ls=":", c="grey")
-    axes.set(xlabel="components (pca)", ylabel="variance explained", ylim=(0, 1.02))
+    explained = explained_variance(samples)
+    axes.plot(np.arange(1, len(explained) + 1), explained, "o-", ms=3, color=COLOURS[0])
+    axes.axvline(COMPONENTS, ls=":", c=_GREY)
+    if len(explained) >= COMPONENTS:
+        share = explained[COMPONENTS - 1]
+        axes.text(COMPONENTS + 0.3, share - 0.06, f"k = {COMPONENTS}: {share:.1%}", fontsize=8)
+    axes.set(xlabel="components (pca)", ylabel="variance explained", ylim=(0, 1.03))
 
 
-def _sweep(axes: Any, samples: Sequence[TrajectorySample]) -> None:
-    rows, anchors = [], []
-    for components in SWEEP:
-        wells = [
-            well
-            for well in hold_out(samples, partial(PcaScorer, components), "first-normal").wells
-            if not well.without_tip
-        ]
-        failed = np.array([well.failed for well in wells], dtype=bool)
-        flagged = np.array([well.flagged for well in wells], dtype=bool)
-        standing = np.array([well.standing for well in wells])
-        rows.append([metric(failed, standing, flagged) for metric in (f1, precision, recall)])
-        anchors.append(float(np.median([well.anchor for well in wells])))
-    for name, values in zip(("F1", "precision", "recall"), np.array(rows).T, strict=True):
-        axes.plot(SWEEP, values, "o-", ms=3, label=name)
-    axes.set(xlabel="components (pca)", ylim=(0, 1.02))
-    axes.legend(fontsize=7, loc="lower left")
+def _sweep(axes: Any, samples: Sequence[TrajectorySample], progress: Progress | None) -> None:
+    points = component_sweep(samples, progress)
+    along = [point.components for point in points]
+    for colour, name in zip(COLOURS, ("f1", "precision", "recall"), strict=False):
+        values = [getattr(point, name) for point in points]
+        axes.plot(along, values, "o-", ms=3, label=name.replace("f1", "F1"), color=colour)
+    axes.set(xlabel="components (pca)", ylim=(0, 1.03))
+    axes.legend(loc="lower left")
     other = axes.twinx()
-    other.semilogy(SWEEP, anchors, "s--", ms=3, c="grey")
+    other.semilogy(along, [point.threshold for point in points], "s--", ms=3, c=_GREY)
     other.set_ylabel("median threshold (grey)")
+    other.grid(visible=False)
 
 
 def _complexity(
     axes: Any,
     samples: Sequence[TrajectorySample],
-    make: Callable[[], Scorer],
-    threshold: str,
+    result: Layer2Result,
+    progress: Progress | None,
 ) -> None:
-    """AUROC when fitted on the normals of fewer other plates."""
-    plates = list(dict.fromkeys(sample.plate for sample in samples))
-    sizes = sorted({2, 4, 8, 12, len(plates) - 1} & set(range(1, len(plates))))
-    means, lows, highs = [], [], []
-    for size in sizes:
-        values = []
-        for seed in range(3):
-            rng = np.random.default_rng(seed)
-            wells = [
-                well
-                for well in hold_out(samples, partial(_fewer, make, size, rng), threshold).wells
-                if not well.without_tip
-            ]
-            failed = np.array([well.failed for well in wells], dtype=bool)
-            values.append(auroc(failed, np.array([w.standing for w in wells]), failed))
-        means.append(np.mean(values))
-        lows.append(np.min(values))
-        highs.append(np.max(values))
-    axes.fill_between(sizes, lows, highs, alpha=0.2)
-    axes.plot(sizes, means, "o-", ms=3)
-    axes.set(
-        xlabel=f"plates to learn from ({make().name})", ylabel="AUROC, three draws", ylim=(0, 1.02)
-    )
+    # One draw of a slow scorer tells as much as a reader needs beside three of the quick one.
+    curves = {"pca": ("first-normal", 3), result.scorer: (result.threshold, 3)}
+    if result.scorer != "pca":
+        curves[result.scorer] = (result.threshold, 1)
+    for colour, (name, (threshold, draws)) in zip(COLOURS, curves.items(), strict=False):
+        points = sample_complexity(
+            samples, lambda name=name: make_scorer(name), threshold, draws, progress  # type: ignore[misc]
+        )  # fmt: skip
+        sizes = [point.plates for point in points]
+        label = f"{name}, {draws} draws" if draws > 1 else f"{name}, one draw"
+        middle = [float(np.mean(point.aurocs)) for point in points]
+        axes.plot(sizes, middle, "o-", ms=4, color=colour, label=label)
+        if draws > 1:
+            low, high = zip(*((min(p.aurocs), max(p.aurocs)) for p in points), strict=True)
+            axes.fill_between(sizes, low, high, alpha=0.15, color=colour, lw=0)
+    axes.axhline(0.5, ls=":", c=_GREY)
+    axes.set(xlabel="plates to learn from", ylabel="AUROC", ylim=(0, 1.03))
+    axes.legend(loc="lower right")
 
 
-def _fewer(make: Callable[[], Scorer], plates: int, rng: np.random.Generator) -> _Fewer:
-    return _Fewer(make(), plates, rng)
+def _cycle(results: Sequence[Layer2Result]) -> list[str]:
+    return [COLOURS[i % len(COLOURS)] for i in range(len(results))]
 
 
-class _Fewer:
-    """A scorer that learns from the normals of some of the plates only."""
-
-    def __init__(self, scorer: Scorer, plates: int, rng: np.random.Generator) -> None:
-        self.name = scorer.name
-        self._scorer, self._plates, self._rng = scorer, plates, rng
-
-    def fit(self, normals: Sequence[TrajectorySample]) -> None:
-        names = sorted({sample.plate for sample in normals})
-        chosen = set(self._rng.permutation(names)[: self._plates].tolist())
-        self._scorer.fit([sample for sample in normals if sample.plate in chosen])
-
-    def score(self, sample: TrajectorySample) -> float:
-        return self._scorer.score(sample)
-
-    def __getattr__(self, name: str) -> Any:
-        # Calibration, where the scorer has one.
-        return getattr(self._scorer, name)
+def _say(axes: Any, what: str) -> None:
+    axes.text(0.5, 0.5, what, ha="center", va="center", color=_GREY, transform=axes.transAxes)

@@ -83,6 +83,7 @@ def hold_out(
     make: Callable[[], Scorer],
     threshold: str,
     progress: Progress | None = None,
+    choose: Callable[[list[TrajectorySample]], list[TrajectorySample]] | None = None,
 ) -> HeldOut:
     """Score every well but the calibration wells, plate by plate.
 
@@ -95,6 +96,8 @@ def hold_out(
             (see :func:`_pooled`). ``"p-value"``: if the scorer's own p-value, learned from the
             other plates' normals, is below :data:`ALPHA` (its score is ``-log p``).
         progress: Told of each plate.
+        choose: Chooses those of the other plates' normals that are learned from; all if left
+            out.
 
     Raises:
         ConfigurationError: If the scorer gives no p-values and they are asked for.
@@ -119,6 +122,8 @@ def hold_out(
     for plate, anchor_well in first.items():
         scorer = make()
         normals = [s for s in samples if s.plate != plate and s.label == "normal"]
+        if choose is not None:
+            normals = choose(normals)
         try:
             scorer.fit(normals)
         except ValueError as error:

@@ -1,0 +1,133 @@
+"""``aegis-ot evaluate layer2``: scorers on a labelled set of trajectories."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ..errors import ConfigurationError
+from .app import CLEAN
+from .checks import one_of, split, write_text
+from .evaluations import evaluate
+
+_SCORERS = (
+    "pca, isolation-forest, one-class-svm, autoencoder, single-frame-pca, mahalanobis (the "
+    "paper's), column, patches, ensemble"
+)
+
+
+@evaluate.command()
+def layer2(
+    dataset: Annotated[Path, typer.Argument(help="Folder of a trajectory data set.")],
+    scorer: Annotated[
+        list[str] | None,
+        typer.Option(help=f"{_SCORERS}. Repeatable, or a comma list. Default: ensemble."),
+    ] = None,
+    protocol: Annotated[
+        str,
+        typer.Option(
+            help="lopo: a threshold per held-out plate. cascade: calibration, triage and the "
+            "volumetric gate, as in a live run."
+        ),
+    ] = "lopo",
+    boxes: Annotated[
+        str,
+        typer.Option(help="detector (the shipped one), true (boxes.csv), or an .onnx file."),
+    ] = "detector",
+    threshold: Annotated[
+        str,
+        typer.Option(
+            help="first-normal (the paper's), p-value or pooled. Default: first-normal for the "
+            "paper's scorers, p-value for the ensemble, pooled for the others."
+        ),
+    ] = "",
+    json_out: Annotated[
+        Path | None, typer.Option("--json", help="Write all figures here as JSON.")
+    ] = None,
+    figures: Annotated[
+        Path | None, typer.Option(help="Draw figures into this folder, as PNG.")
+    ] = None,
+    seed: Annotated[int, typer.Option(min=0, help="Of the bootstrap.")] = 0,
+) -> None:
+    """Score Layer 2 on a trajectory data set, leaving one plate out at a time.
+
+    Each plate is scored by a model fitted on the normal wells of all other plates. The plate's
+    own first normal well sets the threshold, and is not scored. With several scorers the five
+    figures at the top of the JSON are those of the first.
+
+    Exit codes: 0 scored, 2 the data set or a setting is no good.
+    """
+    from ..evaluation.layer2 import PROTOCOLS, THRESHOLDS, evaluate_layer2, find_tips
+    from ..vision.scorers import SCORERS
+    from .progress import Shown
+
+    names = [name.replace("-", "_") for name in split(scorer) or ("ensemble",)]
+    for name in names:
+        one_of("--scorer", name.replace("_", "-"), [known.replace("_", "-") for known in SCORERS])
+    one_of("--protocol", protocol, PROTOCOLS)
+    one_of("--threshold", threshold, ("", *THRESHOLDS))
+    _writable(figures)
+    data = open_dataset(dataset)
+    results, seconds = [], []
+    with Shown() as shown:
+        tips = find_tips(data, "default" if boxes == "detector" else boxes, shown)
+        for name in dict.fromkeys(names):
+            begun = time.monotonic()
+            result = evaluate_layer2(
+                data, name, protocol, threshold=threshold, seed=seed, tips=tips, progress=shown
+            )
+            results.append(result)
+            seconds.append(time.monotonic() - begun)
+        if figures is not None:
+            from ..evaluation.layer2.figures import draw_figures
+
+            drawn = draw_figures(results, figures, tips.samples, progress=shown)
+    for warning in data.warnings:
+        typer.echo(f"{data.root}: {warning}", err=True)
+    for result, took in zip(results, seconds, strict=True):
+        typer.echo(f"{result.text()}\n  {'took':18} {took:.1f} s\n")
+    if json_out is not None:
+        account: dict[str, Any] = results[0].to_json() | {"seconds": round(seconds[0], 2)}
+        if len(results) > 1:
+            account["scorers"] = {
+                result.scorer: result.to_json() | {"seconds": round(took, 2)}
+                for result, took in zip(results, seconds, strict=True)
+            }
+        write_text(json_out, json.dumps(account, indent=1, ensure_ascii=False) + "\n")
+        typer.echo(f"Figures as JSON: {json_out}", err=True)
+    if figures is not None:
+        typer.echo(f"{len(drawn)} figures in {figures}", err=True)
+    raise typer.Exit(CLEAN)
+
+
+def open_dataset(folder: Path) -> Any:
+    """Load a data set.
+
+    Raises:
+        DatasetError: It is faulty, or the folder only holds data sets in folders of its own.
+    """
+    from ..errors import DatasetError
+    from ..vision.dataset import load_dataset
+
+    if folder.is_dir() and not (folder / "manifest.csv").exists():
+        inside = sorted(path.parent.name for path in folder.glob("*/manifest.csv"))
+        if inside:
+            raise DatasetError(
+                f"{folder} is no data set, but holds some: {', '.join(inside[:10])}. "
+                f"Name one of them, as {folder / inside[0]}."
+            )
+    return load_dataset(folder)
+
+
+def _writable(folder: Path | None) -> None:
+    """Fail before the work and not after it."""
+    if folder is None:
+        return
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ConfigurationError(f"{folder} cannot be made: {error.strerror}.") from None
