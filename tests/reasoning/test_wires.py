@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import datetime
+import email.utils
 import json
 import logging
 import socket
@@ -203,6 +205,81 @@ def test_garbage_is_invalid_and_never_raises(
     assert reply.state is State.INVALID
     assert reply.value is None
     assert reply.detail
+
+
+def test_a_connection_lost_within_the_answer_is_tried_again(
+    service: Service, server: WireServer
+) -> None:
+    server.answers = [Answer(body=service.good, drop=True), Answer(body=service.good)]
+    reply = service.backend(server.url).ask(request())
+    assert reply.answered
+    assert reply.attempts == 2
+    server.seen.clear()
+    server.answers = [Answer(body=service.good, drop=True)]
+    reply = service.backend(server.url).ask(request())
+    assert reply.state is State.UNAVAILABLE
+    assert reply.attempts == 4
+
+
+def test_a_dated_retry_after_is_understood(service: Service, server: WireServer) -> None:
+    soon = email.utils.format_datetime(
+        datetime.datetime.now(datetime.timezone.utc) + datetime.timedelta(seconds=9), usegmt=True
+    )
+    limited = Answer(429, service.error("rate_limit_error", "later"), {"retry-after": soon})
+    server.answers = [limited, Answer(body=service.good)]
+    clock = FakeClock()
+    assert service.backend(server.url, clock=clock).ask(request()).answered
+    (slept,) = clock.slept
+    assert 6 < slept <= 9
+
+
+@pytest.mark.parametrize("status", [500, 502, 503, 504, 408])
+def test_failures_that_pass_are_outlived(service: Service, server: WireServer, status: int) -> None:
+    failing = Answer(status, b"<html>upstream</html>")
+    server.answers = [failing, failing, Answer(body=service.good)]
+    reply = service.backend(server.url).ask(request())
+    assert reply.answered
+    assert reply.attempts == 3
+
+
+def test_nobody_is_sent_elsewhere(service: Service, server: WireServer) -> None:
+    """A redirect would take the protocol, and maybe the key, to another address."""
+    with WireServer() as other:
+        other.answers = [Answer(body=service.good)]
+        server.answers = [Answer(307, {}, {"location": f"{other.url}/v1/messages"})]
+        reply = service.backend(server.url).ask(request())
+        assert reply.state is State.BAD_REQUEST
+        assert "307" in reply.detail
+        assert other.seen == []
+
+
+def test_an_answer_without_a_choice_is_invalid(server: WireServer) -> None:
+    anthropic, openai = SERVICES
+    empty = openai_completion(json.dumps(GOOD)) | {"choices": []}
+    assert _replies(openai, server, empty).state is State.INVALID
+    server.seen.clear()
+    silent = openai_completion(None)
+    assert _replies(openai, server, silent).state is State.INVALID
+    server.seen.clear()
+    reply = _replies(anthropic, server, anthropic_message(None, "end_turn"))
+    assert reply.state is State.INVALID
+    # OpenAI-compatible routers put an error into an answer with status 200.
+    server.seen.clear()
+    assert _replies(openai, server, openai_error("overloaded", "no")).state is State.INVALID
+
+
+def test_a_key_in_any_error_is_cut_out(
+    service: Service, server: WireServer, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level(logging.DEBUG)
+    for status in (400, 403, 404, 429, 500):
+        server.seen.clear()
+        server.answers = [Answer(status, service.error("odd", f"with {KEY} you may not"))]
+        reply = service.backend(server.url).ask(request())
+        assert "you may not" in reply.detail
+        assert KEY not in reply.detail + repr(reply)
+    assert KEY not in caplog.text
+    assert KEY not in repr(vars(service.backend(server.url)))
 
 
 def _replies(service: Service, server: WireServer, body: Any) -> Reply:

@@ -13,13 +13,15 @@ from typing import Any
 
 @dataclass
 class Answer:
-    """One answer: sent as it is; ``hang`` waits for the end of the test, ``drip`` never ends."""
+    """One answer: sent as it is; ``hang`` waits for the end of the test, ``drip`` never ends,
+    ``drop`` closes the connection in the middle of the body."""
 
     status: int = 200
     body: Any = None
     headers: Mapping[str, str] = field(default_factory=dict)
     hang: bool = False
     drip: bool = False
+    drop: bool = False
 
 
 @dataclass
@@ -93,11 +95,14 @@ class WireServer:
                 data = body if isinstance(body, bytes) else json.dumps(body).encode()
                 self.send_response(answer.status)
                 self.send_header("content-type", "application/json")
-                self.send_header("content-length", str(len(data)))
+                self.send_header("content-length", str(len(data) + 500 * answer.drop))
                 for name, value in answer.headers.items():
                     self.send_header(name, value)
                 self.end_headers()
                 self.wfile.write(data)
+                if answer.drop:
+                    self.wfile.flush()
+                    self.close_connection = True
 
         return Handler
 
