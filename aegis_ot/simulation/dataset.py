@@ -284,15 +284,18 @@ def random_frames(
     rng = np.random.default_rng((seed, 21))
     while True:
         pipette = pipettes[int(rng.integers(len(pipettes)))]
+        channels = 8 if "multi" in pipette or "8channel" in pipette else 1
         if measured and rng.random() < measured:
-            fixed = SessionParameters.webcam if rng.random() < 0.7 else SessionParameters.bench
+            views = (SessionParameters.webcam, SessionParameters.webcam, SessionParameters.bench)
+            fixed = views[int(rng.integers(3))] if channels == 1 else SessionParameters.corner
             session = fixed(int(rng.integers(2**31)))
         else:
             size = sizes[int(rng.integers(len(sizes)))]
             session = SessionParameters.draw(rng, pipette=pipette, size=size)
         tip = _any_tip(rng, pipette)
         for _ in range(frames_per_session):
-            jpeg, truth = render_jpeg(_random_state(rng, session, tip, without_tip), session, rng)
+            state = _random_state(rng, session, tip, without_tip, channels)
+            jpeg, truth = render_jpeg(state, session, rng)
             yield decode(jpeg), truth
 
 
@@ -307,7 +310,11 @@ def _any_tip(rng: np.random.Generator, pipette: str) -> TipGeometry:
 
 
 def _random_state(
-    rng: np.random.Generator, session: SessionParameters, tip: TipGeometry, without_tip: float
+    rng: np.random.Generator,
+    session: SessionParameters,
+    tip: TipGeometry,
+    without_tip: float,
+    channels: int,
 ) -> SceneState:
     kind = tuple(KeyframeKind)[int(rng.integers(4))]
     volume = tip.nominal_ul * float(rng.uniform(0.05, 1.0))
@@ -319,7 +326,7 @@ def _random_state(
     dye: Dye = DYES["water" if rng.random() < 0.3 else names[int(rng.integers(len(names)))]]
     wells = [f"{'ABCDEFGH'[rng.integers(8)]}{rng.integers(1, 13)}" for _ in range(2)]
     state = place_tip(
-        session, kind, tip, (content,), dye, source=wells[0], destination=wells[1],
+        session, kind, tip, (content,) * channels, dye, source=wells[0], destination=wells[1],
         transit_over="source" if rng.random() < 0.5 else "destination",
     )  # fmt: skip
     x, y, z = state.orifice

@@ -25,11 +25,13 @@ class TipLabel:
     Attributes:
         collar, orifice: Upper and lower end of the tip axis (x, y).
         radius: Half the tip's greatest width.
+        beside: The other tips of a multi-channel pipette.
     """
 
     collar: tuple[float, float]
     orifice: tuple[float, float]
     radius: float
+    beside: tuple[TipLabel, ...] = ()
 
     @property
     def length(self) -> float:
@@ -42,6 +44,7 @@ class TipLabel:
             (self.collar[0] * scale_x + dx, self.collar[1] * scale_y + dy),
             (self.orifice[0] * scale_x + dx, self.orifice[1] * scale_y + dy),
             self.radius * abs(scale_x),
+            tuple(tip.mapped(scale_x, scale_y, dx, dy) for tip in self.beside),
         )
 
 

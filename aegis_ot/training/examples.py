@@ -108,21 +108,29 @@ def targets(rows: int, columns: int, label: TipLabel | None) -> tuple[Maps, Maps
     weight = np.zeros((1, rows, columns), np.float32)
     if label is None:
         return maps, weight
+    nearest = np.zeros((rows, columns), np.float32)
+    for tip in (label, *label.beside):
+        _paint(maps, nearest, tip)
+    weight[0] = np.where(nearest < 0.2, 0.0, nearest)
+    return maps, weight
+
+
+def _paint(maps: Maps, nearest: Maps, tip: TipLabel) -> None:
+    """Add one tip; each cell speaks of the end that it is nearest to, over all tips."""
+    _, rows, columns = maps.shape
     xs = (np.arange(columns) + 0.5) * STRIDE
     ys = (np.arange(rows) + 0.5) * STRIDE
-    for kind, (x, y) in enumerate((label.collar, label.orifice)):
+    for kind, (x, y) in enumerate((tip.collar, tip.orifice)):
         dx, dy = x - xs[None, :], y - ys[:, None]
         heat = np.exp(-(dx**2 + dy**2) / (2 * (_SIGMA * STRIDE) ** 2))
-        nearer = heat > weight[0]
-        maps[kind] = heat
+        nearer = heat > nearest
+        maps[kind] = np.maximum(maps[kind], heat)
         row, column = int(np.floor(y / STRIDE)), int(np.floor(x / STRIDE))
         if 0 <= row < rows and 0 <= column < columns:
             maps[kind][row, column] = 1.0
         maps[2][nearer] = np.broadcast_to(dx, heat.shape)[nearer]
         maps[3][nearer] = np.broadcast_to(dy, heat.shape)[nearer]
-        weight[0][nearer] = heat[nearer]
-    weight[weight < 0.2] = 0.0
-    maps[4] = (label.orifice[0] - label.collar[0]) / VECTOR_UNIT
-    maps[5] = (label.orifice[1] - label.collar[1]) / VECTOR_UNIT
-    maps[6] = np.log(max(label.radius, 0.5))
-    return maps, weight
+        maps[4][nearer] = (tip.orifice[0] - tip.collar[0]) / VECTOR_UNIT
+        maps[5][nearer] = (tip.orifice[1] - tip.collar[1]) / VECTOR_UNIT
+        maps[6][nearer] = np.log(max(tip.radius, 0.5))
+        nearest[nearer] = heat[nearer]

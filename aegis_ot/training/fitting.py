@@ -47,8 +47,8 @@ class DetectorSettings:
         threads: CPU threads.
     """
 
-    rounds: int = 10
-    frames: int = 1600
+    rounds: int = 9
+    frames: int = 1500
     passes: int = 3
     frozen: int = 3
     drawn_share: float = 0.3
@@ -79,7 +79,7 @@ def fit(
     torch.use_deterministic_algorithms(True)
     rng = np.random.default_rng(seed)
     simulated = SimulatedFrames(seed)
-    network = TipNetwork()
+    network = TipNetwork().to(memory_format=torch.channels_last)
     optimiser = torch.optim.AdamW(
         network.parameters(), lr=settings.learning_rate, weight_decay=1e-3
     )

@@ -237,6 +237,7 @@ def other_camera(
             (float(collar[0]), float(collar[1])),
             (float(orifice[0]), float(orifice[1])),
             old.radius * zoom * stretch,
+            tuple(tip for tip in map(carried, old.beside) if tip is not None),
         )
 
     return photograph(rng, moved, float(rng.uniform(0.2, 1.0))), carried(label), carried(decoy)
