@@ -16,7 +16,7 @@ import aegis_ot
 from aegis_ot import guard
 from aegis_ot.errors import ConfigurationError
 from tests.compat.transparency import stub_sidecar
-from tests.runtime.fake_sidecar import FakeSidecar
+from tests.runtime.fake_sidecar import FakeSidecar, free_port
 from tests.runtime.live import LiveRun
 from tests.runtime.test_live import in_time
 
@@ -262,8 +262,10 @@ class TestLive:
 def test_a_protocol_after_one_that_could_not_begin_is_guarded():
     # As on a robot server, whose worker threads are used again.
     def both():
-        with pytest.raises(Exception, match="no address"):
-            simulated(protocol(GOOD, 'sidecar="simulated", watch_simulation=True', "call", "2.11"))
+        settings = f'sidecar="http://127.0.0.1:{free_port()}", watch_simulation=True'
+        settings += ', on_link_loss="abort", capture_timeout_s=0.2'
+        with pytest.raises(Exception, match="cannot be reached"):
+            simulated(protocol(GOOD, settings, "call", "2.11"))
         return simulated(protocol(GOOD, level="2.11"))
 
     assert "Layer 1: pass" in of_guard(contextvars.Context().run(both))[0]

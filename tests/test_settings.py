@@ -10,7 +10,8 @@ import pytest
 
 from aegis_ot import settings as module
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.settings import PREFIX, Settings, load_settings, unknown_names
+from aegis_ot.settings import PREFIX, Settings, load_settings
+from aegis_ot.settings.values import READERS
 
 
 @pytest.fixture(autouse=True)
@@ -46,14 +47,13 @@ def test_argument_over_environment_over_file_over_default(
 
 
 def test_every_field_has_a_reader() -> None:
-    assert set(module._READERS) == {f.name for f in fields(Settings)}
+    assert set(READERS) == {f.name for f in fields(Settings)}
 
 
 @pytest.mark.parametrize(
     ("name", "text", "value"),
     [
         ("sidecar", "http://192.168.1.20:7645/", "http://192.168.1.20:7645"),
-        ("sidecar", "simulated", "simulated"),
         ("sidecar", "none", None),
         ("select", "PCR-2, GEN-3", ("PCR-2", "GEN-3")),
         ("roles", '{"ntc": ["plate:H12"]}', {"ntc": ("plate:H12",)}),
@@ -125,6 +125,34 @@ def test_an_address_that_http_cannot_carry(address: str) -> None:
         load_settings(sidecar=address)
 
 
+def test_an_address_without_its_scheme_is_completed() -> None:
+    with pytest.raises(ConfigurationError, match=r'did you mean "http://192\.168\.1\.20:7645"'):
+        load_settings(sidecar="192.168.1.20:7645")
+
+
+def test_simulated_frames_are_not_a_setting() -> None:
+    with pytest.raises(ConfigurationError, match=r"`aegis-ot simulate PROTOCOL\.py`"):
+        load_settings(sidecar="simulated")
+
+
+def test_a_long_value_is_shown_in_short() -> None:
+    with pytest.raises(ConfigurationError) as caught:
+        load_settings(hold="x" * 10_000)
+    assert len(str(caught.value)) < 300
+
+
+def test_a_mistyped_variable_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("AEGIS_OT_ON_FIAL", "abort")
+    with pytest.raises(ConfigurationError, match=r"AEGIS_OT_ON_FIAL.*Did you mean 'on_fail'"):
+        load_settings()
+
+
+def test_variables_of_others_are_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("SIDECAR_TOKEN", "SIDECAR_PORT", "MODEL", "MODEL_RECORD", "PRICES", "LLM_API_KEY"):
+        monkeypatch.setenv(PREFIX + name, "x")
+    assert load_settings() == Settings()
+
+
 def test_bad_environment_value_names_the_variable(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("AEGIS_OT_HOLD", "never")
     with pytest.raises(ConfigurationError, match="AEGIS_OT_HOLD"):
@@ -137,7 +165,6 @@ def test_bad_environment_value_names_the_variable(monkeypatch: pytest.MonkeyPatc
 def test_an_unknown_name_gets_a_suggestion(given: str, suggested: str) -> None:
     with pytest.raises(ConfigurationError, match=f"'{given}'.*Did you mean '{suggested}'"):
         load_settings(**{given: 1})
-    assert unknown_names({given: 1, "hold": "off"}) == (given,)
 
 
 def test_a_name_like_no_other_gets_the_list() -> None:
@@ -147,8 +174,8 @@ def test_a_name_like_no_other_gets_the_list() -> None:
 
 class TestFile:
     def test_found_in_the_home_directory(self, tmp_path: Path) -> None:
-        write(tmp_path / "home/.config/aegis-ot/guard.json", '{"sidecar": "simulated"}')
-        assert load_settings().sidecar == "simulated"
+        write(tmp_path / "home/.config/aegis-ot/guard.json", '{"assay": "pcr"}')
+        assert load_settings().assay == "pcr"
 
     @pytest.mark.skipif(sys.version_info < (3, 11), reason="tomllib")
     def test_toml(self, tmp_path: Path) -> None:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from itertools import starmap
 from typing import Any
 
 from ..errors import LinkError, SidecarRefused, SidecarUnreachable
 from ..vocabulary import Keyframe, Verdict
-from .link import RunUnknown, SequenceGap, SidecarLink
+from .link import CameraSilent, RunUnknown, SequenceGap, SidecarLink
 from .slices import SLICE_S
 
 _FIRST_RETRY_S = 0.1
@@ -19,10 +21,15 @@ _GLANCE_S = 0.25
 """How long one cheap look for a lost sidecar may take, s."""
 _FIRST_REST_S = 1.0
 _LONGEST_REST_S = 30.0
+_CATCH_UP_S = 1.0
+"""How long one missed keyframe may take when a lost sidecar is back, s: its camera may be dead."""
 _POLL_S = 0.15
 _MOST_MENDS = 3
 _REQUEST_S = 2.0
 """Longest wait for an answer that needs no camera, s."""
+
+Message = Callable[[float], None]
+"""Says something that needs no camera; takes at most so many seconds."""
 
 
 class Courier:
@@ -53,7 +60,8 @@ class Courier:
         self._rest = rest
         self._sent: list[Keyframe] = []
         self._pending: deque[Keyframe] = deque()
-        self._messages: deque[Callable[[], None]] = deque()
+        self._messages: deque[Message] = deque()
+        self._unheard = False  # a message was not taken; the next keyframe shows who is there
         self._next_look = 0.0
         self._pause_s = _FIRST_REST_S
         self._registered = False
@@ -75,7 +83,10 @@ class Courier:
         Raises:
             LinkError: The last trouble, after retries for ``timeout_s``; the rest stays queued.
         """
-        self._insist(self._send_all, timeout_s)
+        try:
+            self._insist(self._send_all, timeout_s)
+        except SidecarUnreachable as error:
+            raise self._camera_trouble(timeout_s) or error from None
 
     def move_on(self) -> None:
         """The robot moves on without acknowledgement: what is queued is late now."""
@@ -91,7 +102,8 @@ class Courier:
     def look(self, timeout_s: float) -> bool:
         """If it is time, see whether a lost sidecar is back, and send what it missed.
 
-        Takes 0.25 s at most while it is away, and nothing between looks.
+        Takes 0.25 s at most while it is away, 1.25 s while it is there and its camera is dead,
+        and nothing between looks.
 
         Returns:
             Whether the sidecar is there again.
@@ -100,7 +112,7 @@ class Courier:
             return not self.away
         try:
             self._link.health(_GLANCE_S)
-            self.deliver(timeout_s)
+            self._send_all(time.monotonic() + timeout_s, _CATCH_UP_S)
             self._flush_messages(time.monotonic() + _REQUEST_S)
         except LinkError:
             self._pause_s = min(_LONGEST_REST_S, self._pause_s * 2)
@@ -123,7 +135,8 @@ class Courier:
 
     def abandon(self, number: int, reason: str) -> None:
         """Tell, now or when the sidecar is back, that a trajectory is given up."""
-        self._tell(lambda: self._link.abandon(self._run, number, reason, _REQUEST_S))
+        self._messages.append(self._abandonment(number, reason))
+        self._tell()
 
     def report_hold(self, number: int, seconds: float, ended_by: str, policy: str | None) -> None:
         """Tell likewise how a hold went."""
@@ -133,11 +146,19 @@ class Courier:
             "resolution": ended_by,
             "policy": policy,
         }
-        self._tell(lambda: self._link.report_hold(self._run, body, _REQUEST_S))
+        self._messages.append(lambda most: self._link.report_hold(self._run, body, most))
+        self._tell()
 
-    def finish(self, outcome: str, detail: str, timeout_s: float) -> None:
-        """Tell how the run ended; the last thing that is said."""
+    def finish(
+        self, outcome: str, detail: str, abandoned: Mapping[int, str], timeout_s: float
+    ) -> None:
+        """Tell which trajectories are given up and how the run ended, as the last thing.
+
+        Raises:
+            LinkError: It could not be told within ``timeout_s``.
+        """
         deadline = time.monotonic() + timeout_s
+        self._messages.extend(starmap(self._abandonment, abandoned.items()))
         self._flush_messages(deadline)
         left = max(0.1, deadline - time.monotonic())
         self._link.finish(self._run, outcome, detail[:2000], left)
@@ -146,23 +167,39 @@ class Courier:
         """Drop the connection."""
         self._link.close()
 
-    def _tell(self, message: Callable[[], None]) -> None:
-        """Messages are for people's eyes: they never hold the robot up."""
-        self._messages.append(message)
-        if not self.away:
-            try:
-                self._flush_messages(time.monotonic() + _REQUEST_S)
-            except LinkError:
-                return
+    def _abandonment(self, number: int, reason: str) -> Message:
+        return lambda most: self._link.abandon(self._run, number, reason, most)
+
+    def _tell(self) -> None:
+        """Messages are for people's eyes: a sidecar that takes none holds the robot up once."""
+        if self.away or self._unheard:
+            return
+        try:
+            self._flush_messages(time.monotonic() + _REQUEST_S)
+        except LinkError:
+            self._unheard = True
 
     def _flush_messages(self, deadline: float) -> None:
-        while self._messages and time.monotonic() < deadline:
+        while self._messages and (left := deadline - time.monotonic()) > 0:
             try:
-                self._messages[0]()
+                self._messages[0](min(left, _REQUEST_S))
             except RunUnknown:
                 self._register(deadline)
-                self._messages[0]()
+                self._messages[0](max(SLICE_S, deadline - time.monotonic()))
             self._messages.popleft()
+
+    def _camera_trouble(self, waited_s: float) -> CameraSilent | None:
+        """Whether the sidecar that gave no answer is there, and only its camera is not."""
+        try:
+            camera = self._link.health(_GLANCE_S).get("camera")
+        except LinkError:
+            return None
+        if not isinstance(camera, Mapping) or camera.get("ok") is not False:
+            return None
+        return CameraSilent(
+            f"The sidecar at {self._link.url} is there, but took no frame within {waited_s:g} s: "
+            f"{str(camera.get('detail', ''))[:200]} Look at the camera's cable."
+        )
 
     def _insist(self, attempt: Callable[[float], None], timeout_s: float) -> None:
         deadline = time.monotonic() + timeout_s
@@ -183,14 +220,15 @@ class Courier:
                 self._rest(wait)
                 wait = min(_SLOWEST_RETRY_S, wait * 2)
 
-    def _send_all(self, deadline: float) -> None:
+    def _send_all(self, deadline: float, each_s: float = math.inf) -> None:
         if not self._registered:
             self._register(deadline)
         mended = 0
         while self._pending:
             keyframe = self._pending[0]
             try:
-                self._link.keyframe(keyframe, max(SLICE_S, deadline - time.monotonic()))
+                left = min(each_s, deadline - time.monotonic())
+                self._link.keyframe(keyframe, max(SLICE_S, left))
             except (RunUnknown, SequenceGap) as trouble:
                 mended += 1
                 if mended > _MOST_MENDS:
@@ -201,6 +239,7 @@ class Courier:
                     self._register(deadline)
                 continue
             self._sent.append(self._pending.popleft())
+            self._unheard = False
 
     def _close_gap(self, gap: SequenceGap, keyframe: Keyframe) -> None:
         if gap.expected > keyframe.sequence:

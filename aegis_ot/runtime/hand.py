@@ -31,7 +31,6 @@ class Hand:
         channels: Number of tips that took part in its last operation.
         draw: The last draw whose ASPIRATE keyframe is still owed.
         current: The trajectory that is under way.
-        awaiting: Trajectories with all four keyframes whose verdict is not in.
     """
 
     pipette: Pipette
@@ -45,7 +44,6 @@ class Hand:
     channels: int = 1
     draw: Operation | None = None
     current: Trajectory | None = None
-    awaiting: list[Trajectory] = field(default_factory=list)
 
     def stays(self, operation: Operation) -> bool:
         """Whether the tip is at the place of ``operation`` already."""

@@ -12,12 +12,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..instrumentation import Event, EventKind, Operation, OperationKind
+from .awaiting import EXPELLING, Awaiting, describe, is_on
 from .contents import Layer, liquid_of
 from .hand import Hand, Place, in_place, unique, wells_of
 from .ledger import Ledger
 from .steps import Abandon, Capture, Hold, Lift, Step, Trajectory
-
-_EXPELLING = (OperationKind.DISPENSE, OperationKind.BLOW_OUT)
 
 Capacity = Callable[[Operation], "float | None"]
 
@@ -48,6 +47,7 @@ class Tracker:
         self._lift = lift
         self._capacity = capacity
         self._hands: dict[str, Hand] = {}
+        self._awaiting = Awaiting()
 
     @property
     def trajectories(self) -> int:
@@ -57,6 +57,7 @@ class Tracker:
     def before(self, operation: Operation) -> list[Step]:
         """What has to be done before ``operation``, in order."""
         steps: list[Step] = []
+        self._replaced(operation, steps)
         hand = self._hand(operation)
         if not in_place(operation):
             for other in self._hands.values():
@@ -67,7 +68,7 @@ class Tracker:
             hand.capacity = self._capacity(operation)
         self._owed_to_destination(hand, operation, steps)
         self._owed_to_source(hand, operation, steps)
-        self._boundaries(hand, operation, steps)
+        self._ask(self._awaiting.due_at(hand, operation), describe(operation), steps)
         self._arrival(hand, operation, steps)
         return steps
 
@@ -92,7 +93,7 @@ class Tracker:
             hand.contents.draw(Layer(operation.volume, unique(operation.wells)))
             if not operation.mixing:
                 hand.draw = operation
-        elif kind in _EXPELLING:
+        elif kind in EXPELLING:
             self._expelled(hand, operation, steps)
         self._stand(hand, operation, target)
         return steps
@@ -107,14 +108,12 @@ class Tracker:
             for hand in self._hands.values():
                 # No lift: what the protocol does next in place must happen in that place.
                 self._settle(hand, steps, lift=False)
-            self._ask([t for h in self._hands.values() for t in h.awaiting], "a pause", steps)
+            self._ask(self._awaiting.all(), "a pause", steps)
         elif event.kind is EventKind.LABWARE_MOVED:
-            concerned: list[Trajectory] = []
             for hand in self._hands.values():
-                if hand.current and hand.current.delivered and _on(hand.current, event.labware):
+                if hand.current and hand.current.delivered and is_on(hand.current, event.labware):
                     self._settle(hand, steps, lift=False)  # the wells are not there any more
-                concerned += [t for t in hand.awaiting if _on(t, event.labware)]
-            self._ask(concerned, "the labware is moved", steps)
+            self._ask(self._awaiting.on(event.labware), "the labware is moved", steps)
         return steps
 
     def finish(self) -> list[Step]:
@@ -124,11 +123,9 @@ class Tracker:
             hand.draw = None
             self._settle(hand, steps)
             self._give_up(hand, "the run ended before it was delivered", steps)
-        waiting = sorted(t.number for h in self._hands.values() for t in h.awaiting)
-        for hand in self._hands.values():
-            hand.awaiting.clear()
+        waiting = self._awaiting.take(self._awaiting.all())
         if waiting:
-            steps.append(Hold(tuple(waiting), "the end of the run", final=True))
+            steps.append(Hold(waiting, "the end of the run", final=True))
         return steps
 
     def break_off(self, reason: str) -> list[Step]:
@@ -138,7 +135,7 @@ class Tracker:
             if hand.current is not None:
                 steps.append(Abandon(hand.current.number, reason))
                 hand.current = None
-            hand.awaiting.clear()
+        self._awaiting.take(self._awaiting.all())
         return steps
 
     # What is owed before the tip goes on
@@ -168,23 +165,6 @@ class Tracker:
         gap_ends_it = operation.is_air and "consolidate" not in operation.call
         if gap_ends_it or not (comes_back or operation.is_air):
             self._begin(hand, steps)
-
-    def _boundaries(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
-        ends_tip = operation.kind is OperationKind.DROP_TIP
-        place = hand.target(operation)
-        enters = hand.enters(operation)
-        expels = operation.disposal and operation.kind in _EXPELLING
-        due: list[Trajectory] = []
-        for trajectory in hand.awaiting:
-            elsewhere = place != frozenset(trajectory.destinations)
-            if ends_tip or expels or (enters and elsewhere):
-                due.append(trajectory)
-        if enters and place:
-            for other in self._hands.values():
-                if other is not hand:
-                    due += [t for t in other.awaiting if place & frozenset(t.destinations)]
-        if due:
-            self._ask(due, _describe(operation), steps)
 
     def _arrival(self, hand: Hand, operation: Operation, steps: list[Step]) -> None:
         delivers = hand.delivers(operation)
@@ -226,7 +206,7 @@ class Tracker:
             self._raise(hand, hand.aimed, steps)
         self._capture(hand, trajectory, steps)
         hand.current = None
-        hand.awaiting.append(trajectory)
+        self._awaiting.add(hand, trajectory)
         if self._hold == "well":
             self._ask([trajectory], "the well is done", steps)
 
@@ -257,10 +237,7 @@ class Tracker:
     def _ask(self, due: list[Trajectory], reason: str, steps: list[Step]) -> None:
         if self._hold == "off" or not due:
             return
-        numbers = {t.number for t in due}
-        for hand in self._hands.values():
-            hand.awaiting = [t for t in hand.awaiting if t.number not in numbers]
-        steps.append(Hold(tuple(sorted(numbers)), reason))
+        steps.append(Hold(self._awaiting.take(due), reason))
 
     # What an operation changed
 
@@ -292,6 +269,15 @@ class Tracker:
         hand.place = frozenset() if operation.disposal else target
         hand.above = operation.from_top is not None and operation.from_top >= 0
 
+    def _replaced(self, operation: Operation, steps: list[Step]) -> None:
+        """Another pipette was loaded on this mount: what the one before it owes ends here."""
+        hand = self._hands.get(operation.pipette.key)
+        if hand is not None and hand.pipette != operation.pipette:
+            hand.draw = None
+            self._settle(hand, steps, lift=False)
+            self._give_up(hand, "its pipette was unloaded before it was delivered", steps)
+            del self._hands[operation.pipette.key]
+
     def _hand(self, operation: Operation) -> Hand:
         key = operation.pipette.key
         if key not in self._hands:
@@ -303,15 +289,3 @@ def _draws(operation: Operation) -> bool:
     return (
         operation.kind is OperationKind.ASPIRATE and not operation.is_air and not operation.mixing
     )
-
-
-def _on(trajectory: Trajectory, labware: str) -> bool:
-    return any(well.labware == labware for well in trajectory.destinations)
-
-
-def _describe(operation: Operation) -> str:
-    if operation.kind is OperationKind.DROP_TIP:
-        return "the tip is dropped"
-    if operation.disposal:
-        return "the tip is emptied into the trash"
-    return f"the tip enters {operation.well}" if operation.well else "the tip goes on"

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from opentrons import simulate
 
-from aegis_ot.errors import ConfigurationError, RunAborted
+from aegis_ot.errors import RunAborted
 from aegis_ot.instrumentation.tap import tapped
 from aegis_ot.runtime import Watcher
 from aegis_ot.runtime.runstate import RunState, can_be_resumed
@@ -56,7 +56,7 @@ def watch(
                 watcher.end(error)
                 raise
             watcher.end(None)
-        except (RunAborted, ConfigurationError) as error:
+        except RunAborted as error:
             return watcher, texts, error
     return watcher, texts, None
 
@@ -279,13 +279,6 @@ class TestLinkLoss:
         _, _, error = watch(wells(1), settings(sidecar, on_link_loss="abort"))
         assert isinstance(error, RunAborted)
         assert "new run_id" in str(error)
-
-
-def test_an_address_that_is_none_is_said_before_anything_moves() -> None:
-    _, texts, error = watch(wells(1), Settings(sidecar="simulated", watch_simulation=True))
-    assert isinstance(error, ConfigurationError)
-    assert "aegis-ot simulate" in str(error)
-    assert texts == []
 
 
 def test_nobody_can_resume_where_opentrons_execute_owns_the_hardware(

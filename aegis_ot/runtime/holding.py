@@ -1,0 +1,131 @@
+"""A boundary: wait for verdicts, and do as the policy says where one is bad or missing."""
+
+from __future__ import annotations
+
+import time
+
+from ..errors import LinkError, RunAborted
+from ..settings import Settings
+from ..vocabulary import Gate, Outcome, Verdict
+from .courier import Courier
+from .linkloss import LinkLoss
+from .operator import Answer, Operator
+from .runstate import RunState
+from .steps import Hold
+from .stopping import SLICE_S, Waits
+from .summary import WatchSummary
+from .words import tell_verdict
+
+
+class Holding:
+    """The holds of one run.
+
+    Args:
+        courier: Speaks to the sidecar.
+        link_loss: What to do when it cannot.
+        settings: Time limits and policies.
+        operator: Told of bad verdicts.
+        state, waits: Of the run.
+        result: Holds and verdicts are counted here.
+    """
+
+    def __init__(
+        self,
+        courier: Courier,
+        link_loss: LinkLoss,
+        settings: Settings,
+        operator: Operator,
+        state: RunState,
+        waits: Waits,
+        result: WatchSummary,
+    ) -> None:
+        self._courier = courier
+        self._link_loss = link_loss
+        self._settings = settings
+        self._operator = operator
+        self._state = state
+        self._waits = waits
+        self._result = result
+
+    def hold(self, step: Hold) -> None:
+        """Stand still until every verdict of ``step`` is in and dealt with.
+
+        Raises:
+            RunAborted: A policy, or the operator, ends the run.
+            Stopping: The run is being stopped.
+        """
+        deadline = time.monotonic() + self._settings.verdict_timeout_s
+        for number in step.trajectories:
+            began = time.monotonic()
+            try:
+                verdict, ended_by = self._await(number, deadline)
+            finally:
+                self._result.held(time.monotonic() - began)
+            self._resolve(step, number, verdict, ended_by, time.monotonic() - began)
+
+    def _await(self, number: int, deadline: float) -> tuple[Verdict | None, str]:
+        """Poll in short waits until the verdict is in; else why there is none."""
+        courier = self._courier
+        while True:
+            if number in courier.stale:
+                return None, "late keyframes"
+            if courier.away:
+                return None, "link lost"
+            self._waits.check()
+            asked = time.monotonic()
+            verdict = None
+            try:
+                verdict = courier.verdict(number)
+            except LinkError:
+                # The same patience as for a keyframe.
+                self._link_loss.insist(self._link_loss.register)
+            if verdict is not None:
+                return verdict, "verdict"
+            if time.monotonic() - asked < SLICE_S / 2:
+                self._waits.rest(SLICE_S / 5)  # it answered at once: do not hammer it
+            if self._state.paused:
+                deadline += time.monotonic() - asked  # an operator's pause is nobody's delay
+            if time.monotonic() >= deadline:
+                return None, "timeout"
+
+    def _resolve(
+        self, step: Hold, number: int, verdict: Verdict | None, ended_by: str, seconds: float
+    ) -> None:
+        settings = self._settings
+        policy: str | None = None
+        place = self._result.places.get(number) or f"trajectory {number}"
+        if verdict is None:
+            self._result.lost[number] = ended_by
+            text = f"No verdict on {place} within {settings.verdict_timeout_s:g} s."
+            if ended_by == "timeout":
+                policy = settings.on_link_loss
+        else:
+            self._result.verdicts[number] = verdict
+            text = tell_verdict(place, verdict)
+            if verdict.outcome is Outcome.FAIL:
+                policy = settings.on_fail
+            elif verdict.outcome is Outcome.UNDECIDED:
+                policy = settings.on_undecided
+        if step.final and settings.hold == "off":
+            policy = "continue" if policy else None  # too late to change anything
+        self._courier.report_hold(number, seconds, ended_by, policy)
+        if policy == "continue":
+            self._operator.comment(f"{text} The run goes on, as configured.")
+        elif policy == "abort":
+            raise RunAborted(f"{text} The run ends here, as configured (before {step.reason}).")
+        elif policy == "pause":
+            self._operator.pause(
+                f"{text} Paused before {step.reason}. Resume to go on, or cancel the run.",
+                lambda: self._decision(number),
+            )
+
+    def _decision(self, number: int) -> Answer | None:
+        """What the operator decided on the sidecar's page, where the run cannot be resumed."""
+        try:
+            verdict = self._courier.verdict(number)
+        except LinkError:
+            return None
+        if verdict is None or verdict.gate is not Gate.OPERATOR:
+            return None
+        self._result.verdicts[number] = verdict
+        return Answer.RESUME if verdict.outcome is Outcome.PASS else Answer.ABORT
