@@ -83,6 +83,7 @@ def evaluate_layer2(
         wells,
         flagged,
         routed,
+        held=held,
         seed=seed,
         settled=settled,
         dataset=data.name,

@@ -207,7 +207,8 @@ def _sweep(axes: Any, samples: Sequence[TrajectorySample], progress: Progress | 
     axes.set(xlabel="components (pca)", ylim=(0, 1.03))
     axes.legend(loc="lower left")
     other = axes.twinx()
-    other.semilogy(along, [point.threshold for point in points], "s--", ms=3, c=_GREY)
+    if all(point.threshold > 0 for point in points):  # blank crops score nothing
+        other.semilogy(along, [point.threshold for point in points], "s--", ms=3, c=_GREY)
     other.set_ylabel("median threshold (grey)")
     other.grid(visible=False)
 

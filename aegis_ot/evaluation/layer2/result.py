@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .lopo import ScoredWell
+from ...vocabulary import KeyframeKind
+from .lopo import HeldOut, ScoredWell
 from .metrics import Interval, bootstrap
 
 
@@ -43,6 +44,8 @@ class Layer2Result:
         no_tip: Those labelled ``no_tip``: how many were flagged.
         routed: Fraction of wells sent to a gate, by ``"normals"``, ``"failures"``, ``"all"``.
         seed: Of the bootstrap.
+        tips: In how many of the frames a tip was found; wells labelled ``no_tip`` left out.
+        untipped: Plates in whose calibration well no tip was found.
         settled: For the cascade: how many wells each gate settled and how.
     """
 
@@ -58,6 +61,8 @@ class Layer2Result:
     no_tip: Share
     routed: Mapping[str, float]
     seed: int = 0
+    tips: Share = Share(0, 0)
+    untipped: Sequence[str] = ()
     settled: Mapping[str, int] = field(default_factory=dict)
 
     @property
@@ -99,6 +104,11 @@ class Layer2Result:
                 "No normal well is left to score: AUROC is not defined, and nothing is known of "
                 "false alarms."
             )
+        if self.untipped:
+            notes.append(
+                f"No tip was found in the calibration well of {', '.join(self.untipped)}: nothing "
+                "is known of the other wells there."
+            )
         if failures and not any(self.flagged):
             notes.append("No well was flagged: precision is not defined.")
         return notes
@@ -117,6 +127,7 @@ class Layer2Result:
             "protocol": self.protocol,
             "threshold": self.threshold,
             "detector": self.detector,
+            "frames": {"total": self.tips.total, "with_tip": self.tips.caught},
             "seeds": {"bootstrap": self.seed},
             **{name: interval.to_json() for name, interval in self.metrics.items()},
             "wells": {
@@ -155,13 +166,14 @@ class Layer2Result:
         """A few lines for the terminal."""
         title = f"{self.scorer} on {self.dataset} ({self.source} frames), {self.protocol}"
         lines = [
-            f"{title}, threshold {self.threshold}, tips by {self.detector}",
+            f"{title}, threshold {self.threshold}",
+            f"  tips found         {self.tips} frames, by {self.detector}",
             *(
                 f"  {name.replace('_', ' '):18} {interval}"
                 for name, interval in self.metrics.items()
             ),
             f"  normals flagged    {self.flagged_normals}",
-            f"  no tip flagged     {self.no_tip} (counted apart)",
+            *([f"  no tip flagged     {self.no_tip} (counted apart)"] if self.no_tip.total else []),
             "  sent to a gate     "
             + ", ".join(
                 f"{name} {value:.0%}" for name, value in self.routed.items() if value == value
@@ -199,6 +211,7 @@ def summarise(
     flagged: Sequence[bool],
     routed: Sequence[bool],
     *,
+    held: HeldOut,
     seed: int,
     settled: Mapping[str, int] | None = None,
     **names: str,
@@ -211,6 +224,12 @@ def summarise(
     flags = np.array([f for _, f, _ in kept], dtype=bool)
     sent = np.array([r for _, _, r in kept], dtype=bool)
     tipless = [f for w, f, _ in triples if w.without_tip]
+    tips = [
+        well.sample.detections[kind] is not None
+        for well in (*held.anchors, *held.wells)
+        if not well.without_tip
+        for kind in KeyframeKind
+    ]
 
     def share(mask: Any) -> float:
         return float(sent[mask].mean()) if mask.any() else float("nan")
@@ -226,6 +245,8 @@ def summarise(
             "all": share(np.ones_like(failed)),
         },
         seed=seed,
+        tips=Share(sum(tips), len(tips)),
+        untipped=[anchor.sample.plate for anchor in held.anchors if anchor.tips_missing],
         settled=settled or {},
         **names,
     )
