@@ -8,7 +8,7 @@ from typing import Any
 
 from ..preflight import Options, Report
 from ..preflight.rehearsal import Script
-from ..vocabulary import Finding
+from ..vocabulary import Finding, Remark
 from .combinations import combinations, count_all, values_of
 from .rehearser import Rehearser, TaskFailed
 from .result import Broken, Exploration, Problem, with_findings
@@ -87,7 +87,8 @@ def explore(
             if len(values) < 2
         ),
     )
-    return with_findings(default, findings), exploration
+    remarks = tuple(r for r in default.remarks if explorer.always(r))
+    return with_findings(default, findings, remarks=remarks), exploration
 
 
 class _Explorer:
@@ -122,6 +123,11 @@ class _Explorer:
         """Every rule that some run breaks."""
         reports = [o for _, o in self._outcomes.values() if isinstance(o, Report)]
         return sorted({finding.rule for report in reports for finding in report.findings})
+
+    def always(self, remark: Remark) -> bool:
+        """Whether every rehearsal that came to an end brings a remark: else a waiver is of use."""
+        reports = [o for _, o in self._outcomes.values() if isinstance(o, Report)]
+        return all(remark in report.remarks for report in reports)
 
     def showing(self, shows: Callable[[Outcome], bool]) -> int:
         """How many rehearsals show something."""

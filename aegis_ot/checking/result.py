@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..preflight import Database, Report
-from ..preflight.judging import RoleEvidence, Waived
+from ..preflight.judging import RoleEvidence, Waived, verdict_of
 from ..preflight.opinion import unanswered
-from ..vocabulary import Finding, Severity, Undecided, VerdictWord
+from ..vocabulary import Finding, Remark, Undecided, VerdictWord
 
 if TYPE_CHECKING:
     from ..reasoning import Judgement
@@ -76,7 +76,7 @@ class CheckedProtocol:
         lines: Source lines, as far as the file could be read.
         seconds: Rehearsal and judgement, s.
         baselined: Findings that the baseline file lists.
-        notes: Remarks on waivers and baseline beyond the report's own.
+        settled: What is wrong with the project's waivers and baseline.
         exploration: What ``--all-parameters`` tried.
         judgement: What came of asking a model, where one was asked.
     """
@@ -87,7 +87,7 @@ class CheckedProtocol:
     lines: tuple[str, ...] = ()
     seconds: float = 0.0
     baselined: tuple[Finding, ...] = ()
-    extra_notes: tuple[str, ...] = ()
+    settled: tuple[Remark, ...] = ()
     exploration: Exploration | None = None
     judgement: Judgement | None = None
 
@@ -130,8 +130,13 @@ class CheckedProtocol:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Stale waivers, conflicting evidence, and the like."""
-        return (*(self.report.notes if self.report else ()), *self.extra_notes)
+        """Conflicting evidence, and what a model has to say."""
+        return self.report.notes if self.report else ()
+
+    @property
+    def remarks(self) -> tuple[Remark, ...]:
+        """Waivers that waive nothing, and known findings that are gone."""
+        return (*(self.report.remarks if self.report else ()), *self.settled)
 
 
 @dataclass(frozen=True)
@@ -158,13 +163,6 @@ class CheckRun:
         ):
             return 2
         return 1 if any(checked.findings for checked in self.protocols) else 0
-
-
-def verdict_of(findings: Sequence[Finding]) -> VerdictWord:
-    """``fail`` with any error, ``warn`` with warnings only, ``pass`` otherwise."""
-    if any(finding.severity is Severity.ERROR for finding in findings):
-        return VerdictWord.FAIL
-    return VerdictWord.WARN if findings else VerdictWord.PASS
 
 
 def with_findings(report: Report, findings: Sequence[Finding], **changes: Any) -> Report:

@@ -14,7 +14,7 @@ from ..errors import ConfigurationError
 from ..preflight import Database, Options, Report
 from ..preflight.dossier import Dossier
 from ..preflight.rehearsal import Script
-from ..vocabulary import Finding
+from ..vocabulary import Finding, Remark
 from .baseline import Baseline
 from .configuration import ConfiguredWaiver
 from .exploring import explore
@@ -184,20 +184,20 @@ def _settle(checked: CheckedProtocol, settings: CheckSettings) -> CheckedProtoco
     report = checked.report
     if report is None:
         return checked
-    standing, waived, notes = waive(
-        checked.file, report.findings, settings.waivers, settings.waiver_root
-    )
+    standing, waived, remarks = waive(checked.file, report, settings.waivers, settings.waiver_root)
     known: list[Finding] = []
     if settings.baseline is not None:
         standing, known, gone = settings.baseline.split(checked.file, standing, checked.lines)
         if gone:
-            notes.append(
-                f"The baseline lists {gone} finding{'s' if gone > 1 else ''} that no longer "
-                "occur here; write it anew."
+            remarks.append(
+                Remark(
+                    f"The baseline lists {gone} finding{'s' if gone > 1 else ''} that no longer "
+                    "occur here; write it anew."
+                )
             )
     return dataclasses.replace(
         checked,
         report=with_findings(report, standing, waived=(*report.waived, *waived)),
         baselined=tuple(known),
-        extra_notes=tuple(notes),
+        settled=tuple(remarks),
     )

@@ -21,6 +21,7 @@ from ..checking import (
     find_configuration,
 )
 from ..checking.baseline import baseline_text, read_baseline
+from ..checking.configuration import ConfiguredWaiver
 from ..checking.files import read_csv_paths, read_labware, read_values
 from ..errors import ConfigurationError
 from ..preflight import Database, Options, load_database
@@ -97,7 +98,7 @@ def check(
         labware=read_labware(labware or [Path(p) for p in configured.labware]),
         timeout_s=_seconds(timeout, configured.timeout),
         all_parameters=all_parameters,
-        waivers=configured.waivers,
+        waivers=_waivers(database, configured),
         waiver_root=configured.folder,
         explain_roles=explain_roles,
         asking=_asking(model, record, configured),
@@ -177,6 +178,14 @@ def _options(
             for rule, severity in configured.severity.items()
         },
     )
+
+
+def _waivers(database: Database, configured: Configuration) -> tuple[ConfiguredWaiver, ...]:
+    place = "pyproject.toml: tool.aegis-ot.waivers: "
+    for waiver in configured.waivers:
+        for rule in waiver.rules:
+            known_rule(rule, database, place)
+    return configured.waivers
 
 
 def _asking(model: str | None, record: Path | None, configured: Configuration) -> Asking | None:

@@ -22,9 +22,9 @@ from ..vocabulary import Undecided, from_json
 from .database import load_database
 from .dossier import Dossier
 from .dossier_making import make_dossier
-from .judging import Options, Report, judge
+from .judging import MODEL, Options, Report, judge
 from .merging import merge, options_with_roles
-from .opinion import MODEL, Opinion
+from .opinion import Opinion
 from .rehearsal import Recorder, Recording
 
 LIVE_WAIT_S = 1.0

@@ -20,9 +20,7 @@ from .judging import (
     RoleEvidence,
     Waived,
     apply_waivers,
-    first_statement,
     read_waivers,
-    stale,
 )
 from .opinion import Opinion, no_answer
 from .text import read_source
@@ -94,15 +92,13 @@ def merge(
     findings = sorted(
         (*report.findings, *standing), key=lambda f: (min(f.lines, default=0), f.rule)
     )
-    used = {stale(item.waiver) for item in waived}
-    notes = [note for note in report.notes if note not in used] + notes
     return replace(
         report,
         findings=tuple(findings),
         verdict=_verdict(report.verdict, findings),
         undecided=tuple(_questions(report, opinion, standing, second)),
         waived=(*report.waived, *waived),
-        notes=tuple(notes),
+        notes=(*report.notes, *notes),
         roles=(*report.roles, *_roles(report, opinion)),
     )
 
@@ -149,9 +145,7 @@ def _without_waived(
     if not findings:
         return [], []
     text = "\n".join(report.lines)
-    waivers = read_waivers(read_source(text), first_statement(text))
-    standing, waived, _ = apply_waivers(findings, waivers)
-    return standing, waived
+    return apply_waivers(findings, read_waivers(text, read_source(text)))
 
 
 def _roles(report: Report, opinion: Opinion) -> Iterable[RoleEvidence]:

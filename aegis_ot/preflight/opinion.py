@@ -5,10 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..vocabulary import Finding, Undecided, WellRef
-from .judging import Report
-
-MODEL = "MODEL"
-"""Stands for a rule: of a finding that no rule covers, and of a question that went unanswered."""
+from .judging import MODEL, Report
 
 ANSWERED = "answered"
 

@@ -11,7 +11,8 @@ from typing import Any
 
 from ..vocabulary import Finding, Severity, Site, WellRef
 from .dossier import DeckItem, Dossier
-from .opinion import ANSWERED, MODEL, Opinion, RoleReading, RuleReading
+from .judging import MODEL
+from .opinion import ANSWERED, Opinion, RoleReading, RuleReading
 from .trace import row_column
 
 LONGEST_TEXT = 400

@@ -45,6 +45,8 @@ def _annotations(checked: CheckedProtocol, names: dict[str, str]) -> Iterator[st
         for values, problem in checked.exploration.failures:
             title = f"aegis-ot: cannot be judged with {values}"
             yield _command("error", checked.file, problem.line, title, problem.message)
+    for remark in checked.remarks:
+        yield _command("warning", checked.file, remark.line, "aegis-ot", remark.message)
     for note in checked.notes:
         yield _command("notice", checked.file, None, "aegis-ot", note)
     questions = [u for u in checked.undecided if u.reason != checked.unanswered]

@@ -9,8 +9,9 @@
 Wells are ``slot:well``. A protocol has further keys only where there is something to say:
 ``error`` (``message``, ``line``) where it could not be judged, ``model`` (``name``, ``state``,
 ``detail``, ``seconds``, ``tokens``) where a model was asked, ``waived``, ``baselined``,
-``notes``, ``parameters`` and, on request, ``families`` and ``roles``. A finding that a model
-made and no check has ``"source": "model"``.
+``remarks`` (``line``, ``message``) on waivers that waive nothing, ``notes``, ``parameters`` and,
+on request, ``families`` and ``roles``. A finding that a model made and no check has
+``"source": "model"``.
 """
 
 from __future__ import annotations
@@ -55,6 +56,8 @@ def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> di
         ]
     if checked.baselined:
         values["baselined"] = [_finding(finding) for finding in checked.baselined]
+    if checked.remarks:
+        values["remarks"] = [{"line": r.line, "message": r.message} for r in checked.remarks]
     if checked.notes:
         values["notes"] = list(checked.notes)
     if checked.exploration is not None:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from xml.etree.ElementTree import Element, SubElement
 
 from ..checking import CheckedProtocol, CheckRun
-from ..preflight.opinion import MODEL
+from ..preflight.judging import MODEL
 from ..preflight.rules import RuleSpec
 from ..vocabulary import Finding
 from .words import by_model
@@ -65,13 +65,9 @@ def _rules(checked: CheckedProtocol, run: CheckRun) -> Iterator[RuleSpec]:
     """The rules that were judged, or would have been had enough been known."""
     if checked.report is None:
         return
-    applying = {inference.family for inference in checked.report.families if inference.applies}
-    found = {finding.rule for finding in checked.findings}
-    found |= {undecided.rule for undecided in checked.undecided}
-    for family in run.database.families:
-        for rule in family.rules:
-            if family.family in applying or rule.scope == "all" or rule.id in found:
-                yield rule
+    told = {*checked.report.judged, *(finding.rule for finding in checked.findings)}
+    told |= {undecided.rule for undecided in checked.undecided}
+    yield from (rule for rule in run.database.rules if rule.id in told)
 
 
 def _case(suite: Element, checked: CheckedProtocol, name: str) -> Element:

@@ -168,6 +168,12 @@ def _notifications(checked: CheckedProtocol, index: dict[str, int]) -> Iterator[
                 "index": index[undecided.rule],
             }
         yield notification
+    for remark in checked.remarks:
+        yield {
+            "level": "warning",
+            "message": {"text": remark.message},
+            "locations": [_location(checked, remark.line)],
+        }
     for note in checked.notes:
         yield {
             "level": "note",

@@ -76,6 +76,9 @@ def _protocol(
         where = location(checked, finding.lines[0] if finding.lines else None)
         mark = f" ({by_model(finding)})" if by_model(finding) else ""
         rest.append(f"{where}: {finding.rule}{mark} waived: {waived.waiver.reason}")
+    for remark in checked.remarks:
+        where = location(checked, remark.line)
+        yield f"{where}: {paint('warning', _BOLD, _YELLOW)}: {remark.message}"
     for note in checked.notes:
         rest.append(f"{checked.file}: note: {note}")
     by_reason: dict[str, list[str]] = {}

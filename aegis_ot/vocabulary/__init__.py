@@ -4,7 +4,7 @@ Whatever crosses from one room to another, or from the robot to the workstation,
 these. They carry no behaviour beyond naming themselves and turning into plain JSON.
 """
 
-from .findings import Finding, Severity, Site, Undecided, VerdictWord
+from .findings import Finding, Remark, Severity, Site, Undecided, VerdictWord
 from .trajectories import (
     FailureType,
     Gate,
@@ -24,6 +24,7 @@ __all__ = [
     "Keyframe",
     "KeyframeKind",
     "Outcome",
+    "Remark",
     "Route",
     "Severity",
     "Site",

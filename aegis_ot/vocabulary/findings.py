@@ -73,6 +73,19 @@ class Finding:
 
 
 @dataclass(frozen=True)
+class Remark:
+    """Something that is wrong beside the protocol itself: a waiver that waives nothing.
+
+    Attributes:
+        message: One or two sentences for people.
+        line: 1-based line in the protocol file, ``None`` where none is known.
+    """
+
+    message: str
+    line: int | None = None
+
+
+@dataclass(frozen=True)
 class Undecided:
     """A rule that could not be judged, and what it lacked."""
 

@@ -79,10 +79,13 @@ def test_waivers_of_the_configuration_cover_by_file_and_can_be_stale(tmp_path: P
         ConfiguredWaiver(("GEN-1",), "everywhere"),
     ]
     findings = [finding("PCR-2", 2, "A1"), finding("PCR-3", 2, "A1")]
-    standing, waived, notes = waive(str(tmp_path / "old" / "p.py"), findings, waivers, tmp_path)
+    report = Report(
+        "p.py", "pcr", VerdictWord.FAIL, tuple(findings), (), judged=("PCR-2", "PCR-3", "PCR-5")
+    )
+    standing, waived, remarks = waive(str(tmp_path / "old" / "p.py"), report, waivers, tmp_path)
     assert [f.rule for f in standing] == ["PCR-3"]
     assert [(w.finding.rule, w.waiver.reason) for w in waived] == [("PCR-2", "accepted")]
-    assert len(notes) == 1
-    assert "PCR-5" in notes[0]
-    elsewhere = waive(str(tmp_path / "new" / "p.py"), findings, waivers, tmp_path)
+    assert len(remarks) == 1
+    assert "PCR-5" in remarks[0].message
+    elsewhere = waive(str(tmp_path / "new" / "p.py"), report, waivers, tmp_path)
     assert [f.rule for f in elsewhere[0]] == ["PCR-2", "PCR-3"]

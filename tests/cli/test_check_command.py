@@ -57,7 +57,9 @@ def test_every_verdict_at_once(aegis: Command, tmp_path: Path) -> None:
     assert {"2:A3", "2:B3", "1:B1"} <= set(finding["wells"])
     assert found["bad.py"]["family"] == "pcr"
     assert found["waived.py"]["waived"][0]["reason"] == "one donor"
-    assert "stale" in found["stale.py"]["notes"][0]
+    (remark,) = found["stale.py"]["remarks"]
+    assert remark["line"] == 2
+    assert "PCR-5 is stale" in remark["message"]
     assert found["broken.py"]["error"]["line"] == 1
 
 

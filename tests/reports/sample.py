@@ -7,7 +7,7 @@ from aegis_ot.preflight import Database, Report
 from aegis_ot.preflight.judging import RoleEvidence, Waived, Waiver
 from aegis_ot.preflight.roles import Inference
 from aegis_ot.preflight.rules import Common, Example, Examples, Family, RoleSpec, RuleSpec
-from aegis_ot.vocabulary import Finding, Severity, Site, Undecided, VerdictWord, WellRef
+from aegis_ot.vocabulary import Finding, Remark, Severity, Site, Undecided, VerdictWord, WellRef
 
 
 def rule(name: str, title: str, severity: str = "error", scope: str = "family") -> RuleSpec:
@@ -102,7 +102,8 @@ def report(*findings: Finding, **more: object) -> Report:
     word = VerdictWord.PASS
     if findings:
         word = VerdictWord.FAIL if CARRY in findings else VerdictWord.WARN
-    return Report("f.py", "pcr", word, findings, families=FAMILIES, **{"undecided": (), **more})  # type: ignore[arg-type]
+    settled = {"undecided": (), "judged": ("PCR-1", "PCR-2", "PCR-6", "GEN-3"), **more}
+    return Report("f.py", "pcr", word, findings, families=FAMILIES, **settled)  # type: ignore[arg-type]
 
 
 RUN = CheckRun(
@@ -115,7 +116,9 @@ RUN = CheckRun(
                 UNEVEN,
                 undecided=(Undecided("PCR-1", "nothing says which well is the master mix"),),
                 waived=(Waived(PLACELESS, Waiver(1, (), ("GEN-3",), "the tube is a bottle")),),
-                notes=("The waiver of PCR-5 at line 2 is stale: nothing is found there.",),
+                judged=("PCR-2", "PCR-6", "GEN-3"),
+                remarks=(Remark("The waiver of PCR-5 is stale: nothing is found there.", 2),),
+                notes=("Evidence conflicts for plate:H12: label against name",),
                 roles=ROLES,
             ),
             lines=LINES,
@@ -127,7 +130,9 @@ RUN = CheckRun(
             lines=LINES,
             seconds=2.0,
             baselined=(CARRY,),
-            extra_notes=("The baseline lists 1 finding that no longer occur here; write it anew.",),
+            settled=(
+                Remark("The baseline lists 1 finding that no longer occur here; write it anew."),
+            ),
             exploration=Exploration(
                 runs=5,
                 combinations=6,

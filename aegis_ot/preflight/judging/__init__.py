@@ -3,18 +3,17 @@
 from .judging import judge
 from .options import Options
 from .report import Report, RoleEvidence, verdict_of
-from .waivers import Waived, Waiver, apply_waivers, first_statement, read_waivers, stale
+from .waivers import MODEL, Waived, Waiver, apply_waivers, read_waivers
 
 __all__ = [
+    "MODEL",
     "Options",
     "Report",
     "RoleEvidence",
     "Waived",
     "Waiver",
     "apply_waivers",
-    "first_statement",
     "judge",
     "read_waivers",
-    "stale",
     "verdict_of",
 ]

@@ -16,7 +16,7 @@ from .findings import Broken, findings_of
 from .options import Options, check_options
 from .reading import Reading, read_recording
 from .report import Report, RoleEvidence, verdict_of
-from .waivers import apply_waivers, first_statement, read_waivers
+from .waivers import apply_waivers, read_waivers, waiver_remarks
 
 
 def judge(recording: Recording, database: Database, options: Options | None = None) -> Report:
@@ -40,7 +40,9 @@ def judge(recording: Recording, database: Database, options: Options | None = No
             broken.append(Broken(rule, Severity(severity), violations))
             if doubt:
                 undecided.append(Undecided(rule.id, doubt))
-        return _report(recording, reading, broken, undecided)
+        open_ = {question.rule for question in undecided}
+        judged = [one.rule.id for one in broken if one.rule.id not in open_]
+        return _report(recording, reading, broken, undecided, judged)
 
 
 @contextmanager
@@ -76,12 +78,16 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
 
 
 def _report(
-    recording: Recording, reading: Reading, broken: Sequence[Broken], undecided: list[Undecided]
+    recording: Recording,
+    reading: Reading,
+    broken: Sequence[Broken],
+    undecided: Sequence[Undecided],
+    judged: Sequence[str],
 ) -> Report:
-    waivers = read_waivers(reading.facts, first_statement(recording.text))
-    standing, waived, notes = apply_waivers(findings_of(broken), waivers)
+    waivers = read_waivers(recording.text, reading.facts)
+    standing, waived = apply_waivers(findings_of(broken), waivers)
+    known = [rule.id for rule in reading.database.rules]
     conflicts = dict.fromkeys(note for roles in reading.roles for note in roles.conflicts)
-    notes += [f"Evidence conflicts for {note}" for note in conflicts]
     return Report(
         file=recording.file,
         family=reading.families[0].family if reading.families else "",
@@ -91,7 +97,9 @@ def _report(
         roles=tuple(_evidence(reading.roles)),
         families=reading.families,
         waived=tuple(waived),
-        notes=tuple(notes),
+        notes=tuple(f"Evidence conflicts for {note}" for note in conflicts),
+        remarks=tuple(waiver_remarks(waivers, waived, judged, known)),
+        judged=tuple(judged),
         lines=tuple(recording.text.splitlines()),
     )
 

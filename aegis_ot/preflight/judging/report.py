@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ...vocabulary import Finding, Severity, Undecided, VerdictWord, WellRef
+from ...vocabulary import Finding, Remark, Severity, Undecided, VerdictWord, WellRef
 from ..roles import Inference
 from .waivers import Waived
 
@@ -35,7 +35,9 @@ class Report:
         roles: Every role assignment, with evidence.
         families: All families, the likeliest first.
         waived: Findings that a waiver covers.
-        notes: Stale waivers and conflicting evidence.
+        notes: Conflicting evidence.
+        remarks: Stale and faulty waivers.
+        judged: Rules that were judged to the end.
         lines: The protocol's source lines.
     """
 
@@ -48,6 +50,8 @@ class Report:
     families: tuple[Inference, ...] = ()
     waived: tuple[Waived, ...] = ()
     notes: tuple[str, ...] = ()
+    remarks: tuple[Remark, ...] = ()
+    judged: tuple[str, ...] = ()
     lines: tuple[str, ...] = ()
 
 

@@ -1,23 +1,31 @@
 """Waivers written into a protocol: ``# aegis: ignore[PCR-2] the tutorial's own way``.
 
-Beside code (or on the line above it) a waiver covers findings that name that line; before the
-first statement of the file it covers the whole file. A reason is required. A waiver that
-covers nothing is stale and is reported.
+Beside a statement (or on the line above it) a waiver covers findings that name one of its
+lines; before the first statement of the file it covers the whole file. A reason is required.
+
+A waiver that covered nothing although its rule was judged is stale. Whether a waiver of a rule
+that was not judged (not selected, switched off, undecided, of another assay) is still needed
+cannot be known, so it is not called stale.
 """
 
 from __future__ import annotations
 
 import ast
+import difflib
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from ...vocabulary import Finding
+from ...vocabulary import Finding, Remark
 from ..text import SourceFacts
 
 _WAIVER = re.compile(
     r"aegis\s*:\s*ignore\s*(?:\[(?P<rules>[^\]]*)\])?\s*(?P<reason>.*)$", re.IGNORECASE
 )
+
+
+MODEL = "MODEL"
+"""Stands for a rule: of a finding that no rule covers, and of a question that went unanswered."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +35,7 @@ class Waiver:
     Attributes:
         line: Where it stands.
         lines: Source lines that it covers; empty for the whole file.
-        rules: Rule identifiers.
+        rules: Rule identifiers, in capitals.
         reason: Why; empty if missing, and then it waives nothing.
         problem: What is wrong with it, or ``""``.
     """
@@ -38,6 +46,14 @@ class Waiver:
     reason: str
     problem: str = ""
 
+    def covers(self, finding: Finding) -> bool:
+        """Whether it waives this finding."""
+        return (
+            not self.problem
+            and finding.rule.upper() in self.rules
+            and (not self.lines or not set(self.lines).isdisjoint(finding.lines))
+        )
+
 
 @dataclass(frozen=True)
 class Waived:
@@ -47,84 +63,124 @@ class Waived:
     waiver: Waiver
 
 
-def read_waivers(facts: SourceFacts, first_statement: int) -> list[Waiver]:
+def read_waivers(text: str, facts: SourceFacts) -> list[Waiver]:
     """All waivers of a protocol.
 
     Args:
-        facts: What the text says.
-        first_statement: Line of the first statement that is not a docstring or comment.
+        text: The protocol's source.
+        facts: What it says.
     """
-    found = []
-    for line, text in facts.comments.items():
-        match = _WAIVER.search(text)
-        if match is None:
-            continue
-        rules = tuple(
-            rule.strip().upper() for rule in (match["rules"] or "").split(",") if rule.strip()
-        )
-        reason = match["reason"].strip(" :-–—")
-        lines: tuple[int, ...] = (line,)
-        if line in facts.own_line:
-            lines = () if line < first_statement else (line, _next_code(facts, line))
-        problem = ""
-        if not rules:
-            problem = "names no rule: write `# aegis: ignore[PCR-2] reason`"
-        elif not reason:
-            problem = f"gives no reason for waiving {', '.join(rules)}, so it waives nothing"
-        found.append(Waiver(line, lines, rules, reason, problem))
-    return found
+    written = [
+        (line, match)
+        for line, comment in facts.comments.items()
+        if (match := _WAIVER.search(comment)) is not None
+    ]
+    if not written:
+        return []
+    places = _Places(text, facts)
+    return [_waiver(line, match, places) for line, match in written]
 
 
-def first_statement(text: str) -> int:
-    """The line where a protocol's code begins, after comments and docstring."""
-    try:
-        body = ast.parse(text).body
-    except (SyntaxError, ValueError):
-        return 1
-    for node in body:
-        if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
-            return node.lineno
-    return len(text.splitlines()) + 1
+def _waiver(line: int, match: re.Match[str], places: _Places) -> Waiver:
+    listed = (rule.strip().upper() for rule in (match["rules"] or "").split(","))
+    rules = tuple(dict.fromkeys(rule for rule in listed if rule))
+    reason = match["reason"].strip(" :-–—")
+    problem = ""
+    if not rules:
+        problem = "names no rule: write `# aegis: ignore[PCR-2] reason`"
+    elif not reason:
+        problem = f"gives no reason for waiving {', '.join(rules)}, so it waives nothing"
+    return Waiver(line, places.covered(line), rules, reason, problem)
 
 
-def stale(waiver: Waiver) -> str:
-    """The note on a waiver that covers nothing."""
-    return (
-        f"The waiver of {', '.join(waiver.rules)} at line {waiver.line} is stale: "
-        "nothing is found there."
-    )
+class _Places:
+    """Which lines a comment speaks of."""
 
+    def __init__(self, text: str, facts: SourceFacts) -> None:
+        self._facts = facts
+        self._statements: list[tuple[int, int]] = []
+        self._first = 1
+        try:
+            tree = ast.parse(text)
+        except (SyntaxError, ValueError):
+            return
+        self._first = len(text.splitlines()) + 1
+        for node in tree.body:
+            if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
+                self._first = node.lineno
+                break
+        for part in ast.walk(tree):
+            if isinstance(part, ast.stmt):
+                body = getattr(part, "body", None)
+                last = body[0].lineno - 1 if body else part.end_lineno or part.lineno
+                self._statements.append((part.lineno, max(last, part.lineno)))
 
-def _next_code(facts: SourceFacts, line: int) -> int:
-    line += 1
-    while line in facts.own_line:
-        line += 1
-    return line
+    def covered(self, line: int) -> tuple[int, ...]:
+        """The lines of the statement at ``line`` or below it; empty: the whole file."""
+        if line not in self._facts.own_line:
+            return self._statement(line)
+        if line < self._first:
+            return ()
+        below = line + 1
+        while below in self._facts.own_line:
+            below += 1
+        return (line, *self._statement(below))
+
+    def _statement(self, line: int) -> tuple[int, ...]:
+        """A simple statement's lines, or those of a compound one's head."""
+        around = [(last - first, first, last) for first, last in self._statements]
+        holding = [span for span in around if span[1] <= line <= span[2]]
+        if not holding:
+            return (line,)
+        _, first, last = min(holding)
+        return tuple(range(first, last + 1))
 
 
 def apply_waivers(
     findings: Iterable[Finding], waivers: Sequence[Waiver]
-) -> tuple[list[Finding], list[Waived], list[str]]:
-    """Findings that stand, findings that are waived, and what is wrong with the waivers."""
+) -> tuple[list[Finding], list[Waived]]:
+    """Findings that stand, and findings that are waived."""
     standing: list[Finding] = []
     waived: list[Waived] = []
-    used: set[int] = set()
     for finding in findings:
-        cover = next(
-            (
-                waiver
-                for waiver in waivers
-                if not waiver.problem
-                and finding.rule.upper() in waiver.rules
-                and (not waiver.lines or not set(waiver.lines).isdisjoint(finding.lines))
-            ),
-            None,
-        )
+        cover = next((waiver for waiver in waivers if waiver.covers(finding)), None)
         if cover is None:
             standing.append(finding)
         else:
-            used.add(cover.line)
             waived.append(Waived(finding, cover))
-    problems = [f"The waiver at line {w.line} {w.problem}." for w in waivers if w.problem]
-    problems += [stale(w) for w in waivers if not w.problem and w.line not in used]
-    return standing, waived, problems
+    return standing, waived
+
+
+def waiver_remarks(
+    waivers: Sequence[Waiver],
+    waived: Sequence[Waived],
+    judged: Collection[str],
+    known: Collection[str],
+) -> list[Remark]:
+    """What is wrong with the waivers of a protocol, each with its line.
+
+    Args:
+        waivers: All of them.
+        waived: What they covered.
+        judged: Rules that were judged to the end.
+        known: Every rule that exists.
+    """
+    remarks: list[Remark] = []
+    used = {(w.waiver.line, w.finding.rule.upper()) for w in waived}
+    names = {name.upper(): name for name in known}
+    for waiver in waivers:
+        if waiver.problem:
+            remarks.append(Remark(f"The waiver {waiver.problem}.", waiver.line))
+            continue
+        for rule in waiver.rules:
+            if rule not in names and rule != MODEL:
+                near = difflib.get_close_matches(rule, names, n=2, cutoff=0.6)
+                hint = f"; did you mean {' or '.join(names[n] for n in near)}?" if near else "."
+                told = f"The waiver names {rule}, but there is no such rule{hint}"
+                remarks.append(Remark(told, waiver.line))
+        covered = {rule for line, rule in used if line == waiver.line}
+        idle = [r for r in judged if r.upper() in waiver.rules and r.upper() not in covered]
+        if idle:
+            told = f"The waiver of {', '.join(idle)} is stale: nothing is found there."
+            remarks.append(Remark(told, waiver.line))
+    return remarks
