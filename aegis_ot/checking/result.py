@@ -166,7 +166,11 @@ class CheckRun:
 
 
 def with_findings(report: Report, findings: Sequence[Finding], **changes: Any) -> Report:
-    """A report with other findings and the verdict that follows from them."""
-    return dataclasses.replace(
-        report, findings=tuple(findings), verdict=verdict_of(findings), **changes
-    )
+    """A report with other findings and the verdict that follows from them.
+
+    What could not be judged (a model that judges alone gave no answer) stays so.
+    """
+    verdict = verdict_of(findings)
+    if report.verdict is VerdictWord.ERROR:
+        verdict = report.verdict
+    return dataclasses.replace(report, findings=tuple(findings), verdict=verdict, **changes)

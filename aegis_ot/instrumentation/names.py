@@ -1,41 +1,41 @@
-"""Which local names of the protocol held which wells: the names that the scientist gave.
+"""Which names of the protocol held which wells: the names that the scientist gave.
 
-A profile hook on the return of the protocol's own functions sees every local name with its
-last value, through loops, helpers and comprehensions, even in helpers that move no liquid.
+The local names of each of the protocol's functions are looked at as it returns, through loops
+and helpers, even in helpers that move no liquid.
 """
 
 from __future__ import annotations
 
-import inspect
-import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from types import CodeType, FrameType
+from pathlib import Path
+from types import FrameType
 from typing import Any
 
 from ..vocabulary import WellRef
+from .held import DEEPEST, Reader, Row, entries, items
+from .own_functions import helper_modules, own_functions
+from .returns import heard_returns
 from .wells import WellResolver
-
-_DEEPEST = 3
-"""Containers nested deeper than this are not a plate map any more."""
-_LONGEST = 1536
-"""Nor longer ones: no plate has more wells, and rows of data are not worth the time."""
-
-_CHEAP_TO_TURN_OFF = sys.version_info < (3, 12)
-"""From Python 3.12 on each change of the profile function makes all code be prepared anew."""
 
 
 @dataclass(frozen=True)
 class NameBinding:
-    """One name that held wells.
+    """One name that held wells, or that tells of some.
 
     Attributes:
-        name: As written in the protocol; ``layout["ntc"]`` for an entry of a dict.
+        name: As written in the protocol; ``layout["ntc"]`` for an entry of a dict, ``self.ntc``
+            for an attribute of an object of the protocol's own making.
         wells: The wells it held, in order; empty for a name that held whole labware.
-        function: The function whose local it was, ``"<module>"`` for a global.
-        line: First line of that function.
+        function: The function whose local it was, ``"<module>"`` for a global; with the module's
+            name in front, ``"layout.wells_of"``, in a helper module.
+        line: First line of that function; 0 in a helper module, whose lines are not the
+            protocol's.
         labware: Keys of the labware it held, in order.
+        spots: Names of wells (``"A12"``) that it held as text, in order, of whatever labware.
+        rows: Rows of a plate map that it held: words and numbers beside wells.
+        values: Words and numbers that it held as a plain list, one beside another.
     """
 
     name: str
@@ -43,25 +43,30 @@ class NameBinding:
     function: str
     line: int
     labware: tuple[str, ...] = ()
+    spots: tuple[str, ...] = ()
+    rows: tuple[Row, ...] = ()
+    values: tuple[str | float, ...] = ()
 
 
 class NameCollector:
-    """Collects the names of one run."""
+    """Collects the names of one run.
+
+    Args:
+        wells: Knows the run's labware.
+        file_name: ``co_filename`` of the protocol's code.
+    """
 
     def __init__(self, wells: WellResolver, file_name: str) -> None:
-        from opentrons.protocol_api import Labware, Well
-
-        # Asked for by type: a protocol's own objects may answer any attribute, or raise at it.
-        self._well_type: type = Well
-        self._labware_type: type = Labware
-        self._wells = wells
+        self._reader = Reader(wells)
         self._file_name = file_name
-        self._bindings: dict[tuple[object, ...], NameBinding] = {}
+        self._bindings: dict[NameBinding, None] = {}
+        self._looks: dict[tuple[str, str], tuple[int, ...]] = {}
+        self._labware: dict[str, Any] = {}
 
     @property
     def bindings(self) -> tuple[NameBinding, ...]:
         """What was found so far, each once, in order of appearance."""
-        return tuple(self._bindings.values())
+        return tuple(self._bindings)
 
     def look(self, names: Mapping[str, Any], function: str, line: int) -> None:
         """Take in the local (or global) names of one function."""
@@ -69,118 +74,102 @@ class NameCollector:
             if not name.startswith("__"):
                 # A well of another context, say: no reason to stop the protocol.
                 with suppress(Exception):
-                    self._take(name, value, function, line, 0)
+                    if self._is_new(function, name, value):
+                        self._take(name, value, function, line, 0)
+
+    def _is_new(self, function: str, name: str, value: Any) -> bool:
+        """Whether a name holds anything else than at the last look: containers are long."""
+        listed = [item for _, item in entries(value)] or items(value)
+        if not listed:
+            return True
+        seen = (
+            id(value),
+            *map(id, listed),
+            *(len(item) for item in listed if type(item) in (dict, list)),
+        )
+        if self._looks.get((function, name)) == seen:
+            return False
+        self._looks[(function, name)] = seen
+        return True
 
     def _take(self, name: str, value: Any, function: str, line: int, depth: int) -> None:
-        if issubclass(type(value), dict) and depth < _DEEPEST and dict.__len__(value) <= _LONGEST:
-            for key, item in list(dict.items(value)):
+        read = self._reader
+        if depth < DEEPEST:
+            for key, item in entries(value):
                 if isinstance(key, (str, int, float)):
                     self._take(f"{name}[{key!r}]", item, function, line, depth + 1)
-        wells, labware = self._wells_in(value, depth), self._labware_in(value, depth)
-        if wells or labware:
-            binding = NameBinding(name, wells, function, line, labware)
-            self._bindings.setdefault((function, name, wells, labware), binding)
+            for key, item in read.fields(value):
+                self._take(f"{name}.{key}", item, function, line, depth + 1)
+        binding = NameBinding(
+            name,
+            read.wells(value, depth),
+            function,
+            line,
+            read.labware(value, depth),
+            read.spots(value, depth),
+            read.rows(value),
+            read.values(value),
+        )
+        if len(binding.labware) == 1 and issubclass(type(value), read.labware_type):
+            self._labware[binding.labware[0]] = value
+        self._add(binding)
 
-    def _wells_in(self, value: Any, depth: int) -> tuple[WellRef, ...]:
-        if issubclass(type(value), self._well_type):
-            core = value._core
-            info = self._wells.info_of(core)
-            return () if info.is_tip_rack else (self._wells.ref(info.key, str(core.get_name())),)
-        items = _items(value, (list, tuple, set, frozenset)) if depth < _DEEPEST else ()
-        return tuple(ref for item in items for ref in self._wells_in(item, depth + 1))
+    def _add(self, found: NameBinding) -> None:
+        if found.wells or found.labware or found.spots or found.rows or found.values:
+            self._bindings.setdefault(found)
 
-    def _labware_in(self, value: Any, depth: int) -> tuple[str, ...]:
-        if issubclass(type(value), self._labware_type):
-            return (self._wells.register(value._core).key,)
-        items = _items(value, (list, tuple)) if depth < _DEEPEST else ()
-        return tuple(key for item in items for key in self._labware_in(item, depth + 1))
+    def _look_at_notes(self) -> None:
+        """What the protocol wrote on the wells themselves."""
+        notes: dict[str, list[Row]] = {}
+        for labware in self._labware.values():
+            for well in labware.wells():
+                for name, said in self._reader.notes(well):
+                    ref = self._reader.wells(well)
+                    if ref:
+                        notes.setdefault(name, []).append(Row((("", ref[0]), (name, said))))
+        for name, rows in notes.items():
+            self._add(NameBinding(name, (), "<wells>", 0, rows=tuple(rows)))
 
     @contextmanager
-    def watching(self, namespace: Mapping[str, Any] | None = None) -> Iterator[None]:
-        """Watch the returns of the protocol's functions in this thread.
+    def watching(self, namespace: Mapping[str, Any], text: str = "") -> Iterator[None]:
+        """Look at the names of the protocol's functions as they return, in this thread.
 
         Args:
-            namespace: The protocol's globals. If ``run`` is its only function, its frame is kept
-                until the end instead: the hook costs a fifth of a simulation's time or more.
+            namespace: The protocol's globals.
+            text: Its source, where there is no file to read it from.
         """
-        if sys.getprofile() is not None:  # a profiler or debugger is at work: leave it in peace
-            yield
-            return
-        only = self._only_function(namespace) if namespace is not None else None
-        kept: list[FrameType] = []
+        modules = helper_modules(namespace)
+        self._reader.modules = {str(namespace.get("__name__", "builtins"))}
+        self._reader.modules.update(module.__name__ for module in modules)
+        files = {self._file_name, *(str(module.__file__) for module in modules)}
+        functions = {
+            id(function): function
+            for names in (namespace, *map(vars, modules))
+            for function in own_functions(names, files)
+        }
 
-        def hook(frame: FrameType, event: str, _argument: Any) -> None:
-            code = frame.f_code
-            if code is only and event == "call":
-                kept.append(frame)
-                sys.setprofile(None)
-            elif event == "return" and code.co_filename == self._file_name:
-                self.look(frame.f_locals, code.co_name, code.co_firstlineno)
+        def source(file_name: str) -> str:
+            if text and file_name == self._file_name:
+                return text
+            try:
+                return Path(file_name).read_text(encoding="utf-8")
+            except (OSError, ValueError):
+                return ""
 
-        hook.sees_names_only = True  # type: ignore[attr-defined]
-        sys.setprofile(hook)
         try:
-            yield
+            with heard_returns(tuple(functions.values()), source, self._look_at):
+                yield
         finally:
-            if not kept or sys.getprofile() is hook:
-                sys.setprofile(None)
-            for frame in kept:
-                self.look(frame.f_locals, frame.f_code.co_name, frame.f_code.co_firstlineno)
+            for module in modules:
+                self.look(vars(module), f"{module.__name__}.<module>", 0)
+            with suppress(Exception):
+                self._look_at_notes()
+            self._labware.clear()
 
-    def _only_function(self, namespace: Mapping[str, Any]) -> CodeType | None:
-        """The code of ``run``, if no other function or class of the protocol can be found.
-
-        Comprehensions and lambdas do not count: they bind no names that tell of a well's use.
-        """
-        run = getattr(inspect.unwrap(namespace.get("run")), "__code__", None)  # type: ignore[arg-type]
-        module = namespace.get("__name__", "builtins")
-        if not isinstance(run, CodeType) or run.co_filename != self._file_name or _defines(run):
-            return None
-        for value in list(namespace.values()):
-            if isinstance(value, type) and value.__module__ == module:
-                return None
-            code = getattr(value, "__code__", None)
-            if (
-                isinstance(code, CodeType)
-                and code is not run
-                and code.co_filename == self._file_name
-                and not code.co_name.startswith("<")
-            ):
-                return None
-        return run
-
-
-def _defines(code: CodeType) -> bool:
-    """Whether functions or classes are defined within a function."""
-    return any(
-        isinstance(inner, CodeType) and (not inner.co_name.startswith("<") or _defines(inner))
-        for inner in code.co_consts
-    )
-
-
-def _items(value: Any, kinds: tuple[type, ...]) -> tuple[Any, ...]:
-    """What a container holds, past whatever a subclass of the protocol makes of iteration."""
-    for kind in kinds:
-        if issubclass(type(value), kind):
-            return tuple(kind.__iter__(value)) if kind.__len__(value) <= _LONGEST else ()  # type: ignore[attr-defined]
-    return ()
-
-
-def pause_watching() -> Any:
-    """Take the hook of :meth:`NameCollector.watching` off; give what this returns to ``resume``.
-
-    The hook is told of every call in Opentrons, hundreds for each command, most of them below
-    the cores, where none of the protocol's own functions runs. A profile function that is not
-    ours stays.
-    """
-    hook = sys.getprofile() if _CHEAP_TO_TURN_OFF else None
-    if getattr(hook, "sees_names_only", False):
-        sys.setprofile(None)
-        return hook
-    return None
-
-
-def resume_watching(hook: Any) -> None:
-    """Put the hook back."""
-    if hook is not None:
-        sys.setprofile(hook)
+    def _look_at(self, frame: FrameType) -> None:
+        code = frame.f_code
+        if code.co_filename == self._file_name:
+            self.look(frame.f_locals, code.co_name, code.co_firstlineno)
+        else:
+            module = frame.f_globals.get("__name__", "")
+            self.look(frame.f_locals, f"{module}.{code.co_name}", 0)

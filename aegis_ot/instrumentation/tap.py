@@ -17,7 +17,6 @@ from typing import Any
 from .calls import CORE_METHODS, CallReader
 from .callsite import find_call_site
 from .events import EventTap
-from .names import pause_watching, resume_watching
 from .operation import Listener, Operation, Pipette
 from .wells import WellResolver
 
@@ -86,8 +85,10 @@ class Tap:
     def _tapped_method(
         self, reader: CallReader, name: str, original: Callable[..., Any]
     ) -> Callable[..., Any]:
-        def heard(args: tuple[Any, ...], kwargs: dict[str, Any]) -> Any:
-            site = find_call_site(self._file_name, skip=2)
+        def method(core: Any, *args: Any, **kwargs: Any) -> Any:
+            if reader.busy:  # a legacy core moves by its own move_to inside an aspirate
+                return original(*args, **kwargs)
+            site = find_call_site(self._file_name)
             operation = reader.read(name, args, kwargs, site)
             if operation is None:
                 return original(*args, **kwargs)
@@ -102,15 +103,6 @@ class Tap:
             for listener in self._listeners:
                 listener.after(operation)
             return result
-
-        def method(core: Any, *args: Any, **kwargs: Any) -> Any:
-            if reader.busy:  # a legacy core moves by its own move_to inside an aspirate
-                return original(*args, **kwargs)
-            hook = pause_watching()
-            try:
-                return heard(args, kwargs)
-            finally:
-                resume_watching(hook)
 
         return method
 

@@ -1,0 +1,197 @@
+"""What a value of the protocol holds: wells, labware, names of wells, and rows of a plate map."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any, TypeAlias
+
+from ..vocabulary import WellRef
+from .wells import WellResolver
+
+DEEPEST = 3
+"""Containers nested deeper than this are not a plate map any more."""
+LONGEST = 1536
+"""Nor longer ones: no plate has more wells, and rows of data are not worth the time."""
+
+_LONGEST_TEXT = 200
+_MADE_IN_PYTHON = 1 << 9
+"""``Py_TPFLAGS_HEAPTYPE``: in a protocol all classes say that they are of ``builtins``."""
+_SPOT = re.compile(r"[A-P](?:0?[1-9]|1\d|2[0-4])")
+
+Cell: TypeAlias = "WellRef | str | float"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row of a plate map: a well and what is said beside it.
+
+    Attributes:
+        cells: Pairs of a column's name and what stands there: a well, the name of a well, other
+            words, a number. The column is ``""`` where it has no name; both cells of an entry
+            ``{"A1": "NTC"}`` are of that kind.
+    """
+
+    cells: tuple[tuple[str, Cell], ...]
+
+    @property
+    def wells(self) -> tuple[WellRef, ...]:
+        """The wells in it."""
+        return tuple(cell for _, cell in self.cells if isinstance(cell, WellRef))
+
+    @property
+    def spots(self) -> tuple[str, ...]:
+        """The names of wells in it (``"A1"``), of whatever labware."""
+        return tuple(cell for _, cell in self.cells if is_spot(cell))
+
+    @property
+    def said(self) -> tuple[tuple[str, str | float], ...]:
+        """All else: words and numbers, each with its column."""
+        return tuple(
+            (column, cell)
+            for column, cell in self.cells
+            if not isinstance(cell, WellRef) and not is_spot(cell)
+        )
+
+
+def is_spot(value: Any) -> bool:
+    """Whether this is the name of a well, as ``"A1"`` or ``"H12"``."""
+    return isinstance(value, str) and _SPOT.fullmatch(value) is not None
+
+
+class Reader:
+    """Reads values without trusting them: only Python's own containers are opened, past whatever
+    a subclass of the protocol makes of them.
+
+    Attributes:
+        modules: ``__module__`` of the classes that are the protocol's own.
+    """
+
+    def __init__(self, wells: WellResolver) -> None:
+        from opentrons.protocol_api import Labware, Well
+
+        # Asked for by type: a protocol's own objects may answer any attribute, or raise at it.
+        self._well_type: type = Well
+        self.labware_type: type = Labware
+        self._wells = wells
+        self.modules: set[str] = {"builtins"}
+
+    def wells(self, value: Any, depth: int = 0) -> tuple[WellRef, ...]:
+        """The wells that a value is or lists, in order; tips are no wells."""
+        if issubclass(type(value), self._well_type):
+            core = value._core
+            info = self._wells.info_of(core)
+            return () if info.is_tip_rack else (self._wells.ref(info.key, str(core.get_name())),)
+        found = items(value) if depth < DEEPEST else ()
+        return tuple(ref for item in found for ref in self.wells(item, depth + 1))
+
+    def labware(self, value: Any, depth: int = 0) -> tuple[str, ...]:
+        """Keys of the labware that a value is or lists, in order."""
+        if issubclass(type(value), self.labware_type):
+            return (self._wells.register(value._core).key,)
+        found = items(value) if depth < DEEPEST else ()
+        return tuple(key for item in found for key in self.labware(item, depth + 1))
+
+    def spots(self, value: Any, depth: int = 0) -> tuple[str, ...]:
+        """The names of wells that a value is or lists, if it lists nothing else."""
+        if is_spot(value):
+            return (value,)
+        parts = [self.spots(item, depth + 1) for item in items(value)] if depth < DEEPEST else []
+        return tuple(spot for part in parts for spot in part) if all(parts) else ()
+
+    def values(self, value: Any) -> tuple[str | float, ...]:
+        """Words and numbers in a plain list of at least two."""
+        found = items(value)
+        plain = tuple(item for item in found if _is_plain(item))
+        return plain if len(plain) == len(found) > 1 else ()
+
+    def rows(self, value: Any) -> tuple[Row, ...]:
+        """A plate map: ``{"A1": "NTC"}``, or rows (of a CSV file, say) that each name a well."""
+        named = entries(value) or self.fields(value)
+        if named and all(self._is_place(key) for key, _ in named):
+            found = [(*self._cells(key), *self._cells(item)) for key, item in named]
+        elif named:
+            found = [self._cells(value)]
+        else:
+            found = list(self._table(items(value)))
+        return tuple(
+            row for row in map(Row, found) if row.said and (row.wells or row.spots)
+        )  # a map from well to well tells of transfers, not of roles
+
+    def _table(self, lines: tuple[Any, ...]) -> Iterator[tuple[tuple[str, Cell], ...]]:
+        columns: tuple[str, ...] = ()
+        for at, line in enumerate(lines):
+            listed = items(line)
+            if not listed and not entries(line) and not self.fields(line):
+                continue
+            if at == 0 and len(listed) > 1 and all(_is_word(item) for item in listed):
+                columns = listed  # the header of a CSV file
+            elif columns and len(listed) == len(columns):
+                yield self._cells(dict(zip(columns, listed, strict=True)))
+            else:
+                yield self._cells(line)
+
+    def _is_place(self, value: Any) -> bool:
+        return is_spot(value) or issubclass(type(value), self._well_type)
+
+    def _cells(self, value: Any) -> tuple[tuple[str, Cell], ...]:
+        named = entries(value) or self.fields(value)
+        pairs = named or [("", item) for item in items(value)] or [("", value)]
+        cells: list[tuple[str, Cell]] = []
+        for name, item in pairs:
+            column = name if isinstance(name, str) else ""
+            if issubclass(type(item), self._well_type):
+                cells += [(column, ref) for ref in self.wells(item)]
+            elif _is_plain(item):
+                cells.append((column, item))
+        return tuple(cells)
+
+    def fields(self, value: Any) -> list[tuple[str, Any]]:
+        """The attributes of a named tuple, or of an object or class of the protocol's making."""
+        kind = type(value)
+        if issubclass(kind, tuple):
+            names = getattr(kind, "_fields", ())
+            return list(zip(names, tuple.__iter__(value), strict=False))
+        made = value if issubclass(kind, type) else kind
+        is_own = made.__module__ in self.modules and made.__flags__ & _MADE_IN_PYTHON
+        if not is_own and kind is not SimpleNamespace:
+            return []
+        try:
+            own = object.__getattribute__(value, "__dict__")
+        except AttributeError:  # it has slots
+            return []
+        return [(name, item) for name, item in list(own.items()) if not name.startswith("__")]
+
+    @staticmethod
+    def notes(well: Any) -> list[tuple[str, str | float]]:
+        """What the protocol wrote on a well itself: ``well.content = "NTC"``."""
+        found = list(vars(well).items())
+        return [(name, item) for name, item in found if name[:1] != "_" and _is_plain(item)]
+
+
+def items(value: Any) -> tuple[Any, ...]:
+    """What a list, tuple or set holds."""
+    for kind in (list, tuple, set, frozenset):
+        if issubclass(type(value), kind):
+            return tuple(kind.__iter__(value)) if kind.__len__(value) <= LONGEST else ()
+    return ()
+
+
+def entries(value: Any) -> list[tuple[Any, Any]]:
+    """Keys and values of a dict."""
+    if issubclass(type(value), dict) and dict.__len__(value) <= LONGEST:
+        return list(dict.items(value))
+    return []
+
+
+def _is_word(value: Any) -> bool:
+    return isinstance(value, str) and value != "" and not is_spot(value)
+
+
+def _is_plain(value: Any) -> bool:
+    """Words or a number; not a flag."""
+    if isinstance(value, str):
+        return 0 < len(value) <= _LONGEST_TEXT
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
