@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -25,11 +27,13 @@ class YoloDetector:
     The file must have one input, ``float32`` ``(1, 3, height, width)``, RGB, 0 to 1,
     letterboxed with grey 114; and one output, ``float32`` ``(1, 4 + classes, n)``: for each of
     ``n`` boxes its centre x, centre y, width and height in px of the input, then one score from
-    0 to 1 per class. This is what ``yolo export format=onnx`` writes (without ``nms=True``).
+    0 to 1 per class; more boxes than numbers per box. This is what ``yolo export format=onnx``
+    writes (without ``nms=True`` and ``half=True``).
 
     Args:
         path: The ``.onnx`` file.
-        tip_class: Index of the class that means "tip".
+        tip_class: Index of the class that means "tip". If not given: the one whose name, as the
+            export keeps it, has the word "tip" in it, else the first.
         threshold: Least score of a detection.
         overlap: Intersection over union from which the weaker of two boxes is dropped.
         threads: Threads that onnxruntime may use.
@@ -41,7 +45,7 @@ class YoloDetector:
     def __init__(
         self,
         path: str | Path,
-        tip_class: int = 0,
+        tip_class: int | None = None,
         threshold: float = 0.5,
         overlap: float = 0.5,
         threads: int = 1,
@@ -52,13 +56,22 @@ class YoloDetector:
         except OSError as error:
             raise ModelError(f"The detector {self._name} cannot be read: {error}") from error
         self._session = open_session(model, threads, f"The detector {self._name}")
-        self._class, self.threshold, self._overlap = tip_class, threshold, overlap
+        self._class = _named_class(self._session) if tip_class is None else tip_class
+        self.threshold, self._overlap = threshold, overlap
         inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
-        if len(inputs) != 1 or len(outputs) != 1 or len(inputs[0].shape) != 4:
+        if len(inputs) != 1 or len(outputs) != 1:
             raise ModelError(
                 f"The detector {self._name} has {len(inputs)} inputs and {len(outputs)} outputs; "
                 "expected one image (1, 3, height, width) and one table (1, 4 + classes, n)."
             )
+        shape = inputs[0].shape
+        if len(shape) != 4 or shape[1] not in (3, *_free(shape[1])):
+            raise ModelError(
+                f"The detector {self._name} takes an input of shape {tuple(shape)}; expected one "
+                "RGB image (1, 3, height, width)."
+            )
+        if all(isinstance(side, int) for side in outputs[0].shape):
+            self._check_table(tuple(outputs[0].shape))
         if inputs[0].type != "tensor(float)":
             raise ModelError(
                 f"The detector {self._name} takes {inputs[0].type}; expected float32. Export it "
@@ -110,17 +123,46 @@ class YoloDetector:
             table = np.asarray(self._session.run(None, {self._input: canvas})[0])
         except Exception as error:  # onnxruntime raises its own, unexported exceptions
             raise ModelError(f"The detector {self._name} failed on an image: {error}") from error
-        if table.ndim != 3 or table.shape[0] != 1 or table.shape[1] < 5 + self._class:
-            raise ModelError(
-                f"The detector {self._name} gave an output of shape {table.shape}; expected "
-                f"(1, 4 + classes, n) with class {self._class} among the classes."
-            )
+        self._check_table(table.shape)
         rows = table[0].T.astype(np.float64)
         scores = rows[:, 4 + self._class]
         # A box counts for the tip only if no other class claims it more strongly.
         good = (scores >= self.threshold) & (scores >= rows[:, 4:].max(axis=1, initial=0.0))
         good &= np.isfinite(rows[:, :4]).all(axis=1) & (rows[:, 2] > 0) & (rows[:, 3] > 0)
+        if good.any() and rows[good, :4].max() <= 2.0:
+            raise ModelError(
+                f"The detector {self._name} gives boxes in fractions of the image; expected px of "
+                "its input. Export it with 'yolo export format=onnx'."
+            )
         return rows[good, :4], np.clip(scores[good], 0.0, 1.0)
+
+    def _check_table(self, shape: tuple[int, ...]) -> None:
+        """Raises :class:`ModelError` unless it is the documented layout."""
+        expected = f"expected (1, 4 + classes, n) with class {self._class} among the classes"
+        if len(shape) != 3 or shape[0] != 1 or shape[1] < 5 + self._class:
+            raise ModelError(
+                f"The detector {self._name} gives an output of shape {shape}; {expected}."
+            )
+        if shape[1] > shape[2]:
+            raise ModelError(
+                f"The detector {self._name} gives an output of shape {shape}: its boxes are rows, "
+                f"or have been sorted out already; {expected}. Export it without 'nms=True'."
+            )
+
+
+def _free(side: object) -> tuple[object, ...]:
+    """The side itself if the export leaves it open (a name or nothing), else nothing."""
+    return () if isinstance(side, int) else (side,)
+
+
+def _named_class(session: Any) -> int:
+    """Class whose name has the word "tip" in it, as YOLOv8 exports keep names; else 0."""
+    names = session.get_modelmeta().custom_metadata_map.get("names", "")
+    # A Python dictionary as text: {0: 'pipette tip', 1: 'rack'}.
+    for number, name in re.findall(r"(\d+)\s*:\s*['\"]([^'\"]*)['\"]", names):
+        if "tip" in re.split(r"[^a-z]+", name.lower()):
+            return int(number)
+    return 0
 
 
 def suppress(boxes: Boxes, scores: NDArray[np.float64], overlap: float) -> list[int]:

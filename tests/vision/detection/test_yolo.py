@@ -42,7 +42,7 @@ def save(path: Path, nodes: list, constants: dict, output_shape: list, inputs: i
 
 @pytest.fixture
 def red_finder(tmp_path: Path) -> Path:
-    """Two boxes: one on the centre of what is red in the letterboxed RGB image, one weak."""
+    """Five boxes: one on the centre of what is red in the letterboxed RGB image, four weak."""
     xs, ys = np.meshgrid(np.arange(SIDE) + 0.5, np.arange(SIDE) + 0.5)
     constants = {
         "c0": [0], "c1": [1], "c2": [2], "axis1": [1], "axis4": [1, 2, 3], "half": [0.5],
@@ -73,10 +73,10 @@ def red_finder(tmp_path: Path) -> Path:
         node("Clip", ["raw", "", "one"], ["clipped"]),
         node("Reshape", ["clipped", "column"], ["score"]),
         node("Concat", ["xs_out", "ys_out", "rest", "score"], ["strong"], axis=1),
-        node("Concat", ["weak", "strong"], ["output0"], axis=2),
+        node("Concat", ["weak", "strong", "weak", "weak", "weak"], ["output0"], axis=2),
     ]
     constants["one"] = np.float32(0.9)
-    return save(tmp_path / "red.onnx", nodes, constants, [1, 5, 2])
+    return save(tmp_path / "red.onnx", nodes, constants, [1, 5, 5])
 
 
 def red_frame(width: int, height: int, x: int, y: int) -> np.ndarray:
@@ -111,7 +111,7 @@ def test_a_path_without_a_description_is_taken_for_a_yolo_export(red_finder: Pat
 
 
 def test_another_class_is_not_the_tip(red_finder: Path) -> None:
-    with pytest.raises(ModelError, match=r"\(1, 5, 2\)"):
+    with pytest.raises(ModelError, match=r"\(1, 5, 5\)"):
         YoloDetector(red_finder, tip_class=1).detect(red_frame(640, 480, 200, 150))
 
 
@@ -133,6 +133,55 @@ def test_an_output_of_another_layout_is_refused(tmp_path: Path) -> None:
     path = save(tmp_path / "same.onnx", nodes, {}, [1, 3, SIDE, SIDE])
     with pytest.raises(ModelError, match="expected"):
         YoloDetector(path).detect(red_frame(640, 480, 200, 150))
+
+
+def fixed_table(path: Path, table: np.ndarray, names: str = "") -> Path:
+    """A network that gives the same table whatever it sees."""
+    node = helper.make_node
+    nodes = [
+        node("ReduceMean", ["images"], ["mean"], axes=[1, 2, 3], keepdims=0),
+        node("Mul", ["mean", "none"], ["zero"]),
+        node("Add", ["table", "zero"], ["output0"]),
+    ]
+    constants = {"none": np.float32([0.0]), "table": table.astype(np.float32)}
+    save(path, nodes, constants, list(table.shape))
+    if names:
+        model = onnx.load(path)
+        helper.set_model_props(model, {"names": names})
+        onnx.save(model, path)
+    return path
+
+
+def test_an_export_that_sorted_its_boxes_out_is_refused(tmp_path: Path) -> None:
+    path = fixed_table(tmp_path / "nms.onnx", np.zeros((1, 300, 6)))
+    with pytest.raises(ModelError, match=r"nms\.onnx .*\(1, 300, 6\).*nms=True"):
+        YoloDetector(path)
+
+
+def test_boxes_in_fractions_are_refused(tmp_path: Path) -> None:
+    table = np.tile(np.float32([0.5, 0.5, 0.05, 0.3, 0.9])[None, :, None], (1, 1, 8))
+    path = fixed_table(tmp_path / "fractions.onnx", table)
+    with pytest.raises(ModelError, match="fractions"):
+        YoloDetector(path).detect(np.zeros((480, 640, 3), np.uint8))
+
+
+def test_the_class_named_tip_is_found(tmp_path: Path) -> None:
+    table = np.zeros((1, 6, 8))
+    table[0, :4] = np.array([80, 80, 10, 60])[:, None]
+    table[0, 5] = 0.8
+    image = np.zeros((480, 640, 3), np.uint8)
+    unnamed = fixed_table(tmp_path / "unnamed.onnx", table)
+    named = fixed_table(tmp_path / "named.onnx", table, "{0: 'tiprack', 1: 'Pipette_Tip'}")
+    assert YoloDetector(unnamed).detect(image) is None
+    assert YoloDetector(unnamed, tip_class=1).detect(image) is not None
+    found = YoloDetector(named).detect(image)
+    assert found is not None
+    assert found.confidence == pytest.approx(0.8)
+
+
+def test_a_class_that_the_network_lacks_is_refused_when_it_is_loaded(red_finder: Path) -> None:
+    with pytest.raises(ModelError, match="class 3"):
+        YoloDetector(red_finder, tip_class=3)
 
 
 def test_suppression_keeps_the_best_of_overlapping_boxes() -> None:
