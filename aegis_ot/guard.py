@@ -108,18 +108,5 @@ def _guard_context(
     from .guarded_run import guard_rest_of
 
     _refuse(nameless)
-    guard_rest_of(_outermost(caller), protocol, settings)
+    guard_rest_of(caller, protocol, settings)
     return protocol
-
-
-def _outermost(frame: FrameType) -> FrameType:
-    """The protocol's ``run``: the outermost function of the caller's file on the stack."""
-    found, seen = frame, frame.f_back
-    while seen is not None:
-        if (
-            seen.f_code.co_filename == frame.f_code.co_filename
-            and seen.f_code.co_name != "<module>"
-        ):
-            found = seen
-        seen = seen.f_back
-    return found

@@ -50,19 +50,22 @@ def run_guarded(
 
     if is_rehearsing() or _is_guarded(protocol):
         return call()
-    settings = load_settings(**keywords)
     token = _GUARDED.set(weakref.ref(protocol))
     try:
+        settings = load_settings(**keywords)
         if protocol.is_simulating():
             return _rehearse_by_running(call, protocol, settings, file_name, run)
         layer1 = _preflight(protocol, settings, file_name)
         return _watched(call, protocol, settings, file_name, layer1)
+    except AegisError as error:
+        _make_final(error, protocol, file_name, sys._getframe(1))
+        raise
     finally:
         _GUARDED.reset(token)
 
 
 def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> None:
-    """Guard what is left of the protocol function that ``frame`` runs.
+    """Guard what is left of the protocol function that calls from ``frame``.
 
     Used for ``protocol = guard(protocol)``. There is no call to wrap, so the protocol is
     rehearsed here, in simulation too, and the end of the run is seen by a profile hook on the
@@ -72,19 +75,53 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
 
     if is_rehearsing() or _is_guarded(protocol):
         return
-    settings = load_settings(**keywords)
     file_name = frame.f_code.co_filename
-    layer1 = _preflight(protocol, settings, file_name)
-    watcher = _new_watcher(protocol, settings, file_name)
-    with ExitStack() as beginning:
-        beginning.callback(_GUARDED.reset, _GUARDED.set(weakref.ref(protocol)))
-        if watcher is not None:
-            tap = Tap(protocol, [watcher], file_name)
-            watcher.begin(tap.lift)
-            beginning.callback(tap.remove)
-            tap.install()
-        ending = beginning.pop_all()
-    _at_return_of(frame, lambda by_itself: _end(by_itself, protocol, layer1, watcher, ending))
+    try:
+        settings = load_settings(**keywords)
+        layer1 = _preflight(protocol, settings, file_name)
+        watcher = _new_watcher(protocol, settings, file_name)
+        with ExitStack() as beginning:
+            beginning.callback(_GUARDED.reset, _GUARDED.set(weakref.ref(protocol)))
+            if watcher is not None:
+                tap = Tap(protocol, [watcher], file_name)
+                watcher.begin(tap.lift)
+                beginning.callback(tap.remove)
+                tap.install()
+            ending = beginning.pop_all()
+    except AegisError as error:
+        _make_final(error, protocol, file_name, frame)
+        raise
+    run = _outermost(frame, file_name) or frame
+    _at_return_of(run, lambda by_itself: _end(by_itself, protocol, layer1, watcher, ending))
+
+
+def _make_final(error: AegisError, protocol: Any, file_name: str, frame: FrameType) -> None:
+    """See to it that ``error`` ends the run, even where the protocol catches it.
+
+    Nothing moves after it, and a ``run`` that returns all the same raises it again.
+    """
+    from .runtime.refusal import refuse_everything
+
+    refuse_everything(protocol, error, file_name)
+    run = _outermost(frame, file_name)
+
+    def raise_again(by_itself: bool) -> None:
+        if by_itself:
+            raise type(error)(str(error))
+
+    if run is not None:
+        _at_return_of(run, raise_again)
+
+
+def _outermost(frame: FrameType, file_name: str) -> FrameType | None:
+    """The protocol's ``run``: the outermost function of its file on the stack."""
+    found: FrameType | None = None
+    seen: FrameType | None = frame
+    while seen is not None:
+        if seen.f_code.co_filename == file_name and seen.f_code.co_name != "<module>":
+            found = seen
+        seen = seen.f_back
+    return found
 
 
 def _rehearse_by_running(
@@ -99,8 +136,8 @@ def _rehearse_by_running(
         return call()
     with tapped(protocol, listeners, file_name) as tap:
         names = NameCollector(tap.wells, file_name)
-        module = getattr(run, "__globals__", {})
-        with names.watching(module) if recorder is not None else nullcontext():
+        module, text = getattr(run, "__globals__", {}), _text_of(file_name, protocol)
+        with names.watching(module, text) if recorder is not None else nullcontext():
             result = _call_watched(call, watcher, tap)
         names.look(module, "<module>", 1)
     layer1 = ""
@@ -207,6 +244,14 @@ def _new_watcher(protocol: Any, settings: Settings, file_name: str) -> Watcher |
     return Watcher(protocol, settings, file_name)
 
 
+def _text_of(file_name: str, protocol: Any) -> str:
+    """The source of the protocol that is running, ``""`` where it cannot be had."""
+    from .preflight.rehearsal import find_script
+
+    script = find_script(file_name, protocol)
+    return script.text if script is not None else ""
+
+
 def _judge(
     recorder: Recorder, names: Any, protocol: Any, settings: Settings, file_name: str
 ) -> str:
@@ -216,10 +261,8 @@ def _judge(
         ProtocolRejected: It found errors, and ``rules="on"``.
     """
     from .preflight.checking import check_recording, is_rejected, rejection, summary
-    from .preflight.rehearsal import find_script
 
-    script = find_script(file_name, protocol)
-    text = script.text if script is not None else ""
+    text = _text_of(file_name, protocol)
     try:
         report = check_recording(recorder, names, text, file_name, settings)
         if settings.opinion == "ask":

@@ -6,6 +6,7 @@ import contextvars
 import inspect
 import io
 import os
+import sys
 import textwrap
 import time
 
@@ -257,6 +258,135 @@ class TestLive:
         run.join()
         assert time.monotonic() - pressed < 2.5
         assert run.status == "stopped"
+
+
+CAUGHT = {
+    "around the call": """
+def run(protocol):
+    try:
+        protocol = guard(protocol, {settings})
+    except Exception:
+        pass
+{body}
+""",
+    "around the call, and nothing done": """
+def run(protocol):
+    try:
+        guard(protocol, {settings})
+{nested}
+    except Exception:
+        pass
+""",
+    "outside the decorated": """
+@guard({settings})
+def guarded(protocol):
+{body}
+
+def run(protocol):
+    try:
+        guarded(protocol)
+    except Exception:
+        pass
+    protocol.home()
+    tips = protocol.load_labware("opentrons_96_tiprack_300ul", 6)
+    protocol.loaded_instruments["left"].pick_up_tip(tips["A1"])
+""",
+    "outside the decorated, and nothing done": """
+@guard({settings})
+def guarded(protocol):
+{body}
+
+def run(protocol):
+    try:
+        guarded(protocol)
+    except Exception:
+        pass
+""",
+}
+
+
+def caught(how: str, settings: str, level: str = "2.15", body: str = BAD) -> str:
+    """The text of a protocol that catches what the guard raises."""
+    head = f'from aegis_ot import guard\nmetadata = {{"apiLevel": "{level}"}}\n'
+    setup = DECK + textwrap.dedent(body)
+    return head + CAUGHT[how].format(
+        settings=settings,
+        body=textwrap.indent(setup, "    "),
+        nested=textwrap.indent(setup, " " * 8),
+    )
+
+
+@pytest.mark.parametrize("how", CAUGHT)
+class TestARejectionThatIsCaught:
+    @pytest.mark.parametrize("level", ["2.11", "2.16"])
+    def test_fails_the_analysis_all_the_same(self, how, level):
+        with pytest.raises(Exception, match="PCR-2"):
+            simulated(caught(how, 'assay="pcr"', level))
+
+    def test_moves_nothing_live(self, how):
+        run = LiveRun(caught(how, 'assay="pcr"')).start()
+        run.play()
+        run.join()
+        assert run.status == "failed"
+        moved = {c.commandType for c in run.commands}
+        assert moved <= {"home", "loadLabware", "loadPipette", "comment"}
+        assert [c.commandType for c in run.commands].count("home") <= 1  # the engine's own
+
+    def test_a_wrong_setting_is_no_way_around_the_guard(self, how):
+        run = LiveRun(caught(how, 'asay="pcr"', body=GOOD)).start()
+        run.play()
+        run.join()
+        assert run.status == "failed"
+        assert "aspirate" not in {c.commandType for c in run.commands}
+
+
+@pytest.mark.parametrize("caught_by", ["except Exception:", "except:", "except BaseException:"])
+@pytest.mark.parametrize("form", ["decorator", "call"])
+class TestEndlessRetries:
+    BODY = """
+    p300.pick_up_tip()
+    def retried(well):
+        while True:
+            try:
+                p300.transfer(50, tubes["A1"], well, new_tip="never")
+                return
+            {caught_by}
+                continue
+    for well in plate.wells()[:3]:
+        retried(well)
+    """
+
+    def test_an_abort_ends_them_live(self, form, caught_by):
+        with FakeSidecar() as sidecar:
+            sidecar.outcomes[0] = "fail"
+            settings = f'sidecar="{sidecar.url}", run_id="run", on_fail="abort"'
+            text = protocol(self.BODY.format(caught_by=caught_by), settings, form)
+            run = LiveRun(text).start()
+            run.join(20)
+            assert [finished["outcome"] for finished in sidecar.finished] == ["aborted"]
+        assert run.status == "failed"
+        assert [c.commandType for c in run.commands].count("aspirate") == 1
+
+    def test_an_abort_ends_them_in_a_watched_simulation(self, form, caught_by):
+        with FakeSidecar() as sidecar:
+            sidecar.outcomes[0] = "fail"
+            settings = f'sidecar="{sidecar.url}", run_id="run", on_fail="abort"'
+            settings += ", watch_simulation=True"
+            body = self.BODY.format(caught_by=caught_by)
+            with pytest.raises(Exception, match="The run ends here"):
+                simulated(protocol(body, settings, form, "2.11"))
+            assert len(sidecar.stored()) == 4
+
+
+def test_nothing_stays_behind_in_the_thread_of_an_aborted_run():
+    with FakeSidecar() as sidecar:
+        sidecar.outcomes[0] = "fail"
+        settings = f'sidecar="{sidecar.url}", on_fail="abort", watch_simulation=True'
+        body = TestEndlessRetries.BODY.format(caught_by="except:")
+        before = sys.gettrace(), sys.getprofile()
+        with pytest.raises(Exception, match="The run ends here"):
+            simulated(protocol(body, settings, "call", "2.11"))
+        assert (sys.gettrace(), sys.getprofile()) == before
 
 
 def test_a_protocol_after_one_that_could_not_begin_is_guarded():
