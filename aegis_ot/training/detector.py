@@ -8,10 +8,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
+import cv2
 import numpy as np
 import torch
 
 from .._version import __version__
+from ..errors import ConfigurationError, DatasetError
 from ..vision.detection.heatmap import FORMAT, HeatmapDetector
 from .figures import choose_threshold, measure
 from .fitting import DetectorSettings, fit
@@ -21,6 +23,11 @@ from .scenes import draw_frame
 from .simulated import SimulatedFrames
 
 __all__ = ["DetectorSettings", "train"]
+
+_DECISIVE = (
+    *("axes", "examples", "fitting", "network", "photometry", "pipettes", "recorded", "rooms"),
+    *("scenes", "simulated", "strokes", "transplant"),
+)
 
 
 def export(network: TipNetwork, path: Path) -> None:
@@ -65,12 +72,12 @@ def train(
         Path of the ``.onnx`` file.
 
     Raises:
-        DatasetError: A data set cannot be read.
+        ConfigurationError: ``out`` cannot be written, or a plate to hold out is in no data set.
+        DatasetError: A data set cannot be read, or two have the same name.
     """
     chosen = settings or DetectorSettings()
-    path = Path(out)
-    by_set = {Path(folder).name: read_frames(Path(folder)) for folder in datasets}
-    held = set(hold_out)
+    path, held = _output(out), set(hold_out)
+    by_set = _read(datasets, held)
     learnt = [f for frames in by_set.values() for f in frames if _plate(f) not in held]
     network, digest = fit(FramePool(learnt) if learnt else None, seed, chosen, progress)
     export(network, path)
@@ -87,7 +94,13 @@ def train(
             "held_out_plates": sorted(held),
             "examples_sha256": digest,
         },
-        "made_with": {"aegis_ot": __version__, "torch": torch.__version__, "numpy": np.__version__},
+        "made_with": {
+            "aegis_ot": __version__,
+            "sources_sha256": sources_digest(),
+            "torch": torch.__version__,
+            "numpy": np.__version__,
+            "opencv": cv2.__version__,
+        },
     }
     _write(path, description)
     if chosen.threshold is None:
@@ -101,6 +114,55 @@ def train(
         }
         _write(path, description)
     return path
+
+
+def sources_digest() -> str:
+    """SHA-256 of the code that decides what a seed gives: frames, views, network and fitting.
+
+    Weights whose description has another digest were made by other code: the same command gives
+    weights of the same kind today, not the same weights.
+    """
+    package = Path(__file__).parents[1]
+    files = [
+        *(package / "training" / f"{name}.py" for name in _DECISIVE),
+        *sorted((package / "simulation").glob("*.py")),
+        package / "vision" / "detection" / "views.py",
+        package / "vision" / "tips.py",
+    ]
+    digest = hashlib.sha256()
+    for file in files:
+        digest.update(file.name.encode() + b"\0" + file.read_bytes())
+    return digest.hexdigest()
+
+
+def _output(out: str | Path) -> Path:
+    """The file to write, known to be writable before an hour is spent on it."""
+    path = Path(out)
+    if path.suffix != ".onnx":
+        raise ConfigurationError(f"The detector's file must end in .onnx, not {path.name!r}.")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.with_suffix(".json.part").write_bytes(b"")
+        path.with_suffix(".json.part").unlink()
+    except OSError as error:
+        raise ConfigurationError(f"The detector cannot be written to {out}: {error}") from error
+    return path
+
+
+def _read(datasets: Sequence[str | Path], held: set[str]) -> dict[str, list[RecordedFrame]]:
+    by_set: dict[str, list[RecordedFrame]] = {}
+    for folder in map(Path, datasets):
+        if folder.name in by_set:
+            raise DatasetError(
+                f"Two data sets are called {folder.name}: rename one of the folders."
+            )
+        by_set[folder.name] = read_frames(folder)
+    unknown = held - {_plate(frame) for frames in by_set.values() for frame in frames}
+    if unknown:
+        raise ConfigurationError(
+            f"No data set has the plate {', '.join(sorted(unknown))} that is to be held out."
+        )
+    return by_set
 
 
 def _threshold(detector: HeatmapDetector, settings: DetectorSettings, seed: int) -> float:

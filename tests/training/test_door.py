@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.errors import ConfigurationError
+from aegis_ot.errors import ConfigurationError, DatasetError
 from aegis_ot.training import train_detector
 
 
@@ -29,7 +29,7 @@ def test_without_pytorch_the_user_is_told_what_to_install(
 
 def test_the_same_seed_trains_the_same_weights(tmp_path: Path) -> None:
     pytest.importorskip("torch")
-    from aegis_ot.training.detector import DetectorSettings
+    from aegis_ot.training.detector import DetectorSettings, sources_digest
     from aegis_ot.vision.detection import HeatmapDetector
 
     settings = DetectorSettings(rounds=2, frames=6, passes=1, frozen=1, batch=2, threshold_frames=8)
@@ -38,4 +38,20 @@ def test_the_same_seed_trains_the_same_weights(tmp_path: Path) -> None:
     other = train_detector([], tmp_path / "c" / "tip.onnx", 2, settings)
     assert first.read_bytes() == second.read_bytes()
     assert first.read_bytes() != other.read_bytes()
-    assert HeatmapDetector(first).description["seed"] == 1
+    described = HeatmapDetector(first).description
+    assert described["seed"] == 1
+    assert described["made_with"]["sources_sha256"] == sources_digest()
+    assert not list(first.parent.glob("*.part"))
+
+
+def test_what_cannot_work_is_said_before_training(tmp_path: Path) -> None:
+    pytest.importorskip("torch")
+    with pytest.raises(ConfigurationError, match=r"\.onnx"):
+        train_detector([], tmp_path / "weights.bin")
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ConfigurationError, match="written"):
+        train_detector([], tmp_path / "file" / "tip.onnx")
+    with pytest.raises(ConfigurationError, match="plate7"):
+        train_detector([], tmp_path / "tip.onnx", hold_out=["plate7"])
+    with pytest.raises(DatasetError, match="nowhere"):
+        train_detector([tmp_path / "nowhere"], tmp_path / "tip.onnx")

@@ -121,3 +121,24 @@ def test_a_part_of_an_example_keeps_the_label_on_its_pixels(seed: int) -> None:
 def test_a_small_example_is_not_cut() -> None:
     example = Example(np.zeros((256, 96, 3), np.uint8), None)
     assert example.cropped(np.random.default_rng(0), 192, 256) is example
+
+
+def test_every_tip_of_a_multi_channel_pipette_is_wanted() -> None:
+    second = TipLabel((140.0, 42.0), (144.0, 132.0), 5.0)
+    maps, weight = targets(56, 96, TipLabel((100.0, 40.0), (104.0, 130.0), 9.0, (second,)))
+    assert (maps[:2] == 1.0).sum() == 4
+    assert np.exp(maps[6, 10, 25]) == pytest.approx(9.0)
+    assert np.exp(maps[6, 10, 35]) == pytest.approx(5.0)
+    assert weight[0, 10, 35] > 0.2
+
+
+def test_the_tips_beside_move_with_the_view() -> None:
+    image = np.full((540, 960, 3), 30, np.uint8)
+    image[110:131, 490:511] = 255
+    second = TipLabel((500.5, 120.5), (503.5, 280.5), 10.0)
+    example = overview_example(image, TipLabel((300.5, 120.5), (303.5, 280.5), 10.0, (second,)))
+    assert example.label is not None
+    (x, y) = example.label.beside[0].collar
+    assert example.image[int(y), int(x)].min() == 255
+    (x, y) = example.mirrored().label.beside[0].collar  # type: ignore[union-attr]
+    assert example.mirrored().image[int(y), int(x)].min() == 255
