@@ -85,7 +85,7 @@ def main(folder: str, scorer: str) -> None:
         "last_ms": statistics.median(lasts),
         "model_mb": size_mb,
         "peak_mb": peak_mb(),
-        "normals": sum(used["normals"] for used in model.data["datasets"]),
+        "normals": sum(used["normals"] for used in model.data["recordings"]),
     }
     print(json.dumps(found))
 

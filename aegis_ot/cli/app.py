@@ -64,4 +64,16 @@ def run() -> None:
 
 
 # Each module adds its commands to the app.
-from . import checks, demo, dryruns, evaluations, layer2, llm, rulebook, sidecars  # noqa: E402, F401
+from . import (  # noqa: E402
+    checks,  # noqa: F401
+    datasets,  # noqa: F401
+    demo,  # noqa: F401
+    dryruns,  # noqa: F401
+    evaluations,  # noqa: F401
+    layer2,  # noqa: F401
+    llm,  # noqa: F401
+    rulebook,  # noqa: F401
+    sidecars,  # noqa: F401
+    trainings,  # noqa: F401
+    worldmodels,  # noqa: F401
+)

@@ -9,9 +9,9 @@ from typing import Annotated, Any
 
 import typer
 
-from ..errors import ConfigurationError
 from .app import CLEAN
 from .checks import one_of, split, write_text
+from .datasets import open_dataset, writable_folder
 from .evaluations import evaluate
 
 _SCORERS = (
@@ -70,7 +70,8 @@ def layer2(
         one_of("--scorer", name.replace("_", "-"), [known.replace("_", "-") for known in SCORERS])
     one_of("--protocol", protocol, PROTOCOLS)
     one_of("--threshold", threshold, ("", *THRESHOLDS))
-    _writable(figures)
+    if figures is not None:
+        writable_folder(figures)
     data = open_dataset(dataset)
     results, seconds = [], []
     with Shown() as shown:
@@ -102,32 +103,3 @@ def layer2(
     if figures is not None:
         typer.echo(f"{len(drawn)} figures in {figures}", err=True)
     raise typer.Exit(CLEAN)
-
-
-def open_dataset(folder: Path) -> Any:
-    """Load a data set.
-
-    Raises:
-        DatasetError: It is faulty, or the folder only holds data sets in folders of its own.
-    """
-    from ..errors import DatasetError
-    from ..vision.dataset import load_dataset
-
-    if folder.is_dir() and not (folder / "manifest.csv").exists():
-        inside = sorted(path.parent.name for path in folder.glob("*/manifest.csv"))
-        if inside:
-            raise DatasetError(
-                f"{folder} is no data set, but holds some: {', '.join(inside[:10])}. "
-                f"Name one of them, as {folder / inside[0]}."
-            )
-    return load_dataset(folder)
-
-
-def _writable(folder: Path | None) -> None:
-    """Fail before the work and not after it."""
-    if folder is None:
-        return
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ConfigurationError(f"{folder} cannot be made: {error.strerror}.") from None

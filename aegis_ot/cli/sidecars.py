@@ -30,6 +30,9 @@ def sidecar(
         str | None,
         typer.Option(help="anthropic:MODEL, openai:MODEL@URL or replay:FOLDER, for opinions."),
     ] = None,
+    world_model: Annotated[
+        Path | None, typer.Option(help="World model of the lab, written by aegis-ot fit.")
+    ] = None,
 ) -> None:
     """Watch the robot's tips: capture, score, judge, and show a page."""
     settings = SidecarConfig.load(
@@ -40,6 +43,7 @@ def sidecar(
         data=data,
         camera=None if camera is None else {"spec": camera},
         model=None if model is None else {"name": model},
+        cascade=None if world_model is None else {"model": world_model},
     )
 
     def ready(url: str) -> None:

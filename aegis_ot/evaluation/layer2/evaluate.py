@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from ...errors import ConfigurationError
 from ...vision.dataset import Dataset, TrueBoxes, load_dataset
@@ -16,6 +17,8 @@ from .cascade import run_cascade
 from .lopo import hold_out
 from .progress import Progress
 from .result import Layer2Result, summarise
+
+D = TypeVar("D")
 
 PROTOCOLS = ("lopo", "cascade")
 THRESHOLDS = ("first-normal", "pooled", "p-value")
@@ -111,10 +114,19 @@ def find_detector(
         DatasetError: If true boxes are asked for and the set has none.
         ModelError: If a detector's file cannot be used.
     """
-    if not isinstance(detector, str):
-        return detector, str(getattr(detector, "name", type(detector).__name__))
     if detector == "true":
         return data.true_boxes(), TrueBoxes.name
+    return named_detector(detector)
+
+
+def named_detector(detector: D | str) -> tuple[D | Detector, str]:
+    """A detector, loaded if only its file is named, and what to call it.
+
+    Raises:
+        ModelError: If its file cannot be used.
+    """
+    if not isinstance(detector, str):
+        return detector, str(getattr(detector, "name", type(detector).__name__))
     from ...vision.detection import load_detector
 
     return load_detector(detector), f"detector {Path(detector).name}"

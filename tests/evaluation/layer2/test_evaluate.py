@@ -140,7 +140,7 @@ def test_figures_are_drawn(folder: Path, tmp_path: Path) -> None:
 def test_a_labs_model_is_fitted_on_its_normals(folder: Path, tmp_path: Path) -> None:
     fit_model([folder], tmp_path / "lab.npz", "pca", "true")
     model = load_model(tmp_path / "lab.npz", "pca")
-    assert model.data["datasets"][0]["normals"] == 15
-    assert model.data["datasets"][0]["source"] == "synthetic"
+    assert model.data["recordings"][0]["normals"] == 15
+    assert model.data["recordings"][0]["source"] == "synthetic"
     with pytest.raises(ConfigurationError, match="comparison"):
         fit_model([folder], tmp_path / "x.npz", "isolation_forest", "true")
