@@ -57,3 +57,34 @@ def test_a_multi_channel_keyframe_names_every_well_once() -> None:
     assert frame.channels == 8
     assert [well.name for well in frame.sources] == ["A1"]
     assert [well.name for well in frame.destinations] == [f"{row}2" for row in "ABCDEFGH"]
+
+
+@pytest.mark.parametrize("api", ["2.13", "2.20"])
+def test_a_pipette_that_replaces_another_is_named_by_itself(api: str) -> None:
+    def protocol(context: Any) -> None:
+        plate, pipette = deck(context)
+        pipette.transfer(50, plate["A1"], plate["A2"])
+        tips = context.load_labware("opentrons_96_tiprack_20ul", "4")
+        small = context.load_instrument("p20_single_gen2", pipette.mount, [tips], replace=True)
+        small.transfer(5, plate["A1"], plate["A3"])
+
+    frames = record(protocol, api).keyframes
+    assert [f.pipette for f in frames] == ["p300_single_gen2"] * 4 + ["p20_single_gen2"] * 4
+    assert [f.capacity_ul for f in frames] == [300] * 4 + [20] * 4
+    assert [f.tip for f in frames][4:] == ["4:A1"] * 4
+
+
+def test_what_a_replaced_pipette_owes_is_taken_and_judged() -> None:
+    def protocol(context: Any) -> None:
+        plate, pipette = deck(context)
+        pipette.pick_up_tip()
+        pipette.aspirate(50, plate["A1"])
+        pipette.dispense(50, plate["A2"])
+        tips = context.load_labware("opentrons_96_tiprack_20ul", "4")
+        small = context.load_instrument("p20_single_gen2", pipette.mount, [tips], replace=True)
+        small.pick_up_tip()
+        small.aspirate(5, plate["B1"])
+        small.dispense(5, plate["B2"])
+        small.drop_tip()
+
+    assert record(protocol, "2.20").line == "A0 ^A2 T0 D0 P0 [0] A1 ^B2 T1 D1 ^B2 P1 [1]"

@@ -68,7 +68,7 @@ def test_a_stop_during_a_hold_ends_the_run_within_half_a_second(
     assert [f["outcome"] for f in sidecar.finished] == ["stopped"]
 
 
-@pytest.mark.parametrize("path", ["/keyframes", "/verdict", "/run"])
+@pytest.mark.parametrize("path", ["/keyframes", "/verdict", "/run", "/hold", "/finish"])
 def test_a_stop_while_the_sidecar_hangs(path: str, sidecar: FakeSidecar) -> None:
     hanging, release = threading.Event(), threading.Event()
 
