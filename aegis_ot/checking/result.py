@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..preflight import Database, Report
+from ..preflight.dossier import Dossier
 from ..preflight.judging import RoleEvidence, Waived, verdict_of
 from ..preflight.opinion import unanswered
 from ..vocabulary import Finding, Remark, Undecided, VerdictWord
@@ -79,6 +80,7 @@ class CheckedProtocol:
         settled: What is wrong with the project's waivers and baseline.
         exploration: What ``--all-parameters`` tried.
         judgement: What came of asking a model, where one was asked.
+        dossier: What that model got to know.
     """
 
     file: str
@@ -90,6 +92,7 @@ class CheckedProtocol:
     settled: tuple[Remark, ...] = ()
     exploration: Exploration | None = None
     judgement: Judgement | None = None
+    dossier: Dossier | None = None
 
     @property
     def verdict(self) -> VerdictWord:

@@ -158,7 +158,11 @@ def _judge(
         judgement = ask_model(settings.asking, rehearser, Check(*how), report, dossier, database)
         report = judgement.report
     return CheckedProtocol(
-        script.file_name, report=report, exploration=exploration, judgement=judgement
+        script.file_name,
+        report=report,
+        exploration=exploration,
+        judgement=judgement,
+        dossier=dossier,
     )
 
 

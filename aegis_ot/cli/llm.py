@@ -10,9 +10,9 @@ import typer
 from ..checking import Asking, CheckSettings, check_files
 from ..checking.files import read_csv_paths, read_labware, read_values
 from ..preflight import Options, load_database
-from ..reasoning import Request, ScriptedBackend, export_requests, import_answers
+from ..reasoning import ScriptedBackend, export_requests, import_answers, request_in
 from .app import BROKEN, app
-from .checks import one_of
+from .checks import one_of, split
 from .models import ASKING
 
 llm = typer.Typer(
@@ -27,7 +27,7 @@ def export(
     out: Annotated[Path, typer.Option(help="File of requests, one JSON object a line.")],
     config: Annotated[
         list[str] | None,
-        typer.Option(help=f"{', '.join(ASKING)}; may be given more than once [default: hybrid]."),
+        typer.Option(help=f"{', '.join(ASKING)}; repeatable, or a comma list [default: hybrid]."),
     ] = None,
     assay: Annotated[list[str] | None, typer.Option(help="Assay family, if known.")] = None,
     rules: Annotated[list[Path] | None, typer.Option(help="Further rules.")] = None,
@@ -50,25 +50,27 @@ def export(
     database = load_database(paths)
     for family in assay or ():
         database.family(family)
-    requests: list[tuple[str, Request]] = []
-    failed: dict[str, str] = {}
-    for name in config or ["hybrid"]:
-        settings = CheckSettings(
-            options=Options(assay=tuple(assay or ())),
-            rules=paths,
-            parameters=read_values(parameter or ()),
-            csv_parameters=read_csv_paths(csv or ()),
-            labware=read_labware(labware or ()),
-            timeout_s=timeout,
-            # Nobody answers: the check is made for its question.
-            asking=Asking(ScriptedBackend([]), one_of("--config", name, ASKING)),
-        )
-        for checked in check_files(files, settings, database).protocols:
-            if checked.judgement is not None and checked.judgement.request is not None:
-                requests.append((checked.file, checked.judgement.request))
-            elif checked.problem is not None:
-                failed[checked.file] = checked.problem.message
-    for file, problem in failed.items():
+    configs = [one_of("--config", name, ASKING) for name in split(config) or ["hybrid"]]
+    settings = CheckSettings(
+        options=Options(assay=tuple(assay or ())),
+        rules=paths,
+        parameters=read_values(parameter or ()),
+        csv_parameters=read_csv_paths(csv or ()),
+        labware=read_labware(labware or ()),
+        timeout_s=timeout,
+        # Nobody answers: the check is made for what a model would get to know.
+        asking=Asking(ScriptedBackend([])),
+    )
+    run = check_files(files, settings, database)
+    requests = [
+        (checked.file, request)
+        for checked in run.protocols
+        for name in configs
+        if checked.dossier is not None
+        and (request := request_in(name, checked.dossier, database)) is not None
+    ]
+    failed = [(c.file, c.problem.message) for c in run.protocols if c.problem is not None]
+    for file, problem in failed:
         typer.echo(f"{file}: {problem}", err=True)
     count = export_requests(requests, out)
     typer.echo(f"{out}: {count} requests.")

@@ -47,13 +47,11 @@ class Judgement:
         configuration: Which.
         report: The verdict. Where the model gave no answer, ``undecided`` holds an entry for
             ``MODEL`` that says why; without checks beside it the verdict is ``error`` then.
-        request: What the model was asked; ``None`` if none was to be asked.
-        reply: What came of that.
+        reply: What came of asking the model; ``None`` if none was to be asked.
     """
 
     configuration: Configuration
     report: Report
-    request: Request | None = None
     reply: Reply | None = None
 
     @property
@@ -125,28 +123,27 @@ def hybrid(
     rejudge: Rejudge | None = None,
 ) -> Judgement:
     """The checks, and a model that sees what they saw; it can only add."""
-    request = hybrid_request(dossier, database)
-    reply = ask(backend, request)
+    reply = ask(backend, hybrid_request(dossier, database))
     opinion = opinion_of(reply, dossier)
     second = second_report(report, opinion, database, options or Options(), rejudge)
     merged = merge(report, opinion, dossier, second)
-    return Judgement(Configuration.HYBRID, merged, request, reply)
+    return Judgement(Configuration.HYBRID, merged, reply)
 
 
 def trace_blind(
     report: Report, dossier: Dossier, database: Database, backend: Backend | None
 ) -> Judgement:
     """A model with rules and source decides alone (the paper's hybrid)."""
-    request = blind_request(dossier, database)
-    return _model_alone(Configuration.TRACE_BLIND, report, dossier, request, ask(backend, request))
+    reply = ask(backend, blind_request(dossier, database))
+    return _model_alone(Configuration.TRACE_BLIND, report, dossier, reply)
 
 
 def llm_only(
     report: Report, dossier: Dossier, database: Database, backend: Backend | None
 ) -> Judgement:
     """A model with the source decides alone, by what it knows itself."""
-    request = llm_only_request(dossier, database)
-    return _model_alone(Configuration.LLM_ONLY, report, dossier, request, ask(backend, request))
+    reply = ask(backend, llm_only_request(dossier, database))
+    return _model_alone(Configuration.LLM_ONLY, report, dossier, reply)
 
 
 def give_opinion(dossier: Dossier, database: Database, backend: Backend | None) -> Opinion:
@@ -185,11 +182,7 @@ def ask(backend: Backend | None, request: Request) -> Reply:
 
 
 def _model_alone(
-    configuration: Configuration,
-    report: Report,
-    dossier: Dossier,
-    request: Request,
-    reply: Reply,
+    configuration: Configuration, report: Report, dossier: Dossier, reply: Reply
 ) -> Judgement:
     opinion = opinion_of(reply, dossier, blind=True)
     # No check stands beside these: what the model reports is what there is.
@@ -214,4 +207,4 @@ def _model_alone(
         notes=tuple(f"{opinion.model}, left out: {text}" for text in opinion.left_out),
         lines=report.lines,
     )
-    return Judgement(configuration, alone, request, reply)
+    return Judgement(configuration, alone, reply)

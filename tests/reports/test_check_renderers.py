@@ -132,7 +132,7 @@ def test_html_is_self_contained_and_escaped() -> None:
 
 def _asked(reply: Reply, *findings: Finding, **more: object) -> CheckRun:
     judged = report(*findings, **more)
-    judgement = Judgement(Configuration.HYBRID, judged, None, reply)
+    judgement = Judgement(Configuration.HYBRID, judged, reply)
     checked = CheckedProtocol("f.py", judged, lines=LINES, judgement=judgement)
     return CheckRun((checked,), DATABASE, "1")
 
