@@ -6,8 +6,8 @@ well sets its threshold, or calibrates the scorer, and is not scored.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -33,6 +33,8 @@ class ScoredWell:
         anchor: Score of the plate's calibration well.
         standing: Score made comparable between plates; more than 0 is flagged.
         tips_missing: Whether no tip was found in a frame in which it hangs free.
+        limit: Score at which the standing is 0, in the scorer's unit.
+        parts: What the score is made of, where the scorer can say and was asked to.
     """
 
     sample: TrajectorySample
@@ -40,6 +42,8 @@ class ScoredWell:
     anchor: float
     standing: float
     tips_missing: bool
+    limit: float = float("nan")
+    parts: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def failed(self) -> bool:
@@ -84,6 +88,7 @@ def hold_out(
     threshold: str,
     progress: Progress | None = None,
     choose: Callable[[list[TrajectorySample]], list[TrajectorySample]] | None = None,
+    explain: bool = False,
 ) -> HeldOut:
     """Score every well but the calibration wells, plate by plate.
 
@@ -98,6 +103,7 @@ def hold_out(
         progress: Told of each plate.
         choose: Chooses those of the other plates' normals that are learned from; all if left
             out.
+        explain: Keep what each score is made of.
 
     Raises:
         ConfigurationError: If the scorer gives no p-values and they are asked for.
@@ -131,23 +137,70 @@ def hold_out(
                 f"plate {plate!r} held out: scorer {like.name!r} cannot learn from the other "
                 f"plates' {len(normals)} normal wells ({error}); record more of them"
             ) from error
-        if isinstance(scorer, Calibrating):
-            scorer.calibrate([anchor_well])
-        anchor = scorer.score(anchor_well)
-        anchors.append(ScoredWell(anchor_well, anchor, anchor, 0.0, _tipless(anchor_well)))
-        for sample in samples:
-            if sample.plate == plate and sample is not anchor_well:
-                score = scorer.score(sample)
-                wells.append(ScoredWell(sample, score, anchor, 0.0, _tipless(sample)))
+        own = [sample for sample in samples if sample.plate == plate]
+        first_well, *others = score_plate(scorer, anchor_well, own, explain)
+        anchors.append(first_well)
+        wells += others
         progress.step()
+    return HeldOut(like.name, hasattr(like, "p_value"), anchors, _place(wells, like, threshold))
+
+
+def score_plate(
+    scorer: Scorer,
+    anchor_well: TrajectorySample,
+    samples: Sequence[TrajectorySample],
+    explain: bool = False,
+) -> list[ScoredWell]:
+    """Scores of one plate by a fitted scorer, its calibration well first; without standing."""
+    if isinstance(scorer, Calibrating):
+        scorer.calibrate([anchor_well])
+    anchor = scorer.score(anchor_well)
+    wells = []
+    for sample in [anchor_well, *(sample for sample in samples if sample is not anchor_well)]:
+        score = anchor if sample is anchor_well else scorer.score(sample)
+        parts = _parts(scorer, sample) if explain and not _tipless(sample) else {}
+        wells.append(ScoredWell(sample, score, anchor, 0.0, _tipless(sample), parts=parts))
+    return wells
+
+
+def score_with(
+    samples: Sequence[TrajectorySample], fitted: Scorer, progress: Progress | None = None
+) -> HeldOut:
+    """Score every plate by one model that was fitted elsewhere, and say what the scores are of.
+
+    The threshold is the scorer's own p-value if it gives one, else each plate's first normal.
+    """
+    progress = progress or Progress()
+    first = first_normals(samples)
+    progress.begin(f"Scoring, {fitted.name}", len(first))
+    anchors, wells = [], []
+    for plate, anchor_well in first.items():
+        own = [sample for sample in samples if sample.plate == plate]
+        first_well, *others = score_plate(fitted, anchor_well, own, explain=True)
+        anchors.append(first_well)
+        wells += others
+        progress.step()
+    gives = hasattr(fitted, "p_value")
+    placed = _place(wells, fitted, "p-value" if gives else "first-normal")
+    return HeldOut(fitted.name, gives, anchors, placed)
+
+
+def _place(wells: Sequence[ScoredWell], like: Scorer, threshold: str) -> list[ScoredWell]:
     if threshold == "p-value":
         limit = -float(np.log(ALPHA))
-        wells = [replace(well, standing=well.score - limit) for well in wells]
-    elif threshold == "first-normal":
-        wells = _first_normal(wells)
-    else:
-        wells = _pooled(wells, isinstance(like, Calibrating))
-    return HeldOut(like.name, hasattr(like, "p_value"), anchors, wells)
+        return [replace(well, standing=well.score - limit, limit=limit) for well in wells]
+    if threshold == "first-normal":
+        return _first_normal(wells)
+    return _pooled(wells, isinstance(like, Calibrating))
+
+
+def _parts(scorer: Scorer, sample: TrajectorySample) -> dict[str, float]:
+    """Surprises of the signs behind a score, by sign, nats; none where the scorer has no report."""
+    report = scorer.report(sample) if hasattr(scorer, "report") else None
+    column = getattr(report, "column", report)
+    parts = {str(sign): float(value) for sign, value in getattr(column, "surprises", {}).items()}
+    patches = getattr(report, "patches", None)
+    return parts if patches is None else parts | {"patches": float(patches)}
 
 
 def _tipless(sample: TrajectorySample) -> bool:
@@ -159,7 +212,9 @@ def _first_normal(wells: Sequence[ScoredWell]) -> list[ScoredWell]:
     tiny = float(np.finfo(np.float64).tiny)
     return [
         replace(
-            well, standing=float(np.log(max(well.score, tiny)) - np.log(max(well.anchor, tiny)))
+            well,
+            standing=float(np.log(max(well.score, tiny)) - np.log(max(well.anchor, tiny))),
+            limit=well.anchor,
         )
         for well in wells
     ]
@@ -185,7 +240,9 @@ def _pooled(wells: Sequence[ScoredWell], calibrated: bool) -> list[ScoredWell]:
             for other, other_value in zip(wells, values, strict=True)
             if not other.failed and other.sample.plate != well.sample.plate
         ]
-        placed.append(replace(well, standing=value - _tail_limit(others)))
+        most = _tail_limit(others)
+        limit = most if calibrated else float(np.exp(most) * (well.anchor + 1e-9) - 1e-9)
+        placed.append(replace(well, standing=value - most, limit=limit))
     return placed
 
 

@@ -155,6 +155,7 @@ class Layer2Result:
                     "label": well.sample.label,
                     "failure_type": well.sample.failure_type,
                     "score": well.score,
+                    "limit": well.limit,
                     "standing": well.standing,
                     "flagged": bool(flag),
                 }
