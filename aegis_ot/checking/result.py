@@ -133,12 +133,12 @@ class CheckedProtocol:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Conflicting evidence, and what a model has to say."""
+        """What a model has to say beyond findings."""
         return self.report.notes if self.report else ()
 
     @property
     def remarks(self) -> tuple[Remark, ...]:
-        """Waivers that waive nothing, and known findings that are gone."""
+        """Conflicting evidence, waivers that waive nothing, known findings that are gone."""
         return (*(self.report.remarks if self.report else ()), *self.settled)
 
 

@@ -9,9 +9,9 @@
 Wells are ``slot:well``. A protocol has further keys only where there is something to say:
 ``error`` (``message``, ``line``) where it could not be judged, ``model`` (``name``, ``state``,
 ``detail``, ``seconds``, ``tokens``) where a model was asked, ``waived``, ``baselined``,
-``remarks`` (``line``, ``message``) on waivers that waive nothing, ``notes``, ``parameters`` and,
-on request, ``families`` and ``roles``. A finding that a model made and no check has
-``"source": "model"``.
+``remarks`` (``line``, ``message``) on conflicting evidence and on waivers that waive nothing,
+``notes``, ``parameters`` and, on request, ``families`` and ``roles``.
+A finding that a model made and no check has ``"source": "model"``.
 """
 
 from __future__ import annotations

@@ -74,7 +74,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Remark:
-    """Something that is wrong beside the protocol itself: a waiver that waives nothing.
+    """Something to be put right that breaks no rule: a waiver that waives nothing.
 
     Attributes:
         message: One or two sentences for people.

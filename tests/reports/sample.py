@@ -118,7 +118,7 @@ RUN = CheckRun(
                 waived=(Waived(PLACELESS, Waiver(1, (), ("GEN-3",), "the tube is a bottle")),),
                 judged=("PCR-2", "PCR-6", "GEN-3"),
                 remarks=(Remark("The waiver of PCR-5 is stale: nothing is found there.", 2),),
-                notes=("Evidence conflicts for plate:H12: label against name",),
+                notes=("a model: nothing else to say",),
                 roles=ROLES,
             ),
             lines=LINES,

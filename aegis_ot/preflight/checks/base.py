@@ -26,12 +26,17 @@ class Violation:
         sites: Both ends; the well that suffers stands last.
         well: The well that suffers.
         cause: Violations of one cause become one finding.
+        rests_on: Wells without whose roles nothing would be wrong. Where a comment alone says
+            what one of them is for, the finding is a warning at most.
+        on_comment: That comment, in words; filled in by the judge.
     """
 
     message: str
     sites: tuple[Site, ...]
     well: Well
     cause: tuple[Any, ...]
+    rests_on: tuple[Well, ...] = ()
+    on_comment: str = ""
 
 
 @dataclass(frozen=True)

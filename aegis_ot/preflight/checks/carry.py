@@ -117,6 +117,7 @@ class Carry(Check):
             ),
             well,
             (visit.line, met.line, what),
+            (origin, well),
         )
 
 
@@ -224,6 +225,7 @@ class DoseOrder(Check):
             ),
             visit.well,
             (visit.line, met.line, harm),
+            (origin, visit.well),
         )
 
     def _higher(
@@ -257,6 +259,7 @@ class DoseOrder(Check):
                     ),
                     visit.well,
                     (visit.line, met.line, "falling"),
+                    (other, visit.well),
                 )
         return None
 

@@ -175,6 +175,7 @@ class NeverReceives(Check):
                         ),
                         well,
                         (visit.line, line, what, case.title(well)),
+                        (origin, well),
                     )
 
 

@@ -38,12 +38,16 @@ def _joined(broken: Broken) -> Iterable[Finding]:
             shown = ", ".join(ref.name for ref in wells[1:7])
             more = f" and {len(wells) - 7} more" if len(wells) > 7 else ""
             message = f"{message} Likewise {shown}{more}."
+        severity = broken.severity
+        if first.on_comment:
+            # spec/rules.md puts comments below names, liquids and labels: they are believed
+            # enough to speak up, not enough to stop a run.
+            severity = Severity.WARNING
+            message = f"{message} Only a comment says so ({first.on_comment})."
         sites: dict[Site, None] = dict.fromkeys(first.sites)
         for violation in group[1:]:
             sites.update(dict.fromkeys(violation.sites))
-        yield Finding(
-            rule.id, broken.severity, message, tuple(sites), why=rule.rationale, fix=rule.fix
-        )
+        yield Finding(rule.id, severity, message, tuple(sites), why=rule.rationale, fix=rule.fix)
 
 
 def without_replaced(found: Sequence[Broken]) -> list[Broken]:

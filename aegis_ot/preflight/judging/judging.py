@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 
-from ...vocabulary import Severity, Undecided
+from ...vocabulary import Remark, Severity, Undecided
 from ..checks import Case, Doubt, Violation, make_check
 from ..rehearsal import Recording
 from ..roles import Roles
@@ -73,8 +73,18 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
             if isinstance(result, Doubt):
                 doubts.append(result.reason)
             else:
-                violations.append(replace(result, cause=(number, *result.cause)))
+                comment = _comment_alone(result, case.roles)
+                cause = (number, comment, *result.cause)
+                violations.append(replace(result, cause=cause, on_comment=comment))
     return violations, doubts[0] if doubts and not violations else ""
+
+
+def _comment_alone(violation: Violation, roles: Roles) -> str:
+    """The comment that a violation rests on, ``""`` if it rests on better evidence."""
+    for well in violation.rests_on:
+        if roles.by_comment_only(well.ref):
+            return roles.by_well[well.ref].evidence[0]
+    return ""
 
 
 def _report(
@@ -87,7 +97,6 @@ def _report(
     waivers = read_waivers(recording.text, reading.facts)
     standing, waived = apply_waivers(findings_of(broken), waivers)
     known = [rule.id for rule in reading.database.rules]
-    conflicts = dict.fromkeys(note for roles in reading.roles for note in roles.conflicts)
     return Report(
         file=recording.file,
         family=reading.families[0].family if reading.families else "",
@@ -97,8 +106,7 @@ def _report(
         roles=tuple(_evidence(reading.roles)),
         families=reading.families,
         waived=tuple(waived),
-        notes=tuple(f"Evidence conflicts for {note}" for note in conflicts),
-        remarks=tuple(waiver_remarks(waivers, waived, judged, known)),
+        remarks=(*_conflicts(reading.roles), *waiver_remarks(waivers, waived, judged, known)),
         judged=tuple(judged),
         lines=tuple(recording.text.splitlines()),
     )
@@ -107,6 +115,18 @@ def _report(
 def _missing(family: Family, needs: Sequence[str]) -> str:
     names = [" or ".join(family.roles[role].title for role in need.split("|")) for need in needs]
     return f"nothing says which well is the {' and which the '.join(names)}"
+
+
+def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:
+    """Evidence that conflicts, once for all the wells that it concerns."""
+    wells: dict[str, dict[str, None]] = {}
+    for roles in all_roles:
+        for conflict, refs in roles.conflicts.items():
+            wells.setdefault(conflict, {}).update(dict.fromkeys(ref.address for ref in refs))
+    for conflict, addresses in wells.items():
+        shown = list(addresses)[:8]
+        more = f" and {len(addresses) - 8} more" if len(addresses) > 8 else ""
+        yield Remark(f"What {', '.join(shown)}{more} is for is said in two ways: {conflict}.")
 
 
 def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:

@@ -35,8 +35,8 @@ class Report:
         roles: Every role assignment, with evidence.
         families: All families, the likeliest first.
         waived: Findings that a waiver covers.
-        notes: Conflicting evidence.
-        remarks: Stale and faulty waivers.
+        notes: What a model has to say beyond findings.
+        remarks: Conflicting evidence, stale and faulty waivers.
         judged: Rules that were judged to the end.
         lines: The protocol's source lines.
     """

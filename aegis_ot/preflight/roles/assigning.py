@@ -75,13 +75,14 @@ def _worth(clue: Clue) -> tuple[float, ...]:
 def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
     found.sort(key=lambda candidate: candidate[0], reverse=True)
     worth, role, clue, _ = found[0]
+    decisive = clue
     for _, other, hint, _ in found[1:]:
         # Weaker evidence may say more exactly what the stronger leaves open: the liquid says
         # "cells", the name says "vehicle_controls".
         exact = not hint.whole and hint.strength is not Strength.LOOSE_NAME
         said = exact or hint.strength == clue.strength
         if said and role != other and role in roles.closure(other):
-            role = other
+            role, decisive = other, hint
     rivals = [
         candidate
         for candidate in found[1:]
@@ -93,15 +94,15 @@ def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | 
     conflict = ""
     if rivals:
         conflict = f"{clue.said} against {rivals[0][2].said}"
-        roles.conflicts.append(f"{ref}: {conflict}")
+        roles.conflicts.setdefault(conflict, []).append(ref)
         if clue.strength <= Strength.LOOSE_NAME:
             return None
     agreeing = [c for c in found if role in roles.closure(c[1]) or c[1] in roles.closure(role)]
     level = next((c[3] for c in agreeing if c[3] is not None), None)
     return Assignment(
         role,
-        list(dict.fromkeys(c[2].said for c in agreeing)),
-        clue.strength,
+        list(dict.fromkeys([decisive.said, *(c[2].said for c in agreeing)])),
+        decisive.strength,
         clue.text,
         level,
         conflict,

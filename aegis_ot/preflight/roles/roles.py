@@ -15,8 +15,8 @@ class Assignment:
 
     Attributes:
         role: Name of the role.
-        evidence: What speaks for it, strongest first, in words.
-        strength: Of the strongest evidence.
+        evidence: What speaks for it, in words, first what decided.
+        strength: Of the strongest evidence that says so much.
         text: The words that named it.
         level: Concentration or dose, if known, on a scale within the family.
         conflict: What contradicts it, in words; empty if nothing.
@@ -37,12 +37,12 @@ class Roles:
     Attributes:
         family: The family.
         by_well: The role of each well that has one.
-        conflicts: Wells whose evidence conflicts, in words.
+        conflicts: Evidence that conflicts, in words, with the wells that it concerns.
     """
 
     family: Family
     by_well: dict[WellRef, Assignment] = field(default_factory=dict)
-    conflicts: list[str] = field(default_factory=list)
+    conflicts: dict[str, list[WellRef]] = field(default_factory=dict)
     derived: dict[WellRef, set[str]] = field(default_factory=dict)
     _closure: dict[str, frozenset[str]] = field(default_factory=dict)
 
@@ -56,6 +56,13 @@ class Roles:
     def has(self, ref: WellRef, wanted: frozenset[str]) -> bool:
         """Whether a well has any of these roles."""
         return not wanted.isdisjoint(self.of(ref))
+
+    def by_comment_only(self, ref: WellRef) -> bool:
+        """Whether nothing but comments and docstrings says what a well is for."""
+        assigned = self.by_well.get(ref)
+        if assigned is None or assigned.role in self.derived.get(ref, ()):
+            return False
+        return assigned.strength <= Strength.COMMENT
 
     def level(self, ref: WellRef) -> float | None:
         """Concentration or dose of a well, if known."""
