@@ -50,6 +50,7 @@ class CallReader:
         }
         self._move_to = core.move_to
         self._targets: deque[tuple[Operation, Any, Any]] = deque(maxlen=_RECENT)
+        self._nozzles: Nozzles | None = None
         self.busy = False
 
     def read(
@@ -102,7 +103,7 @@ class CallReader:
         well_core = values.get("well_core")
         if well_core is None:
             well_core = _well_core_of(location)
-        nozzles = Nozzles.of(self._core)
+        nozzles = self._nozzles = Nozzles.of(self._core, self._nozzles)
         wells: tuple[WellRef | None, ...] = (None,) * len(nozzles.names)
         disposal = name == "drop_tip_in_disposal_location" or _is_disposal(location)
         from_top = from_bottom = None
@@ -111,10 +112,11 @@ class CallReader:
             if info.is_trash:
                 disposal = True
             else:
-                wells = self._wells.covered(well_core, nozzles)
+                target = str(well_core.get_name())
+                wells = self._wells.covered(info, target, nozzles)
                 from_top = self._height(name, values, location, well_core)
                 if from_top is not None:
-                    from_bottom = from_top + info.wells[str(well_core.get_name())].depth
+                    from_bottom = from_top + info.wells[target].depth
         operation = Operation(
             kind=kind,
             pipette=self._pipette,

@@ -6,6 +6,7 @@ under its bare file name, so neither ``inspect`` nor ``linecache`` can help.
 
 from __future__ import annotations
 
+import os
 import sys
 from dataclasses import dataclass
 from types import FrameType
@@ -13,6 +14,7 @@ from types import FrameType
 # Functions that mix when they stand between the protocol and a core: the context's own, and
 # the liquid-class transfers' (``pre_wet`` aspirates and dispenses in the source to wet the tip).
 _MIXING = frozenset({"mix", "dynamic_mix", "pre_wet"})
+_API = os.sep + os.path.join("opentrons", "protocol_api", "")
 
 
 @dataclass(frozen=True)
@@ -49,24 +51,15 @@ def find_call_site(file_name: str, skip: int = 1) -> CallSite:
         code = frame.f_code
         if code.co_filename == file_name:
             lines.append(frame.f_lineno)
-        elif not lines:
+        elif lines:
+            if code.co_name == "<module>":
+                break  # the loader's call of ``run``: the protocol goes no further out
+        elif _API in code.co_filename:
             name = code.co_name
-            if "opentrons" in code.co_filename:
-                if name in _MIXING:
-                    mixing = True
-                # Decorators stand in frames of their own; the methods are what users know.
-                if code.co_filename.endswith("_context.py") and not name.startswith(("_", "<")):
-                    call = name
+            if name in _MIXING:
+                mixing = True
+            # Decorators stand in frames of their own; the methods are what users know.
+            if code.co_filename.endswith("_context.py") and name[0] not in "_<":
+                call = name
         frame = frame.f_back
     return CallSite(tuple(lines), call, mixing)
-
-
-def protocol_frames(file_name: str, skip: int = 1) -> list[FrameType]:
-    """The protocol's own frames on the stack, innermost first."""
-    frame: FrameType | None = sys._getframe(skip + 1)
-    found: list[FrameType] = []
-    while frame is not None:
-        if frame.f_code.co_filename == file_name:
-            found.append(frame)
-        frame = frame.f_back
-    return found

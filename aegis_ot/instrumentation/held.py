@@ -44,7 +44,7 @@ class Row:
     @property
     def spots(self) -> tuple[str, ...]:
         """The names of wells in it (``"A1"``), of whatever labware."""
-        return tuple(cell for _, cell in self.cells if is_spot(cell))
+        return tuple(cell for _, cell in self.cells if isinstance(cell, str) and is_spot(cell))
 
     @property
     def said(self) -> tuple[tuple[str, str | float], ...]:

@@ -18,9 +18,12 @@ _SLACK_MM = 0.6
 """A nozzle this far outside a well's rim still counts as over it (calibration offsets)."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Nozzles:
     """The active nozzles of a pipette, and where they are from the one that leads.
+
+    Read anew for each operation, so the one at hand is kept as long as it holds; told apart by
+    identity, which is quick.
 
     Attributes:
         names: ``("A1", ..., "H1")``.
@@ -29,20 +32,23 @@ class Nozzles:
 
     names: tuple[str, ...]
     offsets: tuple[tuple[float, float], ...]
+    source: Any = None
+    """Opentrons' own map, which is another one after each change."""
 
     @classmethod
-    def of(cls, core: Any) -> Nozzles:
-        """Read the active nozzles of an instrument core."""
+    def of(cls, core: Any, known: Nozzles | None = None) -> Nozzles:
+        """Read the active nozzles of an instrument core; ``known`` if they are still the same."""
         nozzle_map = _nozzle_map(core)
+        if known is not None and known.source is nozzle_map:
+            return known
         if nozzle_map is None:
             count = int(core.get_channels())
             names = tuple(f"{chr(ord('A') + row)}1" for row in range(count))
             return cls(names, tuple((0.0, -_NOZZLE_PITCH_MM * row) for row in range(count)))
         points = nozzle_map.map_store
         lead = points[nozzle_map.starting_nozzle]
-        return cls(
-            tuple(points), tuple((point.x - lead.x, point.y - lead.y) for point in points.values())
-        )
+        offsets = tuple((point.x - lead.x, point.y - lead.y) for point in points.values())
+        return cls(tuple(points), offsets, nozzle_map)
 
 
 def _nozzle_map(core: Any) -> Any:
@@ -66,7 +72,7 @@ class WellResolver:
         )
         self._keys: dict[Any, str] = {}
         self._slots: dict[str, str] = {}
-        self._covered: dict[tuple[str, str, Nozzles], tuple[str | None, ...]] = {}
+        self._covered: dict[tuple[str, str, Nozzles], tuple[WellRef | None, ...]] = {}
         self._refs: dict[tuple[str, str], WellRef] = {}
         self.labware: dict[str, LabwareInfo] = {}
 
@@ -91,6 +97,7 @@ class WellResolver:
         """Read again where a labware stands, and all that stand on it."""
         info = self.register(labware_core)
         self._refs.clear()
+        self._covered.clear()
         self._slots[info.key] = self._slot_of(labware_core)
         return info
 
@@ -107,26 +114,24 @@ class WellResolver:
             self._refs[(key, name)] = ref
         return ref
 
-    def covered(self, well_core: Any, nozzles: Nozzles) -> tuple[WellRef | None, ...]:
-        """The well at each nozzle when the leading one is aimed at ``well_core``."""
-        info = self.register(self._labware_core_of(well_core))
-        target = str(well_core.get_name())
+    def covered(
+        self, info: LabwareInfo, target: str, nozzles: Nozzles
+    ) -> tuple[WellRef | None, ...]:
+        """The well at each nozzle when the leading one is aimed at the well ``target``."""
         cache_key = (info.key, target, nozzles)
-        names = self._covered.get(cache_key)
-        if names is None:
-            names = self._covered[cache_key] = _wells_under(info, target, nozzles)
-        return tuple(None if name is None else self.ref(info.key, name) for name in names)
+        refs = self._covered.get(cache_key)
+        if refs is None:
+            names = _wells_under(info, target, nozzles)
+            refs = tuple(None if name is None else self.ref(info.key, name) for name in names)
+            self._covered[cache_key] = refs
+        return refs
 
     def info_of(self, well_core: Any) -> LabwareInfo:
         """The labware that a well core belongs to."""
-        return self.register(self._labware_core_of(well_core))
-
-    def _labware_core_of(self, well_core: Any) -> Any:
         labware_id = getattr(well_core, "labware_id", None)
         if labware_id is None:
-            return well_core.geometry.parent
-        key = self._keys.get(labware_id)
-        return _Known(labware_id) if key else _EngineLabware(labware_id, self._engine_state)
+            return self.register(well_core.geometry.parent)
+        return self.labware[self.key_of_id(labware_id)]
 
     def _slot_of(self, labware_core: Any) -> str:
         labware_id = getattr(labware_core, "labware_id", None)
@@ -137,13 +142,6 @@ class WellResolver:
             return str(labware_core.get_geometry().parent.labware.first_parent() or "")
         except Exception:  # off deck, in the gripper, on a stack: no slot to name
             return ""
-
-
-@dataclass(frozen=True)
-class _Known:
-    """Stands for an engine labware that is registered already."""
-
-    labware_id: str
 
 
 class _EngineLabware:

@@ -67,7 +67,7 @@ def test_long_tables_cost_nothing():
     assert time.monotonic() - began < 15  # 90 s when every row was looked at every time
 
 
-_PLAIN = """
+_HELPED = """
 metadata = {"apiLevel": "2.15"}
 def run(protocol):
     import sys
@@ -77,24 +77,89 @@ def run(protocol):
     before = plate["A1"]
     p300.transfer(50, before, plate["A2"])
     protocol.comment(f"hooked {sys.getprofile() is not None}")
+    helper(plate)
     after = plate["A3"]
+
+def helper(plate):
+    inner = plate["H12"]
 """
 
 
-@pytest.mark.parametrize("helpers", [0, 1])
-def test_names_of_run_are_seen_to_its_end_with_and_without_the_hook(helpers):
-    """Without helpers nothing is hooked while the protocol runs: the hook is what costs."""
-    helper = "def helper(plate):\n    inner = plate['H12']\n"
-    text = _PLAIN.replace("    after =", "    helper(plate)\n    after =") if helpers else _PLAIN
-    heard, rehearsal = run(text + helper * helpers)
+def test_names_of_all_functions_are_seen_to_their_end_without_a_hook():
+    """A hook would be told of all of Opentrons' calls too."""
+    heard, rehearsal = run(_HELPED)
     names = {(binding.function, binding.name) for binding in rehearsal.names}
-    assert {("run", "before"), ("run", "after")} <= names
-    assert (("helper", "inner") in names) == bool(helpers)
+    assert {("run", "before"), ("run", "after"), ("helper", "inner")} <= names
     said = [event.text for event in heard.events if event.text.startswith("hooked")]
-    assert said == [f"hooked {bool(helpers)}"]
+    assert said == ["hooked False"]
 
 
-def test_a_failing_run_leaves_no_hook_behind():
+def bound(body: str, before: str = "") -> dict[tuple[str, str], list[str]]:
+    _, rehearsal = run(before + ot2(body))
+    return {(b.function, b.name): [well.name for well in b.wells] for b in rehearsal.names}
+
+
+def test_a_name_whose_value_changes_tells_each_value():
+    before = "def give(well):\n    target = well\n"
+    _, rehearsal = run(before + ot2("for name in ('A1', 'B1', 'A1'):\n    give(plate[name])\n"))
+    told = [b.wells[0].name for b in rehearsal.names if b.name == "target"]
+    assert told == ["A1", "B1"]
+
+
+def test_functions_in_functions_classes_and_tables_are_seen():
+    body = """
+    def inner():
+        ntc = plate["H12"]
+        return ntc
+    inner()
+    layout = Layout(plate)
+    layout.wells()
+    TABLE["blank"](plate)
+    next(series(plate))
+    """
+    before = """
+import functools
+class Layout:
+    def __init__(self, plate):
+        self.plate = plate
+        self.standard = plate["B1"]
+    def wells(self):
+        template = self.plate["A1"]
+        return [template]
+def of_blank(plate, name):
+    blank = plate[name]
+TABLE = {"blank": functools.partial(of_blank, name="C1")}
+def series(plate):
+    first = plate["D1"]
+    yield first
+"""
+    found = bound(body, before)
+    assert found["inner", "ntc"] == ["H12"]
+    assert found["wells", "template"] == ["A1"]
+    assert found["of_blank", "blank"] == ["C1"]
+    assert found["series", "first"] == ["D1"]
+    assert found["run", "layout.standard"] == ["B1"]
+
+
+def test_names_in_helper_modules_beside_the_protocol_are_seen(tmp_path, monkeypatch):
+    (tmp_path / "aegis_test_layout.py").write_text(
+        "NTC = 'H12'\ndef wells_of(plate):\n    ntc = plate[NTC]\n    return [ntc]\n"
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    import aegis_test_layout  # type: ignore[import-not-found]
+
+    code = aegis_test_layout.wells_of.__code__
+    _, rehearsal = run(ot2("from aegis_test_layout import wells_of\nwells_of(plate)\n"))
+    assert "ntc" not in {b.name for b in rehearsal.names}  # imported too late to be known
+    text = "from aegis_test_layout import wells_of\n" + ot2("wells_of(plate)\n")
+    _, rehearsal = run(text)
+    found = {(b.function, b.name): b for b in rehearsal.names}
+    assert found["aegis_test_layout.wells_of", "ntc"].wells[0].name == "H12"
+    assert found["aegis_test_layout.<module>", "NTC"].spots == ("H12",)
+    assert aegis_test_layout.wells_of.__code__ is code
+
+
+def test_a_failing_run_leaves_nothing_behind():
     with pytest.raises(RehearsalError):
-        run(_PLAIN + "    raise ValueError('no')\n")
+        run(_HELPED + "    raise ValueError('no')\n")
     assert sys.getprofile() is None

@@ -79,7 +79,7 @@ def rehearse(
 
             def watched(run: Run) -> Run:
                 def run_with_names(given: Any) -> None:
-                    with names.watching(namespace):
+                    with names.watching(namespace, script.text):
                         run(given)
 
                 return run_with_names

@@ -7,6 +7,7 @@ the rule and the field that is wrong.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import types
 import typing
 from collections.abc import Mapping
@@ -27,7 +28,7 @@ def read_dataclass(cls: type[T], data: Any, where: str) -> T:
     """
     if not isinstance(data, dict):
         raise RuleError(f"{where}: expected an object, found {_kind(data)}")
-    hints = typing.get_type_hints(cls)
+    hints = _hints(cls)
     fields = {f.name: f for f in _public_fields(cls)}
     unknown = [key for key in data if key not in fields]
     if unknown:
@@ -39,6 +40,12 @@ def read_dataclass(cls: type[T], data: Any, where: str) -> T:
         elif f.default is dataclasses.MISSING and f.default_factory is dataclasses.MISSING:
             raise RuleError(f"{where}: field {name!r} is missing")
     return cls(**values)
+
+
+@functools.cache
+def _hints(cls: type[Any]) -> dict[str, Any]:
+    """Compiled from texts each time: most of the cost of reading a rule."""
+    return typing.get_type_hints(cls)
 
 
 def _public_fields(cls: type[Any]) -> list[dataclasses.Field[Any]]:
@@ -126,7 +133,7 @@ def _schema_of(hint: Any, definitions: dict[str, Any]) -> dict[str, Any]:
 
 
 def _object_schema(cls: type[Any], definitions: dict[str, Any]) -> dict[str, Any]:
-    hints = typing.get_type_hints(cls)
+    hints = _hints(cls)
     required = [
         f.name
         for f in _public_fields(cls)
