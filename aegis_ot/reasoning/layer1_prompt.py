@@ -1,9 +1,9 @@
 """Builds Layer 1's requests: what is the same for every protocol first, the protocol last.
 
-The protocol and everything derived from its text stands between two markers that carry a hash
-of the source. The source cannot contain them, since it would have to contain its own hash; so
-no comment or string can end the data and begin to speak as the reviewer. Every source line
-starts with its number, which the author cannot leave out either.
+The protocol and everything derived from it stands between two markers that carry a hash of all
+that stands between them. No text there can hold them, since it would have to hold its own hash;
+so no comment, string, label or labware name can end the data and begin to speak as the reviewer.
+Every source line starts with its number, which the author cannot leave out either.
 """
 
 from __future__ import annotations
@@ -25,9 +25,7 @@ def hybrid_request(dossier: Dossier, database: Database) -> Request:
     """Rules, API reference, source, trace, roles, open questions."""
     extra = [brief.text for brief in dossier.rules if brief.text]
     parts = [
-        _fenced(
-            dossier, [*_source(dossier), *_trace(dossier), *_roles(dossier), *_doubts(dossier)]
-        ),
+        _fenced([*_source(dossier), *_trace(dossier), *_roles(dossier), *_doubts(dossier)]),
         "\n".join(_asked(dossier)),
     ]
     if extra:
@@ -45,7 +43,7 @@ def blind_request(dossier: Dossier, database: Database) -> Request:
     return Request(
         PURPOSE,
         _system("blind", rules_text(database)),
-        (Message((_fenced(dossier, _source(dossier)),)),),
+        (Message((_fenced(_source(dossier)),)),),
         BLIND_SCHEMA,
     )
 
@@ -56,7 +54,7 @@ def llm_only_request(dossier: Dossier, database: Database) -> Request:
     return Request(
         PURPOSE,
         _system("llm_only", families),
-        (Message((_fenced(dossier, _source(dossier)),)),),
+        (Message((_fenced(_source(dossier)),)),),
         BLIND_SCHEMA,
     )
 
@@ -81,8 +79,9 @@ def _system(task: str, rules: str) -> tuple[Passage, ...]:
     )
 
 
-def _fenced(dossier: Dossier, lines: list[str]) -> str:
-    mark = "protocol-" + hashlib.sha256(dossier.source.encode("utf-8", "replace")).hexdigest()[:16]
+def _fenced(lines: list[str]) -> str:
+    text = "\n".join(lines)
+    mark = "protocol-" + hashlib.sha256(text.encode("utf-8", "replace")).hexdigest()[:16]
     return "\n".join([f"<{mark}>", *lines, f"</{mark}>"])
 
 

@@ -15,12 +15,6 @@ def prompt(name: str) -> str:
     return _VERSION.sub("", _file(name)).strip()
 
 
-def prompt_version(name: str) -> str:
-    """What the file's first line says: ``"1, 2026-11-21"``."""
-    match = _VERSION.match(_file(name))
-    return match["version"] if match else ""
-
-
 @functools.cache
 def _file(name: str) -> str:
     return (resources.files(__package__) / "prompts" / f"{name}.md").read_text(encoding="utf-8")
