@@ -35,7 +35,8 @@ class RecordedRun:
     Attributes:
         run: Its identifier.
         protocol: File name.
-        simulated: Whether the robot was simulated: so are its frames, as a rule.
+        source: ``"synthetic"`` for a simulated robot, whose frames are simulated as a rule, else
+            ``"real"``: what figures on its frames are called.
         samples: Trajectories with all four frames. Their label is the verdict as it stands after
             the operator: ``"normal"`` for a pass, ``"failure"`` for a fail whose type the data
             set format knows, ``""`` for all others.
@@ -44,14 +45,14 @@ class RecordedRun:
 
     run: str
     protocol: str
-    simulated: bool
+    source: str
     samples: Sequence[TrajectorySample]
     left_out: int
 
-    @property
-    def source(self) -> str:
-        """What figures on its frames are called."""
-        return "synthetic" if self.simulated else "real"
+
+def run_source(row: Mapping[str, Any]) -> str:
+    """What figures on a run's frames are called, from the store's account of the run."""
+    return "synthetic" if row.get("simulated") else "real"
 
 
 def is_store(folder: Path) -> bool:
@@ -106,7 +107,7 @@ def _run(store: Store, row: Mapping[str, Any], detector: Detector) -> RecordedRu
     return RecordedRun(
         run,
         str(row.get("protocol", "")),
-        bool(row.get("simulated", False)),
+        run_source(row),
         samples,
         len(entries) - len(samples),
     )

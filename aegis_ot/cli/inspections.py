@@ -1,0 +1,111 @@
+"""``aegis-ot inspect``: a page to look at a data set or a run, well by well."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import ConfigurationError
+from .app import app
+from .checks import one_of, write_text
+from .datasets import open_dataset
+
+if TYPE_CHECKING:
+    from ..evaluation.layer2 import Progress
+    from ..inspection import Inspection
+
+
+@app.command("inspect")
+def inspect_wells(
+    what: Annotated[
+        str,
+        typer.Argument(
+            help="Folder of a data set, data folder of a sidecar, or a run in its usual one."
+        ),
+    ],
+    out: Annotated[Path, typer.Option("--out", "-o", help="The page.")] = Path("inspect.html"),
+    run: Annotated[
+        str | None, typer.Option(help="Which run of a sidecar's folder; the newest if left out.")
+    ] = None,
+    scorer: Annotated[str, typer.Option(help="Scorer of a data set.")] = "ensemble",
+    world_model: Annotated[
+        Path | None,
+        typer.Option(help="Score a data set with this model (aegis-ot fit), not plate by plate."),
+    ] = None,
+    boxes: Annotated[
+        str, typer.Option(help="Of a data set: detector, true (boxes.csv), or an .onnx file.")
+    ] = "detector",
+    most: Annotated[
+        int, typer.Option(min=0, help="Wells with pictures; flagged ones come first.")
+    ] = 200,
+) -> None:
+    """Write a page that shows frames, boxes, columns, scores and routes, well by well.
+
+    Each well has its four frames, the tip found, the measured column against the expected one,
+    its score, its route and its verdict. The page holds everything and needs no network.
+
+    Exit codes: 0 written, 2 there is nothing to show, or it cannot be read.
+    """
+    from ..inspection import inspection_html
+    from .progress import Shown
+
+    with Shown() as shown:
+        folder = Path(what)
+        if folder.exists() and not _is_store(folder):
+            inspection = _dataset(folder, scorer, world_model, boxes, most, shown)
+        else:
+            inspection = _run(what, run, most, shown)
+    page = inspection_html(inspection)
+    write_text(out, page)
+    flagged = sum(well.flagged for well in inspection.wells)
+    typer.echo(
+        f"{out}: {len(inspection.wells)} wells ({inspection.source} frames), {flagged} flagged; "
+        f"{len(page.encode()) / 1e6:.1f} MB."
+    )
+
+
+def _is_store(folder: Path) -> bool:
+    from ..evaluation.layer2.recorded import is_store
+
+    return is_store(folder)
+
+
+def _dataset(
+    folder: Path, scorer: str, world_model: Path | None, boxes: str, most: int, shown: Progress
+) -> Inspection:
+    from ..inspection import inspect_dataset
+    from ..sidecar.judging import load_scorer
+    from ..vision.scorers import SCORERS
+
+    one_of("--scorer", scorer, [name.replace("_", "-") for name in SCORERS])
+    fitted = None if world_model is None else load_scorer(world_model)
+    found = "default" if boxes == "detector" else boxes
+    data = open_dataset(folder)
+    return inspect_dataset(data, scorer.replace("-", "_"), fitted, found, most, shown)
+
+
+def _run(what: str, run: str | None, most: int, shown: Progress) -> Inspection:
+    from ..evaluation.layer2.recorded import open_store
+    from ..inspection import inspect_run
+    from ..sidecar import SidecarConfig
+
+    folder = Path(what)
+    if not folder.exists():
+        folder, run = SidecarConfig.load().data, what
+        if not _is_store(folder):
+            raise ConfigurationError(
+                f"{what} is no folder, and there is no sidecar's store in {folder} in which it "
+                "could be a run."
+            )
+    store = open_store(folder)
+    known = [str(row["run"]) for row in store.runs()]
+    if not known:
+        raise ConfigurationError(f"{folder} holds no run yet.")
+    if run is not None and run not in known:
+        raise ConfigurationError(
+            f"{run!r} is neither a folder nor a run in {folder}; its newest runs are "
+            f"{', '.join(known[:10])}."
+        )
+    return inspect_run(store, run or known[0], most, shown)

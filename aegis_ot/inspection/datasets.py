@@ -1,0 +1,192 @@
+"""A trajectory data set, judged well by well, for a person to look at."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ..evaluation.layer2 import Progress, find_tips
+from ..evaluation.layer2.cascade import JudgedWell, run_cascade
+from ..evaluation.layer2.evaluate import own_threshold
+from ..evaluation.layer2.lopo import HeldOut, ScoredWell, hold_out, score_with
+from ..vision.dataset import Dataset, first_normals
+from ..vision.measuring import ColumnReading
+from ..vision.scorers import make_scorer
+from ..vision.tips import TipGeometry, tip_for
+from ..vision.types import Scorer, TipDetection, TrajectorySample
+from ..vocabulary import KeyframeKind
+from .choosing import pictured
+from .levels import mark_at, share_of
+from .pictures import close_up, whole_frame
+from .wells import Axis, Box, Inspection, Level, SeenFrame, SeenWell
+
+
+def inspect_dataset(
+    data: Dataset,
+    scorer: str = "ensemble",
+    fitted: Scorer | None = None,
+    boxes: str = "default",
+    most: int = 200,
+    progress: Progress | None = None,
+) -> Inspection:
+    """Judge a data set with the cascade, and gather what a person wants to see.
+
+    Args:
+        data: The set. With two plates or more each is judged by a model of the others' normals;
+            one plate alone, without a fitted scorer, by its measured columns only.
+        scorer: Name of the scorer.
+        fitted: A fitted scorer, in its place.
+        boxes: ``"default"``, a detector file, or ``"true"``.
+        most: Wells with pictures at most; the others keep their numbers. Flagged and wrongly
+            judged ones come first.
+        progress: Told how far it is.
+
+    Raises:
+        ConfigurationError: There is no such scorer.
+        DatasetError: The set cannot be judged.
+        ModelError: A detector's file cannot be used.
+    """
+    progress = progress or Progress()
+    tips = find_tips(data, boxes, progress)
+    notes = []
+    if fitted is not None:
+        held = score_with(tips.samples, fitted, progress)
+        how = f"{fitted.name}, a fitted model"
+    elif len(data.plates) > 1:
+        held = hold_out(
+            tips.samples,
+            lambda: make_scorer(scorer),
+            own_threshold(scorer, lambda: make_scorer(scorer)),
+            progress,
+            explain=True,
+        )
+        how = f"{scorer}, fitted on the other plates' normals"
+    else:
+        held = _unscored(data, tips.samples)
+        how = "none"
+        notes.append(
+            "One plate alone gives no model of what is normal: there are no scores, and the wells "
+            "are judged by their measured columns. Name a world model (aegis-ot fit) to score them."
+        )
+    judged = run_cascade(held)
+    order = {record.id: place for place, record in enumerate(data.records)}
+    judged.sort(key=lambda well: order[well.sample.id])
+    chosen = pictured([(well.flagged, well.flagged != well.scored.failed) for well in judged], most)
+    progress.begin("Cutting pictures", len(judged))
+    wells = []
+    for well, show in zip(judged, chosen, strict=True):
+        wells.append(_well(data, well, show, scored=how != "none"))
+        progress.step()
+    facts = [
+        ("frames", data.source),
+        ("tips found by", tips.detector),
+        ("scores", how),
+        ("plates", str(len(data.plates))),
+    ]
+    scorer_name = "" if how == "none" else held.scorer
+    return Inspection(data.name, data.source, facts, wells, scorer_name, (*notes, *data.warnings))
+
+
+def _unscored(data: Dataset, samples: Sequence[TrajectorySample]) -> HeldOut:
+    first = first_normals(samples)
+    wells = [
+        ScoredWell(sample, 0.0, 0.0, -1.0, False)
+        for sample in samples
+        if sample is not first[sample.plate]
+    ]
+    anchors = [ScoredWell(sample, 0.0, 0.0, 0.0, False) for sample in first.values()]
+    return HeldOut("none", False, anchors, wells)
+
+
+def _well(data: Dataset, judged: JudgedWell, show: bool, scored: bool) -> SeenWell:
+    sample, well = judged.sample, judged.scored
+    decision = judged.decision
+    outcome = "calibration" if judged.calibration else decision.outcome.value
+    limit = well.limit if np.isfinite(well.limit) else None
+    return SeenWell(
+        id=sample.id,
+        group=sample.plate,
+        well=sample.well,
+        title=f"{sample.pipette}, {sample.volume_ul:g} µL {sample.reagent}".rstrip(),
+        outcome=outcome,
+        route=judged.triage.route.value,
+        gate=decision.gate.value,
+        failure=decision.failure.value if decision.failure else "",
+        reason=_sentences(judged.triage.reason, decision.reason),
+        truth=_truth(sample),
+        agreement="" if judged.calibration else _agreement(well.failed, judged.flagged),
+        score=well.score if scored else None,
+        limit=limit if scored else None,
+        frames=_frames(data, judged, show),
+        parts=sorted(well.parts.items(), key=lambda part: -part[1]),
+    )
+
+
+def _sentences(*reasons: str) -> str:
+    return " ".join(dict.fromkeys(reason for reason in reasons if reason))
+
+
+def _truth(sample: TrajectorySample) -> str:
+    if sample.label != "failure":
+        return sample.label
+    retained = sample.retained_fraction
+    return sample.failure_type + ("" if retained is None else f", {retained:.0%} retained")
+
+
+def _agreement(failed: bool, flagged: bool) -> str:
+    if failed:
+        return "caught" if flagged else "missed"
+    return "false alarm" if flagged else "passed"
+
+
+def _frames(data: Dataset, judged: JudgedWell, show: bool) -> dict[KeyframeKind, SeenFrame]:
+    sample = judged.sample
+    tip = tip_for(sample.pipette)
+    stretch = _stretch(judged.readings, tip)
+    paths = next(record.frames for record in data.records if record.id == sample.id)
+    frames = {}
+    for kind in KeyframeKind:
+        found = sample.detections[kind]
+        image = sample.frames[kind] if show else None
+        labelled = data.boxes.get(paths[kind])
+        reading = judged.readings.get(kind)
+        expected = sample.expected_ul[kind]
+        whole = None if image is None else whole_frame(image)
+        if found is None:
+            frames[kind] = SeenFrame(whole, labelled=labelled, expected=Level(expected))
+            continue
+        box, axis = _box(found), (found.orifice, found.collar)
+        frames[kind] = SeenFrame(
+            whole,
+            None if image is None else close_up(image, box),
+            box,
+            found.confidence,
+            labelled,
+            axis,
+            Level(expected, mark=mark_at(axis, box, stretch * share_of(tip, expected))),
+            None if reading is None or reading.vague else _measured(reading, axis, box),
+        )
+    return frames
+
+
+def _box(found: TipDetection) -> Box:
+    return found.x, found.y, found.w, found.h
+
+
+def _measured(reading: ColumnReading, axis: Axis, box: Box) -> Level:
+    mark = mark_at(axis, box, reading.top)
+    return Level(reading.volume_ul, reading.sigma_ul, reading.gap_ul, mark)
+
+
+def _stretch(readings: Mapping[KeyframeKind, ColumnReading], tip: TipGeometry) -> float:
+    """How much higher columns stand in this run than the tip's nominal geometry says.
+
+    The reader learns it from the run, and its volumes have it taken off; a mark at the expected
+    height must have it put back, or every column would seem to stand wrong.
+    """
+    for reading in readings.values():
+        nominal = share_of(tip, reading.volume_ul + reading.gap_ul)
+        if reading.top > 0.05 and nominal > 0.05:
+            return reading.top / nominal
+    return 1.0
