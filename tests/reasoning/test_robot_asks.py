@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 import textwrap
 import threading
 import time
@@ -15,7 +16,17 @@ import pytest
 from opentrons.simulate import simulate as opentrons_simulate
 
 from aegis_ot.preflight.asking import ask_sidecar
-from aegis_ot.reasoning import Backend, Opinions, Reply, Request, ScriptedBackend, State
+from aegis_ot.reasoning import (
+    Backend,
+    Opinions,
+    Reply,
+    Request,
+    ScriptedBackend,
+    State,
+    import_answers,
+    make_backend,
+    request_in,
+)
 from aegis_ot.sidecar import SidecarConfig, create_app
 from aegis_ot.sidecar.config import CameraSettings
 from aegis_ot.vocabulary import to_json
@@ -179,6 +190,21 @@ def test_the_guard_rejects_what_the_model_shows(
     with pytest.raises(Exception, match="PCR-2"):
         _simulate(GUARDED)
     assert len(backend.requests) == 1
+
+
+def test_the_guard_is_served_by_imported_answers(
+    serve: Serve, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """What `aegis-ot llm export` wrote is what the robot's sidecar asks."""
+    request = request_in("hybrid", checked(GUARDED)[1], database())
+    assert request is not None
+    said = answer(findings=[finding("PCR-2", ["2:A2", "4:H12"], [13, 17])])
+    (tmp_path / "a.jsonl").write_text(json.dumps({"id": request.hash, "answer": said}))
+    import_answers(tmp_path / "a.jsonl", tmp_path / "kept")
+    monkeypatch.setenv("AEGIS_OT_SIDECAR", serve(make_backend(f"replay:{tmp_path / 'kept'}")))
+    monkeypatch.setenv("AEGIS_OT_TOKEN", TOKEN)
+    with pytest.raises(Exception, match=r"PCR-2 \(found by the model\)"):
+        _simulate(GUARDED)
 
 
 def test_the_guard_goes_on_without_the_model(serve: Serve, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import base64
+import hashlib
+import json
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,7 @@ import pytest
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.reasoning import (
     AnthropicBackend,
+    Imported,
     Manner,
     Picture,
     RecordingBackend,
@@ -21,6 +24,8 @@ from aegis_ot.reasoning import (
     State,
     VlmGate,
     gate_request,
+    import_answers,
+    make_backend,
 )
 from aegis_ot.sidecar import SidecarConfig, make_analyser
 from aegis_ot.sidecar.reasoning_routes import gates_of
@@ -170,6 +175,27 @@ def test_pictures_reach_a_service_and_replay_from_a_folder(
     again = VlmGate(ReplayBackend(tmp_path)).examine(case())
     assert again == first
     assert first.failure is FailureType.NO_TIP
+
+
+def test_a_gate_is_served_by_a_batch(tmp_path: Path) -> None:
+    """Run once to write the questions, get the answers elsewhere, run again."""
+    requests, responses, kept = (tmp_path / name for name in ("q.jsonl", "a.jsonl", "kept"))
+    asking = make_backend(f"export:{requests}")
+    first = VlmGate(asking).examine(case())
+    VlmGate(asking).examine(case())
+    assert first.outcome is Outcome.UNDECIDED
+    assert "not_recorded" in first.reason
+    (line,) = [json.loads(line) for line in requests.read_text().splitlines()]
+    shown = [part["image"]["sha256"] for part in line["messages"][0]["parts"] if "image" in part]
+    assert len(shown) == 4
+    for name in shown:
+        data = (tmp_path / "images" / f"{name}.jpg").read_bytes()
+        assert hashlib.sha256(data).hexdigest() == name
+    answer = {"id": line["id"], "answer": said("fail", "fail", "fail", expert_failure="no_tip")}
+    responses.write_text(json.dumps(answer))
+    assert import_answers(responses, kept, requests) == Imported(1)
+    second = VlmGate(make_backend(f"replay:{kept}")).examine(case())
+    assert second.outcome is Outcome.FAIL
 
 
 def test_the_sidecars_settings_make_the_gate(tmp_path: Path) -> None:
