@@ -7,7 +7,6 @@ the rule and the field that is wrong.
 from __future__ import annotations
 
 import dataclasses
-import functools
 import types
 import typing
 from collections.abc import Mapping
@@ -16,6 +15,7 @@ from typing import Any, TypeVar
 from ...errors import RuleError
 
 T = TypeVar("T")
+_HINTS: dict[type[Any], dict[str, Any]] = {}
 _WORDS = {str: "a text", int: "a whole number", float: "a number", bool: "true or false"}
 
 
@@ -42,10 +42,11 @@ def read_dataclass(cls: type[T], data: Any, where: str) -> T:
     return cls(**values)
 
 
-@functools.cache
 def _hints(cls: type[Any]) -> dict[str, Any]:
-    """Compiled from texts each time: most of the cost of reading a rule."""
-    return typing.get_type_hints(cls)
+    """Kept: compiling them from texts anew is most of the cost of reading a rule."""
+    if cls not in _HINTS:
+        _HINTS[cls] = typing.get_type_hints(cls)
+    return _HINTS[cls]
 
 
 def _public_fields(cls: type[Any]) -> list[dataclasses.Field[Any]]:
