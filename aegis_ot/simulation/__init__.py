@@ -1,9 +1,10 @@
 """The simulation room: a camera that shows a simulated pipette, and planted faults."""
 
 from .camera import SimulatedCamera
-from .dataset import random_frames, write_dataset
+from .dataset import write_dataset
 from .dyes import Dye, dye_for
 from .faults import Fault, FaultKind, FaultPlan, PhysicalState, parse_faults
+from .random_frames import random_frames
 from .render import FrameTruth, TipTruth, render, render_jpeg
 from .scene import SceneState, SessionParameters, TipContent, place_tip
 

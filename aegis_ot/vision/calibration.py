@@ -172,13 +172,20 @@ class RunCalibration:
     Args:
         settings: See :class:`CalibrationSettings`.
         pool: Normals of earlier runs, if any.
+        least_alarm: Score up to which a well passes however quiet this run is: a scorer that
+            learned from many runs what a normal well scores knows that better than six wells
+            do. 0: a scorer whose scale is the run's own.
     """
 
     def __init__(
-        self, settings: CalibrationSettings | None = None, pool: NormalPool | None = None
+        self,
+        settings: CalibrationSettings | None = None,
+        pool: NormalPool | None = None,
+        least_alarm: float = 0.0,
     ) -> None:
         self.settings = settings or PRESETS["default"]
         self.pool = pool
+        self.least_alarm = least_alarm
         self._first: list[float] = []
         self._recent: list[float] = []
         self._median = self._spread = math.nan
@@ -198,7 +205,12 @@ class RunCalibration:
             return None
         width = self.settings.multiplier * self._spread
         low = self._median - width if self.settings.two_sided else -math.inf
-        return low, self._median + width
+        return low, max(self._median + width, self.least_alarm)
+
+    @property
+    def median(self) -> float:
+        """Median score of this run's normals; not a number before the calibration."""
+        return self._median
 
     def add(self, score: float, volume_ul: float | None = None) -> CalibrationState:
         """Take the score of one calibration well; the last one closes the calibration.
@@ -247,6 +259,7 @@ class RunCalibration:
         median = float(np.median(values))
         mad = float(np.median(np.abs(values - median)))
         least = max(self.settings.least_spread * abs(median), float(np.finfo(np.float64).tiny))
+        least = max(least, self.least_alarm / self.settings.multiplier)
         return median, max(mad, least)
 
     def _close(self) -> None:
@@ -259,7 +272,11 @@ class RunCalibration:
                 f"{far} of the first {len(values)} wells stand apart from the others; "
                 "are they all normal?"
             )
-        elif len(values) >= 4 and comparable and spread > self.settings.widest * abs(median):
+        elif (
+            len(values) >= 4
+            and comparable
+            and spread > self.settings.widest * max(abs(median), self.least_alarm)
+        ):
             self.give_up(f"the first {len(values)} wells disagree too widely to calibrate on")
         else:
             self._median, self._spread = median, spread

@@ -17,12 +17,6 @@ from .calibration import (
 DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 """Keyframes in which the tip hangs free. In the others labware may hide it."""
 
-_SHOWN_BY = {
-    KeyframeKind.ASPIRATE: KeyframeKind.TRANSIT,
-    KeyframeKind.DISPENSE: KeyframeKind.POST_DISPENSE,
-}
-"""The free-hanging frame that shows the same tip a moment later."""
-
 CROP_SCORERS = ("pca", "single_frame_pca", "autoencoder")
 """Scorers to which the score floor applies: a blank crop costs them almost nothing."""
 
@@ -54,14 +48,15 @@ class Cascade:
 
     The paper's blank floor is a score below 1e-4, "signalling that the detector produced no
     crop": it is the missing detection that matters, so that is asked first and the score floor
-    is kept beside it. A tip that is not found at ASPIRATE or DISPENSE, where labware may hide it,
-    but is found in the free-hanging frame that follows, is on the pipette: that is no evidence.
+    is kept beside it. A tip that is not found in one frame but in a later one is on the pipette,
+    for tips fall off and do not come back: that is no evidence.
 
     Args:
         scorers: Names of the scores that :meth:`triage` will get; the first is the main one.
         settings: Calibration settings, common to all scorers.
         pools: Normals of earlier runs by scorer name.
         always_gate: Send every well after calibration to the gate.
+        least_alarm: See :class:`~.calibration.RunCalibration`, by scorer name.
     """
 
     def __init__(
@@ -70,12 +65,14 @@ class Cascade:
         settings: CalibrationSettings | None = None,
         pools: Mapping[str, NormalPool] | None = None,
         always_gate: bool = False,
+        least_alarm: Mapping[str, float] | None = None,
     ) -> None:
         self.settings = settings or CalibrationSettings()
         self.always_gate = always_gate
-        pools = pools or {}
+        pools, least = pools or {}, least_alarm or {}
         self.calibrations = {
-            name: RunCalibration(self.settings, pools.get(name)) for name in scorers
+            name: RunCalibration(self.settings, pools.get(name), least.get(name, 0.0))
+            for name in scorers
         }
         self._taken = 0
         self._refused = 0
@@ -177,11 +174,13 @@ class Cascade:
             calibration.give_up(reason)
 
     def _counted(self, missing: Collection[KeyframeKind]) -> tuple[KeyframeKind, ...]:
-        return tuple(
-            kind
-            for kind in KeyframeKind
-            if kind in missing and _SHOWN_BY.get(kind, kind) in missing
-        )
+        """The missing frames at the end of the trajectory, if its last one is missing."""
+        counted: list[KeyframeKind] = []
+        for kind in reversed(KeyframeKind):
+            if kind not in missing:
+                break
+            counted.append(kind)
+        return tuple(reversed(counted))
 
 
 def _why(name: str, standing: Standing) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeVar
 
@@ -16,6 +16,8 @@ from .scorers.looks import look
 from .tips import TipGeometry
 
 T = TypeVar("T")
+Well = tuple[Mapping[KeyframeKind, object], Mapping[KeyframeKind, float]]
+"""Looks and expected volumes of one trajectory."""
 
 _MEMORY = 32
 _ENOUGH = 3
@@ -45,8 +47,9 @@ the lamp, a film on the wall) is about the same for all liquids, so a plain one 
 _LEAST_SD = 0.06
 
 _GAP_LEAST = 2.5
-_GAP_FACTOR = 1.5
-_GAP_FIRST = 4.0
+_GAP_FACTOR = 2.0
+_GAP_FIRST = 8.0
+_GAP_FAINT = 25.0
 _GAP_SHARE = 0.3
 """A break counts from this strength, from this multiple of the strongest that this run's normal
 columns showed, and while they are few from more; and air fills the bore."""
@@ -139,10 +142,37 @@ class MeasuredColumns:
             wet = self._wetness(seen)
             if wet is not None:
                 self._learn_usual(kind, seen, wet, volume)
-            top = self._place(seen.tip, volume)
-            # While the tip's inside is known to some per cent only, rows near the top are unsure.
-            margin = _NEAR if len(self._heights) >= _ENOUGH else 0.03 + 0.12 * (1.0 - top)
-            self._contrast.learn(seen.profile, top, margin)
+            self._take(seen, volume)
+
+    def read_beside(
+        self,
+        looks: Mapping[KeyframeKind, object],
+        expected: Mapping[KeyframeKind, float],
+        others: Sequence[Well],
+    ) -> Mapping[KeyframeKind, ColumnReading]:
+        """Read a well with what ``others`` alone teach: the well itself may have been learned."""
+        return self._taught_by(others).read(looks, expected)
+
+    def forget(self, kept: Sequence[Well]) -> None:
+        """Keep what these wells teach, and nothing else."""
+        self._contrast = self._taught_by(kept)._contrast
+        self._usual = _Usual(lights=self._usual.lights)
+
+    def _taught_by(self, wells: Sequence[Well]) -> MeasuredColumns:
+        reader = MeasuredColumns()
+        reader._heights, reader._fullest = self._heights, self._fullest
+        for looks, expected in wells:
+            for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE):
+                seen = looks.get(kind)
+                if isinstance(seen, Look) and not self._off_exposure(seen):
+                    reader._take(seen, expected.get(kind, 0.0))
+        return reader
+
+    def _take(self, seen: Look, volume: float) -> None:
+        top = self._place(seen.tip, volume)
+        # While the tip's inside is known to some per cent only, rows near the top are unsure.
+        margin = _NEAR if len(self._heights) >= _ENOUGH else 0.03 + 0.12 * (1.0 - top)
+        self._contrast.learn(seen.profile, top, margin)
 
     def _learn_usual(self, kind: KeyframeKind, seen: Look, wet: Wetness, volume: float) -> None:
         tip, end = seen.tip, _lowest(seen.profile)
@@ -226,7 +256,8 @@ class MeasuredColumns:
         strength, upper, lower = wet.longest_gap(top + 0.05, end)
         known = self._usual.gaps
         limit = max(_GAP_LEAST, _GAP_FACTOR * max(known, default=0.0) + 1.0)
-        limit += _GAP_FIRST / max(len(known), 1)
+        # A liquid that shows faintly is full of what looks like gaps.
+        limit = (limit + _GAP_FIRST / max(len(known), 1)) * (1.0 + _GAP_FAINT / max(wet.power, 1.0))
         share, _ = wet.mean(upper - 1e-6, lower + 1e-6)
         if len(known) < _ENOUGH or strength < limit or share > _GAP_SHARE:
             return 0.0, 0.0

@@ -8,7 +8,7 @@ perspective aside, and TRANSIT and POST_DISPENSE show the same tip above the sam
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import cv2
@@ -29,6 +29,10 @@ _SAME_LENGTH = 0.12
 
 _MATCH = 0.6
 """Correlation from which the collar of one free frame is found again in the other."""
+
+_FAINT = 0.2
+"""Confidence of a faint tip that another frame confirms; a bare shaft stays below (0.19 at most
+on rendered frames)."""
 
 _REACH = 0.35
 """The free tip's orifice stays within this many tip lengths, up or down, of its usual height."""
@@ -89,6 +93,31 @@ class TipConsistency:
     def _learn(self, *found: TipDetection) -> None:
         self._lengths.append(float(np.mean([one.length for one in found])))
         self._heights.append(float(np.mean([one.orifice[1] for one in found])))
+
+
+def second_look(
+    guess: Callable[[Image], TipDetection | None],
+    detections: Mapping[KeyframeKind, TipDetection | None],
+    frames: Mapping[KeyframeKind, Image],
+) -> dict[KeyframeKind, TipDetection]:
+    """Faint tips to believe in the free frames: two that show the same one confirm each other.
+
+    Args:
+        guess: The likeliest tip in a frame, however faint.
+        detections: What the detector was sure of.
+        frames: The frames.
+    """
+    missing = [kind for kind in FREE if kind in frames and detections.get(kind) is None]
+    guesses = {kind: guess(frames[kind]) for kind in missing}
+    found: dict[KeyframeKind, TipDetection] = {}
+    for kind, other in (FREE, FREE[::-1]):
+        if kind not in missing:
+            continue
+        faint, partner = guesses[kind], detections.get(other) or guesses.get(other)
+        sure = partner is not None and partner.confidence >= _FAINT
+        if faint is not None and partner is not None and sure and confirms(faint, partner, _FAINT):
+            found[kind] = faint
+    return found
 
 
 def confirms(guess: TipDetection | None, partner: TipDetection, least: float) -> bool:

@@ -22,7 +22,7 @@ class Case:
         readings: Liquid columns by keyframe; a keyframe that could not be read is left out.
         missing: Keyframes in which no tip was found.
         calibrated: Whether readings rest on this run's own normal wells.
-        p_value: How often a normal well looks this unusual, if the scorer can tell.
+        p_value: How often a normal well of this run looks this unusual, if the scorer can tell.
     """
 
     sample: TrajectorySample
@@ -65,19 +65,22 @@ class VolumetricLimits:
         least_ul: Smallest difference that counts, µL.
         blind_fraction: If the tolerance is wider than this fraction of the commanded volume,
             a pass would be worth nothing: undecided.
-        least_p_value: Volumes that agree do not explain away a well that looks more unusual than
-            this: a bubble takes hardly any volume. Such a well is undecided.
+        least_p_value: Volumes that agree, or that cannot be measured, do not explain away a well
+            that looks more unusual than this: a bubble takes hardly any volume. Such a well is
+            undecided.
         gross_sigmas, gross_fraction: The same limits for calibration wells, on which the
             reading itself is not calibrated yet.
+        gross_empty: On those, the loaded tip counts as empty up to this share of its volume.
     """
 
     sigmas: float = 4.0
     fraction: float = 0.15
     least_ul: float = 0.5
     blind_fraction: float = 0.6
-    least_p_value: float = 0.005
-    gross_sigmas: float = 6.0
-    gross_fraction: float = 0.35
+    least_p_value: float = 3e-4
+    gross_sigmas: float = 5.0
+    gross_fraction: float = 0.2
+    gross_empty: float = 0.35
 
 
 class VolumetricGate:
@@ -138,6 +141,9 @@ class VolumetricGate:
             )
         if abs(difference) <= tolerance:
             return None
+        if kind is KeyframeKind.TRANSIT and gross and measured > limits.gross_empty * expected:
+            # Before the tip's inside is known, a column of another height proves little.
+            return None
         if kind is KeyframeKind.TRANSIT:
             if measured <= max(0.2 * expected, tolerance / 2) and difference < 0:
                 return self._fail(
@@ -181,53 +187,43 @@ class VolumetricGate:
         full = case.readings.get(KeyframeKind.TRANSIT)
         last = case.readings.get(KeyframeKind.POST_DISPENSE)
         expected = sample.expected_ul.get(KeyframeKind.POST_DISPENSE)
-        if full is None or last is None or not case.calibrated or not self._sharp(full, sample):
-            measured = None if last is None or last.vague else last.volume_ul
-            return GateDecision(
+        measured = None if last is None or last.vague else last.volume_ul
+
+        def say(outcome: Outcome, reason: str) -> GateDecision:
+            return GateDecision(outcome, self.gate, reason, None, measured, expected)
+
+        if KeyframeKind.POST_DISPENSE in case.missing:
+            return say(Outcome.UNDECIDED, "No tip can be seen after the dispense.")
+        seen = case.calibrated and full is not None and self._sharp(full, sample)
+        unusual = case.p_value is not None and case.p_value < self.limits.least_p_value
+        if unusual and seen:
+            return say(
                 Outcome.UNDECIDED,
-                self.gate,
-                "The liquid column cannot be measured well enough in these frames.",
-                None,
-                measured,
-                expected,
-            )
-        if case.p_value is not None and case.p_value < self.limits.least_p_value:
-            return GateDecision(
-                Outcome.UNDECIDED,
-                self.gate,
                 "The volumes agree with the protocol, but the tip looks very unusual.",
-                None,
-                None if last.vague else last.volume_ul,
-                expected,
             )
-        if last.vague:
-            # The image score alone is no ground to stop a run, and the tip was filled as it
-            # should be.
-            return GateDecision(
+        if unusual:
+            return say(
+                Outcome.UNDECIDED,
+                "The tip looks very unusual, and its liquid column cannot be measured.",
+            )
+        if seen and last is not None and not last.vague and self._sharp(last, sample):
+            return say(Outcome.PASS, "The measured columns agree with the protocol's volumes.")
+        if seen and last is not None:
+            return say(
                 Outcome.PASS,
-                self.gate,
                 "The column in transit agrees with the protocol; afterwards nothing speaks for "
                 "liquid left in the tip, though this liquid hardly shows.",
-                None,
-                None,
-                expected,
             )
-        if self._sharp(last, sample):
-            return GateDecision(
-                Outcome.PASS,
-                self.gate,
-                "The measured columns agree with the protocol's volumes.",
-                None,
-                last.volume_ul,
-                expected,
+        if case.p_value is None:
+            return say(
+                Outcome.UNDECIDED,
+                "The liquid column cannot be measured well enough in these frames.",
             )
-        return GateDecision(
-            Outcome.UNDECIDED,
-            self.gate,
-            "The liquid column cannot be measured well enough in these frames.",
-            None,
-            last.volume_ul,
-            expected,
+        # The image score alone is no ground to stop a run.
+        return say(
+            Outcome.PASS,
+            "Nothing in these frames speaks for a failure, though the liquid column cannot be "
+            "measured well enough to confirm the volumes.",
         )
 
     def _sharp(self, reading: ColumnReading, sample: TrajectorySample) -> bool:

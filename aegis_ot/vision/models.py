@@ -27,6 +27,9 @@ VERSION = 1
 MOST_BYTES = 256 * 1024 * 1024
 """Largest model file that is read: a damaged header must not fill the memory."""
 
+SHIPPED = Path(__file__).with_name("world") / "simulated.npz"
+"""The ensemble fitted on simulated normals; ``aegis_ot.evaluation.layer2.shipped`` makes it."""
+
 Arrays = Mapping[str, NDArray[Any]]
 
 

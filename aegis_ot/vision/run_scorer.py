@@ -2,33 +2,46 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..vocabulary import KeyframeKind
 from .crops import trajectory_vector
+from .scorers import Calibrating
 from .scorers.pca import PcaScorer
 from .types import Scorer, TrajectorySample
+
+LEAST_ALARM = 3.5
+"""Score up to which a well passes in any run, for scorers in nats (p = 0.03)."""
+
+_ADAPT_AT = (1, 2, 4, 8)
+"""Numbers of the run's own normal wells at which a world model adapts to them; more change
+little, and each time costs some 30 ms."""
 
 
 class RunScorer:
     """Scores the trajectories of one run.
 
-    Without a world model, a PCA is fitted on the run's first ``wells`` normal trajectories. A
+    A world model scores from the first well on, and adapts to the run's own normal wells as
+    they come. Without one, a PCA is fitted on the run's first ``wells`` normal trajectories. A
     trajectory that the PCA has learned reconstructs too well to calibrate on, so each of the
     first wells is scored by a PCA of the others (leave one out).
 
     Args:
-        scorer: A fitted scorer, or ``None``.
+        scorer: A fitted scorer, or ``None``. It is copied: runs do not see each other's wells.
         wells: Number of first wells to learn from without one.
     """
 
     def __init__(self, scorer: Scorer | None, wells: int) -> None:
-        self._scorer = scorer
+        self._scorer: Scorer | None = copy.deepcopy(scorer)
         self._wells = max(wells, 2)
         self._vectors: list[NDArray[np.float32]] = []
         self._volumes: list[float] = []
+        self._own: list[TrajectorySample] = []
+        self._adapted = 0
 
     @property
     def name(self) -> str:
@@ -39,9 +52,45 @@ class RunScorer:
         """Whether there is a model to score with."""
         return self._scorer is not None
 
+    @property
+    def gives_p_values(self) -> bool:
+        """Whether a score is ``-log p`` of a normal well, in nats."""
+        return hasattr(self._scorer, "p_value")
+
+    @property
+    def needed(self) -> tuple[KeyframeKind, ...]:
+        """Keyframes in which a tip must be found for a score to mean anything."""
+        if self._adapts is not None:
+            return (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+        # A blank crop would be scored as an anomaly, and learned as normal.
+        return tuple(KeyframeKind)
+
     def scores(self, sample: TrajectorySample) -> dict[str, float]:
         """Scores by scorer name; none before there is a model."""
         return {} if self._scorer is None else {self.name: self._scorer.score(sample)}
+
+    def look_ahead(self, sample: TrajectorySample) -> None:
+        """Do what can be done before the last frame, while the robot moves."""
+        ahead = getattr(self._scorer, "look_ahead", None)
+        if ahead is not None:
+            ahead(sample)
+
+    def accept(self, sample: TrajectorySample) -> None:
+        """A well that was scored and judged normal; what was read in its frames is kept."""
+        if self._adapts is not None and len(self._own) < _ADAPT_AT[-1]:
+            self._own.append(sample)
+
+    def adapt(self) -> None:
+        """Adapt to the wells accepted since; costs time, so do it while the robot moves."""
+        known = len(self._own)
+        if self._adapts is not None and known > self._adapted and known in _ADAPT_AT:
+            self._adapted = known
+            self._adapts.calibrate(self._own)
+
+    @property
+    def _adapts(self) -> Calibrating | None:
+        scorer: object = self._scorer
+        return scorer if isinstance(scorer, Calibrating) else None
 
     def learn(self, sample: TrajectorySample) -> Iterator[tuple[dict[str, float], float]]:
         """Learn from one of the first wells; the last one yields scores and volumes of all."""

@@ -14,7 +14,7 @@ import pytest
 
 from aegis_ot.errors import AegisError, ConfigurationError
 from aegis_ot.simulation import random_frames, write_dataset
-from aegis_ot.simulation.dataset import contents_of, paper_plan
+from aegis_ot.simulation.plans import contents_of, paper_plan
 from aegis_ot.vision.dataset import load_dataset
 from aegis_ot.vocabulary import KeyframeKind
 

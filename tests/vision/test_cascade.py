@@ -31,7 +31,6 @@ def test_the_band_passes_silently_and_the_rest_is_grey() -> None:
 @pytest.mark.parametrize(
     "missing",
     [
-        (KeyframeKind.TRANSIT,),
         (KeyframeKind.POST_DISPENSE,),
         (KeyframeKind.DISPENSE, KeyframeKind.POST_DISPENSE),
         tuple(KeyframeKind),
@@ -50,6 +49,20 @@ def test_the_papers_score_floor_is_kept() -> None:
 def test_a_tip_hidden_by_labware_but_seen_a_moment_later_is_there() -> None:
     hidden = (KeyframeKind.ASPIRATE, KeyframeKind.DISPENSE)
     assert calibrated().triage({"pca": 10.0}, hidden).route is Route.SILENT_PASS
+
+
+def test_a_tip_that_is_seen_later_was_there_before() -> None:
+    early = (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT)
+    assert calibrated().triage({"pca": 10.0}, early).route is Route.SILENT_PASS
+
+
+def test_a_scorer_that_knows_its_normals_is_not_narrowed_by_a_quiet_run() -> None:
+    cascade = Cascade(("ensemble",), least_alarm={"ensemble": 3.5})
+    for _ in range(6):
+        cascade.learn({"ensemble": 0.3}, normal=True)
+    assert cascade.state is CalibrationState.READY
+    assert cascade.triage({"ensemble": 3.0}, ()).route is Route.SILENT_PASS
+    assert cascade.triage({"ensemble": 4.5}, ()).route is Route.GREY_ZONE
 
 
 def test_a_well_without_a_score_goes_to_the_gate() -> None:

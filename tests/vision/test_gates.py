@@ -82,7 +82,7 @@ def test_no_tip_where_it_hangs_free_fails() -> None:
 
 
 def test_calibration_wells_fail_for_gross_mismatches_only() -> None:
-    slight = case(FULL, ColumnReading(25.0, 2.0), Route.CALIBRATION)
+    slight = case(FULL, ColumnReading(16.0, 2.0), Route.CALIBRATION)
     gross = case(FULL, ColumnReading(80.0, 2.0), Route.CALIBRATION)
     assert VolumetricGate().examine(slight).outcome is not Outcome.FAIL
     assert VolumetricGate().examine(gross).outcome is Outcome.FAIL
@@ -90,9 +90,26 @@ def test_calibration_wells_fail_for_gross_mismatches_only() -> None:
 
 def test_agreeing_volumes_do_not_explain_away_a_very_unusual_tip() -> None:
     assert VolumetricGate().examine(replace(case(), p_value=0.04)).outcome is Outcome.PASS
-    decision = VolumetricGate().examine(replace(case(), p_value=0.001))
+    decision = VolumetricGate().examine(replace(case(), p_value=1e-5))
     assert decision.outcome is Outcome.UNDECIDED
     assert "unusual" in decision.reason
+
+
+def test_an_unusual_tip_is_asked_about_though_its_column_cannot_be_measured() -> None:
+    blind = replace(case(None, None), p_value=1e-5)
+    assert VolumetricGate().examine(blind).outcome is Outcome.UNDECIDED
+
+
+def test_an_image_score_alone_stops_no_run() -> None:
+    decision = VolumetricGate().examine(replace(case(None, None), p_value=0.01))
+    assert decision.outcome is Outcome.PASS
+    assert "cannot be measured" in decision.reason
+
+
+def test_a_calibration_wells_column_of_another_height_proves_little_an_empty_tip_much() -> None:
+    for seen, outcome in ((60.0, Outcome.PASS), (5.0, Outcome.FAIL)):
+        first = replace(case(ColumnReading(seen, 2.0), EMPTY, Route.CALIBRATION), p_value=1.0)
+        assert VolumetricGate().examine(first).outcome is outcome
 
 
 def test_gates_are_asked_in_turn_until_one_decides() -> None:

@@ -102,6 +102,16 @@ def long_step(u: Array, signal: Array, top: float, bottom: float) -> Step:
     return Step(size, sd)
 
 
+def colour_steps(profile: TipProfile, top: float, bottom: float) -> tuple[Step, Step]:
+    """Long steps of both colours, computed once per profile."""
+
+    def make() -> tuple[Step, Step]:
+        red, blue = (long_step(profile.u, profile.colour[:, i], top, bottom) for i in (0, 1))
+        return red, blue
+
+    return profile.once(("colour steps", top, bottom), make)
+
+
 def _correlation_length(rest: Array) -> float:
     """Rows per independent sample: the integrated autocorrelation, at least 1."""
     rest = rest - rest.mean()
@@ -159,7 +169,7 @@ def colour_evidence(
         bottom: Where the tip's end begins, u.
         strengths: How strongly the dye may show.
     """
-    steps = [long_step(profile.u, profile.colour[:, i], top, bottom) for i in (0, 1)]
+    steps = colour_steps(profile, top, bottom)
     sizes = [
         step.size.astype(np.float64) - own
         for step, own in zip(steps, (empty.red, empty.blue), strict=True)

@@ -8,7 +8,7 @@ import numpy as np
 
 from ...vocabulary import KeyframeKind
 from ..tips import TipGeometry
-from .evidence import EmptyColour, long_step, step_evidence
+from .evidence import EmptyColour, colour_steps, step_evidence
 from .measure import Reference, ceiling, column_evidence, expected_top, read_column
 from .trajectory import (
     DELIVERED,
@@ -92,7 +92,7 @@ def _empty_colour(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometr
     steps = [
         [
             float(np.median(step.size[(step.sd < np.inf) & (np.abs(look.u - 0.75) < 0.12)]))
-            for step in (long_step(look.u, look.colour[:, i], ceiling(tip), 0.97) for i in (0, 1))
+            for step in colour_steps(look, ceiling(tip), 0.97)
         ]
         for looks, volumes in trajectories
         for kind, look in looks.items()

@@ -18,8 +18,8 @@ from .evidence import (
     EmptyColour,
     Strengths,
     colour_evidence,
+    colour_steps,
     edge_evidence,
-    long_step,
     step_evidence,
 )
 from .profile import TipProfile, tip_profile, unroll
@@ -258,7 +258,7 @@ def _summit(u: Array, ranked: Array, row: int) -> tuple[float, float]:
 
 def dye_at(profile: TipProfile, tip: TipGeometry, row: int, empty: EmptyColour) -> Dye:
     """Colour step at a row, less what an empty tip shows."""
-    red, blue = (long_step(profile.u, profile.colour[:, i], ceiling(tip), 0.97) for i in (0, 1))
+    red, blue = colour_steps(profile, ceiling(tip), 0.97)
     sd = float(max(np.hypot(red.sd[row], empty.red_sd), np.hypot(blue.sd[row], empty.blue_sd)))
     return Dye(
         float(red.size[row]) - empty.red,

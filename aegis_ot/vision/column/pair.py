@@ -24,6 +24,8 @@ _EXPECTED_LEAST = 3.0
 """Rows of which less change is to be expected tell nothing: the bore is too narrow there."""
 
 _ROWS_LEAST = 12
+_LENGTH_LEAST = 120.0
+"""Shortest tip, px, in which two frames can be compared row by row without a template."""
 
 
 def column_left(
@@ -39,7 +41,7 @@ def column_left(
         ceiling: Where the free bore begins, u.
     """
     u = before.u
-    if len(after.u) != len(u):
+    if len(after.u) != len(u) or min(before.length, after.length) < _LENGTH_LEAST:
         return None
     change = (signals(before) - signals(after))[:, :-1] / (np.sqrt(2) * NOISE[:-1])
     seen = cv2.blur((change**2).mean(axis=1).astype(np.float32)[:, None], (1, 7))[:, 0]

@@ -16,13 +16,17 @@ the tip is: that cancels exposure and white balance.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import Any, TypeVar, cast
 
 import cv2
 import numpy as np
 
 from .strip import Array, Strip, TipShape
+
+T = TypeVar("T")
 
 LANES = np.linspace(-2.6, 2.6, 53).astype(np.float32)
 """Positions across the axis at which rows are read, in outer radii of that row."""
@@ -65,6 +69,14 @@ class TipProfile:
     section: Array
     length: float
     clarity: float
+    known: dict[object, Any] = field(default_factory=dict, repr=False, compare=False)
+    """What was worked out of it before; see :meth:`once`."""
+
+    def once(self, what: object, make: Callable[[], T]) -> T:
+        """``make()``, computed once for this profile."""
+        if what not in self.known:
+            self.known[what] = make()
+        return cast(T, self.known[what])
 
     @property
     def pitch(self) -> float:

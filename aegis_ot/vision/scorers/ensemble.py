@@ -16,7 +16,7 @@ from ..models import ModelFile
 from ..tips import pipette_class
 from ..types import TrajectorySample
 from .column import ColumnReport, ColumnScorer
-from .patches import PatchesScorer
+from .patches import PatchesScorer, describe
 from .surprise import alarm_level
 
 NO_TIP = 40.0
@@ -95,6 +95,11 @@ class EnsembleScorer:
         if any(sample.detections.get(kind) is None for kind in _DECISIVE):
             return NO_TIP
         return self.report(sample).score
+
+    def look_ahead(self, sample: TrajectorySample) -> None:
+        """Work out what the first frames of a trajectory tell, while the last is still to come."""
+        self.column.report(sample)
+        describe(sample)
 
     def report(self, sample: TrajectorySample) -> EnsembleReport:
         """Score and what stands behind it."""

@@ -16,8 +16,14 @@ _PERSPECTIVE = 0.08
 """By how much the length of one tip differs between the frames of a trajectory at most: it
 comes nearer to the camera and goes farther from it. Rendered plates: sd 0.02."""
 
-_Key = tuple[TipDetection, str, float | None]
-_taken: dict[int, tuple[weakref.ref[Image], _Key, TipLook]] = {}
+_SAME = 0.03
+"""Lengths this close are the same: looking again would change nothing."""
+
+_FREE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+
+_Key = tuple[TipDetection, str]
+_Taken = tuple[weakref.ref[Image], _Key, dict[float | None, TipLook]]
+_taken: dict[int, _Taken] = {}
 
 
 def look(
@@ -27,21 +33,25 @@ def look(
 
     A live run calls it as each frame arrives, so that little is left to do after the last one.
     """
-    key: _Key = (detection, pipette, length)
-    known = _taken.get(id(image))
-    if known is not None and known[0]() is image and known[1] == key:
-        return known[2]
-    taken = look_at_tip(image, detection, pipette, length=length)
+    key: _Key = (detection, pipette)
     place = id(image)
-    _taken[place] = (weakref.ref(image, lambda _: _taken.pop(place, None)), key, taken)
-    return taken
+    known = _taken.get(place)
+    if known is None or known[0]() is not image or known[1] != key:
+        reference = weakref.ref(image, lambda _: _taken.pop(place, None))
+        known = _taken[place] = (reference, key, {})
+    for other, taken in known[2].items():
+        if other == length or (other and length and abs(other / length - 1.0) < _SAME):
+            return taken
+    known[2][length] = look_at_tip(image, detection, pipette, length=length)
+    return known[2][length]
 
 
 def looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
     """Looks of all frames in which a tip was found and can be seen, computed once per sample.
 
-    One tip is about as long in all four frames. A frame that disagrees with the others was
-    detected badly and is looked at again with their length.
+    One tip is about as long in all four frames. A frame that disagrees with those in which the
+    tip hangs free shows a part of it, for labware hides the rest, or was detected badly; it is
+    looked at again with their length.
     """
     return remember(sample, "looks", _looks)
 
@@ -56,11 +66,18 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
             seen = look(frame, detection, sample.pipette)
             if not seen.washed_out:
                 images[kind], taken[kind] = frame, seen
-    if len(taken) < 3:
-        return taken
-    usual = float(np.median([seen.profile.length for seen in taken.values()]))
+    usual = _usual_length({kind: seen.profile.length for kind, seen in taken.items()})
     for kind, seen in list(taken.items()):
         detection = sample.detections[kind]
-        if detection is not None and abs(seen.profile.length / usual - 1.0) > _PERSPECTIVE:
+        off = usual is not None and abs(seen.profile.length / usual - 1.0) > _PERSPECTIVE
+        if detection is not None and off:
             taken[kind] = look(images[kind], detection, sample.pipette, usual)
     return taken
+
+
+def _usual_length(lengths: Mapping[KeyframeKind, float]) -> float | None:
+    """Length of the tip, px: that of the free frames, if they agree; else what most show."""
+    free = [lengths[kind] for kind in _FREE if kind in lengths]
+    if free and max(free) <= (1 + _PERSPECTIVE) * min(free):
+        return float(np.mean(free))
+    return float(np.median(list(lengths.values()))) if len(lengths) >= 3 else None

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import cv2
@@ -188,7 +189,8 @@ def _describe(sample: TrajectorySample) -> Array:
     parts = []
     for kind in KeyframeKind:
         if kind in seen:
-            parts.append(_patches(seen[kind], middle))
+            one = seen[kind]
+            parts.append(one.profile.once(("patches", middle), partial(_patches, one, middle)))
         else:
             shape = (ABOVE + BELOW, len(_SIDES), _FEATURES)
             parts.append(np.full(shape, np.nan, dtype=np.float32))

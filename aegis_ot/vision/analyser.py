@@ -1,0 +1,255 @@
+"""One run, well by well: look at each frame as it comes, judge when the trajectory is complete."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
+from .calibration import CalibrationState
+from .camera import Frame
+from .cascade import Triage
+from .consistency import second_look
+from .evidence import evidence_of
+from .gates import Case, ConfirmingGate, GateDecision, VolumetricGate, examine_in_turn
+from .measuring import TipView
+from .stream import OpenTrajectory, Stream
+from .tips import pipette_class, tip_for
+from .types import Detector, TipDetection, TrajectorySample
+
+MOST_OPEN = 32
+"""Trajectories whose frames are kept at once: one that is never judged must not fill memory."""
+
+Judged = tuple[Verdict, Mapping[str, Any]]
+
+_Key = tuple[str, float, str]
+
+
+class RunAnalyser:
+    """Judges the trajectories of one run, one call at a time.
+
+    Calibration is per liquid and pipette: see :class:`~.stream.Stream`.
+
+    A multi-channel pipette is judged on the one tip that the detector picks; the evidence says
+    so (``channels``, ``tips_judged``).
+
+    Args:
+        run: Identifier of the run.
+        detector: Finds the tip.
+        make_stream: Makes a stream, given one of the same pipette and tip, if there is one.
+        gates: Asked in turn.
+    """
+
+    def __init__(
+        self,
+        run: str,
+        detector: Detector,
+        make_stream: Callable[[Stream | None], Stream],
+        gates: Sequence[ConfirmingGate],
+    ) -> None:
+        self.run = run
+        self._detector = detector
+        self._make_stream = make_stream
+        self._gates = gates
+        self._streams: dict[_Key, Stream] = {}
+        self._open: dict[int, OpenTrajectory] = {}
+
+    def observe(self, keyframe: Keyframe, frame: Frame) -> None:
+        """A keyframe was captured: find the tip and measure while the robot moves on."""
+        trajectory = self._open.setdefault(keyframe.trajectory, OpenTrajectory())
+        while len(self._open) > MOST_OPEN:
+            del self._open[min(self._open)]
+        kind, image = keyframe.kind, frame.image
+        trajectory.keyframes[kind] = keyframe
+        if not _is_image(image):
+            trajectory.unusable.append(kind)
+            return
+        detection = self._detector.detect(image)
+        trajectory.frames[kind] = image
+        trajectory.detections[kind] = detection
+        if detection is not None:
+            self._look(self._stream(keyframe), trajectory, kind, detection)
+        if kind is KeyframeKind.ASPIRATE:
+            self._stream(keyframe).catch_up()
+        if kind is KeyframeKind.DISPENSE:
+            sample = self._sample(keyframe.trajectory, trajectory)
+            self._stream(keyframe).scorer.look_ahead(sample)
+
+    def judge(self, trajectory: int) -> Judged:
+        """The trajectory is complete: its verdict, and what stands behind it."""
+        seen = self._open.pop(trajectory, None)
+        if seen is None or not seen.detections:
+            verdict = Verdict(
+                self.run,
+                trajectory,
+                Outcome.UNDECIDED,
+                Route.UNCALIBRATED,
+                gate=Gate.OPERATOR,
+                reason="No usable frame of this trajectory was captured; please look at the tip.",
+            )
+            return verdict, {}
+        stream = self._stream(max(seen.keyframes.values(), key=lambda k: k.sequence))
+        self._settle(stream, seen)
+        sample = self._sample(trajectory, seen)
+        case = self._case(stream, seen, sample)
+        volumetric = VolumetricGate().examine(case)
+        contradiction = volumetric.reason if volumetric.outcome is Outcome.FAIL else ""
+        triage = stream.cascade.triage(case.scores, case.missing, contradiction)
+        case = replace(case, route=triage.route)
+        decision = self._decide(stream, case, triage)
+        self._learn(stream, case, seen, decision)
+        decision = _with_doubt(stream, decision)
+        verdict = Verdict(
+            self.run,
+            trajectory,
+            decision.outcome,
+            triage.route,
+            case.scores.get(stream.scorer.name),
+            decision.gate,
+            decision.failure,
+            decision.reason,
+            decision.measured_ul,
+            decision.expected_ul,
+        )
+        key = next(key for key, known in self._streams.items() if known is stream)
+        evidence = evidence_of(key, stream, case, seen, triage, decision)
+        seen.frames.clear()
+        return verdict, evidence
+
+    def recall(self, history: Sequence[Judged]) -> None:
+        """Restore the bands from what was judged before a restart."""
+        for _, evidence in history:
+            known = evidence.get("calibration") if isinstance(evidence, Mapping) else None
+            if not isinstance(known, Mapping):
+                continue
+            try:
+                pipette, capacity, liquid = known["stream"]
+                key = (str(pipette), float(capacity), str(liquid))
+                scores = {str(name): float(score) for name, score in known["scores"].items()}
+                normal, volume = bool(known["normal"]), float(known["volume_ul"])
+            except (KeyError, TypeError, ValueError, AttributeError):
+                continue
+            stream = self._stream_of(key)
+            stream.cascade.learn(scores, normal=normal, volume_ul=volume)
+
+    def _case(self, stream: Stream, seen: OpenTrajectory, sample: TrajectorySample) -> Case:
+        missing = tuple(kind for kind, found in seen.detections.items() if found is None)
+        readings = stream.reader.read(seen.looks, sample.expected_ul)
+        whole = all(seen.detections.get(kind) is not None for kind in stream.scorer.needed)
+        scores = stream.scorer.scores(sample) if whole else {}
+        p_value = None
+        if stream.scorer.gives_p_values:
+            # Of this run's normals: all of them may look unusual to a model of other runs.
+            score = scores.get(stream.scorer.name, 0.0)
+            p_value = math.exp(-max(score - stream.usual_score, 0.0))
+        return Case(sample, Route.GREY_ZONE, scores, readings, missing, stream.learned > 0, p_value)
+
+    def _look(
+        self, stream: Stream, seen: OpenTrajectory, kind: KeyframeKind, detection: TipDetection
+    ) -> None:
+        keyframe = seen.keyframes[kind]
+        tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
+        pipette = pipette_class(keyframe.pipette)
+        view = TipView(kind, seen.frames[kind], detection, tip, pipette, keyframe.expected_ul)
+        seen.looks[kind] = stream.reader.look(view)
+
+    def _settle(self, stream: Stream, seen: OpenTrajectory) -> None:
+        """Put the detections right by the run's own tip, and look again where one changed."""
+        guess = getattr(self._detector, "best_guess", None)
+        if guess is not None:
+            seen.detections.update(second_look(guess, seen.detections, seen.frames))
+        settled = stream.tip.settle(seen.detections, seen.frames)
+        for kind, detection in settled.items():
+            if detection is seen.detections[kind] and (detection is None or kind in seen.looks):
+                continue
+            seen.looks.pop(kind, None)
+            if detection is not None:
+                self._look(stream, seen, kind, detection)
+        seen.detections = settled
+
+    def _stream(self, keyframe: Keyframe) -> Stream:
+        pipette = f"{keyframe.mount} {keyframe.pipette}"
+        return self._stream_of((pipette, keyframe.capacity_ul, keyframe.reagent or ""))
+
+    def _stream_of(self, key: _Key) -> Stream:
+        if key not in self._streams:
+            kin = next((s for k, s in self._streams.items() if k[:2] == key[:2]), None)
+            self._streams[key] = self._make_stream(kin)
+        return self._streams[key]
+
+    def _decide(self, stream: Stream, case: Case, triage: Triage) -> GateDecision:
+        if triage.route is Route.CALIBRATION:
+            stream.first_wells += 1
+            # Assumed normal, but a failure that shows is caught even here.
+            gross = VolumetricGate().examine(case)
+            if gross.outcome is Outcome.FAIL:
+                return gross
+            number = f"Calibration well {stream.first_wells} of {stream.settings.wells}."
+            return replace(gross, outcome=Outcome.PASS, gate=Gate.NONE, reason=number)
+        if not triage.to_gate:
+            last = case.readings.get(KeyframeKind.POST_DISPENSE)
+            return GateDecision(
+                Outcome.PASS,
+                Gate.NONE,
+                triage.reason,
+                None,
+                None if last is None or last.vague else last.volume_ul,
+                case.sample.expected_ul.get(KeyframeKind.POST_DISPENSE),
+            )
+        decision = examine_in_turn(self._gates, case)
+        if triage.reason == decision.reason:
+            return decision
+        return replace(decision, reason=f"{triage.reason} {decision.reason}")
+
+    def _learn(
+        self, stream: Stream, case: Case, seen: OpenTrajectory, decision: GateDecision
+    ) -> None:
+        normal = decision.outcome is Outcome.PASS
+        collecting = stream.cascade.state is CalibrationState.COLLECTING
+        whole = len(case.sample.frames) == len(KeyframeKind) and not case.missing
+        if collecting and normal and whole and not stream.scorer.ready:
+            # The run's own model: its first wells are scored once they are all there.
+            for scores, volume in stream.scorer.learn(case.sample):
+                stream.cascade.learn(scores, normal=True, volume_ul=volume)
+        elif case.scores or not normal:
+            volume = case.sample.volume_ul
+            stream.cascade.learn(case.scores, normal=normal, volume_ul=volume)
+        if normal:
+            stream.learn(case.sample, seen.looks, bool(case.scores))
+
+    def _sample(self, trajectory: int, seen: OpenTrajectory) -> TrajectorySample:
+        last = seen.keyframes[max(seen.keyframes, key=lambda kind: seen.keyframes[kind].sequence)]
+        well = last.destinations[0].name if last.destinations else ""
+        return TrajectorySample(
+            id=f"{self.run}-{trajectory}",
+            plate=self.run,
+            well=well,
+            pipette=pipette_class(last.pipette),
+            volume_ul=last.commanded_ul,
+            frames=seen.frames,
+            detections=seen.detections,
+            expected_ul={kind: frame.expected_ul for kind, frame in seen.keyframes.items()},
+            reagent=last.reagent or "",
+        )
+
+
+def _with_doubt(stream: Stream, decision: GateDecision) -> GateDecision:
+    """Tell of an earlier well that turned out to be suspect, once, with the next that passes."""
+    if not stream.doubt or decision.outcome is not Outcome.PASS:
+        return decision
+    reason, stream.doubt = stream.doubt, ""
+    return replace(decision, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR, reason=reason)
+
+
+def _is_image(image: object) -> bool:
+    return (
+        isinstance(image, np.ndarray)
+        and image.dtype == np.uint8
+        and image.ndim == 3
+        and image.shape[2] == 3
+        and min(image.shape[:2]) >= 16
+    )

@@ -1,0 +1,60 @@
+"""What stands behind a verdict, as plain values for the page, the report and a restart."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ..vocabulary import KeyframeKind, Outcome
+from .cascade import Triage
+from .gates import Case, GateDecision
+from .measuring import ColumnReading
+from .stream import OpenTrajectory, Stream
+
+
+def evidence_of(
+    key: tuple[str, float, str],
+    stream: Stream,
+    case: Case,
+    seen: OpenTrajectory,
+    triage: Triage,
+    decision: GateDecision,
+) -> dict[str, Any]:
+    """Boxes, scores, band, measured and expected volumes, and what restores the calibration."""
+    channels = max(keyframe.channels for keyframe in seen.keyframes.values())
+    band = stream.cascade.calibrations[stream.scorer.name].band
+    found = {kind: tip for kind, tip in seen.detections.items() if tip is not None}
+    return {
+        "boxes": {kind.value: [tip.x, tip.y, tip.w, tip.h] for kind, tip in found.items()},
+        "confidence": {kind.value: tip.confidence for kind, tip in found.items()},
+        "scores": dict(case.scores),
+        "band": None if band is None else list(band),
+        "triage": triage.reason,
+        "measured_ul": dict(_readings(case.readings)),
+        "expected_ul": {kind.value: v for kind, v in case.sample.expected_ul.items()},
+        "unusable_frames": [kind.value for kind in seen.unusable],
+        "channels": channels,
+        "tips_judged": 1,
+        "calibration": {
+            "stream": list(key),
+            "volume_ul": case.sample.volume_ul,
+            "scores": dict(case.scores),
+            "normal": decision.outcome is Outcome.PASS,
+        },
+    }
+
+
+def _readings(
+    readings: Mapping[KeyframeKind, ColumnReading],
+) -> Iterator[tuple[str, dict[str, float]]]:
+    for kind, reading in readings.items():
+        if reading.vague:
+            continue
+        yield (
+            kind.value,
+            {
+                "volume": round(reading.volume_ul, 2),
+                "uncertainty": round(reading.sigma_ul, 2),
+                "air": round(reading.gap_ul, 2),
+            },
+        )
