@@ -26,6 +26,10 @@ CORE_METHODS: Mapping[str, OperationKind] = {
     "detect_liquid_presence": OperationKind.TOUCH_TIP,
     "liquid_probe_with_recovery": OperationKind.TOUCH_TIP,
     "liquid_probe_without_recovery": OperationKind.TOUCH_TIP,
+    "resin_tip_seal": OperationKind.PICK_UP_TIP,
+    "resin_tip_unseal": OperationKind.DROP_TIP,
+    # Pressure pushes an unknown amount through the resin, whatever volume is asked for.
+    "resin_tip_dispense": OperationKind.TOUCH_TIP,
 }
 
 _PROBES = frozenset(name for name in CORE_METHODS if "liquid_p" in name)
@@ -140,6 +144,8 @@ class CallReader:
         return operation
 
     def _volume(self, kind: OperationKind, values: Mapping[str, Any]) -> float:
+        if kind is OperationKind.TOUCH_TIP:
+            return 0.0
         volume = float(values.get("volume") or 0.0)
         if kind is OperationKind.DISPENSE:
             # Older apiLevels clamp a dispense to what is in the tip, air included.

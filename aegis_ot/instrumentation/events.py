@@ -1,4 +1,4 @@
-"""Hears of what is not pipetting: labware, liquids, pauses, comments, fresh tips."""
+"""Hears of what is not pipetting: labware, liquids, modules, pauses, comments, fresh tips."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from .callsite import find_call_site
+from .modules import MODULE_ACTIONS, action_text, carried_by
 from .operation import Event, EventKind, Listener
 from .wells import WellResolver
 
@@ -37,7 +38,7 @@ class EventTap:
         self._listeners = listeners
         self._file_name = file_name
         self._replace = replace
-        self._liquid_names: dict[str, str] = {}
+        self._liquids: dict[str, tuple[str, str]] = {}
 
     def install(self) -> None:
         """Wrap what this core has; the legacy one has less."""
@@ -48,6 +49,9 @@ class EventTap:
         self._before(self._core, "move_labware", self._moving)
         self._after(self._core, "move_labware", self._moved)
         self._after(self._core, "define_liquid", self._defined)
+        for module_core in self._core.get_module_cores():
+            self._tap_module(module_core)
+        self._after(self._core, "load_module", lambda result, *_: self._tap_module(result))
         self._before(self._core, "pause", self._said(EventKind.PAUSED))
         self._after(self._core, "comment", self._said(EventKind.COMMENT))
         self._after(self._core, "delay", self._said(EventKind.DELAY))
@@ -102,6 +106,29 @@ class EventTap:
             )
         )
 
+    def _tap_module(self, module_core: Any) -> None:
+        for name in MODULE_ACTIONS:
+            self._after(module_core, name, self._module_did(module_core, name))
+
+    def _module_did(self, module_core: Any, name: str) -> Callable[..., None]:
+        def tell(result: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
+            if name == "retrieve":
+                self._handed_out(result)
+            on_it = carried_by(self._core, module_core)
+            key = self._wells.register(on_it).key if on_it is not None else ""
+            text = action_text(name, args, kwargs)
+            self._tell(Event(EventKind.MODULE, self._line(), key, text=text))
+
+        return tell
+
+    def _handed_out(self, labware_core: Any) -> None:
+        """A stacker gives a labware that nobody saw before, or one that was stored: with the same
+        identifier it is the same plate, and holds what it held."""
+        if self._wells.knows(labware_core):
+            self._moved(None, (labware_core,), {})
+        else:
+            self._loaded(labware_core)
+
     def _moving(self, _result: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
         info = self._wells.register(kwargs.get("labware_core", args[0] if args else None))
         self._tell(Event(EventKind.LABWARE_MOVING, self._line(), info.key))
@@ -112,7 +139,7 @@ class EventTap:
         self._tell(Event(EventKind.LABWARE_MOVED, self._line(), info.key, text=slot))
 
     def _defined(self, liquid: Any, *_: Any) -> None:
-        self._liquid_names[str(liquid._id)] = str(liquid.name)
+        self._liquids[str(liquid._id)] = (str(liquid.name), str(liquid.description or ""))
 
     def _said(self, kind: EventKind) -> Callable[..., None]:
         def tell(_result: Any, args: tuple[Any, ...], kwargs: dict[str, Any]) -> None:
@@ -126,10 +153,17 @@ class EventTap:
         if type(params).__name__ != "LoadLiquidParams":
             return
         key = self._wells.key_of_id(params.labwareId)
-        name = self._liquid_names.get(params.liquidId, "")
+        name, description = self._liquids.get(params.liquidId, ("", ""))
         line = self._line()
         for well, volume in params.volumeByWell.items():
-            ref = self._wells.ref(key, well)
             self._tell(
-                Event(EventKind.LIQUID_LOADED, line, key, (ref,), text=name, volume=float(volume))
+                Event(
+                    EventKind.LIQUID_LOADED,
+                    line,
+                    key,
+                    (self._wells.ref(key, well),),
+                    text=name,
+                    volume=float(volume),
+                    description=description,
+                )
             )

@@ -150,9 +150,11 @@ class Event:
         line: Source line of the protocol.
         labware: Key of the labware concerned (see :class:`WellRef`), or ``""``.
         wells: The wells concerned.
-        text: Message of a pause or comment; name of a liquid; new slot of a moved labware.
+        text: Message of a pause or comment; name of a liquid; new slot of a moved labware; what a
+            module did (``"set and wait for shake speed 500"``), ``labware`` being the plate on it.
         volume: Declared volume of a loaded liquid, µL, or ``None``.
         labware_info: What is known of a labware just loaded.
+        description: What the protocol says of a loaded liquid besides its name.
     """
 
     kind: EventKind
@@ -162,3 +164,4 @@ class Event:
     text: str = ""
     volume: float | None = None
     labware_info: LabwareInfo | None = None
+    description: str = ""

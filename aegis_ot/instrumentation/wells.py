@@ -86,6 +86,10 @@ class WellResolver:
             self.labware[key] = _describe(key, labware_core, self._slots[key])
         return self.labware[key]
 
+    def knows(self, labware_core: Any) -> bool:
+        """Whether a labware core was registered before."""
+        return (getattr(labware_core, "labware_id", None) or labware_core) in self._keys
+
     def key_of_id(self, labware_id: str) -> str:
         """The key of an engine labware identifier, taken in if it was never seen before."""
         return (

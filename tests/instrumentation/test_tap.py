@@ -275,3 +275,67 @@ def test_labware_that_a_stacker_hands_out_can_be_filled():
     heard, _ = run(flex(body, "2.25"))
     loaded = [e for e in heard.events if e.kind is EventKind.LIQUID_LOADED]
     assert [(e.text, e.wells[0].name, e.volume) for e in loaded] == [("water", "B2", 100)]
+
+
+def test_shaking_names_the_plate_on_the_module_and_its_adapter():
+    body = """
+    shaker = protocol.load_module("heaterShakerModuleV1", "D3")
+    adapter = shaker.load_adapter("opentrons_96_flat_bottom_adapter")
+    shaken = adapter.load_labware("nest_96_wellplate_200ul_flat")
+    shaker.close_labware_latch()
+    shaker.set_and_wait_for_shake_speed(500)
+    shaker.deactivate_shaker()
+    """
+    heard, rehearsal = run(flex(body))
+    told = [(e.text, e.labware) for e in heard.events if e.kind is EventKind.MODULE]
+    assert [text for text, _ in told] == [
+        "close labware latch",
+        "set and wait for shake speed 500",
+        "stop moving",
+    ]
+    assert {rehearsal.labware[key].load_name for _, key in told} == {
+        "nest_96_wellplate_200ul_flat"
+    }
+
+
+@pytest.mark.parametrize("level", ["2.14", "2.20"])
+def test_temperatures_and_lids_are_told(level):
+    body = """
+    cycler = protocol.load_module("thermocyclerModuleV2")
+    cycler.open_lid()
+    cycler.set_block_temperature(95)
+    cold = protocol.load_module("temperature module gen2", 4)
+    cold.set_temperature(4)
+    """
+    heard, _ = run(ot2(body, level).replace('360ul_flat", 1', '360ul_flat", 9'))
+    texts = [e.text for e in heard.events if e.kind is EventKind.MODULE]
+    assert texts[0] == "open lid"
+    assert texts[1].startswith("set target block temperature 95")
+    assert "set target temperature 4" in texts
+
+
+def test_a_liquid_is_told_with_its_description():
+    body = """
+    dye = protocol.define_liquid("reagent 1", "no template control, water", "#ff0000")
+    plate["A1"].load_liquid(dye, 100)
+    """
+    heard, _ = run(ot2(body))
+    told = next(e for e in heard.events if e.kind is EventKind.LIQUID_LOADED)
+    assert (told.text, told.description) == ("reagent 1", "no template control, water")
+
+
+def test_a_plate_from_a_stacker_is_announced_and_stays_itself():
+    body = """
+    stacker = protocol.load_module("flexStackerModuleV1", "D4")
+    stacker.set_stored_labware("corning_96_wellplate_360ul_flat", count=1)
+    fresh = stacker.retrieve()
+    stacker.store()
+    again = stacker.retrieve()
+    """
+    heard, rehearsal = run(flex(body, "2.25"))
+    keys = {b.name: b.labware for b in rehearsal.names if b.name in ("fresh", "again")}
+    loaded = [e.labware for e in heard.events if e.kind is EventKind.LABWARE_LOADED]
+    assert keys["fresh"][0] in loaded
+    assert keys["again"] == keys["fresh"]
+    texts = [e.text for e in heard.events if e.kind is EventKind.MODULE]
+    assert texts == ["retrieve", "store", "retrieve"]
