@@ -44,6 +44,7 @@ class Courier:
     Attributes:
         away: Whether the sidecar is given up for now; then only cheap looks are taken.
         stale: Trajectories of which a keyframe was, or will be, sent too late.
+        forgotten: Those of them that were sent in time, and that the sidecar lost.
         acknowledged: Keyframes that the sidecar has.
     """
 
@@ -67,6 +68,7 @@ class Courier:
         self._registered = False
         self.away = False
         self.stale: set[int] = set()
+        self.forgotten: set[int] = set()
 
     @property
     def acknowledged(self) -> int:
@@ -131,6 +133,7 @@ class Courier:
             return self._link.verdict(self._run, number, _POLL_S, _REQUEST_S)
         except RunUnknown:
             self._register(time.monotonic() + _REQUEST_S)
+            self._queue_again(0)
             return None
 
     def abandon(self, number: int, reason: str) -> None:
@@ -189,16 +192,15 @@ class Courier:
             self._messages.popleft()
 
     def _camera_trouble(self, waited_s: float) -> CameraSilent | None:
-        """Whether the sidecar that gave no answer is there, and only its camera is not."""
+        """Whether the sidecar that captured nothing in time is there, and what it says."""
         try:
             camera = self._link.health(_GLANCE_S).get("camera")
         except LinkError:
             return None
-        if not isinstance(camera, Mapping) or camera.get("ok") is not False:
-            return None
+        said = str(camera.get("detail", ""))[:200].rstrip(".") if isinstance(camera, dict) else ""
         return CameraSilent(
-            f"The sidecar at {self._link.url} is there, but took no frame within {waited_s:g} s: "
-            f"{str(camera.get('detail', ''))[:200]} Look at the camera's cable."
+            f"The sidecar at {self._link.url} is there, but took no frame within {waited_s:g} s"
+            f"{f' ({said})' if said else ''}. Look at the camera and at the sidecar's page."
         )
 
     def _insist(self, attempt: Callable[[float], None], timeout_s: float) -> None:
@@ -253,6 +255,7 @@ class Courier:
         """The sidecar lost what it had acknowledged. The moments are over: they go late."""
         again = self._sent[sequence:]
         del self._sent[sequence:]
+        self.forgotten.update(keyframe.trajectory for keyframe in again)
         self._pending.extendleft(self._late(keyframe) for keyframe in reversed(again))
 
     def _register(self, deadline: float) -> None:

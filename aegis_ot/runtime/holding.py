@@ -67,6 +67,8 @@ class Holding:
         """Poll in short waits until the verdict is in; else why there is none."""
         courier = self._courier
         while True:
+            if number in courier.forgotten:
+                return None, "lost by the sidecar"
             if number in courier.stale:
                 return None, "late keyframes"
             if courier.away:
@@ -96,8 +98,11 @@ class Holding:
         place = self._result.places.get(number) or f"trajectory {number}"
         if verdict is None:
             self._result.lost[number] = ended_by
+            # For late keyframes and a lost link the policy was asked when it happened.
             text = f"No verdict on {place} within {settings.verdict_timeout_s:g} s."
-            if ended_by == "timeout":
+            if ended_by == "lost by the sidecar":
+                text = f"No verdict on {place}: the sidecar lost its keyframes."
+            if ended_by in ("timeout", "lost by the sidecar"):
                 policy = settings.on_link_loss
         else:
             self._result.verdicts[number] = verdict

@@ -103,7 +103,7 @@ def test_a_camera_slower_than_the_patience_is_named(sidecar: FakeSidecar, courie
 
     sidecar.fault = dead_camera
     courier.offer(keyframe(0))
-    with pytest.raises(CameraSilent, match=r"is there, but.*sent nothing for 9 s\. Look at"):
+    with pytest.raises(CameraSilent, match=r"is there, but.*sent nothing for 9 s\)\. Look at"):
         courier.deliver(0.3)
     hanging.release.set()
 

@@ -244,13 +244,35 @@ class TestLinkLoss:
             return False
 
         sidecar.fault = fault
-        watcher, _texts, error = watch(wells(2), settings(sidecar, capture_timeout_s=2.0))
+        watcher, texts, error = watch(wells(2), settings(sidecar, capture_timeout_s=2.0))
         assert error is None
         stored = sidecar.stored()
         assert [f["sequence"] for f in stored] == list(range(8))
         assert [f["late"] for f in stored] == [True] * 5 + [False] * 3
+        assert len(said(texts)) == 1
+        assert "B2" in said(texts)[0]
+        assert "the sidecar lost its keyframes" in said(texts)[0]
         # The first had its verdict before; of the second one keyframe is worthless.
         assert "1 passed, 1 not judged (B2" in watcher.summary()
+
+    def test_a_sidecar_that_forgot_the_run_during_a_hold_is_not_waited_for(
+        self, sidecar: FakeSidecar
+    ) -> None:
+        def forget(handler: Handler) -> None:
+            sidecar.keyframes.clear()
+            handler.serve()
+
+        sidecar.fault = once("/verdict", forget)
+        patience = settings(sidecar, verdict_timeout_s=60.0, capture_timeout_s=2.0)
+        began = time.monotonic()
+        watcher, texts, error = watch(wells(2), patience)
+        assert error is None
+        assert time.monotonic() - began < 10.0
+        assert "A2" in said(texts)[0]
+        assert "the sidecar lost its keyframes" in said(texts)[0]
+        assert [f["sequence"] for f in sidecar.stored()] == list(range(8))
+        assert [f["late"] for f in sidecar.stored()] == [True] * 4 + [False] * 4
+        assert "1 passed, 1 not judged (A2" in watcher.summary()
 
     def test_it_is_found_again_and_gets_what_it_missed(self, sidecar: FakeSidecar) -> None:
         sidecar.fault = once("/keyframes", Handler.drop, times=10_000)
