@@ -12,7 +12,7 @@ _TIP_HEIGHT = 400
 """Most pixels of a picture; a smaller one is not enlarged."""
 
 _MARGIN = 0.1
-_LEAST_ASPECT = 0.62
+_LEAST_ASPECT = 0.8
 """Least width of a close-up, as a fraction of its height."""
 
 

@@ -1,0 +1,71 @@
+"""Recorded runs: as normals to learn from, and as a data set."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from aegis_ot.errors import ConfigurationError, DatasetError, ModelError
+from aegis_ot.evaluation.layer2 import fit_model
+from aegis_ot.evaluation.layer2.exporting import export_runs
+from aegis_ot.evaluation.layer2.recorded import open_store, recorded_runs
+from aegis_ot.sidecar.judging import load_scorer
+from aegis_ot.sidecar.store import Store
+from aegis_ot.sidecar.wire import Decision
+from aegis_ot.vision.dataset import load_dataset
+from aegis_ot.vision.detection import load_detector
+from aegis_ot.vocabulary import Outcome
+
+
+def test_only_wells_that_passed_are_learned(store: Path, tmp_path: Path) -> None:
+    model = fit_model([store], tmp_path / "lab.model", "pca")
+    (used,) = model.data["recordings"]
+    assert used["normals"] == 7
+    assert used["source"] == "synthetic"
+    assert load_scorer(tmp_path / "lab.model").name == "pca"
+
+
+def test_the_operators_word_counts(store: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "store"
+    shutil.copytree(store, folder)
+    kept = Store(folder)
+    kept.add_decision("run-1", 3, Decision(outcome=Outcome.FAIL, by="ada"))
+    (run,) = recorded_runs(kept, load_detector())
+    assert [s.label for s in run.samples].count("normal") == 6
+
+
+def test_a_damaged_model_is_refused(drawn: Path, tmp_path: Path) -> None:
+    path = tmp_path / "lab.model"
+    fit_model([drawn], path, "pca")
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 255
+    path.write_bytes(bytes(data))
+    with pytest.raises(ModelError, match="damaged"):
+        load_scorer(path)
+
+
+def test_plates_of_two_sets_are_not_mixed_up(drawn: Path, tmp_path: Path, monkeypatch) -> None:
+    seen: set[str] = set()
+    scorer = "aegis_ot.vision.scorers.pca.PcaScorer.fit"
+    monkeypatch.setattr(scorer, lambda self, normals: seen.update(s.plate for s in normals))
+    monkeypatch.setattr("aegis_ot.vision.scorers.pca.PcaScorer.to_arrays", lambda self: ({}, {}))
+    fit_model([drawn, drawn], tmp_path / "x", "pca")
+    assert len(seen) == 6
+
+
+def test_a_run_becomes_a_data_set(store: Path, tmp_path: Path) -> None:
+    told = export_runs(store, tmp_path / "out")
+    assert (told.written, told.failures, told.left_out) == (8, 1, 0)
+    data = load_dataset(tmp_path / "out")
+    assert data.source == "synthetic"
+    assert [r.failure_type for r in data.records][-1] == "no_dispense"
+    with pytest.raises(DatasetError, match="already"):
+        export_runs(store, tmp_path / "out")
+
+
+def test_no_store_is_made_by_looking_for_one(tmp_path: Path) -> None:
+    with pytest.raises(ConfigurationError, match="data folder"):
+        open_store(tmp_path)
+    assert not any(tmp_path.iterdir())

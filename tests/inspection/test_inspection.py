@@ -1,0 +1,97 @@
+"""The page of a data set and of a run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from aegis_ot.evaluation.layer2.recorded import open_store
+from aegis_ot.inspection import inspect_dataset, inspect_run, inspection_html
+from aegis_ot.inspection.choosing import pictured
+from aegis_ot.inspection.levels import mark_at
+from aegis_ot.vision.dataset import load_dataset
+from aegis_ot.vocabulary import KeyframeKind
+from tests.sidecar.browser import CHROMIUM, chromium
+
+
+def test_a_data_set_is_judged_and_shown_well_by_well(drawn: Path) -> None:
+    data = load_dataset(drawn)
+    seen = inspect_dataset(data, "pca", most=5)
+    assert [well.id for well in seen.wells] == [record.id for record in data.records]
+    assert sum(well.pictured for well in seen.wells) == 5
+    assert sum(well.outcome == "calibration" for well in seen.wells) == 3
+    page = inspection_html(seen)
+    assert "synthetic" in page
+    assert "http" not in page.replace("http-equiv", "")
+    assert page.count("<article") == len(data.records), "wells without pictures keep their numbers"
+    assert "without pictures" in page
+
+
+def test_one_plate_alone_is_shown_without_scores(drawn: Path, tmp_path: Path) -> None:
+    data = load_dataset(drawn)
+    one = type(data)(data.root, tuple(r for r in data.records if r.plate == "plate00"),
+                     data.boxes, data.meta)  # fmt: skip
+    seen = inspect_dataset(one, most=0)
+    assert {well.score for well in seen.wells} == {None}
+    assert any("One plate alone" in note for note in seen.notes)
+
+
+def test_a_run_is_shown_as_it_was_judged(store: Path) -> None:
+    kept = open_store(store)
+    seen = inspect_run(kept, "run-1")
+    assert [well.well for well in seen.wells] == [*(f"{row}1" for row in "ABCDEFGH")]
+    last = seen.wells[-1]
+    assert (last.outcome, last.failure) == ("fail", "no_dispense")
+    after = last.frames[KeyframeKind.POST_DISPENSE]
+    assert after.measured is not None
+    assert after.measured.volume_ul > 75
+    assert after.measured.mark is not None
+
+
+def test_a_lost_frame_is_said_in_its_place(store: Path, tmp_path: Path) -> None:
+    import shutil
+
+    shutil.copytree(store, tmp_path / "store")
+    files = sorted((tmp_path / "store").glob("frames/*/*.jpg"))
+    files[0].unlink()
+    files[1].write_bytes(b"\xff\xd8no")
+    page = inspection_html(inspect_run(open_store(tmp_path / "store"), "run-1"))
+    assert "missing in the store" in page
+    assert "damaged in the store" in page
+
+
+def test_names_are_text_and_never_markup(store: Path) -> None:
+    from dataclasses import replace
+
+    seen = inspect_run(open_store(store), "run-1", most=0)
+    page = inspection_html(replace(seen, title="<script>alert(1)</script>"))
+    assert "<script>alert" not in page
+
+
+def test_wrong_wells_get_pictures_first() -> None:
+    wells = [(False, False), (True, False), (False, True), (False, False)]
+    assert pictured(wells, 2) == [False, True, True, False]
+    assert pictured(wells, 9) == [True] * 4
+
+
+def test_a_mark_stands_across_the_tip() -> None:
+    mark = mark_at(((50.0, 100.0), (50.0, 0.0)), (40, 0, 20, 100), 0.25)
+    assert mark is not None
+    assert mark[0][1] == mark[1][1] == pytest.approx(75)
+    assert mark_at(((50.0, 100.0), (50.0, 0.0)), (40, 0, 20, 100), 0) is None
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")
+def test_the_filter_leaves_the_flagged_wells(store: Path, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    page.write_text(inspection_html(inspect_run(open_store(store), "run-1")), encoding="utf-8")
+    with chromium(tmp_path / "profile", (390, 844)) as browser:
+        browser.open(page.as_uri())
+        browser.until("document.querySelector('output').value === '8 of 8 wells'")
+        browser.run("document.querySelector('[data-show=flagged]').click()")
+        assert browser.run("document.querySelectorAll('article:not([hidden])').length") == 1
+        browser.run("document.querySelector('.map a').click()")
+        assert browser.run("document.querySelectorAll('article:not([hidden])').length") == 8
+        assert browser.run("document.documentElement.scrollWidth <= innerWidth")
+        assert browser.errors == []
