@@ -106,7 +106,8 @@ def _read_file(path: Path) -> dict[str, Any]:
         ) from error
     except ValueError as error:
         raise ConfigurationError(
-            f"The settings file {path} cannot be understood: {error}. Correct it there."
+            f"The settings file {path}, read as {'TOML' if path.suffix == '.toml' else 'JSON'}, "
+            f"cannot be understood: {error}. Correct it there."
         ) from error
     if not isinstance(content, dict):
         raise ConfigurationError(

@@ -124,7 +124,7 @@ def _sidecar(value: Any, site: Site) -> str | None:
         )
     if _is_address(text):
         return text.rstrip("/")
-    bare = "://" not in text and "@" not in text and _is_address(f"http://{text}")
+    bare = "/" not in text and "@" not in text and _is_address(f"http://{text}")
     raise site.error(value, accepted + (f' (did you mean "http://{text}"?)' if bare else ""))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import importlib
 import ipaddress
 import json
@@ -70,8 +71,9 @@ class CascadeSettings(Section):
     """Which models judge, and when a well goes to a gate.
 
     Attributes:
-        model: Fitted scorer of the lab, from ``aegis-ot fit``; ``None``: a PCA is fitted on each
-            run's own first wells.
+        model: Fitted scorer of the lab, from ``aegis-ot fit``; ``None``: the shipped one, fitted
+            on simulated normal wells, or with the preset ``paper`` a PCA of each run's own first
+            wells.
         detector: Tip detector (ONNX); ``None``: the shipped one.
         preset: Calibration to start from: ``default``, or ``paper``.
         calibration_wells: How many first wells calibrate a run; ``None``: the preset's (6).
@@ -235,8 +237,22 @@ def _explain(error: ValidationError) -> str:
     for problem in error.errors(include_url=False, include_input=False):
         place = ".".join(str(part) for part in problem["loc"])
         text = problem["msg"].removeprefix("Value error, ")
+        if problem["type"] == "extra_forbidden":
+            text = f"there is no such setting{_meant(problem['loc'])}"
+        elif problem["type"] == "model_type":
+            text = f"is a section of settings: [{place}] in TOML, an object in JSON"
         lines.append(f"{place}: {text}" if place else text)
     return "Sidecar settings: " + "; ".join(lines)
+
+
+def _meant(place: tuple[int | str, ...]) -> str:
+    """Which setting an unknown one resembles, as the end of a sentence."""
+    section: Any = SidecarConfig
+    for name in place[:-1]:
+        section = section.model_fields[name].annotation
+    known = list(section.model_fields)
+    close = difflib.get_close_matches(str(place[-1]), known, n=1)
+    return f"; did you mean {close[0]!r}?" if close else f"; there are {', '.join(known)}"
 
 
 def _read_file(path: Path) -> dict[str, Any]:

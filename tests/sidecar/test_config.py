@@ -41,14 +41,15 @@ def test_toml(tmp_path: Path) -> None:
     [
         ("{", "damaged"),
         ("[1]", "one object"),
-        ('{"prot": 1}', "prot"),
+        ('{"prot": 1}', "prot: there is no such setting; did you mean 'port'"),
+        ('{"zzz": 1}', "there are host, port"),
         ('{"port": 99999}', "port"),
         ('{"camera": {"timeout_s": NaN}}', "camera.timeout_s"),
-        ('{"camera": {"speck": 1}}', "camera.speck"),
+        ('{"camera": {"speck": 1}}', "camera.speck: there is no such setting; did you mean 'spec'"),
         ('{"token": ""}', "token"),
         ('{"token": "a b"}', "token"),
         ('{"cascade": {"gates": ["oracle"]}}', "oracle"),
-        ('{"camera": 7}', "camera"),
+        ('{"camera": 7}', r"camera: is a section of settings: \[camera\] in TOML"),
     ],
 )
 def test_errors_name_what_is_wrong(tmp_path: Path, text: str, told: str) -> None:
