@@ -188,6 +188,18 @@ def test_a_plate_replaced_in_a_pause_is_a_new_plate(text: str, new: bool) -> Non
     assert bool(trace.imbalances) is not new
 
 
+def test_a_module_shakes_the_plate_that_is_on_it_and_no_other() -> None:
+    bench = Bench()
+    bench.pick()
+    bench.draw("source:A1", 50)
+    bench.give("plate:A1", 50)
+    bench.say(EventKind.MODULE, "set and wait for shake speed 500", "plate")
+    bench.say(EventKind.MODULE, "open lid", "source")
+    trace = bench.trace()
+    assert trace.mixed_since(well(trace, "plate:A1"), 0, float("inf"))
+    assert not trace.mixed_since(well(trace, "source:A1"), 0, float("inf"))
+
+
 def test_a_plate_taken_off_the_deck_comes_back_as_a_new_one() -> None:
     bench = Bench()
     bench.pick()

@@ -70,7 +70,7 @@ def _liquids(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
             by_name.setdefault(liquid, []).append(well.ref)
     for liquid, wells in by_name.items():
         yield Clue(Strength.LIQUID, liquid, tuple(wells), None, f"liquid '{liquid}'")
-        description = facts.liquids.get(liquid)
+        description = trace.descriptions.get(liquid) or facts.liquids.get(liquid)
         if description:
             yield Clue(
                 Strength.DESCRIPTION,

@@ -76,6 +76,8 @@ class _Builder:
                 well = self._plates.well(ref)
                 if event.text and event.text not in well.liquids:
                     well.liquids.append(event.text)
+                if event.description:
+                    self._trace.descriptions.setdefault(event.text, event.description)
                 well.fill_before_run(event.volume)
         elif kind is EventKind.TIPS_RESET:
             self._box.refill_rack(event.labware)
@@ -87,7 +89,8 @@ class _Builder:
             self._paused(event)
         elif kind is EventKind.MODULE:
             if self._replacements.shakes(event.text):
-                self._trace.shaken.append((self._index, None))
+                plates = frozenset({event.labware}) if event.labware else None
+                self._trace.shaken.append((self._index, plates))
         elif kind is EventKind.COMMENT:
             self._trace.comments.append((event.line, event.text))
 

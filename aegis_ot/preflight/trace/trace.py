@@ -26,6 +26,7 @@ class Trace:
         visits: Every visit, in order.
         imbalances: Volumes that do not add up.
         shaken: Index, labware keys (``None``: any) of each time a plate was shaken.
+        descriptions: What the run says of a liquid, by the liquid's name.
         comments: What the run said or asked, with its line.
         steps: Number of recorded operations.
     """
@@ -36,6 +37,7 @@ class Trace:
     visits: list[Visit] = field(default_factory=list)
     imbalances: list[Imbalance] = field(default_factory=list)
     shaken: list[tuple[int, frozenset[str] | None]] = field(default_factory=list)
+    descriptions: dict[str, str] = field(default_factory=dict)
     comments: list[tuple[int | None, str]] = field(default_factory=list)
     groups: dict[WellRef, tuple[WellRef, ...]] = field(default_factory=dict)
     singles: set[WellRef] = field(default_factory=set)
