@@ -293,9 +293,7 @@ def test_shaking_names_the_plate_on_the_module_and_its_adapter():
         "set and wait for shake speed 500",
         "stop moving",
     ]
-    assert {rehearsal.labware[key].load_name for _, key in told} == {
-        "nest_96_wellplate_200ul_flat"
-    }
+    assert {rehearsal.labware[key].load_name for _, key in told} == {"nest_96_wellplate_200ul_flat"}
 
 
 @pytest.mark.parametrize("level", ["2.14", "2.20"])

@@ -1,0 +1,91 @@
+"""Words and numbers beside wells, whatever the plate map looks like."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.support.rehearsing import ot2, run
+
+
+def names(body: str, before: str = ""):
+    _, rehearsal = run(before + ot2(body))
+    return {binding.name: binding for binding in rehearsal.names}
+
+
+def told(binding):
+    return [(row.spots, tuple(ref.name for ref in row.wells), row.said) for row in binding.rows]
+
+
+@pytest.mark.parametrize(
+    ("value", "rows"),
+    [
+        ("{'A1': 'NTC', 'A2': 'sample 1'}",
+         [(("A1",), (), (("", "NTC"),)), (("A2",), (), (("", "sample 1"),))]),
+        ("{plate['A1']: 'NTC'}", [((), ("A1",), (("", "NTC"),))]),
+        ("{'A1': {'content': 'NTC', 'dose': 0.5}}",
+         [(("A1",), (), (("content", "NTC"), ("dose", 0.5)))]),
+        ("[{'well': 'A1', 'content': 'no template control'}]",
+         [(("A1",), (), (("content", "no template control"),))]),
+        ("[['Well', 'Content'], ['A1', 'NTC'], ['B1', '5']]",
+         [(("A1",), (), (("Content", "NTC"),)), (("B1",), (), (("Content", "5"),))]),
+        ("[(plate['H12'], 'NTC', 0.5)]", [((), ("H12",), (("", "NTC"), ("", 0.5)))]),
+        ("[Sample('A1', 'NTC')]", [(("A1",), (), (("content", "NTC"),))]),
+        ("list(__import__('csv').DictReader(['well,content', 'A1,NTC']))",
+         [(("A1",), (), (("content", "NTC"),))]),
+    ],
+)  # fmt: skip
+def test_a_plate_map_is_read_row_by_row(value, rows):
+    before = """
+from dataclasses import dataclass
+@dataclass
+class Sample:
+    well: str
+    content: str
+"""
+    assert told(names(f"layout = {value}\n", before)["layout"]) == rows
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        "{'A1': 'B1'}",
+        "['NTC', 'sample']",
+        "{'volume': 5, 'rate': 2}",
+        "[[1, 2], [3, 4]]",
+        "'A1 or B1'",
+    ],
+)
+def test_what_names_no_well_beside_words_is_no_plate_map(value):
+    found = names(f"layout = {value}\n").get("layout")
+    assert found is None or (found.rows, found.spots) == ((), ())
+
+
+def test_well_names_are_told_as_such():
+    found = names(
+        "ntc_well = 'A12'\nblanks = ['H11', 'H12']\n"
+        "where = {'ntc': 'B1', 'samples': ['C1', 'D1']}\n"
+    )
+    assert found["ntc_well"].spots == ("A12",)
+    assert found["blanks"].spots == ("H11", "H12")
+    assert found["where['ntc']"].spots == ("B1",)
+    assert found["where['samples']"].spots == ("C1", "D1")
+
+
+def test_lists_beside_the_wells_and_notes_on_them():
+    found = names("doses = [0, 0.5, 1]\nplate['C3'].content = 'NTC'\n")
+    assert found["doses"].values == (0, 0.5, 1)
+    assert told(found["content"]) == [((), ("C3",), (("content", "NTC"),))]
+
+
+def test_a_list_that_grows_is_read_again():
+    body = """
+    wells = []
+    def note():
+        seen = wells
+    wells.append("A1")
+    note()
+    wells.append("B1")
+    note()
+    """
+    _, rehearsal = run(ot2(body))
+    assert [b.spots for b in rehearsal.names if b.name == "seen"] == [("A1",), ("A1", "B1")]
