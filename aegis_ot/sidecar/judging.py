@@ -12,7 +12,7 @@ from ..vision.calibration import PRESETS
 from ..vision.column_reader import MeasuredColumns
 from ..vision.detection import load_detector
 from ..vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
-from ..vision.models import load_model
+from ..vision.models import SHIPPED, load_model
 from ..vision.monitor import MonitorSettings, RunMonitor
 from ..vision.scorers import make_scorer
 from ..vision.types import Scorer
@@ -52,11 +52,18 @@ def make_analyser(
     )
     return RunMonitor(
         load_detector("default" if cascade.detector is None else cascade.detector),
-        None if cascade.model is None else load_scorer(cascade.model),
+        _world_model(cascade),
         MonitorSettings(calibration, cascade.always_gate),
         [*(known[name] for name in cascade.gates), OperatorGate()],
         MeasuredColumns,
     )
+
+
+def _world_model(cascade: CascadeSettings) -> Scorer | None:
+    """The lab's own, or the shipped one; the paper's cascade learns from the run's first wells."""
+    if cascade.model is not None:
+        return load_scorer(cascade.model)
+    return None if cascade.preset == "paper" else load_scorer(SHIPPED)
 
 
 def load_scorer(path: Path) -> Scorer:
