@@ -48,6 +48,7 @@ class Rehearser:
         self._rules = tuple(rules)
         self._process: subprocess.Popen[bytes] | None = None
         self._link: Link | None = None
+        self._cancelled = threading.Event()
         folder = tempfile.mkdtemp(prefix="aegis-ot-")
         self._folder = Path(folder)
         self._stacks = self._folder / "stacks"
@@ -70,10 +71,13 @@ class Rehearser:
         """Do a task and return its result.
 
         Raises:
-            TaskFailed: It raised, did not end in time, or took its process with it.
+            TaskFailed: It raised, did not end in time, took its process with it, or was
+                cancelled.
         """
-        if self._process is None:
+        if not self._cancelled.is_set() and self._process is None:
             self._start()
+        if self._cancelled.is_set():
+            raise TaskFailed(Problem("was interrupted."))
         answer = self._ask(task, task.timeout_s + grace_s(task.timeout_s))
         if answer is None:
             line = self._line(task)
@@ -85,6 +89,13 @@ class Rehearser:
         if answer.problem is not None:
             raise TaskFailed(answer.problem)
         return answer.value
+
+    def cancel(self) -> None:
+        """End what another thread has it do now, and refuse all further tasks."""
+        self._cancelled.set()
+        process = self._process
+        if process is not None:
+            _kill(process)
 
     def _start(self) -> None:
         path = os.pathsep.join(filter(None, sys.path))
@@ -98,6 +109,9 @@ class Rehearser:
         assert self._process.stdin
         assert self._process.stdout
         self._link = Link(self._process.stdout, self._process.stdin)
+        if self._cancelled.is_set():  # in between, so it was not there to be ended
+            _kill(self._process)
+            return
         ready = self._ask(None, _START_S)
         if ready is None or ready.value != "ready":
             raise RehearsalError(

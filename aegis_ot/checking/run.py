@@ -23,6 +23,7 @@ from .guard_arguments import guard_arguments
 from .modelled import Asking, ask_model
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, CheckRun, Problem, with_findings
+from .side_by_side import LazyRehearser, check_each
 from .tasks import Check, CheckWithDossier, api_level_line
 from .waiving import waive
 
@@ -44,6 +45,7 @@ class CheckSettings:
         baseline: Findings known of old.
         explain_roles: Whether the reports are to show roles.
         asking: A model to ask, if any.
+        jobs: How many files to check at a time; one where a model is asked.
     """
 
     options: Options = field(default_factory=Options)
@@ -58,6 +60,7 @@ class CheckSettings:
     baseline: Baseline | None = None
     explain_roles: bool = False
     asking: Asking | None = None
+    jobs: int = 1
 
 
 def check_files(
@@ -66,48 +69,29 @@ def check_files(
     database: Database,
     done: Callable[[CheckedProtocol], None] = lambda checked: None,
 ) -> CheckRun:
-    """Check protocol files one after another. A bad one does not keep the others from it.
+    """Check protocol files. A bad one does not keep the others from it.
 
     Args:
         files: Protocol files.
         settings: How to check.
         database: The rules in force, with ``settings.rules``.
-        done: Told of each file when it is done.
+        done: Told of each file, in their order, when it is done.
 
     Raises:
         RehearsalError: The rehearsing process cannot be started.
     """
-    protocols = []
-    with _Rehearsers(settings.rules) as rehearsers:
-        for file in files:
-            checked = _check_file(file, settings, database, rehearsers)
-            protocols.append(checked)
-            done(checked)
+
+    def check(file: Path, rehearser: LazyRehearser) -> CheckedProtocol:
+        return _check_file(file, settings, database, rehearser)
+
+    # One question at a time to a model: its service counts them.
+    jobs = settings.jobs if settings.asking is None else 1
+    protocols = check_each(files, jobs, settings.rules, check, done)
     return CheckRun(tuple(protocols), database, __version__, settings.explain_roles)
 
 
-class _Rehearsers:
-    """A rehearser that is started when the first readable file needs it."""
-
-    def __init__(self, rules: tuple[str, ...]) -> None:
-        self._rules = rules
-        self._rehearser: Rehearser | None = None
-
-    def __enter__(self) -> _Rehearsers:
-        return self
-
-    def __exit__(self, *error: Any) -> None:
-        if self._rehearser is not None:
-            self._rehearser.__exit__(*error)
-
-    def get(self) -> Rehearser:
-        if self._rehearser is None:
-            self._rehearser = Rehearser(self._rules).__enter__()
-        return self._rehearser
-
-
 def _check_file(
-    file: Path, settings: CheckSettings, database: Database, rehearsers: _Rehearsers
+    file: Path, settings: CheckSettings, database: Database, rehearser: LazyRehearser
 ) -> CheckedProtocol:
     name = file.as_posix()
     try:
@@ -125,7 +109,7 @@ def _check_file(
     options = options_for(text, settings.options)
     start = time.monotonic()
     try:
-        judged = _judge(rehearsers.get(), script, options, settings, database)
+        judged = _judge(rehearser.get(), script, options, settings, database)
     except TaskFailed as failed:
         problem = failed.problem
         if problem.line is None and "API" in problem.message:

@@ -23,6 +23,7 @@ from ..checking import (
 from ..checking.baseline import baseline_text, read_baseline
 from ..checking.configuration import ConfiguredWaiver
 from ..checking.files import read_csv_paths, read_labware, read_values
+from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
 from ..preflight import Database, Options, load_database
 from ..reports import RENDERERS, check_text
@@ -74,6 +75,15 @@ def check(
     write_baseline: Annotated[
         Path | None, typer.Option(help="Write such a file from what is found now.")
     ] = None,
+    jobs: Annotated[
+        int | None,
+        typer.Option(
+            "--jobs",
+            "-j",
+            min=1,
+            help="Protocols to check at a time [default: one per processor]",
+        ),
+    ] = None,
     model: ModelName = None,
     record: RecordFolder = None,
 ) -> None:
@@ -102,6 +112,7 @@ def check(
         waiver_root=configured.folder,
         explain_roles=explain_roles,
         asking=_asking(model, record, configured),
+        jobs=jobs or processors(),
     )
     known = baseline or (Path(configured.baseline) if configured.baseline else None)
     if known is not None and not write_baseline:

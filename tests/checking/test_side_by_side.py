@@ -1,0 +1,122 @@
+"""Several files at a time: their order, and an interruption that leaves nothing behind."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from aegis_ot.checking import CheckSettings, check_files
+from aegis_ot.checking.side_by_side import LazyRehearser, check_each
+from aegis_ot.preflight import load_database
+
+EMPTY = 'metadata = {"apiLevel": "2.15"}\n\n\ndef run(protocol):\n    pass\n'
+ENDLESS = """import pathlib
+metadata = {"apiLevel": "2.15"}
+
+
+def run(protocol):
+    pathlib.Path(FILE).touch()
+    while True:
+        pass
+"""
+
+
+def test_results_and_reports_keep_the_order_of_the_files() -> None:
+    second_is_done = threading.Event()
+
+    def check(file: Path, rehearser: LazyRehearser) -> str:
+        if file.name == "first":
+            assert second_is_done.wait(30), "they do not run side by side"
+        else:
+            second_is_done.set()
+        return file.name
+
+    told: list[str] = []
+    files = [Path("first"), Path("second"), Path("third")]
+    assert check_each(files, 2, (), check, told.append) == ["first", "second", "third"]
+    assert told == ["first", "second", "third"]
+
+
+def test_what_one_file_raises_is_raised_and_the_rest_is_cancelled() -> None:
+    asked: list[str] = []
+
+    def check(file: Path, rehearser: LazyRehearser) -> str:
+        asked.append(file.name)
+        raise LookupError(file.name)
+
+    with pytest.raises(LookupError, match="0"):
+        check_each([Path(str(n)) for n in range(200)], 2, (), check, lambda _: None)
+    assert len(asked) < 200
+
+
+def test_the_same_comes_of_one_job_and_of_several(tmp_path: Path) -> None:
+    files = []
+    for name, text in [("a.py", EMPTY), ("b.py", "def run(:\n"), ("c.py", EMPTY)]:
+        (tmp_path / name).write_text(text, encoding="utf-8")
+        files.append(tmp_path / name)
+    files.append(tmp_path / "missing.py")
+    runs = [check_files(files, CheckSettings(jobs=n), load_database()) for n in (1, 3)]
+    one, several = ([(c.file, c.verdict, c.problem) for c in run.protocols] for run in runs)
+    assert one == several
+    assert [c.verdict.value for c in runs[0].protocols] == ["pass", "error", "pass", "error"]
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="looks for processes in /proc")
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_an_interruption_ends_every_rehearsal_without_a_traceback(
+    tmp_path: Path, jobs: int
+) -> None:
+    started = [tmp_path / f"started{n}" for n in range(jobs)]
+    for number, mark in enumerate(started):
+        text = ENDLESS.replace("FILE", repr(str(mark)))
+        (tmp_path / f"p{number}.py").write_text(text, encoding="utf-8")
+    scratch = tmp_path / "scratch"
+    scratch.mkdir()
+    command = "from aegis_ot.cli import main; main()"
+    names = [f"p{number}.py" for number in range(jobs)]
+    process = subprocess.Popen(
+        [sys.executable, "-c", command, "check", *names, "--jobs", str(jobs)],
+        cwd=tmp_path,
+        env={**os.environ, "TMPDIR": str(scratch)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        _until(lambda: all(mark.exists() for mark in started))
+        process.send_signal(signal.SIGINT)
+        _, told = process.communicate(timeout=20)
+    finally:
+        process.kill()
+    assert process.returncode == 130
+    assert "Traceback" not in told
+    assert list(scratch.glob("aegis-ot-*")) == []
+    _until(lambda: _processes(str(scratch)) == [], 10)
+
+
+def _until(holds: Callable[[], bool], limit_s: float = 90.0) -> None:
+    deadline = time.monotonic() + limit_s
+    while not holds():
+        assert time.monotonic() < deadline, "it never came to this"
+        time.sleep(0.05)
+
+
+def _processes(word: str) -> list[str]:
+    """Command lines of running processes that hold a word."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            line = entry.read_text(encoding="utf-8", errors="replace")
+        except OSError:
+            continue
+        if word in line:
+            found.append(line)
+    return found
