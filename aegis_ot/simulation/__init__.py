@@ -3,10 +3,13 @@
 from .camera import SimulatedCamera
 from .dataset import write_dataset
 from .dyes import Dye, dye_for
-from .faults import Fault, FaultKind, FaultPlan, PhysicalState, parse_faults
+from .fault_plan import FaultPlan, PhysicalState
+from .faults import Fault, FaultKind, parse_faults
 from .random_frames import random_frames
-from .render import FrameTruth, TipTruth, render, render_jpeg
-from .scene import SceneState, SessionParameters, TipContent, place_tip
+from .render import render, render_jpeg
+from .scene import SceneState, TipContent, place_tip
+from .session import SessionParameters
+from .truth import FrameTruth, TipTruth
 
 __all__ = [
     "Dye",

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .optics import Pinhole
-from .scene import Labware, SessionParameters
+from .session import Labware, SessionParameters
 
 Plane = NDArray[np.float32]
 BACK_MM = 190.0

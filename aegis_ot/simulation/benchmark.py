@@ -12,7 +12,8 @@ import numpy as np
 from ..vision.tips import tip_for
 from ..vocabulary import KeyframeKind
 from .render import render
-from .scene import SessionParameters, TipContent, place_tip
+from .scene import TipContent, place_tip
+from .session import SessionParameters
 
 
 @dataclass(frozen=True)

@@ -19,9 +19,12 @@ from ..vision.tips import tip_for
 from ..vocabulary import Keyframe, KeyframeKind
 from .dyes import DYES, WATER, Dye, dye_for
 from .exposure import decode
-from .faults import Fault, FaultPlan, PhysicalState
-from .render import FrameTruth, render_jpeg
-from .scene import SceneState, SessionParameters, TipContent, place_tip
+from .fault_plan import FaultPlan, PhysicalState
+from .faults import Fault
+from .render import render_jpeg
+from .scene import SceneState, TipContent, place_tip
+from .session import SessionParameters
+from .truth import FrameTruth
 
 _READOUT_S = 0.005
 """From the start of an exposure to a frame in hand, where a frame rate is imitated, s."""

@@ -18,8 +18,10 @@ from ..vocabulary import KeyframeKind
 from .dyes import DYES
 from .exposure import decode
 from .plans import PlannedWell, contents_of, normal_plan, paper_plan
-from .render import FrameTruth, TipTruth, render_jpeg
-from .scene import SessionParameters, place_tip
+from .render import render_jpeg
+from .scene import place_tip
+from .session import SessionParameters
+from .truth import FrameTruth, TipTruth
 
 
 def write_dataset(

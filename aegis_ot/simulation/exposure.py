@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..errors import CameraError
 from ..vision.types import Image
-from .scene import SessionParameters
+from .session import SessionParameters
 
 MID_GREY = 110.0
 """Level at which :attr:`SessionParameters.noise` is stated, grey levels."""

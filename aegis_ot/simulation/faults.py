@@ -1,4 +1,4 @@
-"""Planted faults, and what a simulated pipette truly holds because of them.
+"""Planted faults as a user writes them.
 
 A fault is written ``KIND@WELL``, as the command line takes it::
 
@@ -13,14 +13,12 @@ A fault is written ``KIND@WELL``, as the command line takes it::
 from __future__ import annotations
 
 import re
-from collections import OrderedDict
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable
+from dataclasses import dataclass
 from enum import Enum
 
 from ..errors import ConfigurationError
-from ..vocabulary import Keyframe, KeyframeKind, WellRef
-from .scene import TipContent
+from ..vocabulary import WellRef
 
 FORMS = (
     "KIND@WELL with KIND partial:PERCENT, no_aspirate, no_dispense, air_bubble[:PERCENT] or "
@@ -148,183 +146,3 @@ def _parse_where(text: str, place: str) -> Where:
     if colon and not re.fullmatch(r"\d{1,2}|[A-D][1-4]", slot):
         raise _wrong(text, f"{slot!r} is no deck slot")
     return Where(well=well, slot=slot)
-
-
-@dataclass(frozen=True)
-class PhysicalState:
-    """What is truly on a pipette at a keyframe.
-
-    Attributes:
-        contents: One tip per channel, ``A1`` first, each as left after the keyframe's moment.
-        struck: The faults that act in this trajectory.
-    """
-
-    contents: tuple[TipContent, ...]
-    struck: tuple[Fault, ...] = ()
-
-
-@dataclass
-class _Mount:
-    """A pipette between two keyframes: how its trajectory began, and what happened since."""
-
-    tip: str = ""
-    expected: float = 0.0
-    trajectory: int = -1
-    start: tuple[TipContent, ...] = ()
-    changes: list[float] = field(default_factory=list)
-    contents: tuple[TipContent, ...] = ()
-
-
-class FaultPlan:
-    """Follows a run's keyframes and tells what each tip truly holds.
-
-    What is drawn or delivered between two keyframes is the change of the volume that the robot
-    expects in the tip. A fault changes what comes of it:
-
-    - ``no_aspirate``: air is drawn; what is left from before stays.
-    - ``air_bubble``: that share of the volume is air, a third of the way up the column.
-    - ``partial``, ``no_dispense``: less or nothing leaves the tip. The rest stays in it, also for
-      the next wells if the tip is used again: a normal dispense pushes out the commanded volume
-      and no more. It ends when the robot reports another tip. Keyframes do not tell of blow-outs,
-      so a blow-out between two trajectories does not empty a simulated tip.
-    - ``no_tip``: no tip in view in this trajectory, and nothing drawn.
-
-    A well address means the *destination*. While a trajectory's destination is still unknown (a
-    robot learns it only after the aspirate), a well-addressed fault is not yet seen; from then
-    on the tip looks as if the fault had struck from the beginning. Give ``expect`` the keyframes
-    of a rehearsal, and each fault acts from its trajectory's first keyframe.
-
-    Keyframes of several runs may be mixed. A resent keyframe (same run and sequence number) gets
-    the answer it got the first time.
-    """
-
-    def __init__(self, faults: Iterable[Fault | str] = (), film: float = 0.004) -> None:
-        self.faults = parse_faults(faults)
-        self._film = film
-        self._mounts: dict[tuple[str, str], _Mount] = {}
-        self._answers: OrderedDict[tuple[str, int], PhysicalState] = OrderedDict()
-        self._destinations: dict[int, tuple[WellRef, ...]] = {}
-
-    def expect(self, keyframes: Iterable[Keyframe]) -> None:
-        """Learn the destinations of the coming trajectories from a rehearsal's keyframes."""
-        for keyframe in keyframes:
-            if keyframe.destinations:
-                self._destinations[keyframe.trajectory] = keyframe.destinations
-
-    def unmatched(self, keyframes: Sequence[Keyframe]) -> tuple[Fault, ...]:
-        """The faults that strike none of these keyframes: a mistyped well, most likely."""
-        return tuple(
-            fault
-            for fault in self.faults
-            if not any(
-                self._strikes(fault, keyframe, channel)
-                for keyframe in keyframes
-                for channel in range(max(keyframe.channels, 1))
-            )
-        )
-
-    def apply(self, keyframe: Keyframe) -> PhysicalState:
-        """What the pipette truly holds at this keyframe."""
-        key = (keyframe.run, keyframe.sequence)
-        if key in self._answers:
-            return self._answers[key]
-        state = self._advance(keyframe)
-        self._answers[key] = state
-        while len(self._answers) > 4096:
-            self._answers.popitem(last=False)
-        return state
-
-    def _advance(self, keyframe: Keyframe) -> PhysicalState:
-        channels = max(keyframe.channels, 1)
-        mount = self._mounts.setdefault((keyframe.run, keyframe.mount), _Mount())
-        if mount.tip != keyframe.tip or len(mount.contents) != channels:
-            before = _expected_before(keyframe)
-            fresh = tuple(TipContent(liquid_ul=before) for _ in range(channels))
-            mount.tip, mount.expected, mount.contents = keyframe.tip, before, fresh
-            mount.trajectory = -1
-        if mount.trajectory != keyframe.trajectory:
-            # A tip that was missing for one trajectory is a new one for the next.
-            mount.start = tuple(c if c.present else TipContent() for c in mount.contents)
-            mount.trajectory = keyframe.trajectory
-            mount.changes = []
-        mount.changes.append(keyframe.expected_ul - mount.expected)
-        mount.expected = keyframe.expected_ul
-        struck: dict[Fault, None] = {}
-        contents = []
-        for channel, start in enumerate(mount.start):
-            faults = [f for f in self.faults if self._strikes(f, keyframe, channel)]
-            struck.update(dict.fromkeys(faults))
-            contents.append(self._replay(start, mount.changes, {f.kind: f for f in faults}))
-        mount.contents = tuple(contents)
-        return PhysicalState(mount.contents, tuple(struck))
-
-    def _replay(
-        self, start: TipContent, changes: Sequence[float], faults: dict[FaultKind, Fault]
-    ) -> TipContent:
-        """A tip after a trajectory's changes, from its beginning.
-
-        Replayed as a whole each time, because a well-addressed fault may be known only from the
-        second keyframe on.
-        """
-        if FaultKind.NO_TIP in faults:
-            return TipContent(present=False)
-        content = start
-        for change in changes:
-            if change > 1e-9:
-                content = _draw(content, change, faults)
-            elif change < -1e-9:
-                content = self._deliver(content, -change, faults)
-        return content
-
-    def _deliver(
-        self, content: TipContent, wanted: float, faults: dict[FaultKind, Fault]
-    ) -> TipContent:
-        if FaultKind.NO_DISPENSE in faults or FaultKind.NO_ASPIRATE in faults:
-            # Without an aspirate the plunger only pushes out the air that it drew.
-            return content
-        if FaultKind.PARTIAL in faults:
-            wanted *= faults[FaultKind.PARTIAL].amount
-        left = content.liquid_ul - wanted
-        left = left if left > 1e-6 else 0.0
-        gone = content.liquid_ul - left
-        # What was below an enclosed bubble leaves first, and the bubble after it.
-        keeps_gap = content.gap_ul > 0 and content.gap_below_ul > gone
-        return TipContent(
-            liquid_ul=left,
-            gap_ul=content.gap_ul if keeps_gap else 0.0,
-            gap_below_ul=content.gap_below_ul - gone if keeps_gap else 0.0,
-            film_ul=content.film_ul + self._film * gone,
-            film_to_ul=max(content.film_to_ul, content.liquid_ul),
-        )
-
-    def _strikes(self, fault: Fault, keyframe: Keyframe, channel: int) -> bool:
-        if fault.where.number is not None:
-            return fault.where.number == keyframe.trajectory + 1
-        wells = keyframe.destinations or self._destinations.get(keyframe.trajectory, ())
-        if len(wells) == max(keyframe.channels, 1):
-            return fault.where.matches(wells[channel])
-        # Channels that share a well (a reservoir) share its fault.
-        return any(fault.where.matches(well) for well in wells)
-
-
-def _draw(content: TipContent, volume: float, faults: dict[FaultKind, Fault]) -> TipContent:
-    if FaultKind.NO_ASPIRATE in faults:
-        return content
-    bubble = faults.get(FaultKind.AIR_BUBBLE)
-    air = volume * bubble.amount if bubble else 0.0
-    # New liquid enters at the orifice and pushes up what was there.
-    below = 0.35 * (volume - air) if air else content.gap_below_ul + volume
-    gap = air or content.gap_ul
-    return replace(
-        content,
-        liquid_ul=content.liquid_ul + volume - air,
-        gap_ul=gap,
-        gap_below_ul=below if gap else 0.0,
-    )
-
-
-def _expected_before(keyframe: Keyframe) -> float:
-    """What the tip held before its first keyframe, as far as that one tells, µL."""
-    if keyframe.kind in (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT):
-        return 0.0
-    return keyframe.expected_ul + keyframe.commanded_ul

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .scene import SessionParameters
+from .session import SessionParameters
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float, float]

@@ -13,8 +13,10 @@ from ..vocabulary import KeyframeKind
 from .dyes import DYES, Dye
 from .exposure import decode
 from .plans import FAILURES, contents_of
-from .render import FrameTruth, render_jpeg
-from .scene import SceneState, SessionParameters, place_tip
+from .render import render_jpeg
+from .scene import SceneState, place_tip
+from .session import SessionParameters
+from .truth import FrameTruth
 
 _PIPETTES = ("p1000", "p300", "p20", "p10", "flex_1channel_50", "flex_1channel_1000")
 _SIZES = ((640, 480), (640, 480), (960, 540), (1280, 720))

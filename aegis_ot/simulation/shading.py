@@ -5,39 +5,25 @@ All is done in grey levels, where the dyes' transmissions were measured, not in 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from ..vision.tips import TipGeometry
 from .dyes import REFERENCE_PATH_MM, Dye
-from .scene import SessionParameters, TipContent
-
-Plane = NDArray[np.float32]
-
-
-@dataclass(frozen=True)
-class TipView:
-    """The patch of a frame that a tip covers.
-
-    Attributes:
-        across, along: mm right of the axis and above the orifice at each pixel, ``(h, w)``.
-        mm_per_px: Size of a pixel in the tip's plane, mm.
-        sees_down: Sine of the angle at which the camera looks down on the tip.
-        hidden_below: Height above the orifice below which labware hides the tip, mm.
-        under: Colour of the labware under the tip, grey levels (B, G, R).
-        scatter: Random numbers for beads and drops, fixed per tip and well.
-    """
-
-    across: Plane
-    along: Plane
-    mm_per_px: float
-    sees_down: float
-    hidden_below: float
-    under: tuple[float, float, float]
-    scatter: np.random.Generator
+from .reflections import (
+    Plane,
+    TipView,
+    column_edges,
+    edges,
+    glints,
+    menisci,
+    meniscus_height,
+    specks,
+)
+from .scene import TipContent
+from .session import SessionParameters
 
 
 def shade_tip(
@@ -102,20 +88,15 @@ def _tip(
         back *= _transmission(dye, path, parameters)
     front = back + 0.15 * milky * (haze - back)
 
-    lines = _edges(u, inner, outer, wet, view, parameters)
-    lines = lines + _glints(view, inner, outer, wet, parameters)
-    lines = lines + _menisci(view, tip, content, inner, parameters)
-    lines = lines + _specks(view, tip, parameters)
+    lines = edges(u, inner, outer, wet, view, parameters)
+    lines = lines + glints(view, inner, outer, wet, parameters)
+    lines = lines + menisci(view, tip, content, inner, parameters)
+    lines = lines + specks(view, tip, parameters)
     front += lines[..., None] * (0.9 * np.asarray(parameters.shaft, np.float32) - 0.25 * front)
     image = image + inside[..., None] * (front - image)
     if content.drop_ul > 0:
         image = _drop(image, view, content.drop_ul, dye, parameters)
     return np.asarray(image, np.float32)
-
-
-def column_edges(tip: TipGeometry, content: TipContent) -> tuple[tuple[float, float], ...]:
-    """The pieces of the column as ``(bottom, top)`` in mm above the orifice."""
-    return tuple((tip.height_of(a), tip.height_of(b)) for a, b in content.slugs)
 
 
 def _cover(distance_mm: Plane, view: TipView) -> Plane:
@@ -129,12 +110,6 @@ def _step(distance: Plane, width_10_90: Plane | float) -> Plane:
     return np.asarray(1 / (1 + np.exp(-np.clip(distance / scale, -30, 30))), np.float32)
 
 
-def _meniscus_height(top: float, u: Plane, inner: Plane) -> Plane:
-    """Height of a concave meniscus: liquid climbs the wall, volume kept."""
-    ratio = np.clip(u / np.maximum(inner, 1e-3), 0, 1)
-    return np.asarray(top + 0.35 * inner * (ratio**2 - 0.5), np.float32)
-
-
 def _liquid(
     view: TipView, tip: TipGeometry, content: TipContent, inner: Plane, p: SessionParameters
 ) -> Plane:
@@ -146,7 +121,7 @@ def _liquid(
         last = i == len(pieces) - 1
         # Only the upper end is spread by curvature and view; a bubble's ends are short.
         width = inner * (p.meniscus_edge if last else 0.35)
-        upper = _step(_meniscus_height(top, u, inner) - view.along, width)
+        upper = _step(meniscus_height(top, u, inner) - view.along, width)
         lower = 1.0 if i == 0 else _step(view.along - bottom + 0.2 * inner, 0.35 * inner)
         share = np.maximum(share, upper * lower)
     return np.asarray(share * (view.along > -0.2), np.float32)
@@ -196,67 +171,6 @@ def _transmission(dye: Dye, path: Plane, p: SessionParameters) -> Plane:
         return np.ones((*path.shape, 3), np.float32)
     logs = p.dye_strength * np.log(np.clip(dye.transmission, 1e-3, 1.0)).astype(np.float32)
     return np.asarray(np.exp(path[..., None] * (logs / np.float32(REFERENCE_PATH_MM))), np.float32)
-
-
-def _edges(
-    u: Plane, inner: Plane, outer: Plane, wet: Plane, view: TipView, p: SessionParameters
-) -> Plane:
-    """Bright rims: the outer silhouette, and the bore, which liquid nearly hides."""
-    # The lines are thin: on a tip of a few pixels they fade instead of covering it.
-    width = 0.07 * outer
-    soft = np.maximum(view.mm_per_px * 0.6, width)
-    fade = width / soft
-    rim = np.exp(-(((outer - u) / soft) ** 2) / 2)
-    bore = np.exp(-(((inner - u) / soft) ** 2) / 2)
-    return np.asarray(
-        p.rim * fade * (0.45 * rim + 0.38 * bore * (1 - 0.75 * wet)),
-        np.float32,
-    )
-
-
-def _glints(view: TipView, inner: Plane, outer: Plane, wet: Plane, p: SessionParameters) -> Plane:
-    """The lamp's image along the outside, and the one that a liquid column adds inside."""
-    width = 0.08 * outer
-    soft = np.maximum(width, view.mm_per_px * 0.5)
-    outside = np.exp(-(((view.across - p.glint_side * outer) / soft) ** 2) / 2)
-    caustic = np.exp(-(((view.across + 0.45 * p.glint_side * inner) / soft) ** 2) / 2)
-    return np.asarray(
-        p.glint * width / soft * (0.55 * outside + 0.28 * caustic * wet),
-        np.float32,
-    )
-
-
-def _menisci(
-    view: TipView, tip: TipGeometry, content: TipContent, inner: Plane, p: SessionParameters
-) -> Plane:
-    """A bright line over a dark one at each surface between liquid and air."""
-    u = np.abs(view.across)
-    lines = np.zeros_like(u)
-    pieces = column_edges(tip, content)
-    for i, (bottom, top) in enumerate(pieces):
-        last = i == len(pieces) - 1
-        ends = [top] if i == 0 else [bottom, top]
-        for end in ends:
-            # As the surface is spread by the view, its line is spread too, and fainter.
-            spread = p.meniscus_edge if last and end == top else 0.35
-            width = np.maximum(0.22 * inner * (0.5 + spread), 0.6 * view.mm_per_px)
-            off = (view.along - _meniscus_height(end, u, inner)) / width
-            lines += 0.16 / (0.6 + spread) * (np.exp(-(off**2)) - 0.5 * np.exp(-((off - 1.5) ** 2)))
-    return np.asarray(lines * (u < inner) * (0.4 + p.glint), np.float32)
-
-
-def _specks(view: TipView, tip: TipGeometry, p: SessionParameters) -> Plane:
-    """Bright points anywhere in the tip, about a pixel in size."""
-    total = np.zeros_like(view.across)
-    if p.specks <= 0:
-        return total
-    for _ in range(int(view.scatter.poisson(p.specks))):
-        at = view.scatter.uniform(0.0, tip.free_mm)
-        side = view.scatter.uniform(-0.9, 0.9) * float(tip.inner_radius(at))
-        size = view.mm_per_px * view.scatter.uniform(0.4, 0.9)
-        away = ((view.along - at) ** 2 + (view.across - side) ** 2) / size**2
-        total += np.float32(view.scatter.uniform(0.2, 1.2)) * np.exp(-away / 2)
-    return np.asarray(total, np.float32)
 
 
 def _drop(image: Plane, view: TipView, drop_ul: float, dye: Dye, p: SessionParameters) -> Plane:

@@ -10,9 +10,10 @@ import pytest
 
 from aegis_ot.simulation.dyes import dye_for
 from aegis_ot.simulation.exposure import decode
-from aegis_ot.simulation.faults import FaultPlan
+from aegis_ot.simulation.fault_plan import FaultPlan
 from aegis_ot.simulation.render import render_jpeg
-from aegis_ot.simulation.scene import SessionParameters, place_tip
+from aegis_ot.simulation.scene import place_tip
+from aegis_ot.simulation.session import SessionParameters
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vision.monitor import Judged, RunMonitor
 from aegis_ot.vision.tips import tip_for
