@@ -18,7 +18,8 @@ import numpy as np
 
 from ..errors import DatasetError
 from ..vocabulary import KeyframeKind
-from .dataset_checks import COLUMNS, Problems, Record, read_boxes, read_manifest
+from .dataset_checks import COLUMNS, Record, read_boxes, read_manifest
+from .tables import Problems
 from .types import Detector, Image, TipDetection, TrajectorySample
 
 __all__ = ["COLUMNS", "Dataset", "Record", "TrueBoxes", "load_dataset"]

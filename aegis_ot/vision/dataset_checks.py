@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 import re
 from collections.abc import Mapping, Sequence
@@ -14,6 +12,7 @@ import cv2
 import numpy as np
 
 from ..vocabulary import KeyframeKind
+from .tables import Note, Problems, number, read_table
 
 FRAME_COLUMNS = tuple(kind.value for kind in KeyframeKind)
 COLUMNS = (
@@ -43,7 +42,6 @@ FAILURE_TYPES = (
 )
 _WELL = re.compile(r"[A-Z]{1,2}[1-9][0-9]?")
 _PIPETTE = re.compile(r"p[1-9][0-9]*")
-_MOST_SHOWN = 200
 
 Box = tuple[float, float, float, float]
 
@@ -64,42 +62,16 @@ class Record:
     frames: Mapping[KeyframeKind, str]
 
 
-class Problems:
-    """Faults of a data set, in the order found."""
-
-    def __init__(self) -> None:
-        self.lines: list[str] = []
-
-    def add(self, file: str, row: int | None, column: str | None, what: str) -> None:
-        """Note one fault; ``row`` is the line of the file, the header being 1."""
-        where = file
-        if row is not None:
-            where += f", row {row}"
-        if column is not None:
-            where += f", column {column}"
-        self.lines.append(f"{where}: {what}")
-
-    def __bool__(self) -> bool:
-        return bool(self.lines)
-
-    def text(self, root: Path) -> str:
-        shown = self.lines[:_MOST_SHOWN]
-        more = len(self.lines) - len(shown)
-        head = f"{root}: {len(self.lines)} fault{'s' if len(self.lines) != 1 else ''}"
-        tail = [f"... and {more} more"] if more else []
-        return "\n  ".join([head, *shown, *tail])
-
-
 def read_manifest(root: Path, problems: Problems) -> list[Record]:
     """Rows of ``manifest.csv`` that could be read; faults go to ``problems``."""
-    rows = _read_table(root / "manifest.csv", COLUMNS, problems)
+    rows = read_table(root / "manifest.csv", COLUMNS, problems)
     records: list[Record] = []
     seen: dict[str, int] = {}
     frame_rows: dict[str, int] = {}
     plate_rows: dict[str, int] = {}
     normal_plates: set[str] = set()
     for line, row in rows:
-        note = _Note(problems, "manifest.csv", line)
+        note = Note(problems, "manifest.csv", line)
         for column in ("trajectory_id", "plate", "pipette", "well"):
             if not row[column]:
                 note(column, "is empty")
@@ -113,12 +85,12 @@ def read_manifest(root: Path, problems: Problems) -> list[Record]:
         if row["pipette"] and not _PIPETTE.fullmatch(row["pipette"]):
             note("pipette", f"{row['pipette']!r} is no pipette such as p20, p300 or p1000")
         _check_label(row, note)
-        volume = _number(row["volume_ul"], "volume_ul", note)
+        volume = number(row["volume_ul"], "volume_ul", note)
         if volume is not None and volume <= 0:
             note("volume_ul", f"{row['volume_ul']} must be more than 0")
         retained = None
         if row["retained_fraction"]:
-            retained = _number(row["retained_fraction"], "retained_fraction", note)
+            retained = number(row["retained_fraction"], "retained_fraction", note)
             if retained is not None and retained < 0:
                 note("retained_fraction", f"{row['retained_fraction']} must not be negative")
         for column in FRAME_COLUMNS:
@@ -166,8 +138,8 @@ def read_boxes(
     if not path.exists():
         return boxes, []
     lines: dict[str, int] = {}
-    for line, row in _read_table(path, BOX_COLUMNS, problems):
-        note = _Note(problems, "boxes.csv", line)
+    for line, row in read_table(path, BOX_COLUMNS, problems):
+        note = Note(problems, "boxes.csv", line)
         frame = row["frame"]
         if not frame:
             note("frame", "is empty")
@@ -181,12 +153,12 @@ def read_boxes(
             boxes[frame] = None
             continue
         numbers = [
-            _number(cell, column, note)
+            number(cell, column, note)
             for cell, column in zip(cells, ("x", "y", "w", "h"), strict=True)
         ]
-        for column, number in zip(("w", "h"), numbers[2:], strict=True):
-            if number is not None and number <= 0:
-                note(column, f"{number:g} must be more than 0")
+        for column, side in zip(("w", "h"), numbers[2:], strict=True):
+            if side is not None and side <= 0:
+                note(column, f"{side:g} must be more than 0")
         x, y, w, h = (0.0 if number is None else number for number in numbers)
         boxes[frame] = (x, y, w, h)
     named = {frame for record in records for frame in record.frames.values()}
@@ -198,74 +170,7 @@ def read_boxes(
     return boxes, warnings
 
 
-class _Note:
-    """Notes faults of one row."""
-
-    def __init__(self, problems: Problems, file: str, line: int) -> None:
-        self._problems, self._file, self._line = problems, file, line
-
-    def __call__(self, column: str, what: str) -> None:
-        self._problems.add(self._file, self._line, column, what)
-
-
-def _read_table(
-    path: Path, columns: Sequence[str], problems: Problems
-) -> list[tuple[int, dict[str, str]]]:
-    """Rows as (line of the file, cells by column), cells stripped."""
-    try:
-        text = path.read_bytes().decode("utf-8-sig")
-    except FileNotFoundError:
-        problems.add(path.name, None, None, "is missing")
-        return []
-    except (OSError, UnicodeDecodeError) as error:
-        problems.add(path.name, None, None, f"cannot be read as UTF-8 text ({error})")
-        return []
-    reader = csv.reader(io.StringIO(text, newline=""))
-    rows: list[tuple[int, dict[str, str]]] = []
-    header: list[str] | None = None
-    try:
-        for cells in reader:
-            cells = [cell.strip() for cell in cells]
-            if header is None:
-                header = cells
-                if not _check_header(path.name, header, columns, problems):
-                    return []
-                continue
-            if not any(cells):
-                continue
-            if len(cells) != len(columns):
-                problems.add(
-                    path.name,
-                    reader.line_num,
-                    None,
-                    f"has {len(cells)} cells, the header has {len(columns)}",
-                )
-                continue
-            rows.append((reader.line_num, dict(zip(columns, cells, strict=True))))
-    except csv.Error as error:
-        problems.add(path.name, reader.line_num, None, f"is not readable as CSV ({error})")
-    if header is None:
-        problems.add(path.name, None, None, "is empty")
-    return rows
-
-
-def _check_header(
-    file: str, header: Sequence[str], columns: Sequence[str], problems: Problems
-) -> bool:
-    if list(header) == list(columns):
-        return True
-    missing = [column for column in columns if column not in header]
-    unknown = [column for column in header if column not in columns]
-    for column in missing:
-        problems.add(file, 1, column, "is missing from the header")
-    for column in unknown:
-        problems.add(file, 1, column or "(no name)", "is not a column of this table")
-    if not missing and not unknown:
-        problems.add(file, 1, None, f"columns must stand in the order {','.join(columns)}")
-    return False
-
-
-def _check_label(row: Mapping[str, str], note: _Note) -> None:
+def _check_label(row: Mapping[str, str], note: Note) -> None:
     label, failure = row["label"], row["failure_type"]
     if label not in LABELS:
         note("label", f"{label!r} must be one of {', '.join(LABELS)}")
@@ -275,19 +180,7 @@ def _check_label(row: Mapping[str, str], note: _Note) -> None:
         note("failure_type", f"{failure!r} must be one of {', '.join(FAILURE_TYPES)}")
 
 
-def _number(cell: str, column: str, note: _Note) -> float | None:
-    try:
-        value = float(cell)
-    except ValueError:
-        note(column, f"{cell!r} is no number" if cell else "is empty")
-        return None
-    if not math.isfinite(value):
-        note(column, f"{cell!r} is no finite number")
-        return None
-    return value
-
-
-def _check_frame(root: Path, cell: str, column: str, note: _Note) -> None:
+def _check_frame(root: Path, cell: str, column: str, note: Note) -> None:
     if not cell:
         note(column, "is empty")
         return

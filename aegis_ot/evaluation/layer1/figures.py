@@ -47,7 +47,7 @@ def _draw(results: Sequence[Layer1Result], labels: str, path: Path) -> Path:
             where = place + (number - (len(members) - 1) / 2) * width
             _bar(axes, where, width, getattr(result, labels).f1, models.index(_model(result)))
     handles = [axes.bar(0, 0, color=_colour(n), label=model) for n, model in enumerate(models)]
-    axes.legend(handles=handles, fontsize=7, loc="lower right")
+    figure.legend(handles=handles, fontsize=7, loc="outside lower center", ncols=3)
     axes.set_xticks(range(len(groups)), groups)
     axes.set(ylabel=f"F1, {labels} labels", ylim=(0, 1.08), xlim=(-0.6, len(groups) - 0.4))
     count = len(results[0].rows)
