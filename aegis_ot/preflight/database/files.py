@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import json
 from collections.abc import Sequence
 from pathlib import Path
@@ -32,9 +33,8 @@ def load_database(extra: Sequence[str | Path] = ()) -> Database:
     Raises:
         RuleError: With file, rule and field.
     """
-    shipped = shipped_rules()
-    common = read_dataclass(Common, _json(shipped / "common.json"), "common.json")
-    files = sorted(path for path in shipped.glob("*.json") if _is_family_file(path))
+    shipped = _shipped()
+    files: list[Path] = []
     for given in extra:
         path = Path(given)
         if path.is_dir():
@@ -43,6 +43,19 @@ def load_database(extra: Sequence[str | Path] = ()) -> Database:
             files.append(path)
         else:
             raise RuleError(f"{path}: no such file or folder of rules")
+    if not files:
+        return shipped
+    families = [*shipped.families, *map(load_family, files)]
+    refuse_doubles(families)
+    return Database(tuple(families), shipped.common)
+
+
+@functools.cache
+def _shipped() -> Database:
+    """Read once: a robot server analyses many protocols in one process."""
+    folder = shipped_rules()
+    common = read_dataclass(Common, _json(folder / "common.json"), "common.json")
+    files = sorted(path for path in folder.glob("*.json") if _is_family_file(path))
     families = [load_family(path) for path in files]
     refuse_doubles(families)
     return Database(tuple(families), common)

@@ -48,6 +48,7 @@ def assign_roles(
         named = [clue.role] if clue.role in family.roles else roles_named(matches, clue, common)
         if not named:
             continue
+        worth = _worth(clue)
         for position, ref in enumerate(clue.wells):
             role = fitting_role(named, roles, sides(ref), clue)
             if role is None:
@@ -59,7 +60,7 @@ def assign_roles(
                 # elsewhere, and this may be another one by mistake.
                 continue
             level = level_of(clue, position, common) if clue.wells else None
-            candidates.setdefault(ref, []).append((_worth(clue), role, clue, level))
+            candidates.setdefault(ref, []).append((worth, role, clue, level))
     for ref, found in candidates.items():
         assignment = _choose(roles, ref, found)
         if assignment is not None:
