@@ -29,6 +29,8 @@ class SeriesFilledFirst(Check):
                 well = step.well
                 if well in done or not is_dilution(case, step) or well.prefilled:
                     continue
+                if _is_undiluted_head(case, series, well):
+                    continue
                 done.add(well)
                 fills = diluent_arrivals(case, well)
                 before = first_index(step)
@@ -116,10 +118,26 @@ def _anyone_filled(case: Case) -> bool:
     return any(diluent_arrivals(case, well) for series in case.series for well in series.wells)
 
 
+def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
+    """Whether this is the first well of the series, and stock went into it while it was empty.
+
+    It needs no diluent, and a later transfer into it runs the wrong way, which is SD-2's.
+    """
+    if not series.directed or series.position[well] != 0:
+        return False
+    first = next(case.trace.deliveries(well), None)
+    stock = stock_roles(case)
+    return (
+        first is not None
+        and first.empty_before
+        and any(part[0] is not None and case.has(part[0], stock) for part in first.parts)
+    )
+
+
 def wrong_fill(case: Case, series: Series, step: Transfer) -> tuple[Visit, Well, int | None] | None:
     """What a well of the series was filled with in the diluent's place, if anything."""
     diluent, members = diluent_roles(case), set(series.wells)
-    if diluent_arrivals(case, step.well):
+    if diluent_arrivals(case, step.well) or _is_undiluted_head(case, series, step.well):
         return None
     before = first_index(step)
     for visit in case.trace.deliveries(step.well):

@@ -67,7 +67,7 @@ def _dilutions(
     """Leave out transfers that copy a dilution elsewhere instead of diluting it further.
 
     A well that is given nothing but the one transfer, off the line along which the others
-    dilute, is a copy.
+    dilute, is a copy; one that is made as the others are, a row or a column further, is not.
     """
     diluted = [
         link
@@ -85,15 +85,24 @@ def _dilutions(
     along_columns = sum(link.source.order[1] == link.well.order[1] for link in diluted)
     axis = 0 if along_rows >= along_columns else 1
     lines = {(link.source.ref.labware, link.source.order[axis]) for link in diluted}
+    steps = {_across(link, axis) for link in diluted}
     return [
         link
         for link in links
         if id(link) in sure
         or (
             link.source.order[axis] == link.well.order[axis]
-            and (link.well.ref.labware, link.well.order[axis]) in lines
+            and (
+                (link.well.ref.labware, link.well.order[axis]) in lines
+                or _across(link, axis) in steps
+            )
         )
     ]
+
+
+def _across(link: Transfer, axis: int) -> tuple[str, int, int]:
+    """Where a link begins and ends on its line, whichever of the parallel lines it is."""
+    return (link.well.ref.labware, link.source.order[1 - axis], link.well.order[1 - axis])
 
 
 def _series(
@@ -137,7 +146,10 @@ def _series(
     position = {well: number for number, well in enumerate(order)}
     directed = False
     if entries:
-        ends = [position[well] for well in entries]
+        # Where stock stands in the diluent's place too, only the well that no other feeds tells.
+        fed_within = {link.well for link in links}
+        heads = [well for well in entries if well not in fed_within] or entries
+        ends = [position[well] for well in heads]
         middle = sum(ends) / len(ends)
         if middle != (len(order) - 1) / 2:
             directed = True
