@@ -61,6 +61,8 @@ def simulated_context(
             **engine_parts,
         )
         stack.callback(context.cleanup)
+        if not engine_parts.get("protocol_engine"):
+            _lend_modules(context._core, hardware)
         # Both have to be homed for some commands to work; see opentrons.simulate.
         hardware.sync.home()
         context.home()
@@ -81,6 +83,22 @@ def _hardware_simulator(robot_type: str) -> Any:
 
         build = API.build_hardware_simulator
     return ThreadManager(build, feature_flags=HardwareFeatureFlags.build_from_ff())
+
+
+def _lend_modules(core: Any, hardware: Any) -> None:
+    """Plug each simulated module in just before a legacy core looks for it.
+
+    The core would make one itself, but from Python 3.11 on it asks for its definition under the
+    name of the enumeration's member, and finds none ("Could not find a module with model
+    "ThermocyclerModuleModel.THERMOCYCLER_V1""). One that is plugged in is found by its own name.
+    """
+    load_module = core.load_module
+
+    def load(model: Any, *args: Any, **kwargs: Any) -> Any:
+        hardware.sync.create_simulating_module(model)
+        return load_module(model, *args, **kwargs)
+
+    core.load_module = load
 
 
 @contextmanager

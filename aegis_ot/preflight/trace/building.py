@@ -19,6 +19,8 @@ from .visits import Imbalance, Visit
 from .wells import Well
 
 _REPEATED = "(repeated)"
+_MOST = 0.5
+"""A mix gives back at least this share of what it drew."""
 
 
 def build_trace(
@@ -79,6 +81,8 @@ class _Builder:
                 if event.description:
                     self._trace.descriptions.setdefault(event.text, event.description)
                 well.fill_before_run(event.volume)
+                if not event.text and event.volume == 0:
+                    well.declared = 0.0  # declared to be empty, which "no volume" does not say
         elif kind is EventKind.TIPS_RESET:
             self._box.refill_rack(event.labware)
         elif kind is EventKind.LABWARE_MOVED:
@@ -192,7 +196,7 @@ class _Builder:
         return visit
 
     def _aspirate(self, step: Step, tip: Tip, well: Well) -> None:
-        if well.empty and not well.fed and not well.prefilled:
+        if well.empty and not well.fed and not well.prefilled and well.declared is None:
             well.fill_before_run(None)  # first drawn from: it must have held something
         visit = self._visit(step, tip, well)
         visit.volume = step.volume
@@ -225,11 +229,18 @@ class _Builder:
         self._note_mix(tip, visit)
 
     def _note_mix(self, tip: Tip, visit: Visit) -> None:
-        """Liquid drawn from a well and given straight back mixes it, whoever calls it what."""
+        """Liquid drawn from a well and given straight back mixes it, whoever calls it what.
+
+        What is left over after most of it went elsewhere, or a little given back beforehand
+        (reverse pipetting, the conditioning of a liquid class), is returned, but mixes nothing.
+        """
         drawn = self._last.get(tip)
-        if drawn is None or drawn.well is not visit.well or visit.volume <= 0:
+        if drawn is None or visit.volume <= 0:
             return
         if any(part[0] is not visit.well for part in visit.parts):
+            del self._last[tip]
+            return
+        if drawn.well is not visit.well or visit.volume < drawn.volume * _MOST:
             return
         drawn.mixing = visit.mixing = True
         mixes = visit.well.mixes
