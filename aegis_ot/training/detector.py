@@ -21,13 +21,9 @@ from .network import TipNetwork
 from .recorded import FramePool, RecordedFrame, read_frames
 from .scenes import draw_frame
 from .simulated import SimulatedFrames
+from .sources import sources_digest
 
 __all__ = ["DetectorSettings", "train"]
-
-_DECISIVE = (
-    *("axes", "examples", "fitting", "network", "photometry", "pipettes", "recorded", "rooms"),
-    *("scenes", "simulated", "strokes", "transplant"),
-)
 
 
 def export(network: TipNetwork, path: Path) -> None:
@@ -114,25 +110,6 @@ def train(
         }
         _write(path, description)
     return path
-
-
-def sources_digest() -> str:
-    """SHA-256 of the code that decides what a seed gives: frames, views, network and fitting.
-
-    Weights whose description has another digest were made by other code: the same command gives
-    weights of the same kind today, not the same weights.
-    """
-    package = Path(__file__).parents[1]
-    files = [
-        *(package / "training" / f"{name}.py" for name in _DECISIVE),
-        *sorted((package / "simulation").glob("*.py")),
-        package / "vision" / "detection" / "views.py",
-        package / "vision" / "tips.py",
-    ]
-    digest = hashlib.sha256()
-    for file in files:
-        digest.update(file.name.encode() + b"\0" + file.read_bytes())
-    return digest.hexdigest()
 
 
 def _output(out: str | Path) -> Path:

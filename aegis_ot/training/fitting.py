@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 import torch
 from torch import Tensor, nn
@@ -47,10 +48,10 @@ class DetectorSettings:
         threads: CPU threads.
     """
 
-    rounds: int = 9
-    frames: int = 1500
+    rounds: int = 6
+    frames: int = 1200
     passes: int = 3
-    frozen: int = 3
+    frozen: int = 2
     drawn_share: float = 0.3
     simulated_share: float = 0.35
     close_ups: int = 2
@@ -76,6 +77,7 @@ def fit(
     tell = progress or log.info
     torch.manual_seed(seed)
     torch.set_num_threads(settings.threads)
+    cv2.setNumThreads(settings.threads)
     torch.use_deterministic_algorithms(True)
     rng = np.random.default_rng(seed)
     simulated = SimulatedFrames(seed)

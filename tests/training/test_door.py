@@ -29,7 +29,8 @@ def test_without_pytorch_the_user_is_told_what_to_install(
 
 def test_the_same_seed_trains_the_same_weights(tmp_path: Path) -> None:
     pytest.importorskip("torch")
-    from aegis_ot.training.detector import DetectorSettings, sources_digest
+    from aegis_ot.training.detector import DetectorSettings
+    from aegis_ot.training.sources import sources_digest
     from aegis_ot.vision.detection import HeatmapDetector
 
     settings = DetectorSettings(rounds=2, frames=6, passes=1, frozen=1, batch=2, threshold_frames=8)

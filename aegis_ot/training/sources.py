@@ -1,0 +1,34 @@
+"""The code that decides what a seed gives, as one digest."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+SOURCES = {
+    "training": (
+        *("axes", "examples", "fitting", "network", "photometry", "pipettes", "recorded", "rooms"),
+        *("scenes", "simulated", "strokes", "transplant"),
+    ),
+    "simulation": (
+        *("backdrop", "dyes", "exposure", "optics", "plans", "random_frames", "reflections"),
+        *("render", "scene", "session", "shading", "truth"),
+    ),
+    "vision": ("detection/decode", "detection/views", "tips"),
+}
+"""Modules, by room: what makes the frames, cuts and paints the examples, and fits the network."""
+
+
+def sources_digest() -> str:
+    """SHA-256 of the modules of :data:`SOURCES`.
+
+    Weights whose description has another digest were made by other code: the same command gives
+    weights of the same kind today, not the same weights.
+    """
+    package = Path(__file__).parents[1]
+    digest = hashlib.sha256()
+    for room, names in SOURCES.items():
+        for name in names:
+            digest.update(f"{room}/{name}\0".encode())
+            digest.update((package / room / f"{name}.py").read_bytes())
+    return digest.hexdigest()
