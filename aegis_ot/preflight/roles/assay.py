@@ -4,17 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..rules import Common, Database, Family
 from ..text import Lexicon, SourceFacts, tokens
-from ..trace import Trace, longest_chain
+from ..trace import Trace, longest_chain, longest_dilution
 from .clues import Clue, Strength
 
 PLACES = {"metadata": 3.0, "liquid": 2.0, "name": 1.5, "text": 1.0, "string": 0.7}
 """How much a word counts by where it stands: a title says more than a stray comment."""
 
 SURE = 4.0
-"""From this score on a family counts as known."""
+"""From this score on a family counts as known, if something defines it."""
+
+LONE = 3.0
+"""A signal of less weight makes no family known unless another one agrees."""
 
 ALSO = 0.6
 """A second family applies from this share of the first one's score on."""
@@ -57,29 +61,36 @@ def infer_families(
         trace: For the shape: a chain of transfers speaks for a serial dilution.
         given: Families given by hand; they apply, and no other does.
     """
-    texts = list(_texts(facts, clues))
-    chain = longest_chain(trace)
+    texts = list(_texts(facts, clues, trace))
+    chain, dilution = longest_chain(trace), longest_dilution(trace)
     scored = []
     for family in database.families:
-        score, reasons = _score(family, texts, database.common)
+        found = _found(family, texts, database.common)
         if family.chain_weight and chain >= 3:
-            score += family.chain_weight * min(chain, 6) / 3
-            reasons.append(f"a chain of {chain} transfers from well to well")
-        scored.append((score, family, reasons))
+            # Wells filled from one place that then feed each other are a series without a word.
+            weight = family.chain_weight * (2 if dilution >= 3 else 1)
+            said = f"a chain of {chain} transfers from well to well"
+            found.append(_Found(weight * min(chain, 6) / 3, said, LONE if dilution >= 3 else 0.0))
+        found.sort(key=lambda one: -one.worth)
+        scored.append((max(sum(one.worth for one in found), 0.0), family, found))
     scored.sort(key=lambda item: -item[0])
     total = sum(score for score, _, _ in scored) or 1.0
-    best = scored[0][0] if scored else 0.0
+    known = [score for score, _, found in scored if score >= SURE and _defines(found)]
+    best = max(known, default=0.0)
     inferences = []
-    for score, family, reasons in scored:
+    for score, family, found in scored:
+        reasons = [one.said for one in found if one.worth > 0]
         if given:
             applies = sure = family.family in given
         else:
-            sure = score >= SURE
+            sure = score >= SURE and _defines(found)
             applies = (
                 sure
                 and (score == best or score >= ALSO * best)
                 and not (family.default and score < best)
             )
+            if family.default and not known:
+                sure = _nothing_against(found)
         confidence = 1.0 if given and applies else score / total * min(1.0, score / (2 * SURE))
         inferences.append(
             Inference(family.family, score, round(confidence, 2), tuple(reasons[:6]), applies, sure)
@@ -110,7 +121,9 @@ def _as_default(inference: Inference) -> Inference:
     )
 
 
-def _texts(facts: SourceFacts, clues: Iterable[Clue]) -> Iterable[tuple[str, str]]:
+def _texts(facts: SourceFacts, clues: Iterable[Clue], trace: Trace) -> Iterable[tuple[str, str]]:
+    # A PCR plate holds whatever one likes: the maker's name of a labware says nothing.
+    makers = {info.load_name for info in trace.labware.values()}
     for key in ("protocolName", "protocol_name", "description", "title"):
         if key in facts.metadata:
             yield "metadata", facts.metadata[key]
@@ -126,16 +139,34 @@ def _texts(facts: SourceFacts, clues: Iterable[Clue]) -> Iterable[tuple[str, str
     for text in facts.comments.values():
         yield "text", text
     for _, text in facts.strings:
-        if len(text) < 200 and len(tokens(text)) < 30:
+        if text not in makers and len(text) < 200 and len(tokens(text)) < 30:
             yield "string", text
+
+
+class _Found(NamedTuple):
+    """One signal that was found: what it adds, the words, and its weight if it defines."""
+
+    worth: float
+    said: str
+    defining: float
+
+
+def _defines(found: Sequence[_Found]) -> bool:
+    """Whether some signal makes the family known: a telling one alone, another one in company."""
+    company = sum(one.worth > 0 for one in found) > 1
+    return any(one.defining >= LONE or (one.defining > 0 and company) for one in found)
+
+
+def _nothing_against(found: Sequence[_Found]) -> bool:
+    """Whether no more than one word speaks against the family that is left over."""
+    against = [one.worth for one in found if one.worth < 0]
+    return len(against) <= 1 or sum(one.worth for one in found) >= SURE
 
 
 _LEXICONS: dict[int, tuple[Family, Lexicon]] = {}
 
 
-def _score(
-    family: Family, texts: Iterable[tuple[str, str]], common: Common
-) -> tuple[float, list[str]]:
+def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> list[_Found]:
     known = _LEXICONS.get(id(family))
     if known is None or known[0] is not family:
         known = (
@@ -148,14 +179,13 @@ def _score(
             _LEXICONS.clear()
         _LEXICONS[id(family)] = known
     lexicon = known[1]
-    best: dict[tuple[str, str], tuple[float, str]] = {}
+    best: dict[tuple[str, str], _Found] = {}
     for where, text in texts:
         for match in lexicon.find(text):
             signal = family.signals[int(match.topic)]
             worth = signal.weight * PLACES[where]
             key = (match.topic, "" if signal.once else match.phrase)
-            if abs(worth) > abs(best.get(key, (0.0, ""))[0]):
-                best[key] = (worth, f"'{match.phrase}' in a {where}")
-    ranked = sorted(best.values(), reverse=True)
-    score = sum(worth for worth, _ in ranked)
-    return max(score, 0.0), [reason for worth, reason in ranked if worth > 0]
+            if key not in best or abs(worth) > abs(best[key].worth):
+                defining = signal.weight if signal.defining else 0.0
+                best[key] = _Found(worth, f"'{match.phrase}' in a {where}", defining)
+    return list(best.values())

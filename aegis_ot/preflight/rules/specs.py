@@ -23,11 +23,14 @@ class Signal:
         words: Phrases, see :mod:`aegis_ot.preflight.text.words`.
         weight: How much a mention counts; negative words speak against the family.
         once: Whether the signal counts once, however often it is mentioned.
+        defining: Whether it can make the family known. Words that other assays use as well only
+            add to what defines it.
     """
 
     words: tuple[str, ...]
     weight: float = 1.0
     once: bool = True
+    defining: bool = True
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 """
 
 from .building import build_trace
-from .chains import Transfer, chains_of, links_of, longest_chain
+from .chains import Transfer, chains_of, links_of, longest_chain, longest_dilution
 from .plates import Plates
 from .replacements import Intervention, Replacements
 from .table import places, trace_table
@@ -32,6 +32,7 @@ __all__ = [
     "chains_of",
     "links_of",
     "longest_chain",
+    "longest_dilution",
     "places",
     "row_column",
     "trace_table",

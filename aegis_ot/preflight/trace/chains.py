@@ -37,6 +37,38 @@ def longest_chain(trace: Trace) -> int:
     return best
 
 
+def longest_dilution(trace: Trace) -> int:
+    """Number of transfers in the longest chain from neighbour to neighbour that dilutes.
+
+    Most of its wells were filled from one and the same place before the chain reached them.
+    """
+    best = 0
+    for group in chains_of(list(links_of(trace))):
+        steps = {(s.source, s.well): s for s in group if _neighbours(s.source, s.well)}
+        filled: dict[Well, int] = {}
+        for step in steps.values():
+            for source in _filled_before(trace, step):
+                filled[source] = filled.get(source, 0) + 1
+        best = max(best, max(filled.values(), default=0))
+    return best
+
+
+def _neighbours(one: Well, other: Well) -> bool:
+    rows, columns = (abs(a - b) for a, b in zip(one.order, other.order, strict=True))
+    return rows + columns == 1
+
+
+def _filled_before(trace: Trace, step: Transfer) -> set[Well]:
+    """Wells of other labware that gave to the well of a step before the step did."""
+    found: set[Well] = set()
+    for visit in trace.deliveries(step.well):
+        given = {part[0] for part in visit.parts if part[0] is not None}
+        if step.source in given:
+            break
+        found |= {source for source in given if source.ref.labware != step.well.ref.labware}
+    return found
+
+
 def links_of(trace: Trace) -> Iterable[Transfer]:
     """Transfers between two wells of one labware, repeated ones joined."""
     open_: dict[tuple[int, int], Transfer] = {}
