@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -95,6 +96,11 @@ class Dossier:
     rules: tuple[RuleBrief, ...]
     questions: tuple[Undecided, ...]
     findings: tuple[Finding, ...]
+
+    @property
+    def source_lines(self) -> list[str]:
+        """Lines as Python counts them; ``splitlines`` knows more ends of lines than Python."""
+        return re.split(r"\r\n|\r|\n", self.source.rstrip("\r\n"))
 
     @property
     def digest(self) -> str:

@@ -9,13 +9,14 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from ..vocabulary import Finding, Severity, Site, WellRef
+from ..vocabulary import Finding, Severity, Site, WellRef, one_line
 from .dossier import DeckItem, Dossier
 from .judging import MODEL
 from .opinion import ANSWERED, Opinion, RoleReading, RuleReading
 from .trace import row_column
 
 LONGEST_TEXT = 400
+LONGEST_NAME = 60
 MOST_FINDINGS = 12
 
 
@@ -41,11 +42,11 @@ def read_opinion(
             left_out.append(problem)
     roles = []
     for given in value.get("roles", ()):
-        wells = tuple(bounds.wells(given["wells"]))
+        role, wells = _name(given["role"]), tuple(bounds.wells(given["wells"]))
         if wells:
-            roles.append(RoleReading(given["role"], wells, _text(given.get("reason"))))
+            roles.append(RoleReading(role, wells, _text(given.get("reason"))))
         else:
-            left_out.append(f"a role {given['role']!r} for wells that the run does not know")
+            left_out.append(f"a role {role!r} for wells that the run does not know")
     asked = {question.rule for question in dossier.questions}
     answers = tuple(
         RuleReading(given["rule"], given["answer"], _text(given.get("reason")))
@@ -55,7 +56,7 @@ def read_opinion(
     return Opinion(
         ANSWERED,
         model,
-        family=str(value.get("family", "")),
+        family=_name(value.get("family")),
         roles=tuple(roles),
         answers=answers,
         findings=tuple(findings),
@@ -74,7 +75,7 @@ class _Bounds:
         for ref in dossier.wells:
             for name in (ref.slot, ref.label, ref.labware):
                 self._known.setdefault((name.lower(), ref.name), []).append(ref)
-        count = len(dossier.source.splitlines())
+        count = len(dossier.source_lines)
         self.lines = set(range(1, count + 1)) if blind else set(dossier.lines)
         self.severity = {brief.id: brief.severity for brief in dossier.rules}
 
@@ -119,7 +120,7 @@ def _ref(item: DeckItem, row: int, column: int) -> WellRef:
 
 
 def _finding(given: Mapping[str, Any], bounds: _Bounds) -> tuple[Finding | None, str]:
-    rule = str(given["rule"])
+    rule = _name(given["rule"])
     said = f"{rule}: {_text(given['message'])}"
     if rule != MODEL and rule not in bounds.severity:
         return None, f"{said} (there is no such rule in force)"
@@ -145,7 +146,10 @@ def _finding(given: Mapping[str, Any], bounds: _Bounds) -> tuple[Finding | None,
 
 
 def _text(value: object) -> str:
-    """A model's words, on one line and not too long."""
-    flat = " ".join(str(value or "").split())
-    flat = "".join(c for c in flat if c.isprintable())
-    return flat if len(flat) <= LONGEST_TEXT else flat[: LONGEST_TEXT - 3] + "..."
+    """A model's words."""
+    return one_line(value, LONGEST_TEXT)
+
+
+def _name(value: object) -> str:
+    """What should be a name that this package knows, and may be anything."""
+    return one_line(value, LONGEST_NAME)

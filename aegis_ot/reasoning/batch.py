@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ConfigurationError
-from .backend import Request
+from .backend import Request, State
 from .backends.exporting import lines_of, read_requests, request_line
-from .backends.recording import keep_picture, read_entry, write_entry
+from .backends.recording import add_answer, keep_picture
 from .schema import problem_of, read_answer
 
 
@@ -79,14 +79,14 @@ def import_answers(answers: Path, folder: Path, requests: Path | None = None) ->
         where = f"{answers.name}, line {number}"
         try:
             given = json.loads(line)
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             problems.append(f"{where}: is not JSON ({error}).")
             continue
         problem = _problem(given, asked)
         if problem:
             problems.append(f"{where}: {problem}")
             continue
-        _keep(folder, given, asked.get(given["id"]))
+        add_answer(folder, given["id"], _answer(given), asked.get(given["id"]))
         kept += 1
     return Imported(kept, tuple(problems))
 
@@ -110,24 +110,16 @@ def _problem(given: Any, asked: Mapping[str, Mapping[str, Any]]) -> str:
     if asked:
         if key not in asked:
             return f"no request of the exported ones has the id {key[:12]}..."
-        text = given["answer"]
-        text = text if isinstance(text, str) else json.dumps(text)
-        _, problem = read_answer(text, asked[key]["schema"])
+        _, problem = read_answer(given["answer"], asked[key]["schema"])
         return f"{problem}." if problem else ""
     return ""
 
 
-def _keep(folder: Path, given: Mapping[str, Any], request: Mapping[str, Any] | None) -> None:
-    entry = read_entry(folder, given["id"]) or {}
-    model = str(given.get("model") or "imported")
-    answers = [a for a in entry.get("answers", []) if a.get("model") != model]
+def _answer(given: Mapping[str, Any]) -> dict[str, Any]:
     usage = given.get("usage")
-    answers.append(
-        {
-            "model": model,
-            "state": "answered",
-            "answer": given["answer"],
-            "usage": usage if isinstance(usage, dict) else {},
-        }
-    )
-    write_entry(folder, given["id"], {"request": entry.get("request", request), "answers": answers})
+    return {
+        "model": str(given.get("model") or "imported"),
+        "state": State.ANSWERED.value,
+        "answer": given["answer"],
+        "usage": usage if isinstance(usage, dict) else {},
+    }

@@ -9,11 +9,11 @@ Every source line starts with its number, which the author cannot leave out eith
 from __future__ import annotations
 
 import hashlib
-import re
 
 from ..preflight.dossier import Dossier
 from ..preflight.dossier_making import rule_text
 from ..preflight.rules import Database
+from ..vocabulary import one_line
 from .answer import ANSWER_SCHEMA, BLIND_SCHEMA
 from .backend import Message, Passage, Request
 from .prompts_text import prompt
@@ -89,7 +89,7 @@ def _source(dossier: Dossier) -> list[str]:
     # The file's name stays out: it says nothing about the steps, and a copy of a protocol
     # should find the answer that its original got.
     lines = ["Source:"]
-    lines += [f"{n}|{_visible(text)}" for n, text in enumerate(source_lines(dossier.source), 1)]
+    lines += [f"{n}|{_visible(text)}" for n, text in enumerate(dossier.source_lines, 1)]
     if dossier.parameters not in ("", "{}"):
         lines.append(f"Runtime parameters: {_flat(dossier.parameters)}")
     return lines
@@ -128,17 +128,11 @@ def _asked(dossier: Dossier) -> list[str]:
     return lines
 
 
-def source_lines(source: str) -> list[str]:
-    """Lines as Python counts them; ``splitlines`` knows more ends of lines than Python."""
-    return re.split(r"\r\n|\r|\n", source.rstrip("\r\n"))
-
-
 def _visible(line: str) -> str:
     """A source line without characters that could pass for the end of it."""
     return "".join(c if c.isprintable() or c == "\t" else " " for c in line)
 
 
-def _flat(text: str, limit: int = 160) -> str:
+def _flat(text: str) -> str:
     """Text that may come from the protocol, on one line."""
-    flat = "".join(c if c.isprintable() else " " for c in " ".join(text.split()))
-    return flat if len(flat) <= limit else flat[: limit - 3] + "..."
+    return one_line(text, 160)

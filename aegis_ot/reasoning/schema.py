@@ -12,6 +12,8 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from ..vocabulary import one_line
+
 _TYPES: dict[str, tuple[type, ...]] = {
     "object": (dict,),
     "array": (list,),
@@ -22,24 +24,32 @@ _TYPES: dict[str, tuple[type, ...]] = {
 }
 
 
-def read_answer(text: str, schema: Mapping[str, Any]) -> tuple[dict[str, Any] | None, str]:
-    """The object in ``text``, or ``None`` and what is wrong with it.
+def read_answer(given: Any, schema: Mapping[str, Any]) -> tuple[dict[str, Any] | None, str]:
+    """The object that answers, or ``None`` and what is wrong with it.
 
-    A fence of backticks around the object is taken off: open models like to put one there.
+    Args:
+        given: The object, or the text that holds it. A fence of backticks around it is taken
+            off: open models like to put one there.
+        schema: What it must fit.
     """
-    stripped = text.strip()
-    if stripped.startswith("```"):
-        stripped = stripped.strip("`").removeprefix("json").strip()
-    try:
-        value = json.loads(stripped)
-    except (ValueError, RecursionError) as error:
-        return None, f"it is not JSON ({error})"
-    problem = problem_of(value, schema)
+    if isinstance(given, str):
+        stripped = given.strip()
+        if not stripped:
+            return None, "it is empty"
+        if stripped.startswith("```"):
+            stripped = stripped.strip("`").removeprefix("json").strip()
+        try:
+            given = json.loads(stripped)
+        except ValueError as error:
+            return None, f"it is not JSON ({error})"
+        except RecursionError:
+            return None, "it is nested too deeply"
+    problem = problem_of(given, schema)
     if problem:
         return None, problem
-    if not isinstance(value, dict):
+    if not isinstance(given, dict):
         return None, "it is no object"
-    return value, ""
+    return given, ""
 
 
 def problem_of(value: Any, schema: Mapping[str, Any], path: str = "answer") -> str:
@@ -76,7 +86,7 @@ def _object_problem(value: dict[str, Any], schema: Mapping[str, Any], path: str)
             if problem:
                 return problem
         elif schema.get("additionalProperties") is False:
-            return f"{path}: there is no member {name!r}"
+            return f"{path}: there is no member {one_line(name, 60)!r}"
     return ""
 
 
@@ -87,5 +97,8 @@ def _is(value: Any, kind: str) -> bool:
 
 
 def _shown(value: Any) -> str:
-    text = json.dumps(value, ensure_ascii=False, default=str)
-    return text if len(text) <= 60 else text[:57] + "..."
+    if isinstance(value, dict):
+        return "an object"
+    if isinstance(value, list):
+        return "a list"
+    return one_line(json.dumps(value, ensure_ascii=False), 60)

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..vision.gates import Case, GateDecision
 from ..vision.types import Image, TipDetection
-from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
+from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route, one_line
 from .answer import strict_object
 from .backend import Backend, Message, Passage, Picture, Request
 from .prompts_text import prompt
@@ -185,7 +185,7 @@ def _facts(case: Case) -> list[str]:
     ]
     if reagent:
         # A name from the protocol: data, not a word to the model.
-        shown = "".join(c if c.isprintable() else " " for c in reagent)[:60]
+        shown = one_line(reagent, 60)
         lines.append(
             f"The protocol calls the liquid {shown!r}. If the name or the pictures show a "
             "coloured liquid, look for its colour; if it may be clear, look for a meniscus."
@@ -201,5 +201,4 @@ def _facts(case: Case) -> list[str]:
 
 
 def _short(text: object) -> str:
-    flat = " ".join(str(text).split())
-    return flat if len(flat) <= 200 else flat[:197] + "..."
+    return one_line(text, 200)

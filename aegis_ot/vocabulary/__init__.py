@@ -5,6 +5,7 @@ these. They carry no behaviour beyond naming themselves and turning into plain J
 """
 
 from .findings import Finding, Remark, Severity, Site, Undecided, VerdictWord
+from .sentences import one_line
 from .trajectories import (
     FailureType,
     Gate,
@@ -33,5 +34,6 @@ __all__ = [
     "VerdictWord",
     "WellRef",
     "from_json",
+    "one_line",
     "to_json",
 ]

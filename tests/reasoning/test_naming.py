@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -57,7 +58,7 @@ def test_the_named_variable_must_hold_a_key(server: WireServer) -> None:
     assert "LAB_KEY" in reply.detail
 
 
-def test_recording_is_asked_for_beside_the_name(tmp_path) -> None:  # type: ignore[no-untyped-def]
+def test_recording_is_asked_for_beside_the_name(tmp_path: Path) -> None:
     assert isinstance(make_backend("openai:m", record=tmp_path / "r"), RecordingBackend)
 
 
@@ -76,7 +77,17 @@ def test_recording_is_asked_for_beside_the_name(tmp_path) -> None:  # type: igno
         "anthropic:m#structured=guided_json",
         "anthropic:m#timeout=soon",
         "anthropic:m#timeout=0",
+        "anthropic:m#timeout=nan",
+        "anthropic:m#attempts=0.5",
         "anthropic:m#key=sk-ant-123",
+        "anthropic:sk-ant-123",
+        "sk-ant-123",
+        "openai:m#limit=model",
+        "openai:m@http://[::1/v1",
+        "openai:m@http://host:99999/v1",
+        "openai:m@http://host:port/v1",
+        "openai:m@http://ho st/v1",
+        "openai:m\nx",
         "replay:/no/such/folder/anywhere",
     ],
 )
@@ -85,6 +96,18 @@ def test_names_that_make_no_sense(name: str) -> None:
         make_backend(name)
     assert "sk-ant-123" not in str(told.value)
     assert "password@" not in str(told.value)
+
+
+@pytest.mark.parametrize("address", ["localhost:8000/v1", "192.168.1.3:11434/v1", "ftp://host/v1"])
+def test_an_address_without_its_scheme_is_not_taken_for_the_models_name(address: str) -> None:
+    """The protocol would go to OpenAI, though it was meant for a server of one's own."""
+    with pytest.raises(ConfigurationError, match="http://"):
+        make_backend(f"openai:m@{address}")
+
+
+def test_a_folder_may_be_called_what_a_key_is(tmp_path: Path) -> None:
+    (tmp_path / "key-2026").mkdir()
+    assert make_backend(f"replay:{tmp_path / 'key-2026'}").ask(request()).state is not None
 
 
 def test_the_environment_names_a_model() -> None:

@@ -72,6 +72,26 @@ def test_a_rule_that_does_not_exist_is_no_finding() -> None:
     assert any("PCR-99" in note for note in after.notes)
 
 
+def test_a_models_names_and_words_are_one_printable_line() -> None:
+    odd = "x\x1b[31m\n\u202e\ud800"
+    said = answer(
+        family=odd,
+        roles=[
+            {"role": odd, "wells": ["4:H12"], "reason": odd},
+            {"role": odd, "wells": ["9:A1"], "reason": odd},
+        ],
+        findings=[finding(odd, ["4:H12"], [15], odd), finding("PCR-2", ["4:H12"], [15], odd)],
+        answers=[{"rule": "PCR-1", "answer": "holds", "reason": odd}],
+        summary=odd,
+    )
+    after = judged(SILENT, said).report
+    texts = [*after.notes, after.family, *(f.message for f in after.findings)]
+    texts += [u.reason for u in after.undecided]
+    texts += [text for role in after.roles for text in (role.role, *role.evidence)]
+    assert all(text.isprintable() for text in texts), texts
+    assert len(after.findings) == 1
+
+
 def test_a_rule_that_the_checks_decided_stays_decided() -> None:
     before = checked(CONTAMINATED)[0]
     wrong = finding("PCR-1", ["4:A1"], [13], "A1 has no master mix.")

@@ -89,6 +89,45 @@ def test_a_damaged_recording_is_named(tmp_path: Path) -> None:
     assert request().hash in reply.detail
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[]",
+        "{}",
+        '{"format": 2}',
+        '{"format": 1, "answers": 3}',
+        '{"format": 1, "answers": [3, null]}',
+        "[" * 100_000,
+        '{"format": 1, "answers": [{"model": 3, "answer": null, "seconds": NaN, "usage": []}]}',
+        '{"format": 1, "answers": [{"answer": ' + "[" * 800 + "]" * 800 + "}]}",
+    ],
+)
+def test_a_recording_of_any_other_form_is_no_answer(tmp_path: Path, text: str) -> None:
+    (tmp_path / f"{request().hash}.json").write_text(text)
+    reply = ReplayBackend(tmp_path).ask(request())
+    assert reply.state in (State.NOT_RECORDED, State.INVALID)
+    assert reply.detail
+
+
+def test_a_damaged_recording_steps_aside_for_the_new_answer(tmp_path: Path) -> None:
+    path = tmp_path / f"{request().hash}.json"
+    path.write_bytes(b"\xed\xa0\x80")
+    assert RecordingBackend(ScriptedBackend([GOOD]), tmp_path).ask(request()).answered
+    assert ReplayBackend(tmp_path).ask(request()).value == GOOD
+    assert path.with_suffix(".damaged").read_bytes() == b"\xed\xa0\x80", "nothing is lost"
+
+
+def test_half_a_surrogate_pair_is_recorded_and_read_again(tmp_path: Path) -> None:
+    said = [json.dumps(GOOD | {"verdict": "\ud800"}), '"\\ud800"', "\ud800"]
+    for text in said:
+        asked = request(repr(text))
+        recorded = RecordingBackend(ScriptedBackend([text]), tmp_path).ask(asked)
+        assert recorded.state is State.INVALID
+        again = ReplayBackend(tmp_path).ask(asked)
+        assert again.state is State.INVALID
+        assert again.raw == text
+
+
 def test_a_recorded_answer_is_checked_like_a_fresh_one(tmp_path: Path) -> None:
     RecordingBackend(ScriptedBackend([GOOD]), tmp_path).ask(request())
     path = tmp_path / f"{request().hash}.json"
@@ -129,6 +168,7 @@ def test_a_batch_goes_out_and_comes_back(tmp_path: Path) -> None:
     ("line", "told"),
     [
         ("{", "not JSON"),
+        ("[" * 100_000, "not JSON"),
         ("[]", "expected object"),
         ({"answer": GOOD}, "id is missing"),
         ({"id": "xyz", "answer": GOOD}, "not the id"),
@@ -150,6 +190,17 @@ def test_bad_lines_are_reported_and_good_ones_kept(tmp_path: Path, line: Any, to
     assert "line 1" in done.problems[0]
     assert told in done.problems[0]
     assert ReplayBackend(tmp_path / "replay").ask(request()).answered
+
+
+def test_files_of_windows_editors_are_read(tmp_path: Path) -> None:
+    out, answers = tmp_path / "requests.jsonl", tmp_path / "responses.jsonl"
+    export_requests([("a.py", request())], out)
+    for path, text in (
+        (out, out.read_text()),
+        (answers, json.dumps({"id": request().hash, "answer": GOOD}) + "\r\n"),
+    ):
+        path.write_bytes(b"\xef\xbb\xbf" + text.encode())
+    assert import_answers(answers, tmp_path / "replay", out).problems == ()
 
 
 def test_an_import_keeps_what_was_there(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import email.utils
+import importlib
 import json
 import logging
 import socket
@@ -109,6 +110,81 @@ def test_openais_key_stays_with_openai(server: WireServer, monkeypatch: pytest.M
     assert backend.ask(request()).answered
     assert KEY not in json.dumps(server.seen[0].headers)
     assert "org-secret" not in json.dumps(server.seen[0].headers)
+
+
+@pytest.mark.parametrize("key", ["two\nlines-1234", "with space", "“quoted-1234”", "sécret-1234"])
+def test_what_cannot_be_a_key_is_not_sent(
+    service: Service, server: WireServer, caplog: pytest.LogCaptureFixture, key: str
+) -> None:
+    """HTTP clients log a header that they cannot send, and services repeat one garbled."""
+    caplog.set_level(logging.DEBUG)
+    reply = service.backend(server.url, key=key).ask(request())
+    assert reply.state is State.NO_KEY
+    assert server.seen == []
+    for part in ("1234", "with space", "cret"):
+        assert part not in reply.detail + caplog.text
+
+
+def test_a_key_at_the_cut_of_a_long_message_is_cut_out_whole(
+    service: Service, server: WireServer
+) -> None:
+    for length in range(270, 300, 7):
+        server.seen.clear()
+        said = "x" * length + " plain-secret-0123456789"
+        server.answers = [Answer(400, service.error("odd", said))]
+        reply = service.backend(server.url, key="plain-secret-0123456789").ask(request())
+        assert "plain" not in reply.detail
+
+
+def test_what_a_service_or_model_says_cannot_paint_the_terminal(
+    service: Service, server: WireServer
+) -> None:
+    server.answers = [Answer(400, service.error("odd", "no\x1b[31m\u202e\ud800 schema\nsecond"))]
+    detail = service.backend(server.url).ask(request()).detail
+    assert detail.isprintable()
+    assert "second" in detail
+    for said in ({"verdict": "\x1b[2J\ud800", "lines": []}, GOOD | {"\x1b[2J\ud800": 1}):
+        text = json.dumps(said)
+        body = (
+            anthropic_message(said)
+            if service.name == "anthropic"
+            else openai_completion(text) | {"model": "m\x1b[2J\n"}
+        )
+        server.answers = [Answer(body=body)]
+        reply = service.backend(server.url).ask(request())
+        assert reply.state is State.INVALID
+        assert (reply.detail + reply.model).isprintable()
+
+
+def test_nesting_of_any_depth_is_invalid(service: Service, server: WireServer) -> None:
+    """Near the interpreter's limit reading succeeds and writing again may not."""
+    for depth in (200, *range(970, 1000, 3), 100_000):
+        said = "[" * depth + "]" * depth
+        body = (
+            anthropic_message(None, "end_turn", said)
+            if service.name == "anthropic"
+            else openai_completion(said)
+        )
+        server.seen.clear()
+        server.answers = [Answer(body=body)]
+        reply = service.backend(server.url).ask(request())
+        assert reply.state is State.INVALID, depth
+
+
+def test_loading_the_sdk_takes_none_of_the_services_time(
+    service: Service, server: WireServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock = FakeClock()
+    load = importlib.import_module
+
+    def slowly(name: str) -> Any:
+        clock.sleep(5)
+        return load(name)
+
+    monkeypatch.setattr("aegis_ot.reasoning.backends.service.importlib.import_module", slowly)
+    server.answers = [Answer(body=service.good)]
+    patience = Patience(timeout_s=4)
+    assert service.backend(server.url, clock=clock, patience=patience).ask(request()).answered
 
 
 def test_a_rate_limit_is_waited_out_as_told(service: Service, server: WireServer) -> None:

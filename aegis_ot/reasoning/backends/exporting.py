@@ -74,7 +74,7 @@ def read_requests(requests: Path) -> dict[str, Mapping[str, Any]]:
                 name: request[name]
                 for name in ("purpose", "system", "messages", "schema", "max_output")
             }
-        except (ValueError, KeyError, TypeError) as error:
+        except (ValueError, KeyError, TypeError, RecursionError) as error:
             raise ConfigurationError(
                 f"{requests}, line {number} is no exported request ({error})."
             ) from error
@@ -88,6 +88,7 @@ def lines_of(path: Path) -> list[str]:
         ConfigurationError: It cannot be read.
     """
     try:
-        return path.read_text(encoding="utf-8").split("\n")
+        # Some editors and shells begin a file with a mark of its encoding.
+        return path.read_text(encoding="utf-8-sig").split("\n")
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{path} cannot be read: {error}.") from error

@@ -20,6 +20,11 @@ def key_from(names: tuple[str, ...], environ: Mapping[str, str] | None = None) -
     return ""
 
 
+def is_sendable(key: str) -> bool:
+    """Whether a key can be a header's value: what is not stops in the HTTP client's log."""
+    return key.isascii() and key.isprintable() and " " not in key
+
+
 def without(secret: str, text: str) -> str:
     """``text`` without ``secret``, and without what looks like part of a key.
 
@@ -28,9 +33,3 @@ def without(secret: str, text: str) -> str:
     if secret and len(secret) >= 4:
         text = text.replace(secret, "[key]")
     return re.sub(r"\b(?:sk|nvapi|key)-[A-Za-z0-9_*.-]{4,}", "[key]", text)
-
-
-def one_line(text: object, limit: int = 300) -> str:
-    """A service's message, fit for a report."""
-    flat = " ".join(str(text or "").split())
-    return flat if len(flat) <= limit else flat[: limit - 3] + "..."

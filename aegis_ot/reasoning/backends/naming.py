@@ -7,14 +7,17 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from urllib.parse import parse_qsl, urlsplit
 
 from ...errors import ConfigurationError
+from ...vocabulary import one_line
 from ..backend import Backend
 from .anthropic_api import AnthropicBackend
 from .exporting import ExportBackend
+from .keys import without
 from .openai_api import PROFILES, OpenAIBackend
 from .recording import RecordingBackend, ReplayBackend
 from .retrying import Patience
@@ -30,6 +33,7 @@ _OPTIONS = {
     "scripted": set(),
     "export": set(),
 }
+_FILES = {"replay", "scripted", "export"}
 MODEL_FORMS = (
     "anthropic:MODEL, openai:MODEL, openai:MODEL@URL, replay:FOLDER, scripted:FILE, export:FILE"
 )
@@ -68,8 +72,14 @@ def make_backend(
         ConfigurationError: The name makes no sense.
     """
     kind, _, rest = name.strip().partition(":")
+    if kind not in _FILES and without("", name) != name:
+        raise ConfigurationError(
+            f"The model {_shown(name)!r} holds what looks like a key. Keys come from the "
+            "environment."
+        )
     rest, _, option_text = rest.partition("#")
-    if kind not in _OPTIONS or not rest:
+    rest = rest.strip()
+    if kind not in _OPTIONS or not rest or not rest.isprintable():
         raise ConfigurationError(
             f"The model {_shown(name)!r} is not understood. Use {MODEL_FORMS}."
         )
@@ -92,11 +102,11 @@ def _service(
     manner = Manner(
         patience=Patience(
             timeout_s=_number(options, "timeout", timeout_s or Patience.timeout_s),
-            attempts=int(_number(options, "attempts", Patience.attempts)),
+            attempts=_count(options, "attempts", 100) or Patience.attempts,
         ),
         temperature=_number(options, "temperature", 0.0) if "temperature" in options else None,
         trust_env=trust_env,
-        output=int(_number(options, "output", 0, 200_000)) or None,
+        output=_count(options, "output", 200_000),
     )
     keys = (options["key"],) if "key" in options else None
     structured = options.get("structured")
@@ -154,17 +164,32 @@ def _split_url(rest: str) -> tuple[str, str | None]:
     for scheme in ("@http://", "@https://"):
         model, found, tail = rest.partition(scheme)
         if found:
-            url = scheme[1:] + tail
-            parts = urlsplit(url)
-            if not parts.hostname or parts.username or parts.password or parts.query:
+            url = (scheme[1:] + tail).rstrip("/")
+            if not _is_address(url):
                 raise ConfigurationError(
                     "The address of a model is http://HOST:PORT/v1, without user, password or "
                     "query; keys come from the environment."
                 )
             if not model:
                 raise ConfigurationError(f"No model is named before {url}. Use {MODEL_FORMS}.")
-            return model, url.rstrip("/")
+            return model, url
+    if "@" in rest:
+        # Taken for a part of the model's name, the protocol would go to the service itself.
+        raise ConfigurationError(
+            f"What follows the @ of {_shown(rest)!r} is no address: it begins with http:// or "
+            "https://."
+        )
     return rest, None
+
+
+def _is_address(url: str) -> bool:
+    try:
+        parts = urlsplit(url)
+        port = parts.port
+    except ValueError:
+        return False
+    extra = parts.username or parts.password or parts.query
+    return bool(parts.hostname) and port != 0 and not extra and not re.search(r"\s", url)
 
 
 def _options(kind: str, text: str) -> dict[str, str]:
@@ -183,6 +208,15 @@ def _options(kind: str, text: str) -> dict[str, str]:
     return options
 
 
+def _count(options: Mapping[str, str], name: str, most: int) -> int | None:
+    text = options.get(name)
+    if text is None:
+        return None
+    if not text.isdecimal() or not 0 < int(text[:9]) <= most:
+        raise ConfigurationError(f"The option {name}={text!r} must be a whole number, 1 to {most}.")
+    return int(text)
+
+
 def _number(options: Mapping[str, str], name: str, default: float, most: float = 3600) -> float:
     text = options.get(name)
     if text is None:
@@ -199,4 +233,4 @@ def _number(options: Mapping[str, str], name: str, default: float, most: float =
 
 
 def _shown(name: str) -> str:
-    return name if len(name) <= 80 else name[:77] + "..."
+    return one_line(without("", name), 80)

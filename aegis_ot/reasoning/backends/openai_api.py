@@ -20,6 +20,7 @@ from .keys import GENERIC
 from .service import Manner, ServiceBackend, Written, count, member
 
 STRUCTURED = ("json_schema", "tool", "guided_json", "json_object")
+LIMITS = ("max_tokens", "max_completion_tokens")
 _OPENAI = "https://api.openai.com/v1"
 
 
@@ -89,6 +90,10 @@ class OpenAIBackend(ServiceBackend):
                 f"of {', '.join(STRUCTURED)}."
             )
         self._limit = limit or profile.limit
+        if self._limit not in LIMITS:
+            raise ConfigurationError(
+                f"limit={limit!r} is no length limit; use one of {', '.join(LIMITS)}."
+            )
         self._strict = {"strict": True} if profile.strict else {}
         super().__init__(
             f"openai:{model}" + (f"@{base_url}" if base_url else ""),

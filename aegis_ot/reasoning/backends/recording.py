@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ConfigurationError
+from ...vocabulary import one_line
 from ..backend import Backend, Picture, Reply, Request, State, Usage
 from ..schema import read_answer
 
@@ -66,25 +67,67 @@ def keep(folder: Path, request: Request, reply: Reply) -> None:
     Raises:
         ConfigurationError: The folder cannot be written.
     """
-    entry = read_entry(folder, request.hash) or {}
-    answers = [a for a in _answers(entry) if a.get("model") != reply.model]
-    answers.append(
-        {
-            "model": reply.model,
-            "state": reply.state.value,
-            "answer": _parsed(reply.raw),
-            "usage": {
-                "input": reply.usage.input,
-                "cached": reply.usage.cached,
-                "cache_written": reply.usage.cache_written,
-                "output": reply.usage.output,
-            },
-            "seconds": round(reply.seconds, 3),
-        }
-    )
+    answer = {
+        "model": reply.model,
+        "state": reply.state.value,
+        # An object for people who look into the folder; what fits no form, as it was written.
+        "answer": reply.raw if reply.value is None else dict(reply.value),
+        "usage": {
+            "input": reply.usage.input,
+            "cached": reply.usage.cached,
+            "cache_written": reply.usage.cache_written,
+            "output": reply.usage.output,
+        },
+        "seconds": round(reply.seconds, 3),
+    }
     for picture in request.pictures:
         keep_picture(folder, picture)
-    write_entry(folder, request.hash, {"request": request.to_json(), "answers": answers})
+    add_answer(folder, request.hash, answer, request.to_json())
+
+
+def add_answer(
+    folder: Path, key: str, answer: Mapping[str, Any], request: Mapping[str, Any] | None
+) -> None:
+    """Put an answer into ``<hash>.json``; an earlier one of the same model is replaced.
+
+    Args:
+        folder: Of recordings.
+        key: The request's hash.
+        answer: ``model``, ``state``, ``answer``, ``usage``, perhaps ``seconds``.
+        request: The request, where it is known.
+
+    Raises:
+        ConfigurationError: The folder cannot be written, or the answer not as JSON.
+    """
+    entry = _so_far(folder, key)
+    answers = [a for a in _answers(entry) if a.get("model") != answer["model"]]
+    kept = {
+        "format": FORMAT,
+        "hash": key,
+        "request": request or entry.get("request"),
+        "answers": [*answers, answer],
+    }
+    try:
+        text = json.dumps(kept, ensure_ascii=False, indent=1)
+    except RecursionError:
+        raise ConfigurationError(f"The answer to {key[:12]} is nested too deeply.") from None
+    # Half a surrogate pair, which no UTF-8 holds, stays the escape that JSON writes it as.
+    _write(folder / f"{key}.json", text.encode("utf-8", "backslashreplace"))
+
+
+def _so_far(folder: Path, key: str) -> dict[str, Any]:
+    """What is kept so far. A damaged recording steps aside: a new answer may be paid for."""
+    try:
+        return read_entry(folder, key) or {}
+    except ConfigurationError as error:
+        path = folder / f"{key}.json"
+        aside = path.with_suffix(".damaged")
+        _log.warning("%s It is now %s.", error, aside.name)
+        try:
+            os.replace(path, aside)
+        except OSError as problem:
+            raise ConfigurationError(f"Cannot move {path}: {problem.strerror}.") from problem
+        return {}
 
 
 def keep_picture(folder: Path, picture: Picture) -> str:
@@ -96,17 +139,8 @@ def keep_picture(folder: Path, picture: Picture) -> str:
     return name
 
 
-def write_entry(folder: Path, key: str, entry: Mapping[str, Any]) -> None:
-    """Write ``<hash>.json``, whole or not at all.
-
-    Raises:
-        ConfigurationError: The folder cannot be written.
-    """
-    text = json.dumps({"format": FORMAT, "hash": key, **entry}, ensure_ascii=False, indent=1)
-    _write(folder / f"{key}.json", text.encode("utf-8", "surrogatepass"))
-
-
 def _write(path: Path, data: bytes) -> None:
+    """Whole or not at all."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
@@ -170,18 +204,18 @@ class ReplayBackend:
 
 
 def _reply(answer: Mapping[str, Any], request: Request) -> Reply:
-    model = str(answer.get("model") or "unknown")
+    model = one_line(answer.get("model"), 100) or "unknown"
     given = answer.get("answer")
-    raw = given if isinstance(given, str) else json.dumps(given, ensure_ascii=False)
     counts = answer.get("usage")
     usage = _usage(counts if isinstance(counts, Mapping) else {})
     seconds = answer.get("seconds")
-    took = float(seconds) if isinstance(seconds, (int, float)) else 0.0
+    took = float(seconds) if isinstance(seconds, (int, float)) and 0 <= seconds < 1e6 else 0.0
     said = answer.get("state", State.ANSWERED.value)
+    value, problem = read_answer(given, request.schema)
+    raw = given if isinstance(given, str) else "" if value is None else json.dumps(value)
     if said in (State.REFUSED.value, State.TRUNCATED.value):
         detail = f"{model}: the recorded answer was {said}."
         return Reply(State(said), model, None, detail, usage, took, 0, raw)
-    value, problem = read_answer(raw, request.schema)
     if value is None:
         detail = f"{model}: the recorded answer cannot be used: {problem}."
         return Reply(State.INVALID, model, None, detail, usage, took, 0, raw)
@@ -191,7 +225,9 @@ def _reply(answer: Mapping[str, Any], request: Request) -> Reply:
 def _usage(counts: Mapping[str, Any]) -> Usage:
     def count(name: str) -> int:
         value = counts.get(name)
-        return value if isinstance(value, int) and not isinstance(value, bool) else 0
+        if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
+            return value
+        return 0
 
     return Usage(count("input"), count("cached"), count("cache_written"), count("output"))
 
@@ -207,8 +243,8 @@ def read_entry(folder: Path, key: str) -> dict[str, Any] | None:
         entry = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
         return None
-    except (OSError, ValueError) as error:
-        raise ConfigurationError(f"The recording {path} cannot be read: {error}") from error
+    except (OSError, ValueError, RecursionError) as error:
+        raise ConfigurationError(f"The recording {path} cannot be read: {error}.") from error
     if not isinstance(entry, dict) or entry.get("format") != FORMAT:
         raise ConfigurationError(f"The recording {path} is not of format {FORMAT}.")
     return entry
@@ -217,12 +253,3 @@ def read_entry(folder: Path, key: str) -> dict[str, Any] | None:
 def _answers(entry: Mapping[str, Any]) -> list[dict[str, Any]]:
     answers = entry.get("answers")
     return [a for a in answers if isinstance(a, dict)] if isinstance(answers, list) else []
-
-
-def _parsed(raw: str) -> Any:
-    """JSON where it is JSON, for people who look into the folder; else the text."""
-    try:
-        value = json.loads(raw)
-    except ValueError:
-        return raw
-    return value if isinstance(value, dict) else raw

@@ -12,9 +12,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from ...vocabulary import one_line
 from ..backend import Reply, Request, State, Usage
 from ..schema import read_answer
-from .keys import key_from, one_line, without
+from .keys import is_sendable, key_from, without
 from .retrying import Clock, Patience, Trouble, ask_patiently, trouble_of_status
 
 
@@ -97,14 +98,29 @@ class ServiceBackend(ABC):
         if key is None:
             key = key_from(self._key_variables)
         if not key and self._needs_key:
-            detail = f"Set {' or '.join(self._key_variables)} to ask {self.name}."
-            return Reply(State.NO_KEY, self.model, detail=detail, attempts=0)
+            return self._without_asking(
+                State.NO_KEY, f"Set {' or '.join(self._key_variables)} to ask {self.name}."
+            )
+        if key and not is_sendable(key):
+            return self._without_asking(
+                State.NO_KEY,
+                f"What {' or '.join(self._key_variables)} holds is no key: it has spaces, line "
+                "ends or letters that no key has. Copy it again.",
+            )
+        try:
+            # Loading an SDK takes a second or more, which is not the service's.
+            sdk = _sdk(self.package)
+        except Trouble as trouble:
+            return self._without_asking(trouble.state, trouble.detail)
         return ask_patiently(
-            lambda left: self._attempt(request, key, left),
+            lambda left: self._attempt(sdk, request, key, left),
             self.model,
             self._manner.patience,
             self._manner.clock,
         )
+
+    def _without_asking(self, state: State, detail: str) -> Reply:
+        return Reply(state, self.model, detail=detail, attempts=0)
 
     @abstractmethod
     def _connect(self, sdk: Any, key: str, common: Mapping[str, Any]) -> Any:
@@ -122,8 +138,7 @@ class ServiceBackend(ABC):
         """Longest answer, tokens."""
         return self._manner.output or request.max_output
 
-    def _attempt(self, request: Request, key: str, left: float) -> Reply:
-        sdk = _sdk(self.package)
+    def _attempt(self, sdk: Any, request: Request, key: str, left: float) -> Reply:
         try:
             if self._client is None:
                 self._client = self._connect(sdk, key, self._common(sdk))
@@ -139,13 +154,13 @@ class ServiceBackend(ABC):
                 State.UNAVAILABLE, f"{self._service} cannot be reached ({cause}).", True
             ) from None
         except sdk.APIStatusError as error:
-            said = without(key, one_line(_message_of(error.body) or error.message))
+            said = one_line(without(key, _message_of(error.body) or error.message))
             raise trouble_of_status(
                 self._service, error.status_code, said, error.response.headers
             ) from None
         except Exception as error:
             # SDKs hand on what a server sends without looking at it: anything may come up.
-            said = without(key, one_line(error))
+            said = one_line(without(key, str(error)))
             raise Trouble(
                 State.INVALID, f"{self._service}: {type(error).__name__}: {said}"
             ) from None
@@ -158,7 +173,8 @@ class ServiceBackend(ABC):
 
     def _judged(self, request: Request, written: Written) -> Reply:
         """The reply, if the answer is whole and fits its form."""
-        model, usage, raw = written.model or self.model, written.usage, written.text
+        model = one_line(written.model, 100) or self.model
+        usage, raw = written.usage, written.text
         value: dict[str, Any] | None = None
         if written.refusal is not None:
             state = State.REFUSED
@@ -186,8 +202,9 @@ def _sdk(package: str) -> Any:
 
 
 def _message_of(body: Any) -> str:
-    error = body.get("error") if isinstance(body, Mapping) else None
-    return str(error.get("message", "")) if isinstance(error, Mapping) else ""
+    """Of an error's body; one SDK hands on all of it, the other its member ``error``."""
+    inner = body.get("error", body) if isinstance(body, Mapping) else None
+    return str(inner.get("message", "")) if isinstance(inner, Mapping) else ""
 
 
 def count(holder: Any, name: str) -> int:
