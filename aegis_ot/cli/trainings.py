@@ -36,8 +36,8 @@ def detector(
 ) -> None:
     """Train the tip detector; the same data sets, seed and versions give the same weights.
 
-    Needs PyTorch: pip install 'aegis-ot[train]'. Use the result as cascade.detector of the
-    sidecar, or with --boxes.
+    Needs PyTorch: install the package with its extra 'train'. Use the result as
+    cascade.detector of the sidecar, or with --boxes.
 
     Exit codes: 0 written, 2 PyTorch is missing, or a data set is no good.
     """

@@ -40,8 +40,8 @@ def train_detector(
         Path of the ``.onnx`` file.
 
     Raises:
-        ConfigurationError: PyTorch or ONNX is not installed, ``out`` cannot be written, or a plate
-            to hold out is in no data set.
+        ConfigurationError: PyTorch or ONNX is not installed, ``out`` cannot be written, a plate
+            to hold out is in no data set, or no plate is left.
         DatasetError: A data set cannot be read; every bad row is listed.
     """
     try:

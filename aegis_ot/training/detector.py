@@ -15,7 +15,7 @@ import torch
 from .._version import __version__
 from ..errors import ConfigurationError, DatasetError
 from ..vision.detection.heatmap import FORMAT, HeatmapDetector
-from .figures import choose_threshold, measure
+from .figures import choose_threshold, measure, read_images
 from .fitting import DetectorSettings, fit
 from .network import TipNetwork
 from .recorded import FramePool, RecordedFrame, read_frames
@@ -68,7 +68,8 @@ def train(
         Path of the ``.onnx`` file.
 
     Raises:
-        ConfigurationError: ``out`` cannot be written, or a plate to hold out is in no data set.
+        ConfigurationError: ``out`` cannot be written, a plate to hold out is in no data set, or
+            no plate is left.
         DatasetError: A data set cannot be read, or two have the same name.
     """
     chosen = settings or DetectorSettings()
@@ -105,7 +106,7 @@ def train(
     if held:
         detector = HeatmapDetector(path)
         description["held_out_figures"] = {
-            name: asdict(measure(detector, [f for f in frames if _plate(f) in held]))
+            name: asdict(measure(detector, read_images(f for f in frames if _plate(f) in held)))
             for name, frames in by_set.items()
         }
         _write(path, description)
@@ -134,11 +135,14 @@ def _read(datasets: Sequence[str | Path], held: set[str]) -> dict[str, list[Reco
                 f"Two data sets are called {folder.name}: rename one of the folders."
             )
         by_set[folder.name] = read_frames(folder)
-    unknown = held - {_plate(frame) for frames in by_set.values() for frame in frames}
-    if unknown:
+    plates = {_plate(frame) for frames in by_set.values() for frame in frames}
+    if unknown := held - plates:
         raise ConfigurationError(
-            f"No data set has the plate {', '.join(sorted(unknown))} that is to be held out."
+            f"No data set has the plate {', '.join(sorted(unknown))} that is to be held out. "
+            f"The plates are: {', '.join(sorted(plates)) or 'none, for no data set is named'}."
         )
+    if plates and plates == held:
+        raise ConfigurationError("All plates are held out: none is left to learn from.")
     return by_set
 
 

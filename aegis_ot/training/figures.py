@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -10,9 +10,24 @@ import numpy as np
 
 from ..errors import DatasetError
 from ..vision.detection import HeatmapDetector
+from ..vision.types import Image
+from .axes import TipLabel
 from .recorded import RecordedFrame
 
 Box = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
+class LabelledFrame:
+    """A frame and what should be found in it.
+
+    Attributes:
+        image: BGR, ``uint8``, shape ``(height, width, 3)``.
+        tips: Box and label of every tip, px; to find any one of them is right.
+    """
+
+    image: Image
+    tips: tuple[tuple[Box, TipLabel], ...]
 
 
 @dataclass(frozen=True)
@@ -71,37 +86,52 @@ def average_precision(confidences: Sequence[float], hits: Sequence[bool], positi
     return float((np.diff(recall) * envelope).sum())
 
 
-def measure(detector: HeatmapDetector, frames: Sequence[RecordedFrame]) -> DetectorFigures:
-    """Run a detector over frames and compare.
+def read_images(frames: Iterable[RecordedFrame]) -> Iterator[LabelledFrame]:
+    """The frames of a data set, read one at a time.
 
     Raises:
         DatasetError: An image cannot be read.
     """
-    guesses: list[tuple[float, bool]] = []
-    overlaps, orifices, collars, tips, empties = [], [], [], [], []
-    found = false_alarms = 0
     for frame in frames:
         image = cv2.imread(str(frame.path), cv2.IMREAD_COLOR)
         if image is None:
             raise DatasetError(f"{frame.path.name} is not an image that can be read.")
-        guess = detector.best_guess(image)
+        if frame.box is None or frame.label is None:
+            yield LabelledFrame(image, ())
+        else:
+            yield LabelledFrame(image, ((frame.box, frame.label),))
+
+
+def measure(detector: HeatmapDetector, frames: Iterable[LabelledFrame]) -> DetectorFigures:
+    """Run a detector over frames and compare."""
+    guesses: list[tuple[float, bool]] = []
+    overlaps, orifices, collars, tips, empties = [], [], [], [], []
+    found = false_alarms = 0
+    for frame in frames:
+        guess = detector.best_guess(frame.image)
         confidence = guess.confidence if guess else 0.0
         sure = confidence >= detector.threshold
-        if frame.box is None or frame.label is None:
+        if not frame.tips:
             empties.append(confidence)
             false_alarms += sure
             if guess:
                 guesses.append((confidence, False))
             continue
         tips.append(confidence)
-        shared = overlap((guess.x, guess.y, guess.w, guess.h), frame.box) if guess else 0.0
-        if guess:
-            guesses.append((confidence, shared > 0.5))
+        if guess is None:
+            overlaps.append(0.0)
+            continue
+        box = (guess.x, guess.y, guess.w, guess.h)
+        shared, label = max(
+            ((overlap(box, _seen(true, frame.image)), label) for true, label in frame.tips),
+            key=lambda each: each[0],
+        )
+        guesses.append((confidence, shared > 0.5))
         overlaps.append(shared if sure else 0.0)
         found += sure and shared > 0.5
-        if guess and sure:
-            orifices.append(float(np.hypot(*np.subtract(guess.orifice, frame.label.orifice))))
-            collars.append(float(np.hypot(*np.subtract(guess.collar, frame.label.collar))))
+        if sure:
+            orifices.append(float(np.hypot(*np.subtract(guess.orifice, label.orifice))))
+            collars.append(float(np.hypot(*np.subtract(guess.collar, label.collar))))
     return DetectorFigures(
         len(tips),
         len(empties),
@@ -116,6 +146,13 @@ def measure(detector: HeatmapDetector, frames: Sequence[RecordedFrame]) -> Detec
         round(float(np.percentile(tips, 1)) if tips else 0.0, 3),
         round(max(empties, default=0.0), 3),
     )
+
+
+def _seen(box: Box, image: Image) -> Box:
+    """The part of a box that lies in the frame."""
+    x0, y0 = max(0.0, box[0]), max(0.0, box[1])
+    x1, y1 = min(image.shape[1], box[0] + box[2]), min(image.shape[0], box[1] + box[3])
+    return (x0, y0, max(0.0, x1 - x0), max(0.0, y1 - y0))
 
 
 def choose_threshold(

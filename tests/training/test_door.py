@@ -45,7 +45,7 @@ def test_the_same_seed_trains_the_same_weights(tmp_path: Path) -> None:
     assert not list(first.parent.glob("*.part"))
 
 
-def test_what_cannot_work_is_said_before_training(tmp_path: Path) -> None:
+def test_what_cannot_work_is_said_before_training(tmp_path: Path, dataset: Path) -> None:
     pytest.importorskip("torch")
     with pytest.raises(ConfigurationError, match=r"\.onnx"):
         train_detector([], tmp_path / "weights.bin")
@@ -54,5 +54,9 @@ def test_what_cannot_work_is_said_before_training(tmp_path: Path) -> None:
         train_detector([], tmp_path / "file" / "tip.onnx")
     with pytest.raises(ConfigurationError, match="plate7"):
         train_detector([], tmp_path / "tip.onnx", hold_out=["plate7"])
+    with pytest.raises(ConfigurationError, match="plate0, plate1"):
+        train_detector([dataset], tmp_path / "tip.onnx", hold_out=["plate7"])
+    with pytest.raises(ConfigurationError, match="none is left"):
+        train_detector([dataset], tmp_path / "tip.onnx", hold_out=["plate0", "plate1"])
     with pytest.raises(DatasetError, match="nowhere"):
         train_detector([tmp_path / "nowhere"], tmp_path / "tip.onnx")
