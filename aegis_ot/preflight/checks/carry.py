@@ -36,8 +36,8 @@ class Carry(Check):
             purpose beforehand is let be, and nothing else is.
         pooled: Whether carrying one source into another is let be when all that is ever made
             of the second is meant to hold the first too (pooling, water and then sample).
-        via_destination: ``only``: judge liquids met in wells that were filled in the run;
-            ``not``: judge the others; empty: all.
+        via_destination: ``only``: judge liquids met in wells that the run had put something
+            into; ``not``: judge the others; empty: all.
         shared: Whether only wells that serve several destinations are judged.
     """
 
@@ -78,7 +78,7 @@ class Carry(Check):
         if case.same_liquid(origin, well):
             return True
         if self.via_destination:
-            filled = origin is not met.well
+            filled = origin is not met.well or _was_fed(case, met)
             if filled != (self.via_destination == "only"):
                 return True
         brought = case.meant.get(well, {})
@@ -119,6 +119,11 @@ class Carry(Check):
             (visit.line, met.line, what),
             (origin, well),
         )
+
+
+def _was_fed(case: Case, met: Met) -> bool:
+    """Whether a well was a destination when the tip met it: something had been put into it."""
+    return any(index <= met.index for index in case.meant.get(met.well, {}).values())
 
 
 def _on_purpose(case: Case, stock: Well, origin: Well, visit: Visit) -> bool:

@@ -19,6 +19,9 @@ from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
 
+_UNKNOWN_ASSAY = 'the assay is not known; say it with assay="..."'
+
+
 def judge(recording: Recording, database: Database, options: Options | None = None) -> Report:
     """Judge a recorded protocol by all rules in force.
 
@@ -64,19 +67,29 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
     ]
     if missing:
         return [], _missing(case.family, missing)
-    if not case.confident and not assay_given:
-        return [], 'the assay is not known; say it with assay="..."'
+    sure = case.confident or assay_given
+    if not sure and not case.family.default:
+        return [], _UNKNOWN_ASSAY
     violations: list[Violation] = []
     doubts: list[str] = []
     for number, check in enumerate(rule.checks):
         for result in make_check(check, rule.id).find(case):
             if isinstance(result, Doubt):
                 doubts.append(result.reason)
+            elif not sure and not _declared(result, case.roles):
+                doubts.append(_UNKNOWN_ASSAY)
             else:
                 comment = _comment_alone(result, case.roles)
                 cause = (number, comment, *result.cause)
                 violations.append(replace(result, cause=cause, on_comment=comment))
+    if not sure and not violations:
+        doubts.append(_UNKNOWN_ASSAY)
     return violations, doubts[0] if doubts and not violations else ""
+
+
+def _declared(violation: Violation, roles: Roles) -> bool:
+    """Whether loaded liquids and the run alone say what the wells are for that it rests on."""
+    return all(well.liquids or well.ref not in roles.by_well for well in violation.rests_on)
 
 
 def _comment_alone(violation: Violation, roles: Roles) -> str:

@@ -20,6 +20,9 @@ SURE = 4.0
 LONE = 3.0
 """A signal of less weight makes no family known unless another one agrees."""
 
+AGREEING = 1.0
+"""Nor does one of less weight than this count as another."""
+
 ALSO = 0.6
 """A second family applies from this share of the first one's score on."""
 
@@ -70,7 +73,7 @@ def infer_families(
             # Wells filled from one place that then feed each other are a series without a word.
             weight = family.chain_weight * (2 if dilution >= 3 else 1)
             said = f"a chain of {chain} transfers from well to well"
-            found.append(_Found(weight * min(chain, 6) / 3, said, LONE if dilution >= 3 else 0.0))
+            found.append(_Found(weight * min(chain, 6) / 3, said, LONE, dilution >= 3))
         found.sort(key=lambda one: -one.worth)
         scored.append((max(sum(one.worth for one in found), 0.0), family, found))
     scored.sort(key=lambda item: -item[0])
@@ -144,17 +147,18 @@ def _texts(facts: SourceFacts, clues: Iterable[Clue], trace: Trace) -> Iterable[
 
 
 class _Found(NamedTuple):
-    """One signal that was found: what it adds, the words, and its weight if it defines."""
+    """One signal that was found: what it adds here, the words, its weight, if it defines."""
 
     worth: float
     said: str
-    defining: float
+    weight: float
+    defining: bool
 
 
 def _defines(found: Sequence[_Found]) -> bool:
     """Whether some signal makes the family known: a telling one alone, another one in company."""
-    company = sum(one.worth > 0 for one in found) > 1
-    return any(one.defining >= LONE or (one.defining > 0 and company) for one in found)
+    company = sum(one.weight >= AGREEING for one in found) > 1
+    return any(one.defining and (one.weight >= LONE or company) for one in found)
 
 
 def _nothing_against(found: Sequence[_Found]) -> bool:
@@ -186,6 +190,6 @@ def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> 
             worth = signal.weight * PLACES[where]
             key = (match.topic, "" if signal.once else match.phrase)
             if key not in best or abs(worth) > abs(best[key].worth):
-                defining = signal.weight if signal.defining else 0.0
-                best[key] = _Found(worth, f"'{match.phrase}' in a {where}", defining)
+                said = f"'{match.phrase}' in a {where}"
+                best[key] = _Found(worth, said, signal.weight, signal.defining)
     return list(best.values())

@@ -21,6 +21,8 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
             _derive_source(roles, name, spec, trace)
         if spec.one_to_one:
             _derive_one_to_one(roles, name, trace)
+        if spec.loaded:
+            _derive_loaded(roles, name, spec.loaded, trace)
     for name, spec in roles.family.roles.items():
         if spec.receives:
             _derive_one(roles, name, spec, trace, usage)
@@ -40,6 +42,23 @@ def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
             continue
         right = sum(roles.has(well, wanted) for well in wells)
         if right * 2 > len(wells):
+            roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+_SHARED = 3
+"""A liquid that serves as many wells is a reagent for all rather than something of its own."""
+
+
+def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
+    """A loaded liquid that is drawn from: its name need not be one of the known words."""
+    served: dict[WellRef, set[WellRef]] = {}
+    for well in trace.wells.values():
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None and source is not well and source.liquids:
+                    served.setdefault(source.ref, set()).add(well.ref)
+    for ref, wells in served.items():
+        if not roles.of(ref) and (len(wells) >= _SHARED) == (kind == "shared"):
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
 
 

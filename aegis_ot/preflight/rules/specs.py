@@ -49,6 +49,8 @@ class RoleSpec:
         feeds: Derived: an unnamed source that mostly feeds wells of these roles.
         one_liquid: Whether all wells of this role hold the same liquid unless named apart.
         one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
+        loaded: Derived: a well with a loaded liquid whose name says no role: ``shared`` where it
+            serves several wells, ``single`` where it serves one or two.
         level: Value on the scale of concentrations or doses that this role has by itself.
         receives: Derived: a destination that is given liquid of one of these roles.
     """
@@ -62,6 +64,7 @@ class RoleSpec:
     filled_by: tuple[str, ...] = ()
     feeds: tuple[str, ...] = ()
     one_to_one: bool = False
+    loaded: str = ""
     one_liquid: bool = False
     level: float | None = None
     receives: tuple[str, ...] = ()
