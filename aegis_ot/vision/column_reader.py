@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import TypeVar
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,21 +12,18 @@ from ..vocabulary import KeyframeKind
 from .column import TipProfile, WetAndDry, Wetness, ceiling, column_left
 from .measuring import ColumnReading, TipView
 from .scorers.looks import look
+from .tip_scale import NEAR, TipScale
 from .tips import TipGeometry
+from .usual import Usual, alike
 
-T = TypeVar("T")
 Well = tuple[Mapping[KeyframeKind, object], Mapping[KeyframeKind, float]]
 """Looks and expected volumes of one trajectory."""
 
-_MEMORY = 32
-_ENOUGH = 3
-"""Normal wells from which the run's own spread is taken for real."""
+FREE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+"""Keyframes in which the tip hangs free: only those are measured."""
 
 _EVIDENCE = 5.0
 """Log-likelihood ratio from which rows are believed to be wet, or dry, against expectation."""
-
-_NEAR = 0.04
-"""A meniscus this close to its expected place is the expected one, tip lengths."""
 
 _ORIFICE = (0.06, 8.0)
 """What is left out next to the orifice, tip lengths and px: its rim glints, and a drop hangs."""
@@ -38,24 +34,8 @@ _SHORTEST = 0.05
 _LEFT = np.array([0.25, 0.5, 0.75, 1.0])
 """Shares of the column's height that are tried for what normal wells show of a column left."""
 
-_PRIOR_WEIGHT = 3.0
-_PRIOR = (1.5, 0.1, 0.35)
-"""Standard deviation of a frame's wetness before the run has shown it: the first over the root
-of the liquid's power, within the other two. What moves a whole frame (what is behind the tip,
-the lamp, a film on the wall) is about the same for all liquids, so a plain one stands out more."""
-
-_LEAST_SD = 0.06
-
-_GAP_LEAST = 2.5
-_GAP_FACTOR = 2.0
-_GAP_FIRST = 8.0
-_GAP_FAINT = 25.0
 _GAP_SHARE = 0.3
-"""A break counts from this strength, from this multiple of the strongest that this run's normal
-columns showed, and while they are few from more; and air fills the bore."""
-
-_EXPOSURE = 1.4
-"""A frame this many times brighter or darker than the run's others cannot be compared."""
+"""Air fills the bore: wetness of a break at most."""
 
 _FIRST_VAGUE = ColumnReading(0.0, math.inf, vague=True)
 
@@ -74,36 +54,38 @@ class Look:
     tip: TipGeometry
     light: float = 0.0
 
+    @property
+    def lowest(self) -> float:
+        """Down to where a column can be told from the orifice's own glints, u."""
+        return 1.0 - max(_ORIFICE[0], _ORIFICE[1] / max(self.profile.length, 1.0))
 
-@dataclass
-class _Usual:
-    """What this run's normal wells showed of themselves, each judged before it was learned."""
-
-    lights: list[float] = field(default_factory=list)
-    dry: list[float] = field(default_factory=list)
-    wet: list[float] = field(default_factory=list)
-    gaps: list[float] = field(default_factory=list)
+    def bore_px(self, top: float, bottom: float) -> float:
+        """Mean width of the bore between two places (u) on the tip, px."""
+        heights = (1.0 - np.linspace(top, bottom, 12)) * self.tip.length_mm
+        width = 2.0 * float(np.mean(self.tip.inner_radius(heights)))
+        return width * self.profile.length / self.tip.length_mm
 
 
 class MeasuredColumns:
     """Measures the columns of one run, pipette and liquid.
 
     Normal wells teach it what each row of an empty and of a filled tip looks like before this
-    camera (:class:`~.column.WetAndDry`), how far frames of normal wells stray from that, and how
-    high columns stand in this run's frames against what the tip's geometry says. Where liquid
-    hardly shows, a tip that looks empty proves nothing, and is read as vague.
+    camera (:class:`~.column.WetAndDry`), how far frames of normal wells stray from that
+    (:class:`~.usual.Usual`), and how high columns stand in this run's frames against what the
+    tip's geometry says (:class:`~.tip_scale.TipScale`). Where liquid hardly shows, a tip that
+    looks empty proves nothing, and is read as vague.
     """
 
     def __init__(self) -> None:
         self._contrast = WetAndDry()
-        self._usual = _Usual()
-        self._heights: list[tuple[float, float]] = []
+        self._usual = Usual()
+        self._scale = TipScale()
         self._fullest = 0.0
 
     def share_tip(self, other: object) -> None:
         """Learn the tip's geometry together with the reader of another liquid."""
         if isinstance(other, MeasuredColumns):
-            self._heights = other._heights
+            self._scale = other._scale
 
     def look(self, view: TipView) -> Look:
         self._contrast.prepare()
@@ -115,10 +97,12 @@ class MeasuredColumns:
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
     ) -> Mapping[KeyframeKind, ColumnReading]:
         readings: dict[KeyframeKind, ColumnReading] = {}
-        for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE):
+        drawn = expected.get(KeyframeKind.TRANSIT, 0.0)
+        for kind in FREE:
             seen = looks.get(kind)
-            if isinstance(seen, Look) and not self._off_exposure(seen):
-                reading = self._reading(kind, seen, expected.get(kind, 0.0))
+            if isinstance(seen, Look) and self._usual.comparable(seen.light):
+                most = drawn if kind is KeyframeKind.POST_DISPENSE else 0.0
+                reading = self._reading(seen, expected.get(kind, 0.0), most)
                 if reading is not None:
                     readings[kind] = reading
         left = self._pair(looks, expected)
@@ -130,18 +114,18 @@ class MeasuredColumns:
     def learn(
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
     ) -> None:
-        for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE):
+        for kind in FREE:
             seen = looks.get(kind)
             if not isinstance(seen, Look):
                 continue
-            off = self._off_exposure(seen)
-            _keep(self._usual.lights, seen.light)
-            if off:
+            comparable = self._usual.comparable(seen.light)
+            self._usual.note_light(seen.light)
+            if not comparable:
                 continue
             volume = expected.get(kind, 0.0)
             wet = self._wetness(seen)
             if wet is not None:
-                self._learn_usual(kind, seen, wet, volume)
+                self._learn_usual(seen, wet, volume)
             self._take(seen, volume)
 
     def read_beside(
@@ -156,174 +140,114 @@ class MeasuredColumns:
     def forget(self, kept: Sequence[Well]) -> None:
         """Keep what these wells teach, and nothing else."""
         self._contrast = self._taught_by(kept)._contrast
-        self._usual = _Usual(lights=self._usual.lights)
+        self._usual = self._usual.anew()
 
     def _taught_by(self, wells: Sequence[Well]) -> MeasuredColumns:
         reader = MeasuredColumns()
-        reader._heights, reader._fullest = self._heights, self._fullest
+        reader._scale, reader._fullest = self._scale, self._fullest
         for looks, expected in wells:
-            for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE):
+            for kind in FREE:
                 seen = looks.get(kind)
-                if isinstance(seen, Look) and not self._off_exposure(seen):
+                if isinstance(seen, Look) and self._usual.comparable(seen.light):
                     reader._take(seen, expected.get(kind, 0.0))
         return reader
 
     def _take(self, seen: Look, volume: float) -> None:
-        top = self._place(seen.tip, volume)
+        top = self._scale.place(seen.tip, volume)
         # While the tip's inside is known to some per cent only, rows near the top are unsure.
-        margin = _NEAR if len(self._heights) >= _ENOUGH else 0.03 + 0.12 * (1.0 - top)
-        self._contrast.learn(seen.profile, top, margin)
+        self._contrast.learn(seen.profile, top, self._scale.margin(top))
 
-    def _learn_usual(self, kind: KeyframeKind, seen: Look, wet: Wetness, volume: float) -> None:
-        tip, end = seen.tip, _lowest(seen.profile)
-        top = self._place(tip, volume)
+    def _learn_usual(self, seen: Look, wet: Wetness, volume: float) -> None:
+        tip, end = seen.tip, seen.lowest
+        top = self._scale.place(tip, volume)
         if volume > 0:
             self._fullest = max(self._fullest, volume)
             share, weight = wet.mean(top + 0.02, end)
-            if weight > 0:
-                _keep(self._usual.wet, share - 1.0)
-            _keep(self._usual.gaps, wet.longest_gap(top + 0.05, end)[0])
+            gap, _, _ = wet.longest_gap(top + 0.05, end)
+            self._usual.note_full(share if weight > 0 else None, gap)
             found = wet.column(ceiling(tip), end)
-            reach = _NEAR if len(self._heights) >= _ENOUGH else 0.05 + 0.15 * (1.0 - top)
-            if abs(found - top) < reach and wet.power > 4:
-                _keep(
-                    self._heights,
-                    ((1.0 - found) * tip.length_mm, max(float(tip.height_of(volume)), 1.0)),
-                )
-        else:
-            # The worst of a few columns that could have been left, for the worst is looked for.
-            heights = _LEFT * (1.0 - self._place(tip, self._fullest))
-            shares = [
-                share
-                for share, weight in (wet.mean(1.0 - height, end) for height in heights)
-                if weight > 0
-            ]
-            if shares:
-                _keep(self._usual.dry, max(max(shares), 0.0))
+            reach = NEAR if self._scale.known else 0.05 + 0.15 * (1.0 - top)
+            if abs(found - top) < reach and wet.power > 4 and wet.bracketed(found, NEAR):
+                self._scale.note(tip, found, volume)
+            return
+        # The worst of a few columns that could have been left, for the worst is looked for.
+        heights = _LEFT * (1.0 - self._scale.place(tip, self._fullest))
+        told = (wet.mean(1.0 - height, end) for height in heights)
+        shares = [share for share, weight in told if weight > 0]
+        if shares:
+            self._usual.note_empty(max(shares))
 
-    def _reading(self, kind: KeyframeKind, seen: Look, expected_ul: float) -> ColumnReading | None:
+    def _reading(self, seen: Look, expected_ul: float, most_ul: float) -> ColumnReading | None:
+        """Read one frame; ``most_ul``: no more than that can be in the tip, 0 if not known."""
         wet = self._wetness(seen)
         if wet is None:
             return None
-        tip, end = seen.tip, _lowest(seen.profile)
-        place = self._place(tip, expected_ul)
-        found = wet.column(ceiling(tip), end)
-        clear = 0.5 / self._variance(wet, full=expected_ul > 0) >= _EVIDENCE
-        if not self._contradicts(wet, found, place, end):
+        tip, end = seen.tip, seen.lowest
+        place, highest = self._scale.place(tip, expected_ul), ceiling(tip)
+        if most_ul > expected_ul:
+            top = self._scale.place(tip, most_ul)
+            highest = max(highest, top - self._scale.margin(top))
+        found = wet.column(highest, end)
+        full = expected_ul > 0
+        top = self._scale.place(tip, max(expected_ul, most_ul))
+        bore = seen.bore_px(min(top, end), end)
+        clear = 0.5 / self._usual.variance(wet, bore, full=full) >= _EVIDENCE
+        if not self._contradicts(wet, found, place, seen):
             found = place
             if not clear:
-                return _FIRST_VAGUE if expected_ul <= 0 else None
-        return self._volume(wet, found, place, expected_ul, tip, end)
+                return None if full else _FIRST_VAGUE
+        volume = self._scale.volume(tip, found) if found != place else expected_ul
+        sigma = self._scale.sigma_ul(tip, found, max(volume, expected_ul))
+        gap, gap_sigma = self._gap(wet, found, end, tip) if volume > 0 and full else (0.0, 0.0)
+        tested = self._usual.tested(full=full)
+        return ColumnReading(
+            max(volume - gap, 0.0), sigma, gap, gap_sigma, 1.0 - found, tested=tested
+        )
 
-    def _contradicts(self, wet: Wetness, found: float, place: float, end: float) -> bool:
+    def _contradicts(self, wet: Wetness, found: float, place: float, seen: Look) -> bool:
         """Whether the rows between the column's end and its expected end say that it is off."""
+        end = seen.lowest
         if abs(min(found, end) - min(place, end)) < _SHORTEST:
             return False
         too_much = found < place
-        share, weight = wet.mean(min(found, place) - 1e-6, min(max(found, place), end))
+        upper, lower = min(found, place), min(max(found, place), end)
+        share, weight = wet.mean(upper - 1e-6, lower)
         if weight <= 0:
             return False
-        variance = self._variance(wet, full=not too_much) + 1.0 / weight
+        bore = seen.bore_px(upper, lower)
+        variance = self._usual.variance(wet, bore, full=not too_much) + 1.0 / weight
         towards = share - 0.5 if too_much else 0.5 - share
         return towards / variance >= _EVIDENCE
-
-    def _variance(self, wet: Wetness, *, full: bool) -> float:
-        """Of a normal frame's mean wetness."""
-        scale, low, high = _PRIOR
-        prior = float(np.clip(scale / math.sqrt(max(wet.power, 1e-3)), low, high)) ** 2
-        known = self._usual.wet if full else self._usual.dry
-        total = _PRIOR_WEIGHT * prior + float(np.sum(np.square(known)))
-        return max(total / (_PRIOR_WEIGHT + len(known)), _LEAST_SD**2)
-
-    def _volume(
-        self, wet: Wetness, top: float, place: float, expected_ul: float, tip: TipGeometry,
-        end: float,
-    ) -> ColumnReading:  # fmt: skip
-        height = max((1.0 - top) * tip.length_mm / self._scale, 0.0)
-        volume = float(tip.volume_of(height)) if top != place else expected_ul
-        spread = self._spread_mm
-        sigma = float(tip.volume_of(height + spread)) - float(tip.volume_of(height))
-        if len(self._heights) < _ENOUGH:
-            # The tip's inside is known to some per cent only, until the run has shown it.
-            sigma = float(np.hypot(sigma, 0.04 * max(volume, expected_ul)))
-        gap, gap_sigma = 0.0, 0.0
-        if volume > 0 and expected_ul > 0:
-            gap, gap_sigma = self._gap(wet, top, end, tip)
-        return ColumnReading(max(volume - gap, 0.0), sigma, gap, gap_sigma, 1.0 - top)
 
     def _gap(self, wet: Wetness, top: float, end: float, tip: TipGeometry) -> tuple[float, float]:
         """Air in the column and its uncertainty, µL; nothing unless it stands out in this run."""
         strength, upper, lower = wet.longest_gap(top + 0.05, end)
-        known = self._usual.gaps
-        limit = max(_GAP_LEAST, _GAP_FACTOR * max(known, default=0.0) + 1.0)
-        # A liquid that shows faintly is full of what looks like gaps.
-        limit = (limit + _GAP_FIRST / max(len(known), 1)) * (1.0 + _GAP_FAINT / max(wet.power, 1.0))
+        limit = self._usual.gap_limit(wet)
         share, _ = wet.mean(upper - 1e-6, lower + 1e-6)
-        if len(known) < _ENOUGH or strength < limit or share > _GAP_SHARE:
+        if limit is None or strength < limit or share > _GAP_SHARE:
             return 0.0, 0.0
-        mm = tip.length_mm / self._scale
-        air = float(tip.volume_of((1.0 - upper) * mm)) - float(tip.volume_of((1.0 - lower) * mm))
+        air = self._scale.volume(tip, upper) - self._scale.volume(tip, lower)
         return air, air * limit / strength / 8.0
 
     def _pair(
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
     ) -> ColumnReading | None:
         """What this trajectory shows by itself of a column left after its dispense."""
-        before = looks.get(KeyframeKind.TRANSIT)
-        after = looks.get(KeyframeKind.POST_DISPENSE)
+        before, after = (looks.get(kind) for kind in FREE)
         full = expected.get(KeyframeKind.TRANSIT, 0.0)
         if not isinstance(before, Look) or not isinstance(after, Look) or full <= 0:
             return None
-        same_light = 1 / _EXPOSURE < (before.light + 1) / (after.light + 1) < _EXPOSURE
-        if not same_light or expected.get(KeyframeKind.POST_DISPENSE, 0.0) > 0:
+        if not alike(before.light, after.light) or expected.get(FREE[1], 0.0) > 0:
             return None
         tip = before.tip
-        top = column_left(
-            before.profile, after.profile, tip, self._place(tip, full) + _NEAR, ceiling(tip)
-        )
+        highest = self._scale.place(tip, full) + NEAR
+        top = column_left(before.profile, after.profile, tip, highest, ceiling(tip))
         if top is None:
             return None
-        height = (1.0 - top) * tip.length_mm / self._scale
-        volume = float(tip.volume_of(height))
-        sigma = float(tip.volume_of(height + 1.0)) - volume
+        volume = self._scale.volume(tip, top)
+        sigma = self._scale.sigma_ul(tip, top, volume)
         return ColumnReading(volume, sigma, top=1.0 - top)
 
     def _wetness(self, seen: Look) -> Wetness | None:
         wet = self._contrast.read(seen.profile, ceiling(seen.tip) - 0.03)
         return wet if wet is not None and wet.weight.any() else None
-
-    def _place(self, tip: TipGeometry, volume_ul: float) -> float:
-        """Where a column of this volume should end, u."""
-        if volume_ul <= 0:
-            return 1.0
-        return 1.0 - self._scale * float(tip.height_of(volume_ul)) / tip.length_mm
-
-    def _off_exposure(self, seen: Look) -> bool:
-        if len(self._usual.lights) < _ENOUGH:
-            return False
-        ratio = (seen.light + 1) / (float(np.median(self._usual.lights)) + 1)
-        return not 1 / _EXPOSURE < ratio < _EXPOSURE
-
-    @property
-    def _scale(self) -> float:
-        ratios = [length / wanted for length, wanted in self._heights]
-        return float(np.median(ratios)) if len(ratios) >= 2 else 1.0
-
-    @property
-    def _spread_mm(self) -> float:
-        """How far the meniscus of normal wells stands from where it should, mm."""
-        if len(self._heights) < _ENOUGH:
-            return 1.0
-        scale = self._scale
-        residuals = np.array([length - scale * wanted for length, wanted in self._heights])
-        return max(1.48 * float(np.median(np.abs(residuals - np.median(residuals)))), 0.4)
-
-
-def _lowest(profile: TipProfile) -> float:
-    """Down to where a column can be told from the orifice's own glints, u."""
-    return 1.0 - max(_ORIFICE[0], _ORIFICE[1] / max(profile.length, 1.0))
-
-
-def _keep(kept: list[T], value: T) -> None:
-    kept.append(value)
-    del kept[:-_MEMORY]

@@ -22,6 +22,8 @@ class ColumnReading:
         gap_sigma_ul: Standard uncertainty of that, µL.
         top: Upper end of the column as a fraction of the tip's length above the orifice.
         vague: The tip looks empty, but so might a filled one: no proof either way.
+        tested: How many normal tips of this run were read so before they were learned: what the
+            uncertainties rest on.
     """
 
     volume_ul: float
@@ -30,6 +32,7 @@ class ColumnReading:
     gap_sigma_ul: float = 0.0
     top: float = 0.0
     vague: bool = False
+    tested: int = 0
 
 
 @dataclass(frozen=True)

@@ -80,7 +80,8 @@ class Wetness:
     def column(self, low: float, high: float) -> float:
         """Where a column that reaches up from the orifice most likely ends (u), 1 for none.
 
-        It ends between ``low`` and ``high``; rows above ``low`` have no say.
+        It ends between ``low`` and ``high``; rows above ``low`` have no say. Rows of which
+        nothing is known do not lengthen it.
         """
         inside = self.u > low
         gain = np.where(inside, self.weight * (self.share - 0.5), 0.0)
@@ -88,8 +89,17 @@ class Wetness:
         ends = np.flatnonzero(inside & (self.u < high))
         if not len(ends):
             return 1.0
-        best = int(ends[np.argmax(below[ends])])
-        return float(self.u[best]) if below[best] > 0 else 1.0
+        most = float(below[ends].max())
+        best = int(ends[np.flatnonzero(below[ends] >= most - 1e-9)[-1]])
+        return float(self.u[best]) if most > 0 else 1.0
+
+    def bracketed(self, end: float, reach: float) -> bool:
+        """Whether most rows within ``reach`` of a column's end, above it and below, are known."""
+        sides = (
+            (self.u > end - reach) & (self.u < end),
+            (self.u > end) & (self.u < end + reach),
+        )
+        return all(rows.any() and float((self.weight[rows] > 0).mean()) > 0.5 for rows in sides)
 
     def longest_gap(self, low: float, high: float) -> tuple[float, float, float]:
         """Strongest run of empty rows between ``low`` and ``high``: strength, its ends (u)."""

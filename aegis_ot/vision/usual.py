@@ -1,0 +1,110 @@
+"""What a run's normal wells showed of themselves, each read before it was learned.
+
+Their readings are the only honest measure of how far a reading can be trusted here: templates
+of one pair of frames look perfect, whatever the background did between the two.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TypeVar
+
+import numpy as np
+
+from .column import Wetness
+
+T = TypeVar("T")
+
+ENOUGH = 3
+"""Normal wells that must have been read before they were learned, until readings are proven."""
+
+_MEMORY = 32
+_PRIOR_WEIGHT = 3.0
+_PRIOR = (1.5, 0.1, 0.35)
+"""Standard deviation of a frame's wetness before the run has shown it: the first over the root
+of the liquid's power, within the other two. What moves a whole frame (what is behind the tip,
+the lamp, a film on the wall) is about the same for all liquids, so a plain one stands out more."""
+
+_AXIS_PX = 0.9
+"""How far two frames' tips are laid beside each other instead of upon each other, px: over the
+bore's width, that share of a row is seen of the wall instead. With it, one normal well read by
+another of its plate strays by 1.0 standard deviations (root mean square) on rendered and on
+simulated plates, p20 (bore 2 px) as p1000 (6 px); without it, by 2.3 and 1.4 to 1.6."""
+
+_LEAST_SD = 0.06
+
+_GAP_LEAST = 2.5
+_GAP_FACTOR = 2.0
+_GAP_FIRST = 8.0
+_GAP_FAINT = 25.0
+"""A break counts from this strength, from this multiple of the strongest that this run's normal
+columns showed, and while they are few from more."""
+
+_EXPOSURE = 1.4
+"""A frame this many times brighter or darker than the run's others cannot be compared."""
+
+
+class Usual:
+    """Readings of one run's normal wells, with one liquid."""
+
+    def __init__(self) -> None:
+        self._lights: list[float] = []
+        self._dry: list[float] = []
+        self._wet: list[float] = []
+        self._gaps: list[float] = []
+
+    def anew(self) -> Usual:
+        """Nothing but how bright the run's frames are."""
+        usual = Usual()
+        usual._lights = self._lights
+        return usual
+
+    def note_light(self, light: float) -> None:
+        """Median brightness of a normal well's frame."""
+        _keep(self._lights, light)
+
+    def note_full(self, share: float | None, gap: float) -> None:
+        """Mean wetness of a column that was full (``None``: not told), and its strongest break."""
+        if share is not None:
+            _keep(self._wet, share - 1.0)
+        _keep(self._gaps, gap)
+
+    def note_empty(self, share: float) -> None:
+        """Largest mean wetness of the columns that an empty tip could have held."""
+        _keep(self._dry, max(share, 0.0))
+
+    def tested(self, *, full: bool) -> int:
+        """How many normal tips, full or empty, were read before they were learned."""
+        return len(self._wet if full else self._dry)
+
+    def variance(self, wet: Wetness, bore_px: float, *, full: bool) -> float:
+        """Of a normal frame's mean wetness over rows whose bore is ``bore_px`` wide, px."""
+        scale, low, high = _PRIOR
+        prior = float(np.clip(scale / math.sqrt(max(wet.power, 1e-3)), low, high)) ** 2
+        prior += (_AXIS_PX / max(bore_px, 0.5)) ** 2
+        known = self._wet if full else self._dry
+        total = _PRIOR_WEIGHT * prior + float(np.sum(np.square(known)))
+        return max(total / (_PRIOR_WEIGHT + len(known)), _LEAST_SD**2)
+
+    def gap_limit(self, wet: Wetness) -> float | None:
+        """Strength from which a break is none of the usual ones; ``None`` before that is known."""
+        known = self._gaps
+        if len(known) < ENOUGH:
+            return None
+        limit = max(_GAP_LEAST, _GAP_FACTOR * max(known) + 1.0)
+        # A liquid that shows faintly is full of what looks like gaps.
+        return (limit + _GAP_FIRST / len(known)) * (1.0 + _GAP_FAINT / max(wet.power, 1.0))
+
+    def comparable(self, light: float) -> bool:
+        """Whether a frame is about as bright as the run's others."""
+        return len(self._lights) < ENOUGH or alike(light, float(np.median(self._lights)))
+
+
+def alike(light: float, other: float) -> bool:
+    """Whether two frames are about as bright as each other."""
+    return 1 / _EXPOSURE < (light + 1) / (other + 1) < _EXPOSURE
+
+
+def _keep(kept: list[T], value: T) -> None:
+    kept.append(value)
+    del kept[:-_MEMORY]
