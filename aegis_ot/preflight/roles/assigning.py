@@ -47,6 +47,8 @@ def assign_roles(
         matches = lexicon.find(clue.text)
         named = [clue.role] if clue.role in family.roles else roles_named(matches, clue, common)
         if not named:
+            if clue.strength is Strength.LIQUID:
+                roles.unnamed.update(clue.wells)
             continue
         worth = _worth(clue)
         for position, ref in enumerate(clue.wells):

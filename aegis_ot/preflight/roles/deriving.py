@@ -50,15 +50,23 @@ _SHARED = 3
 
 
 def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
-    """A loaded liquid that is drawn from: its name need not be one of the known words."""
+    """A loaded liquid has a use even if its name is none of the known words."""
     served: dict[WellRef, set[WellRef]] = {}
+    topped_up: set[WellRef] = set()
     for well in trace.wells.values():
         for visit in trace.deliveries(well):
+            topped_up.add(well.ref)
             for source, _, _, _ in visit.parts:
-                if source is not None and source is not well and source.liquids:
+                if source is not None and source is not well:
                     served.setdefault(source.ref, set()).add(well.ref)
-    for ref, wells in served.items():
-        if not roles.of(ref) and (len(wells) >= _SHARED) == (kind == "shared"):
+    for ref in roles.unnamed:
+        if roles.of(ref):
+            continue
+        if ref not in served:
+            use = "kept" if ref in topped_up else ""
+        else:
+            use = "shared" if len(served[ref]) >= _SHARED else "single"
+        if use == kind:
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
 
 

@@ -38,12 +38,15 @@ class Roles:
         family: The family.
         by_well: The role of each well that has one.
         conflicts: Evidence that conflicts, in words, with the wells that it concerns.
+        derived: Roles that follow from what a well gives and receives.
+        unnamed: Wells with a loaded liquid whose name is none of the family's words.
     """
 
     family: Family
     by_well: dict[WellRef, Assignment] = field(default_factory=dict)
     conflicts: dict[str, list[WellRef]] = field(default_factory=dict)
     derived: dict[WellRef, set[str]] = field(default_factory=dict)
+    unnamed: set[WellRef] = field(default_factory=set)
     _closure: dict[str, frozenset[str]] = field(default_factory=dict)
 
     def of(self, ref: WellRef) -> frozenset[str]:

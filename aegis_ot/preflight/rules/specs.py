@@ -50,7 +50,8 @@ class RoleSpec:
         one_liquid: Whether all wells of this role hold the same liquid unless named apart.
         one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
         loaded: Derived: a well with a loaded liquid whose name says no role: ``shared`` where it
-            serves several wells, ``single`` where it serves one or two.
+            serves several wells, ``single`` where it serves one or two, ``kept`` where the run
+            only adds to it.
         level: Value on the scale of concentrations or doses that this role has by itself.
         receives: Derived: a destination that is given liquid of one of these roles.
     """
