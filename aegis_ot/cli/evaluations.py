@@ -24,7 +24,8 @@ from ..evaluation.layer1 import (
 from ..preflight import load_database
 from ..reasoning import Configuration, load_prices
 from .app import BROKEN, CLEAN, app
-from .checks import one_of, split, write_text
+from .checks import write_text
+from .judging import Labware, Rules, one_of, split
 from .models import RecordFolder, backend_of
 
 evaluate = typer.Typer(no_args_is_help=True, help="Score a layer on labelled data.")
@@ -52,7 +53,7 @@ def layer1(
         list[str] | None,
         typer.Option(
             help=f"Who judges: {', '.join(LAYER1_CONFIGS)}. Repeatable, or a comma list "
-            "[default: rules-only]."
+            "(rules-only if left out)."
         ),
     ] = None,
     model: Annotated[
@@ -61,14 +62,10 @@ def layer1(
     ] = None,
     record: RecordFolder = None,
     prices: Annotated[
-        Path | None, typer.Option(help="Price table of your own [default: AEGIS_OT_PRICES].")
+        Path | None, typer.Option(help="Price table of your own (AEGIS_OT_PRICES if left out).")
     ] = None,
-    rules: Annotated[
-        list[Path] | None, typer.Option(help="File or folder of further rules.")
-    ] = None,
-    labware: Annotated[
-        list[Path] | None, typer.Option(help="Folder or file with custom labware definitions.")
-    ] = None,
+    rules: Rules = None,
+    labware: Labware = None,
     seed: Annotated[int, typer.Option(help="Of the bootstrap.")] = 0,
     timeout: Annotated[float, typer.Option(help="Longest rehearsal of one protocol, s.")] = 120.0,
 ) -> None:

@@ -9,8 +9,9 @@ import typer
 
 from ..errors import ConfigurationError
 from .app import app
-from .checks import one_of, write_text
+from .checks import write_text
 from .datasets import open_dataset
+from .judging import one_of
 
 if TYPE_CHECKING:
     from ..evaluation.layer2 import Progress

@@ -10,9 +10,10 @@ from typing import Annotated, Any
 import typer
 
 from .app import CLEAN
-from .checks import one_of, split, write_text
+from .checks import write_text
 from .datasets import open_dataset, writable_folder
 from .evaluations import evaluate
+from .judging import one_of, split
 
 _SCORERS = (
     "pca, isolation-forest, one-class-svm, autoencoder, single-frame-pca, mahalanobis (the "

@@ -2,17 +2,29 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from ..checking import Asking, CheckSettings, check_files
-from ..checking.files import read_csv_paths, read_labware, read_values
-from ..preflight import Options, load_database
+from ..checking import Asking, check_files, find_configuration
 from ..reasoning import ScriptedBackend, export_requests, import_answers, request_in
 from .app import BROKEN, app
-from .checks import one_of, split
+from .judging import (
+    Assay,
+    CsvParameters,
+    Files,
+    Ignore,
+    Labware,
+    Parameters,
+    Rules,
+    Select,
+    Timeout,
+    one_of,
+    settings_of,
+    split,
+)
 from .models import ASKING
 
 llm = typer.Typer(
@@ -23,44 +35,41 @@ app.add_typer(llm, name="llm")
 
 @llm.command("export")
 def export(
-    files: Annotated[list[Path], typer.Argument(help="Python protocols.")],
+    files: Files,
     out: Annotated[Path, typer.Option(help="File of requests, one JSON object a line.")],
     config: Annotated[
         list[str] | None,
-        typer.Option(help=f"{', '.join(ASKING)}; repeatable, or a comma list [default: hybrid]."),
+        typer.Option(
+            help=f"{', '.join(ASKING)}; repeatable, or a comma list (hybrid if left out)."
+        ),
     ] = None,
-    assay: Annotated[list[str] | None, typer.Option(help="Assay family, if known.")] = None,
-    rules: Annotated[list[Path] | None, typer.Option(help="Further rules.")] = None,
-    parameter: Annotated[
-        list[str] | None, typer.Option(help="Runtime parameter as NAME=VALUE.")
-    ] = None,
-    csv: Annotated[
-        list[str] | None, typer.Option(help="File of a CSV runtime parameter as NAME=PATH.")
-    ] = None,
-    labware: Annotated[
-        list[Path] | None, typer.Option(help="Folder or file with custom labware definitions.")
-    ] = None,
-    timeout: Annotated[float, typer.Option(help="Longest rehearsal, s.")] = 120.0,
+    assay: Assay = None,
+    rules: Rules = None,
+    select: Select = None,
+    ignore: Ignore = None,
+    parameter: Parameters = None,
+    csv: CsvParameters = None,
+    labware: Labware = None,
+    timeout: Timeout = None,
 ) -> None:
     """Write the requests that a check with a model would make.
 
     Exit codes: 0 all are written, 2 a protocol could not be rehearsed.
     """
-    paths = tuple(str(path.resolve()) for path in rules or ())
-    database = load_database(paths)
-    for family in assay or ():
-        database.family(family)
     configs = [one_of("--config", name, ASKING) for name in split(config) or ["hybrid"]]
-    settings = CheckSettings(
-        options=Options(assay=tuple(assay or ())),
-        rules=paths,
-        parameters=read_values(parameter or ()),
-        csv_parameters=read_csv_paths(csv or ()),
-        labware=read_labware(labware or ()),
-        timeout_s=timeout,
-        # Nobody answers: the check is made for what a model would get to know.
-        asking=Asking(ScriptedBackend([])),
+    judging, database = settings_of(
+        find_configuration(Path.cwd()),
+        assay=assay,
+        rules=rules,
+        select=select,
+        ignore=ignore,
+        parameter=parameter,
+        csv=csv,
+        labware=labware,
+        timeout=timeout,
     )
+    # Nobody answers: the check is made for what a model would get to know.
+    settings = dataclasses.replace(judging, asking=Asking(ScriptedBackend([])))
     run = check_files(files, settings, database)
     requests = [
         (checked.file, request)

@@ -23,7 +23,7 @@ ASKING = tuple(c.value for c in Configuration if c is not Configuration.RULES_ON
 
 ModelName = Annotated[
     str | None,
-    typer.Option("--model", help=f"{MODEL_FORMS}, or none [default: AEGIS_OT_MODEL]."),
+    typer.Option("--model", help=f"{MODEL_FORMS}, or none (AEGIS_OT_MODEL if left out)."),
 ]
 RecordFolder = Annotated[
     Path | None,

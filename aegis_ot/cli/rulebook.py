@@ -16,7 +16,8 @@ from ..preflight.database import shipped_rules
 from ..preflight.examples import ExampleResult
 from ..reports import rule_list, rule_pages, rule_text
 from .app import CLEAN, FINDINGS, app
-from .checks import known_rule, one_of, split, write_text
+from .checks import write_text
+from .judging import known_rule, one_of, split
 
 RulesOption = Annotated[list[Path] | None, typer.Option(help="File or folder of further rules.")]
 

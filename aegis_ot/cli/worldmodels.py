@@ -10,8 +10,8 @@ import typer
 
 from ..errors import ConfigurationError
 from .app import app
-from .checks import one_of
 from .datasets import open_dataset
+from .judging import one_of
 
 if TYPE_CHECKING:
     from ..vision.models import ModelFile

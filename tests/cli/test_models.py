@@ -167,6 +167,19 @@ def test_a_projects_file_does_not_say_where_a_key_goes(
     assert "--model" in result.err
 
 
+def test_half_a_surrogate_pair_ends_no_report(aegis: Command, tmp_path: Path, silent: Path) -> None:
+    """In a label of the protocol, or in a model's words: no file and no terminal takes one."""
+    text = SILENT.replace(
+        '"biorad_96_wellplate_200ul_pcr", 4)', '"biorad_96_wellplate_200ul_pcr", 4, "PCR \\ud800")'
+    )
+    (tmp_path / "odd.py").write_text(text)
+    said = script(tmp_path, SAID | {"summary": "\ud800", "family": "\ud800"})
+    for output_format in ("text", "json", "sarif", "github", "junit", "html"):
+        result = aegis("check", silent, "odd.py", "--format", output_format, "--model", said)
+        assert (result.code, result.err) == (1, ""), output_format
+    assert aegis("check", "odd.py", "--output", "report.txt").code == 0
+
+
 def test_recording_needs_a_model(aegis: Command, silent: Path) -> None:
     result = aegis("check", silent, "--record", "kept")
     assert result.code == 2
@@ -239,6 +252,31 @@ def test_out_to_a_batch_and_back_for_every_configuration(
     drawn = sorted(path.name for path in Path("figures").iterdir())
     assert drawn == ["ablation_adjusted.png", "ablation_strict.png"]
     assert all(path.read_bytes()[:4] == b"\x89PNG" for path in Path("figures").iterdir())
+
+
+def test_an_export_is_what_a_check_of_the_same_project_asks(
+    aegis: Command, silent: Path, tmp_path: Path
+) -> None:
+    """Otherwise its answers would never be found."""
+    (tmp_path / "pyproject.toml").write_text(
+        '[tool.aegis-ot]\nassay = "pcr"\nignore = ["PCR-6"]\n'
+        '[tool.aegis-ot.severity]\nPCR-1 = "off"\n'
+    )
+    assert aegis("llm", "export", silent, "--out", "requests.jsonl", "--ignore", "PCR-5").code == 0
+    (line,) = Path("requests.jsonl").read_text().splitlines()
+    question = json.loads(line)["messages"][0]["parts"][0]["text"]
+    assert "pcr (known)" in question
+    given = {"id": json.loads(line)["id"], "answer": SAID}
+    Path("responses.jsonl").write_text(json.dumps(given))
+    assert aegis("llm", "import", "responses.jsonl", "--out", "kept").code == 0
+    asked = ("check", silent, "--model", "replay:kept")
+    assert aegis(*asked, "--ignore", "PCR-5").code == 1
+    result = aegis(*asked)
+    assert result.code == 2, "other rules in force are another question"
+    assert "not_recorded" in result.out
+    result = aegis("llm", "export", silent, "--out", "r.jsonl", "--assay", "pcrr")
+    assert result.code == 2
+    assert "did you mean pcr" in result.err
 
 
 def test_a_model_that_does_not_answer_is_told_in_an_evaluation(
