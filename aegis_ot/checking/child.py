@@ -13,12 +13,15 @@ import os
 import pickle
 import struct
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any
 
+from ..preflight.rehearsal import second_clock
+from .problems import problem_of
 from .result import Problem
-from .tasks import Task, prepare, problem_of
+from .tasks import Task, prepare
 
 CAN_FORK = sys.platform == "linux"
 """Elsewhere a fork of a process with threads is not safe, or there is none."""
@@ -28,8 +31,8 @@ ANSWERED = 85
 
 
 def grace_s(timeout_s: float) -> float:
-    """How long after its time a task is waited for, so that it can end itself and say where."""
-    return min(5.0, max(1.0, 0.5 * timeout_s))
+    """How long after its time a protocol may take to be interrupted, so that it says where."""
+    return min(5.0, max(0.6, 0.3 * timeout_s))
 
 
 _MEMORY_BYTES = 6 << 30
@@ -138,15 +141,23 @@ def _limit_memory() -> None:
 
 def _serve(task: Task, link: Link, stacks: Path) -> None:
     with stacks.open("wb") as file:
-        # After a crash or a kill this tells the line.
+        # After a crash this tells the line.
         faulthandler.enable(file=file)
-        last = task.timeout_s + 0.6 * grace_s(task.timeout_s)
-        faulthandler.dump_traceback_later(last, file=file)
+
+        @contextlib.contextmanager
+        def last_resort(limit_s: float) -> Iterator[None]:
+            """Tell the line and end the process: the protocol let no interruption through."""
+            faulthandler.dump_traceback_later(limit_s + grace_s(limit_s), exit=True, file=file)
+            try:
+                yield
+            finally:
+                faulthandler.cancel_dump_traceback_later()
+
         try:
-            answer = Answer(task.perform())
+            with second_clock(last_resort):
+                answer = Answer(task.perform())
         except BaseException as error:
             answer = Answer(problem=problem_of(error, task.file_name))
-        faulthandler.cancel_dump_traceback_later()
         faulthandler.disable()
     try:
         link.send(answer)

@@ -89,7 +89,7 @@ def _table(path: Path) -> Any:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"{path} cannot be read: {error}") from None
-    if f"[{TABLE}" not in text and f"[[{TABLE}" not in text:
+    if "aegis-ot" not in text:
         return None
     try:
         toml = importlib.import_module("tomllib")
@@ -97,6 +97,8 @@ def _table(path: Path) -> Any:
         try:
             toml = importlib.import_module("tomli")
         except ModuleNotFoundError:
+            if f"[{TABLE}" not in text:  # named as a dependency, most likely
+                return None
             raise ConfigurationError(
                 f"{path} has [{TABLE}], but this Python cannot read TOML. Use Python 3.11 or "
                 "newer, or install tomli."

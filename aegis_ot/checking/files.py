@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ..errors import ConfigurationError
+from ..errors import ConfigurationError, RehearsalError
 
 
 def read_protocol(path: Path) -> str:
@@ -15,6 +15,7 @@ def read_protocol(path: Path) -> str:
 
     Raises:
         ConfigurationError: It cannot be a Python protocol; the message does not name the file.
+        RehearsalError: Likewise, with the line.
     """
     if path.is_dir():
         raise ConfigurationError(f"is a folder; name the protocols in it: {path}/*.py")
@@ -28,15 +29,26 @@ def read_protocol(path: Path) -> str:
         raise ConfigurationError("there is no such file.") from None
     except OSError as error:
         raise ConfigurationError(f"cannot be read: {error.strerror}.") from None
+    if b"\0" in data:
+        raise ConfigurationError("is a binary file, not a Python protocol.")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise ConfigurationError(f"is not UTF-8 text (byte {error.start}).") from None
-    if "\0" in text:
-        raise ConfigurationError("is a binary file, not a Python protocol.")
+        line = data.count(b"\n", 0, error.start) + 1
+        raise RehearsalError("is not UTF-8 text, as Opentrons demands.", line) from None
     if not text.strip():
         raise ConfigurationError("is empty.")
+    if text.lstrip().startswith("{") and _is_json(text):
+        raise ConfigurationError("holds JSON; only Python protocols can be rehearsed.")
     return text
+
+
+def _is_json(text: str) -> bool:
+    try:
+        json.loads(text)
+    except ValueError:
+        return False
+    return True
 
 
 def read_values(items: Sequence[str]) -> dict[str, Any]:

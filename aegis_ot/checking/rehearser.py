@@ -15,7 +15,8 @@ from types import TracebackType
 from typing import Any
 
 from ..errors import RehearsalError
-from .child import Answer, Link, grace_s
+from .child import Answer, Link
+from .problems import late
 from .result import Problem
 from .tasks import Task
 
@@ -27,6 +28,12 @@ main()"""
 
 _START_S = 180.0
 """Longest wait for opentrons to be loaded; slow on a busy machine with a cold disk."""
+
+_AROUND_S = 60.0
+"""Longest wait for all of a task but the protocol itself, which has a clock of its own."""
+
+_TIMED_OUT = "Timeout ("
+"""How the last words of a process begin that its own clock has ended."""
 
 
 class TaskFailed(Exception):
@@ -78,14 +85,19 @@ class Rehearser:
             self._start()
         if self._cancelled.is_set():
             raise TaskFailed(Problem("was interrupted."))
-        answer = self._ask(task, task.timeout_s + grace_s(task.timeout_s))
+        limit_s = 2 * task.timeout_s + _AROUND_S
+        answer = self._ask(task, limit_s)
         if answer is None:
-            line = self._line(task)
-            message = f"did not end within {task.timeout_s:g} s of rehearsal."
-            raise TaskFailed(Problem(message, line))
+            message = f"gave no answer within {limit_s:g} s, and was ended."
+            raise TaskFailed(Problem(message))
         if answer.died:
+            stacks = self._last_words()
+            line = _line(task, stacks)
+            if stacks.startswith(_TIMED_OUT):
+                message = f"did not end within {task.timeout_s:g} s of rehearsal."
+                raise TaskFailed(late(message, line))
             message = f"the protocol ended the Python process ({answer.died})."
-            raise TaskFailed(Problem(message, self._line(task)))
+            raise TaskFailed(Problem(message, line))
         if answer.problem is not None:
             raise TaskFailed(answer.problem)
         return answer.value
@@ -161,14 +173,18 @@ class Rehearser:
             process.stderr.close()
         return process.wait()
 
-    def _line(self, task: Task) -> int | None:
-        """The innermost line of the protocol at the moment of its death."""
+    def _last_words(self) -> str:
+        """The stacks of all threads at the moment of its death, as far as it could tell."""
         try:
-            text = self._stacks.read_text(encoding="utf-8", errors="replace")
+            return self._stacks.read_text(encoding="utf-8", errors="replace")
         except OSError:
-            return None
-        found = re.search(rf'File "{re.escape(task.file_name)}", line (\d+)', text)
-        return int(found[1]) if found else None
+            return ""
+
+
+def _line(task: Task, stacks: str) -> int | None:
+    """The innermost line of the protocol in these stacks."""
+    found = re.search(rf'File "{re.escape(task.file_name)}", line (\d+)', stacks)
+    return int(found[1]) if found else None
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import __version__
-from ..errors import ConfigurationError
+from ..errors import ConfigurationError, RehearsalError
 from ..preflight import Database, Options, Report
 from ..preflight.dossier import Dossier
 from ..preflight.rehearsal import Script
@@ -21,10 +21,11 @@ from .exploring import explore
 from .files import read_protocol
 from .guard_arguments import guard_arguments
 from .modelled import Asking, ask_model
+from .problems import api_level_line
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, CheckRun, Problem, with_findings
 from .side_by_side import LazyRehearser, check_each
-from .tasks import Check, CheckWithDossier, api_level_line
+from .tasks import Check, CheckWithDossier
 from .waiving import waive
 
 
@@ -98,6 +99,8 @@ def _check_file(
         text = read_protocol(file)
     except ConfigurationError as error:
         return CheckedProtocol(name, problem=Problem(str(error)))
+    except RehearsalError as error:
+        return CheckedProtocol(name, problem=Problem(str(error), error.line))
     lines = tuple(text.splitlines())
     script = Script(
         text=text,
@@ -177,12 +180,10 @@ def _settle(checked: CheckedProtocol, settings: CheckSettings) -> CheckedProtoco
     if settings.baseline is not None:
         standing, known, gone = settings.baseline.split(checked.file, standing, checked.lines)
         if gone:
-            remarks.append(
-                Remark(
-                    f"The baseline lists {gone} finding{'s' if gone > 1 else ''} that no longer "
-                    "occur here; write it anew."
-                )
-            )
+            told = "a finding that no longer occurs"
+            if gone > 1:
+                told = f"{gone} findings that no longer occur"
+            remarks.append(Remark(f"The baseline lists {told} here; write it anew."))
     return dataclasses.replace(
         checked,
         report=with_findings(report, standing, waived=(*report.waived, *waived)),

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import re
-import traceback
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
 from ..errors import AegisError, RehearsalError
@@ -15,8 +12,7 @@ from ..preflight import Database, Options, Report, check_script, load_database
 from ..preflight.dossier import Dossier
 from ..preflight.dossier_making import check_with_dossier
 from ..preflight.examples import ExampleResult, run_examples
-from ..preflight.rehearsal import Script, line_of, load
-from .result import Problem
+from ..preflight.rehearsal import Script, in_words, interrupted_after, line_of, load
 
 RulePaths = tuple[str, ...]
 
@@ -111,10 +107,13 @@ class Describe:
         protocol = load(self.script)
         context = ParameterContext(api_version=protocol.api_level)
         try:
-            exec_add_parameters(protocol, context, None, None)
+            with interrupted_after(self.timeout_s, self.script.file_name):
+                exec_add_parameters(protocol, context, None, None)
+        except RehearsalError:
+            raise
         except Exception as error:
             raise RehearsalError(
-                f"add_parameters: {error}", line_of(error, self.script.file_name)
+                f"add_parameters: {in_words(error)}", line_of(error, self.script.file_name)
             ) from error
         return tuple(_parameter(item) for item in context.export_parameters_for_analysis())
 
@@ -142,7 +141,8 @@ class RunExamples:
 
     def perform(self) -> list[ExampleResult]:
         """Run them."""
-        return run_examples(_database(self.rules), [self.rule])
+        with interrupted_after(self.timeout_s, self.file_name):
+            return run_examples(_database(self.rules), [self.rule])
 
 
 @functools.cache
@@ -161,44 +161,3 @@ def prepare(rules: RulePaths) -> None:
 
     with contextlib.suppress(AegisError):  # told by the first task that needs it
         _database(rules)
-
-
-def problem_of(error: BaseException, script_name: str) -> Problem:
-    """Whatever a task raised, as one sentence for people."""
-    if isinstance(error, RehearsalError) and isinstance(error.__cause__, ImportError):
-        return Problem(f"the protocol cannot import something: {error.__cause__}", error.line)
-    if isinstance(error, RehearsalError):
-        return Problem(_bare(error, script_name), error.line)
-    if isinstance(error, AegisError):
-        return Problem(str(error))
-    line = line_of(error, script_name)
-    if isinstance(error, SystemExit):
-        return Problem("the protocol ends the Python process (sys.exit); it must return.", line)
-    if isinstance(error, KeyboardInterrupt):
-        return Problem("the protocol raises KeyboardInterrupt.", line)
-    if not isinstance(error, Exception):
-        return Problem(f"the protocol raises {type(error).__name__}: {error}", line)
-    frames = traceback.extract_tb(error.__traceback__)
-    if any("opentrons" in Path(frame.filename).parts for frame in frames):
-        return Problem(f"Opentrons cannot run it: {type(error).__name__}: {error}", line)
-    place = frames[-1]
-    return Problem(
-        f"aegis-ot itself failed: {type(error).__name__}: {error} "
-        f"({place.name}, line {place.lineno}). This is a bug in aegis-ot; please report it.",
-        line,
-    )
-
-
-def _bare(error: RehearsalError, file_name: str) -> str:
-    """The message without the file and line that stand beside it anyway."""
-    text = str(error)
-    start = re.match(rf"{re.escape(file_name)}((, line \d+)?: | (?=did not end))", text)
-    return text[start.end() :] if start else text
-
-
-def api_level_line(text: str) -> int | None:
-    """Line of the first ``apiLevel`` of a protocol's text."""
-    for number, line in enumerate(text.splitlines(), start=1):
-        if "apiLevel" in line:
-            return number
-    return None

@@ -53,14 +53,12 @@ def run() -> None:
         else:
             typer.echo(f"aegis-ot: {error.format_message()}", err=True)
         sys.exit(BROKEN)
-    except typer.Abort:
+    except (typer.Abort, KeyboardInterrupt):  # Click makes the one of the other
+        typer.echo("aegis-ot: interrupted; nothing more is done.", err=True)
         sys.exit(130)
     except AegisError as error:
         typer.echo(f"aegis-ot: {error}", err=True)
         sys.exit(BROKEN)
-    except KeyboardInterrupt:
-        typer.echo("aegis-ot: interrupted", err=True)
-        sys.exit(130)
 
 
 # Each module adds its commands to the app.

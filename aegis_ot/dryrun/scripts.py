@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..checking.files import read_labware, read_protocol, read_values
-from ..errors import ConfigurationError
+from ..errors import ConfigurationError, RehearsalError
 from ..preflight.rehearsal import Script
 
 
@@ -23,7 +23,7 @@ def read_script(path: Path, labware: Sequence[Path] = (), parameters: Sequence[s
     """
     try:
         text = read_protocol(path)
-    except ConfigurationError as error:
+    except (ConfigurationError, RehearsalError) as error:
         raise ConfigurationError(f"Cannot read the protocol {path}: {error}") from None
     return Script(
         text=text,

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ..instrumentation import NameBinding
 from ..settings import Settings
-from ..vocabulary import Finding, Severity, VerdictWord
+from ..vocabulary import Finding, Severity, VerdictWord, counted
 from .database import load_database
 from .judging import Options, Report, judge
 from .rehearsal import Recorder, Recording, Script, record
@@ -71,7 +71,11 @@ def summary(report: Report) -> str:
     """One line for the run log."""
     errors = sum(finding.severity is Severity.ERROR for finding in report.findings)
     warnings = len(report.findings) - errors
-    parts = [f"{errors} errors", f"{warnings} warnings", f"{len(report.undecided)} undecided"]
+    parts = [
+        counted(errors, "error"),
+        counted(warnings, "warning"),
+        f"{len(report.undecided)} undecided",
+    ]
     if report.waived:
         parts.append(f"{len(report.waived)} waived")
     rules = ", ".join(dict.fromkeys(finding.rule for finding in report.findings))

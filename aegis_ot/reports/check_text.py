@@ -8,10 +8,9 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from ..checking import CheckedProtocol, CheckRun, Exploration, Problem
 from ..preflight.judging import RoleEvidence
-from ..vocabulary import Finding, Severity, VerdictWord
+from ..vocabulary import Finding, Severity, VerdictWord, counted
 from .words import (
     by_model,
-    counted,
     listed,
     listed_wells,
     location,

@@ -5,12 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ..checking import CheckedProtocol, CheckRun
-from ..vocabulary import Finding, Severity, Site, VerdictWord, WellRef
-
-
-def counted(number: int, singular: str, plural: str = "") -> str:
-    """``1 finding``, ``2 findings``."""
-    return f"{number} {singular if number == 1 else plural or singular + 's'}"
+from ..vocabulary import Finding, Severity, Site, VerdictWord, WellRef, counted
 
 
 def listed_wells(wells: Iterable[WellRef], at_most: int = 8) -> str:

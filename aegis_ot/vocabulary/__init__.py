@@ -5,7 +5,7 @@ these. They carry no behaviour beyond naming themselves and turning into plain J
 """
 
 from .findings import Finding, Remark, Severity, Site, Undecided, VerdictWord
-from .sentences import one_line
+from .sentences import counted, one_line
 from .trajectories import (
     FailureType,
     Gate,
@@ -33,6 +33,7 @@ __all__ = [
     "Verdict",
     "VerdictWord",
     "WellRef",
+    "counted",
     "from_json",
     "one_line",
     "to_json",

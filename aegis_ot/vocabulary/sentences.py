@@ -1,4 +1,4 @@
-"""Texts from outside (a protocol, a model, a service) made fit for a report."""
+"""Small words for reports: numbers of things, and texts from outside made fit to be shown."""
 
 from __future__ import annotations
 
@@ -12,3 +12,8 @@ def one_line(text: object, limit: int = 300) -> str:
     printable = "".join(c if c.isprintable() else " " for c in str(text or ""))
     flat = " ".join(printable.split())
     return flat if len(flat) <= limit else flat[: limit - 3] + "..."
+
+
+def counted(number: int, singular: str, plural: str = "") -> str:
+    """``1 finding``, ``2 findings``."""
+    return f"{number} {singular if number == 1 else plural or singular + 's'}"

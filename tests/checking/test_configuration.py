@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -57,6 +58,19 @@ def test_a_file_without_the_table_is_passed_over(tmp_path: Path) -> None:
     inner.mkdir()
     _write(inner, "[project]\nname = 'x'\n")
     assert find_configuration(inner).assay == ("pcr",)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '[tool."aegis-ot"]\nassay = "pcr"\n',
+        '[ tool . aegis-ot ]\nassay = "pcr"\n',
+        '[tool]\naegis-ot.assay = "pcr"\n',
+    ],
+)
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="Python 3.10 reads no TOML")
+def test_every_way_to_write_the_table_is_read(tmp_path: Path, text: str) -> None:
+    assert find_configuration(_write(tmp_path, text)).assay == ("pcr",)
 
 
 @pytest.mark.parametrize(

@@ -55,7 +55,7 @@ HOSTILE: dict[str, tuple[str, int | None, str]] = {
     "labware.py": (
         HEAD + "def run(p):\n    p.load_labware('my_plate', 1)\n",
         3,
-        'Labware "my_plate" not found',
+        "give its definition with --labware",
     ),
     "newer.py": (
         '\nmetadata = {"apiLevel": "2.99"}\ndef run(p):\n    pass\n',
@@ -63,8 +63,48 @@ HOSTILE: dict[str, tuple[str, int | None, str]] = {
         "API version 2.99 is not supported",
     ),
     "syntax.py": (HEAD + "def run(p:\n    pass\n", 2, "not valid Python"),
-    "no_run.py": (HEAD + "x = 1\n", None, "No function 'run(ctx)'"),
-    "imports.py": (HEAD + "import no_such_thing\ndef run(p):\n    pass\n", 2, "cannot import"),
+    "no_run.py": (HEAD + "x = 1\n", 1, "defines no function run(protocol) at its"),
+    "nested_run.py": (
+        HEAD + "class P:\n    def run(self, p):\n        pass\n",
+        3,
+        "inside something",
+    ),
+    "lambda_run.py": (HEAD + "x = 1\nrun = lambda p: None\n", 3, "this is no def"),
+    "two_runs.py": (HEAD + "def run(p): ...\ndef run(p): ...\n", 3, "More than one run function"),
+    "bare_run.py": (HEAD + "x = 1\ndef run():\n    pass\n", 3, "takes 0 positional arguments"),
+    "no_level.py": ("x = 1\n\ndef run(p):\n    pass\n", 1, "apiLevel not declared"),
+    "number_level.py": (
+        '"""Doc."""\nmetadata = {"apiLevel": 2.15}\ndef run(p):\n    pass\n',
+        2,
+        "must be strings",
+    ),
+    "version_1.py": (
+        "from opentrons import labware, robot, instruments\nplate = labware.load('96-flat', '1')\n",
+        1,
+        "is written for version 1",
+    ),
+    "at_import.py": (
+        HEAD + "assert False, 'no good'\ndef run(p):\n    pass\n",
+        2,
+        "AssertionError: no good",
+    ),
+    "endless_import.py": (HEAD + "while True:\n    pass\ndef run(p): ...\n", 2, "did not end"),
+    "occupied.py": (
+        HEAD
+        + "def run(p):\n    for _ in '12':\n        p.load_labware('nest_12_reservoir_15ml', 1)\n",
+        4,
+        "LocationIsOccupiedError: Labware nest_12",
+    ),
+    "no_tips.py": (
+        HEAD + "def run(p):\n    p.load_instrument('p20_single_gen2', 'left').pick_up_tip()\n",
+        3,
+        "no tip is left",
+    ),
+    "imports.py": (
+        HEAD + "import no_such_thing\ndef run(p):\n    pass\n",
+        2,
+        "it imports no_such_thing, which is not",
+    ),
 }
 
 
@@ -101,6 +141,27 @@ def test_it_is_reported_with_its_line_and_never_as_clean(
         assert protocol.problem.line == line
     assert protocol.family == ""
     assert protocol.findings == ()
+
+
+@pytest.mark.parametrize(
+    ("content", "line", "words"),
+    [
+        (b"# Stra\xc3\x9fe\n# caf\xe9\n", 2, "not UTF-8"),
+        (b"\x89PNG\r\n\x1a\n\0\0\0", None, "binary"),
+        (b" \n", None, "empty"),
+        (b'{"schemaVersion": 8}', None, "holds JSON"),
+    ],
+)
+def test_what_is_no_text_of_a_protocol_is_told_apart(
+    tmp_path: Path, content: bytes, line: int | None, words: str
+) -> None:
+    file = tmp_path / "p.py"
+    file.write_bytes(content)
+    (protocol,) = check_files([file], CheckSettings(), load_database()).protocols
+    assert protocol.verdict is VerdictWord.ERROR
+    assert protocol.problem is not None
+    assert words in protocol.problem.message
+    assert protocol.problem.line == line
 
 
 def test_the_others_are_still_checked(checked: dict[str, CheckedProtocol]) -> None:

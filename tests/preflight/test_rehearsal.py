@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import threading
 import time
+from contextlib import contextmanager
 
 import pytest
 
 from aegis_ot.errors import RehearsalError, RehearsalTimeout
-from aegis_ot.preflight.rehearsal import Script, rehearse
+from aegis_ot.preflight.rehearsal import Script, interrupted_after, rehearse, second_clock
 from aegis_ot.preflight.rehearsal.haste import hasty_builtins
 
 
@@ -65,6 +66,32 @@ class TestInterruption:
         body = "for _ in range(3):\n    try:\n        while True: pass\n    except: pass"
         with pytest.raises(RehearsalTimeout):
             rehearse(script(body + "\nwhile True: pass"), [], timeout_s=0.3)
+
+    def test_getting_ready_takes_nothing_from_the_time_of_the_protocol(self):
+        """A busy machine may need longer than the limit until the protocol's first line."""
+        told = []
+
+        class Heard:
+            def before(self, operation): ...
+            def after(self, operation): ...
+            def event(self, event):
+                told.append(event.kind.value)
+
+        @contextmanager
+        def clock(limit_s):
+            told.append(limit_s)
+            yield
+            told.append("over")
+
+        with second_clock(clock):
+            rehearse(script("protocol.comment('first line')"), [Heard()], timeout_s=7)
+        # Once for what stands outside of run, once for all of it.
+        assert told == [7, "over", "labware_loaded", 7, "comment", "over"]
+
+    def test_a_clock_around_others_ends_what_they_hold(self):
+        told = pytest.raises(RehearsalTimeout, match=r"outer did not end within 0\.3 s")
+        with told, interrupted_after(0.3, "outer"):
+            rehearse(script("while True: pass"), [], timeout_s=60)
 
     def test_a_stop_ends_it(self):
         stopping = threading.Event()

@@ -131,7 +131,7 @@ RUN = CheckRun(
             seconds=2.0,
             baselined=(CARRY,),
             settled=(
-                Remark("The baseline lists 1 finding that no longer occur here; write it anew."),
+                Remark("The baseline lists a finding that no longer occurs here; write it anew."),
             ),
             exploration=Exploration(
                 runs=5,

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from ...reasoning import Usage
+from ...vocabulary import counted
 from .bill import Bill
 from .metrics import Scores
 from .overlap import Overlap
@@ -161,16 +162,16 @@ class Layer1Result:
             mistakes = list(_mistakes(row, self.names_rules))
             if mistakes:
                 yield f"{row.file}: {'; '.join(mistakes)}"
-        total = len(self.rows)
+        total = counted(len(self.rows), "protocol")
         judge = f"{self.judge} ({self.model})" if self.model else self.judge
-        yield f"{self.benchmark}, {judge}: {total} protocols, 95 % bootstrap intervals"
+        yield f"{self.benchmark}, {judge}: {total}, 95 % bootstrap intervals"
         for name, scores in (("strict", self.strict), ("adjusted", self.adjusted)):
             yield (
                 f"  {name:9} F1 {scores.f1}  precision {scores.precision}  recall {scores.recall}"
                 f"  (TP {scores.true_positives}, FP {scores.false_positives}, "
                 f"FN {scores.false_negatives}, TN {scores.true_negatives})"
             )
-        yield f"  family    {self.family_right}/{total} right"
+        yield f"  family    {self.family_right}/{len(self.rows)} right"
         yield from self._rule_lines()
         seconds = [row.seconds for row in self.rows]
         yield (

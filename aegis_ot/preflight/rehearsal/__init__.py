@@ -3,9 +3,11 @@
 Door: :func:`rehearse` runs a :class:`Script` with listeners; a :class:`Recorder` is one.
 """
 
-from .loading import line_of, load
+from .interruption import interrupted_after, second_clock
+from .loading import load
 from .recorder import Record, Recorder, Step
 from .recording import Recording, record
+from .refusals import in_words, line_of
 from .rehearsing import Rehearsal, is_rehearsing, play, rehearse
 from .script import Script, find_script
 
@@ -17,10 +19,13 @@ __all__ = [
     "Script",
     "Step",
     "find_script",
+    "in_words",
+    "interrupted_after",
     "is_rehearsing",
     "line_of",
     "load",
     "play",
     "record",
     "rehearse",
+    "second_clock",
 ]

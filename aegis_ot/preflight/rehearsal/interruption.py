@@ -6,15 +6,38 @@ import ctypes
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextvars import ContextVar
 
 from ...errors import RehearsalError, RehearsalTimeout
-from .loading import line_of
+from .refusals import line_of
 
 _LOOK_S = 0.1
 
 _AGAIN_S = 1.0
 """When to interrupt once more what swallowed the first interruption, s."""
+
+
+Clock = Callable[[float], AbstractContextManager[None]]
+"""Given the seconds that are allowed, a ``with`` block that ends what takes longer."""
+
+_SECOND_CLOCK: ContextVar[Clock] = ContextVar(
+    "aegis_ot_second_clock", default=lambda _: nullcontext()
+)
+
+
+@contextmanager
+def second_clock(clock: Clock) -> Iterator[None]:
+    """Start ``clock`` whenever a rehearsal's own clock starts, in a ``with`` block.
+
+    For what an interruption cannot reach. It starts with the protocol's first line, so what
+    Opentrons takes to get ready, which a busy machine draws out, is not counted.
+    """
+    token = _SECOND_CLOCK.set(clock)
+    try:
+        yield
+    finally:
+        _SECOND_CLOCK.reset(token)
 
 
 @contextmanager
@@ -70,8 +93,11 @@ def interrupted_after(
 
     threading.Thread(target=watch, name="aegis-ot-rehearsal", daemon=True).start()
     try:
-        yield
+        with _SECOND_CLOCK.get()(timeout_s):
+            yield
     except _Interrupted as error:
+        if not reasons:  # the clock of a block around this one
+            raise
         reasons[0].line = line_of(error, file_name)
         raise reasons[0] from None
     finally:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import traceback
 from copy import copy
 from typing import Any
 
 from ...errors import RehearsalError
+from .refusals import line_of, stopped, unloadable
 from .script import Script
 
 
@@ -17,7 +17,7 @@ def load(script: Script) -> Any:
         RehearsalError: It cannot be parsed; with its line.
     """
     from opentrons.protocols.parse import parse
-    from opentrons.protocols.types import ApiDeprecationError, PythonProtocol
+    from opentrons.protocols.types import PythonProtocol
 
     try:
         compile(script.text, script.file_name, "exec", dont_inherit=True)
@@ -33,12 +33,8 @@ def load(script: Script) -> Any:
             extra_labware=dict(script.extra_labware),
             extra_data=dict(script.data_files),
         )
-    except ApiDeprecationError as error:
-        raise RehearsalError(
-            f"{script.file_name} uses an apiLevel that this opentrons no longer runs: {error}"
-        ) from error
     except Exception as error:  # opentrons raises its own zoo, and plain RuntimeErrors
-        raise RehearsalError(f"Opentrons cannot load {script.file_name}: {error}") from error
+        raise unloadable(error, script) from error
     if not isinstance(protocol, PythonProtocol):
         raise RehearsalError(
             f"{script.file_name} is a JSON protocol; only Python protocols can be rehearsed."
@@ -64,6 +60,8 @@ def runtime_parameters(protocol: Any, script: Script) -> Any:
             dict(script.csv_parameters) or None,
         )
     except Exception as error:
+        if not known and not script.csv_parameters and "add_parameters" not in script.text:
+            raise stopped(error, script.file_name) from error
         raise RehearsalError(
             f"The runtime parameters of {script.file_name} cannot be set: {error}",
             line_of(error, script.file_name),
@@ -80,14 +78,3 @@ def copied_parameters(live: Any) -> Any:
         if hasattr(value, "_file"):
             value._file = None
     return type(live)(values)
-
-
-def line_of(error: BaseException, file_name: str) -> int | None:
-    """The innermost line of the protocol in a traceback."""
-    seen: BaseException | None = error
-    while seen is not None:
-        for entry in reversed(traceback.extract_tb(seen.__traceback__)):
-            if entry.filename == file_name:
-                return entry.lineno
-        seen = seen.__cause__
-    return getattr(error, "lineno", None)

@@ -10,17 +10,20 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from ...errors import AegisError, RehearsalError
 from ...instrumentation import LabwareInfo, Listener, NameBinding, NameCollector, tapped
 from .haste import hasty_builtins
 from .interruption import interrupted_after
-from .loading import copied_parameters, line_of, load, runtime_parameters
+from .loading import copied_parameters, load, runtime_parameters
+from .refusals import stopped
 from .script import Script
 from .simulated_context import simulated_context
 
 Run = Callable[[Any], Any]
+_Limit = Callable[[], AbstractContextManager[None]]
 
 _REHEARSING: ContextVar[bool] = ContextVar("aegis_ot_rehearsing", default=False)
 
@@ -69,10 +72,11 @@ def rehearse(
         RehearsalTimeout: It did not end in time.
     """
     protocol = load(script)
+    limit = partial(interrupted_after, timeout_s, script.file_name, is_stopping)
     token = _REHEARSING.set(True)
     try:
         with (
-            _stage(protocol, script, live_parameters) as context,
+            _stage(protocol, script, live_parameters, limit) as context,
             tapped(context, listeners, script.file_name) as tap,
         ):
             names = NameCollector(tap.wells, script.file_name)
@@ -84,7 +88,6 @@ def rehearse(
 
                 return run_with_names
 
-            limit = interrupted_after(timeout_s, script.file_name, is_stopping)
             namespace = {"__builtins__": hasty_builtins()}
             names.look(_perform(protocol, context, watched, limit, namespace), "<module>", 1)
             return Rehearsal(
@@ -107,15 +110,17 @@ def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.
         AegisError: Whatever ``wrap`` raises on purpose, unchanged.
     """
     protocol = load(script)
-    with _stage(protocol, script, None) as context:
-        _perform(protocol, context, wrap, interrupted_after(timeout_s, script.file_name), {})
+    limit = partial(interrupted_after, timeout_s, script.file_name)
+    with _stage(protocol, script, None, limit) as context:
+        _perform(protocol, context, wrap, limit, {})
 
 
 @contextmanager
-def _stage(protocol: Any, script: Script, live_parameters: Any) -> Iterator[Any]:
+def _stage(protocol: Any, script: Script, live_parameters: Any, limit: _Limit) -> Iterator[Any]:
     """A simulated context that is ready for this protocol."""
     if live_parameters is None:
-        parameters = runtime_parameters(protocol, script)
+        with limit():  # Opentrons executes the whole text to find add_parameters
+            parameters = runtime_parameters(protocol, script)
     else:
         parameters = copied_parameters(live_parameters)
     with simulated_context(
@@ -134,13 +139,13 @@ def _perform(
     protocol: Any,
     context: Any,
     wrap: Callable[[Run], Run],
-    limit: AbstractContextManager[None],
+    limit: _Limit,
     namespace: dict[str, Any],
 ) -> dict[str, Any]:
     """Execute a loaded protocol in ``namespace``, and its ``run``; returns the namespace."""
     file_name = protocol.filename
     try:
-        with limit:
+        with limit():
             exec(protocol.contents, namespace)
             run = namespace.get("run")
             if not callable(run):
@@ -149,7 +154,5 @@ def _perform(
     except AegisError:
         raise
     except Exception as error:
-        line = line_of(error, file_name)
-        where = f"{file_name}, line {line}" if line else file_name
-        raise RehearsalError(f"{where}: {type(error).__name__}: {error}", line) from error
+        raise stopped(error, file_name, namespace.get("run")) from error
     return namespace

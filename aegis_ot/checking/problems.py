@@ -1,0 +1,71 @@
+"""Whatever kept a protocol from being judged, as one sentence for people, with its line."""
+
+from __future__ import annotations
+
+import re
+import traceback
+from pathlib import Path
+
+from ..errors import AegisError, RehearsalError, RehearsalTimeout
+from ..preflight.rehearsal import in_words, line_of
+from .result import Problem
+
+
+def problem_of(error: BaseException, script_name: str) -> Problem:
+    """What a task raised, without the file name and line that stand beside it anyway."""
+    if isinstance(error, RehearsalError):
+        return _of_rehearsal(error, script_name)
+    if isinstance(error, AegisError):
+        return Problem(str(error))
+    line = line_of(error, script_name)
+    if isinstance(error, SystemExit):
+        return Problem("the protocol ends the Python process (sys.exit); it must return.", line)
+    if isinstance(error, KeyboardInterrupt):
+        return Problem("the protocol raises KeyboardInterrupt.", line)
+    if not isinstance(error, Exception):
+        return Problem(f"the protocol raises {in_words(error)}", line)
+    frames = traceback.extract_tb(error.__traceback__)
+    if any("opentrons" in Path(frame.filename).parts for frame in frames):
+        return Problem(f"Opentrons cannot run it: {in_words(error)}", line)
+    place = frames[-1]
+    return Problem(
+        f"aegis-ot itself failed: {in_words(error)} ({place.name}, line {place.lineno}). "
+        "This is a bug in aegis-ot; please report it.",
+        line,
+    )
+
+
+def _of_rehearsal(error: RehearsalError, script_name: str) -> Problem:
+    cause = error.__cause__
+    if isinstance(cause, ModuleNotFoundError) and cause.name:
+        told = f"it imports {cause.name}, which is not installed beside aegis-ot."
+        return Problem(told, error.line)
+    if isinstance(cause, ImportError):
+        return Problem(f"the protocol cannot import something: {cause}", error.line)
+    text = str(error)
+    start = re.match(
+        rf"(?:Opentrons cannot load )?{re.escape(script_name)}"
+        r"(?:(?:, line \d+)?: | (?=did not end|defines no|is written))",
+        text,
+    )
+    text = text[start.end() :] if start else text
+    if re.search(r'Labware "[^"]*" not found', text):
+        text = text.rstrip(".") + "; if it is your own, give its definition with --labware."
+    if isinstance(error, RehearsalTimeout):
+        return late(text, error.line)
+    return Problem(text, error.line)
+
+
+def late(told: str, line: int | None) -> Problem:
+    """A protocol that did not end in time; where it was, if it was anywhere."""
+    if line is None:
+        told += " No line of it was running then: this machine is busy, or Opentrons hangs."
+    return Problem(told, line)
+
+
+def api_level_line(text: str) -> int | None:
+    """Line of the first ``apiLevel`` of a protocol's text."""
+    for number, line in enumerate(text.splitlines(), start=1):
+        if "apiLevel" in line:
+            return number
+    return None
