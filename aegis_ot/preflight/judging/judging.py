@@ -18,7 +18,6 @@ from .reading import Reading, read_recording
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
-
 _UNKNOWN_ASSAY = 'the assay is not known; say it with assay="..."'
 
 
