@@ -1,0 +1,18 @@
+"""What the README's first command shows a newcomer, on the whole plate: it may never be untrue."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+
+@pytest.mark.timeout(400)  # two whole plates; a busy machine takes three times as long
+def test_the_demo_catches_what_it_says_and_gives_no_false_alarm(aegis, tmp_path: Path):
+    result = aegis("demo")
+    assert "MISSED" not in result.out
+    assert result.out.count("  caught  ") == 3
+    assert result.code == 0
+    report = (tmp_path / "out" / "demo-report.html").read_text(encoding="utf-8")
+    assert "D4" in report
+    assert "simulated" in report
