@@ -13,7 +13,7 @@ from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
 from .calibration import CalibrationState
 from .camera import Frame
 from .cascade import Triage
-from .consistency import second_look
+from .consistency import FREE, second_look
 from .evidence import evidence_of
 from .gates import Case, ConfirmingGate, GateDecision, VolumetricGate, examine_in_turn
 from .measuring import TipView
@@ -137,10 +137,13 @@ class RunAnalyser:
             stream.cascade.learn(scores, normal=normal, volume_ul=volume)
 
     def _case(self, stream: Stream, seen: OpenTrajectory, sample: TrajectorySample) -> Case:
-        missing = tuple(kind for kind, found in seen.detections.items() if found is None)
+        missing = tuple(
+            kind
+            for kind, found in seen.detections.items()
+            if found is None and kind not in seen.excused
+        )
         readings = stream.reader.read(seen.looks, sample.expected_ul)
-        whole = all(seen.detections.get(kind) is not None for kind in stream.scorer.needed)
-        scores = stream.scorer.scores(sample) if whole else {}
+        scores = stream.scorer.scores(sample, seen.excused)
         p_value = None
         if stream.scorer.gives_p_values:
             # Of this run's normals: all of them may look unusual to a model of other runs.
@@ -162,6 +165,7 @@ class RunAnalyser:
         guess = getattr(self._detector, "best_guess", None)
         if guess is not None:
             seen.detections.update(second_look(guess, seen.detections, seen.frames))
+            seen.detections.update(stream.tip.recognise(guess, seen.detections, seen.frames))
         settled = stream.tip.settle(seen.detections, seen.frames)
         for kind, detection in settled.items():
             if detection is seen.detections[kind] and (detection is None or kind in seen.looks):
@@ -170,6 +174,11 @@ class RunAnalyser:
             if detection is not None:
                 self._look(stream, seen, kind, detection)
         seen.detections = settled
+        seen.excused = tuple(
+            kind
+            for kind in FREE
+            if settled.get(kind) is None and stream.tip.excuses(kind, settled, seen.frames)
+        )
 
     def _stream(self, keyframe: Keyframe) -> Stream:
         pipette = f"{keyframe.mount} {keyframe.pipette}"

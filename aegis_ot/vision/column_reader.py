@@ -37,6 +37,10 @@ _LEFT = np.array([0.25, 0.5, 0.75, 1.0])
 _GAP_SHARE = 0.3
 """Air fills the bore: wetness of a break at most."""
 
+_GAP_BORE_PX = 3.0
+"""Narrowest bore in which a break is looked for, px: a tip that is laid down one pixel beside its
+place shows wall for liquid in a narrower one."""
+
 _FIRST_VAGUE = ColumnReading(0.0, math.inf, vague=True)
 
 
@@ -64,6 +68,12 @@ class Look:
         heights = (1.0 - np.linspace(top, bottom, 12)) * self.tip.length_mm
         width = 2.0 * float(np.mean(self.tip.inner_radius(heights)))
         return width * self.profile.length / self.tip.length_mm
+
+    def wide_down_to(self, bore_px: float) -> float:
+        """Lowest place (u) whose bore is at least so wide, px."""
+        radius = self.tip.inner_radius((1.0 - self.profile.u.astype(float)) * self.tip.length_mm)
+        wide = 2.0 * radius * self.profile.length / self.tip.length_mm >= bore_px
+        return float(self.profile.u[wide].max(initial=0.0))
 
 
 class MeasuredColumns:
@@ -163,7 +173,7 @@ class MeasuredColumns:
         if volume > 0:
             self._fullest = max(self._fullest, volume)
             share, weight = wet.mean(top + 0.02, end)
-            gap, _, _ = wet.longest_gap(top + 0.05, end)
+            gap, _, _ = wet.longest_gap(top + 0.05, min(end, seen.wide_down_to(_GAP_BORE_PX)))
             self._usual.note_full(share if weight > 0 else None, gap)
             found = wet.column(ceiling(tip), end)
             reach = NEAR if self._scale.known else 0.05 + 0.15 * (1.0 - top)
@@ -198,7 +208,7 @@ class MeasuredColumns:
                 return None if full else _FIRST_VAGUE
         volume = self._scale.volume(tip, found) if found != place else expected_ul
         sigma = self._scale.sigma_ul(tip, found, max(volume, expected_ul))
-        gap, gap_sigma = self._gap(wet, found, end, tip) if volume > 0 and full else (0.0, 0.0)
+        gap, gap_sigma = self._gap(wet, found, seen) if volume > 0 and full else (0.0, 0.0)
         tested = self._usual.tested(full=full)
         return ColumnReading(
             max(volume - gap, 0.0), sigma, gap, gap_sigma, 1.0 - found, tested=tested
@@ -219,8 +229,9 @@ class MeasuredColumns:
         towards = share - 0.5 if too_much else 0.5 - share
         return towards / variance >= _EVIDENCE
 
-    def _gap(self, wet: Wetness, top: float, end: float, tip: TipGeometry) -> tuple[float, float]:
+    def _gap(self, wet: Wetness, top: float, seen: Look) -> tuple[float, float]:
         """Air in the column and its uncertainty, µL; nothing unless it stands out in this run."""
+        tip, end = seen.tip, min(seen.lowest, seen.wide_down_to(_GAP_BORE_PX))
         strength, upper, lower = wet.longest_gap(top + 0.05, end)
         limit = self._usual.gap_limit(wet)
         share, _ = wet.mean(upper - 1e-6, lower + 1e-6)

@@ -37,13 +37,21 @@ on rendered frames)."""
 _REACH = 0.35
 """The free tip's orifice stays within this many tip lengths, up or down, of its usual height."""
 
+_SAME_END = 0.15
+"""An orifice this close to its usual height, tip lengths, is the tip's: a bare shaft ends most of a
+tip higher, and a meniscus that was taken for the collar does not move the other end."""
+
+_EXPOSURE = 1.4
+"""A frame this many times brighter or darker than the others shows no tip that they show."""
+
 
 class TipConsistency:
     """What the tip of one run looks like, learned from detections that agree with each other."""
 
     def __init__(self) -> None:
         self._lengths: deque[float] = deque(maxlen=_MEMORY)
-        self._heights: deque[float] = deque(maxlen=_MEMORY)
+        self._heights = {kind: deque[float](maxlen=_MEMORY) for kind in FREE}
+        self._confidences: deque[float] = deque(maxlen=_MEMORY)
 
     def settle(
         self,
@@ -58,41 +66,125 @@ class TipConsistency:
         settled = dict(detections)
         if self._known:
             for kind, found in detections.items():
-                if found is not None and not self._plausible(found, free=kind in FREE):
-                    settled[kind] = None
+                if found is not None and not self._plausible(found, kind):
+                    settled[kind] = self._collar_mended(found, kind)
         pair = {kind: found for kind in FREE if (found := detections.get(kind)) is not None}
         if len(pair) < len(FREE):
             return settled
         before, after = (pair[kind] for kind in FREE)
         if abs(before.length / after.length - 1.0) <= _SAME_LENGTH:
-            if all(settled[kind] is not None for kind in FREE):
-                self._learn(before, after)
+            if all(settled[kind] is pair[kind] for kind in FREE):
+                self._learn(pair)
             return settled
         good, bad = sorted(FREE, key=lambda kind: self._strangeness(pair[kind]))
-        if settled[good] is not None and all(kind in frames for kind in FREE):
+        if settled[good] is not None and settled[bad] is pair[bad]:
+            settled[bad] = None
+        if settled[good] is not None and settled[bad] is None and set(FREE) <= set(frames):
             settled[bad] = find_again(pair[good], frames[good], frames[bad])
         return settled
+
+    def recognise(
+        self,
+        guess: Callable[[Image], TipDetection | None],
+        detections: Mapping[KeyframeKind, TipDetection | None],
+        frames: Mapping[KeyframeKind, Image],
+    ) -> dict[KeyframeKind, TipDetection]:
+        """Faint tips in the free frames that are where and as long as this run's tip is.
+
+        Both free frames have to show one, above the same place: something behind a bare shaft
+        that looks like it would have to be there twice.
+
+        Args:
+            guess: The likeliest tip in a frame, however faint.
+            detections: What was found so far.
+            frames: The frames.
+        """
+        if not self._known or any(kind not in frames for kind in FREE):
+            return {}
+        missing = [kind for kind in FREE if detections.get(kind) is None]
+        if not missing:
+            return {}
+        guesses = {kind: guess(frames[kind]) for kind in missing}
+        before, after = (guesses.get(kind) or detections.get(kind) for kind in FREE)
+        if before is None or after is None:
+            return {}
+        aside = abs(before.orifice[0] - after.orifice[0]) / float(np.median(self._lengths))
+        faint = {kind: found for kind, found in guesses.items() if found is not None}
+        usual = all(
+            self._plausible(found, kind) and self._ends_as_usual(found, kind)
+            for kind, found in zip(FREE, (before, after), strict=True)
+        )
+        return faint if usual and aside <= _SAME_END else {}
+
+    def excuses(
+        self,
+        kind: KeyframeKind,
+        detections: Mapping[KeyframeKind, TipDetection | None],
+        frames: Mapping[KeyframeKind, Image],
+    ) -> bool:
+        """Whether a tip that was not found in one frame is on the pipette all the same.
+
+        The two other frames above the destination show it, and this one is exposed otherwise
+        than they are, or they show it as clearly as this run's tips are seen.
+        """
+        neighbours = [other for other in KeyframeKind if other not in (kind, _FIRST)]
+        shown = [found for other in neighbours if (found := detections.get(other)) is not None]
+        if len(shown) < len(neighbours) or kind not in frames:
+            return False
+        lights = [_light(frames[other]) for other in neighbours if other in frames]
+        ratio = (_light(frames[kind]) + 1) / (float(np.median(lights)) + 1) if lights else 1.0
+        if not 1 / _EXPOSURE < ratio < _EXPOSURE:
+            return True
+        clear = len(self._confidences) >= _ENOUGH
+        return clear and min(found.confidence for found in shown) >= min(self._confidences)
 
     @property
     def _known(self) -> bool:
         return len(self._lengths) >= _ENOUGH
 
-    def _plausible(self, found: TipDetection, free: bool) -> bool:
+    def _plausible(self, found: TipDetection, kind: KeyframeKind) -> bool:
         usual = float(np.median(self._lengths))
         if abs(found.length / usual - 1.0) > _SAME_LENGTH:
             # Labware hides part of a tip in a well; only there may it look shorter.
-            return not free and found.length < usual
-        height = float(np.median(self._heights))
-        return not free or abs(found.orifice[1] - height) <= _REACH * usual
+            return kind not in FREE and found.length < usual
+        return kind not in FREE or self._off_end(found, kind) <= _REACH
+
+    def _collar_mended(self, found: TipDetection, kind: KeyframeKind) -> TipDetection | None:
+        """The tip with its usual length, if only its upper end is not where it should be."""
+        if kind not in FREE or not self._ends_as_usual(found, kind):
+            return None
+        x, y = found.orifice
+        share = float(np.median(self._lengths)) / max(found.length, 1.0)
+        collar = (x + share * (found.collar[0] - x), y + share * (found.collar[1] - y))
+        rise = collar[1] - found.collar[1]
+        return replace(found, y=found.y + rise, h=max(found.h - rise, 1.0), collar=collar)
+
+    def _ends_as_usual(self, found: TipDetection, kind: KeyframeKind) -> bool:
+        return self._off_end(found, kind) <= _SAME_END
+
+    def _off_end(self, found: TipDetection, kind: KeyframeKind) -> float:
+        """How far the orifice is above or below its usual height, tip lengths."""
+        usual = float(np.median(self._heights[kind]))
+        return abs(found.orifice[1] - usual) / float(np.median(self._lengths))
 
     def _strangeness(self, found: TipDetection) -> float:
         if not self._known:
             return -found.confidence
         return abs(found.length / float(np.median(self._lengths)) - 1.0)
 
-    def _learn(self, *found: TipDetection) -> None:
-        self._lengths.append(float(np.mean([one.length for one in found])))
-        self._heights.append(float(np.mean([one.orifice[1] for one in found])))
+    def _learn(self, pair: Mapping[KeyframeKind, TipDetection]) -> None:
+        self._lengths.append(float(np.mean([one.length for one in pair.values()])))
+        for kind, found in pair.items():
+            self._heights[kind].append(found.orifice[1])
+            self._confidences.append(found.confidence)
+
+
+_FIRST = KeyframeKind.ASPIRATE
+"""Taken at another place: whether the tip was on then says little about now."""
+
+
+def _light(image: Image) -> float:
+    return float(np.median(image[::16, ::16]))
 
 
 def second_look(

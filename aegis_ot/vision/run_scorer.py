@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,9 +65,24 @@ class RunScorer:
         # A blank crop would be scored as an anomaly, and learned as normal.
         return tuple(KeyframeKind)
 
-    def scores(self, sample: TrajectorySample) -> dict[str, float]:
-        """Scores by scorer name; none before there is a model."""
-        return {} if self._scorer is None else {self.name: self._scorer.score(sample)}
+    def scores(
+        self, sample: TrajectorySample, excused: Collection[KeyframeKind] = ()
+    ) -> dict[str, float]:
+        """Scores by scorer name; none before there is a model, or without a tip it needs.
+
+        Args:
+            sample: The trajectory.
+            excused: Keyframes in which the tip is on, though it could not be seen.
+        """
+        if self._scorer is None:
+            return {}
+        missing = [kind for kind in self.needed if sample.detections.get(kind) is None]
+        if not missing:
+            return {self.name: self._scorer.score(sample)}
+        partial = getattr(self._scorer, "score_of_seen", None)
+        if partial is None or not set(missing) <= set(excused):
+            return {}
+        return {self.name: partial(sample)}
 
     def look_ahead(self, sample: TrajectorySample) -> None:
         """Do what can be done before the last frame, while the robot moves."""

@@ -26,6 +26,7 @@ class OpenTrajectory:
         detections: The tip in each.
         looks: What the column reader took from each.
         unusable: Keyframes whose frame was no image.
+        excused: Keyframes in which no tip was found though it is on, as the others show.
     """
 
     keyframes: dict[KeyframeKind, Keyframe] = field(default_factory=dict)
@@ -33,6 +34,7 @@ class OpenTrajectory:
     detections: dict[KeyframeKind, TipDetection | None] = field(default_factory=dict)
     looks: dict[KeyframeKind, object] = field(default_factory=dict)
     unusable: list[KeyframeKind] = field(default_factory=list)
+    excused: tuple[KeyframeKind, ...] = ()
 
 
 class Stream:

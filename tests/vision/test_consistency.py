@@ -45,8 +45,26 @@ def test_agreeing_detections_are_left_alone(known):
     assert known.settle(seen, frames()) == seen
 
 
-def test_a_meniscus_taken_for_a_collar_is_mended_by_the_partner(known):
-    wrong = tip(collar=250.0, length=100.0)
+def test_a_meniscus_taken_for_a_collar_is_mended_by_the_usual_length(known):
+    wrong = tip(307.0, collar=257.0, length=100.0)
+    settled = known.settle({K.TRANSIT: tip(), K.POST_DISPENSE: wrong}, frames(shift=7))
+    mended = settled[K.POST_DISPENSE]
+    assert mended.length == pytest.approx(LENGTH)
+    assert mended.orifice == wrong.orifice
+    assert mended.collar == pytest.approx((307.0, 157.0))
+
+
+def test_collars_mistaken_in_both_frames_leave_the_tip_on_the_pipette(known):
+    seen = {
+        K.TRANSIT: tip(collar=250.0, length=100.0),
+        K.POST_DISPENSE: tip(collar=220.0, length=130.0),
+    }
+    settled = known.settle(seen, frames())
+    assert [settled[kind].length for kind in seen] == pytest.approx([LENGTH, LENGTH])
+
+
+def test_a_tip_of_another_length_that_ends_elsewhere_is_found_by_its_partner(known):
+    wrong = tip(collar=250.0, length=140.0)
     settled = known.settle({K.TRANSIT: tip(), K.POST_DISPENSE: wrong}, frames(shift=7))
     mended = settled[K.POST_DISPENSE]
     assert mended.length == pytest.approx(LENGTH)
@@ -92,3 +110,35 @@ def test_a_faint_tip_is_believed_beside_a_clear_one_alike():
     assert not confirms(replace(tip(collar=-40.0), confidence=0.24), tip(), 0.2)
     assert not confirms(replace(tip(length=120.0), confidence=0.24), tip(), 0.2)
     assert not confirms(None, tip(), 0.2)
+
+
+def test_a_faint_tip_is_recognised_where_this_runs_tip_hangs(known):
+    faint = {150: replace(tip(), confidence=0.05)}
+    seen = {K.TRANSIT: tip(), K.POST_DISPENSE: None}
+
+    def guess(image: np.ndarray) -> TipDetection | None:
+        return faint.get(150)
+
+    assert known.recognise(guess, seen, frames()) == {K.POST_DISPENSE: faint[150]}
+    faint[150] = replace(tip(x=400.0), confidence=0.05)
+    assert known.recognise(guess, seen, frames()) == {}
+    faint[150] = replace(tip(collar=-30.0), confidence=0.05)
+    assert known.recognise(guess, seen, frames()) == {}
+    assert TipConsistency().recognise(guess, seen, frames()) == {}
+
+
+def test_one_frame_without_a_tip_is_excused_if_the_others_show_it_clearly(known):
+    shown = {K.TRANSIT: tip(), K.DISPENSE: tip(), K.POST_DISPENSE: None}
+    seen = {**frames(), K.DISPENSE: frame()}
+    assert known.excuses(K.POST_DISPENSE, shown, seen)
+    assert not TipConsistency().excuses(K.POST_DISPENSE, shown, seen)
+    unsure = {**shown, K.DISPENSE: replace(tip(), confidence=0.3)}
+    assert not known.excuses(K.POST_DISPENSE, unsure, seen)
+    assert not known.excuses(K.POST_DISPENSE, {**shown, K.TRANSIT: None}, seen)
+
+
+def test_an_overexposed_frame_is_no_sign_of_a_missing_tip():
+    shown = {K.TRANSIT: tip(), K.DISPENSE: tip(), K.POST_DISPENSE: None}
+    white = np.full((480, 640, 3), 250, np.uint8)
+    seen = {K.TRANSIT: frame(), K.DISPENSE: frame(), K.POST_DISPENSE: white}
+    assert TipConsistency().excuses(K.POST_DISPENSE, shown, seen)

@@ -96,6 +96,10 @@ class EnsembleScorer:
             return NO_TIP
         return self.report(sample).score
 
+    def score_of_seen(self, sample: TrajectorySample) -> float:
+        """The same where a frame does not show the tip, though it is on: from the others."""
+        return self.report(sample).score
+
     def look_ahead(self, sample: TrajectorySample) -> None:
         """Work out what the first frames of a trajectory tell, while the last is still to come."""
         self.column.report(sample)
@@ -104,7 +108,7 @@ class EnsembleScorer:
     def report(self, sample: TrajectorySample) -> EnsembleReport:
         """Score and what stands behind it."""
         column = self.column.report(sample)
-        patches = self.patches.score(sample)
+        patches = self.patches.score_of_seen(sample)
         total = column.score + _OVERLAP * patches
         return EnsembleReport(self._surprise(total, pipette_class(sample.pipette)), column, patches)
 

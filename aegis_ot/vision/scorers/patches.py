@@ -103,9 +103,13 @@ class PatchesScorer:
 
     def score(self, sample: TrajectorySample) -> float:
         """Surprise of one trajectory, nats, >= 0. Raises :class:`ValueError` if not fitted."""
-        name = pipette_class(sample.pipette)
         if any(sample.detections.get(kind) is None for kind in _DECISIVE):
             return NO_TIP
+        return self.score_of_seen(sample)
+
+    def score_of_seen(self, sample: TrajectorySample) -> float:
+        """The same where a frame does not show the tip, though it is on: from the others."""
+        name = pipette_class(sample.pipette)
         if name not in self.banks:
             if self.banks:
                 return 0.0  # a tip class that no normal showed: nothing can be said
