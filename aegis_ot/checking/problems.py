@@ -61,11 +61,3 @@ def late(told: str, line: int | None) -> Problem:
     if line is None:
         told += " No line of it was running then: this machine is busy, or Opentrons hangs."
     return Problem(told, line)
-
-
-def api_level_line(text: str) -> int | None:
-    """Line of the first ``apiLevel`` of a protocol's text."""
-    for number, line in enumerate(text.splitlines(), start=1):
-        if "apiLevel" in line:
-            return number
-    return None

@@ -21,7 +21,6 @@ from .exploring import explore
 from .files import read_protocol
 from .guard_arguments import guard_arguments
 from .modelled import Asking, ask_model
-from .problems import api_level_line
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, CheckRun, Problem, with_findings
 from .side_by_side import LazyRehearser, check_each
@@ -114,11 +113,8 @@ def _check_file(
     try:
         judged = _judge(rehearser.get(), script, options, settings, database)
     except TaskFailed as failed:
-        problem = failed.problem
-        if problem.line is None and "API" in problem.message:
-            problem = Problem(problem.message, api_level_line(text))
         seconds = time.monotonic() - start
-        return CheckedProtocol(name, problem=problem, lines=lines, seconds=seconds)
+        return CheckedProtocol(name, problem=failed.problem, lines=lines, seconds=seconds)
     seconds = time.monotonic() - start
     checked = dataclasses.replace(judged, file=name, lines=lines, seconds=seconds)
     return _settle(checked, settings)

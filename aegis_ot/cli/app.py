@@ -11,7 +11,7 @@ import typer
 from .. import __version__
 from ..errors import AegisError
 
-CLEAN, FINDINGS, BROKEN = 0, 1, 2
+CLEAN, FINDINGS, BROKEN, INTERRUPTED = 0, 1, 2, 130
 
 app = typer.Typer(
     name="aegis-ot",
@@ -46,19 +46,21 @@ def run() -> None:
     # A workstation has no robot's calibration files; Opentrons warns of that at every context.
     logging.getLogger("opentrons").setLevel(logging.ERROR)
     try:
-        sys.exit(app(standalone_mode=False))
+        code = app(standalone_mode=False)
     except _UsageError as error:
         if type(error).__name__ == "NoArgsIsHelpError":
             error.show()
         else:
             typer.echo(f"aegis-ot: {error.format_message()}", err=True)
-        sys.exit(BROKEN)
-    except (typer.Abort, KeyboardInterrupt):  # Click makes the one of the other
-        typer.echo("aegis-ot: interrupted; nothing more is done.", err=True)
-        sys.exit(130)
+        code = BROKEN
     except AegisError as error:
         typer.echo(f"aegis-ot: {error}", err=True)
-        sys.exit(BROKEN)
+        code = BROKEN
+    except (typer.Abort, KeyboardInterrupt):
+        code = INTERRUPTED
+    if code == INTERRUPTED:  # Typer's newer versions return it, the older ones raise Abort
+        typer.echo("aegis-ot: interrupted; nothing more is done.", err=True)
+    sys.exit(code)
 
 
 # Each module adds its commands to the app.

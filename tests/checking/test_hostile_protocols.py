@@ -60,7 +60,7 @@ HOSTILE: dict[str, tuple[str, int | None, str]] = {
     "newer.py": (
         '\nmetadata = {"apiLevel": "2.99"}\ndef run(p):\n    pass\n',
         2,
-        "API version 2.99 is not supported",
+        "is written for API version 2.99, and",
     ),
     "syntax.py": (HEAD + "def run(p:\n    pass\n", 2, "not valid Python"),
     "no_run.py": (HEAD + "x = 1\n", 1, "defines no function run(protocol) at its"),

@@ -6,7 +6,7 @@ from copy import copy
 from typing import Any
 
 from ...errors import RehearsalError
-from .refusals import line_of, stopped, unloadable
+from .refusals import line_of, stopped, too_new, unloadable
 from .script import Script
 
 
@@ -16,6 +16,7 @@ def load(script: Script) -> Any:
     Raises:
         RehearsalError: It cannot be parsed; with its line.
     """
+    from opentrons.protocols.api_support.definitions import MAX_SUPPORTED_VERSION
     from opentrons.protocols.parse import parse
     from opentrons.protocols.types import PythonProtocol
 
@@ -35,6 +36,8 @@ def load(script: Script) -> Any:
         )
     except Exception as error:  # opentrons raises its own zoo, and plain RuntimeErrors
         raise unloadable(error, script) from error
+    if protocol.api_level > MAX_SUPPORTED_VERSION:
+        raise too_new(script, protocol.api_level, MAX_SUPPORTED_VERSION)
     if not isinstance(protocol, PythonProtocol):
         raise RehearsalError(
             f"{script.file_name} is a JSON protocol; only Python protocols can be rehearsed."

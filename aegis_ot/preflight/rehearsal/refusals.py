@@ -66,6 +66,15 @@ def unloadable(error: Exception, script: Script) -> RehearsalError:
     return RehearsalError(f"Opentrons cannot load {script.file_name}: {short}", line)
 
 
+def too_new(script: Script, wanted: Any, newest: Any) -> RehearsalError:
+    """The error of a protocol for a newer API than the opentrons installed here knows."""
+    told = (
+        f"{script.file_name} is written for API version {wanted}, and the opentrons installed "
+        f"here knows up to {newest}: install a newer one, or lower the apiLevel."
+    )
+    return RehearsalError(told, _line_of_declaration(ast.parse(script.text).body))
+
+
 def _instead_of_run(body: list[ast.stmt]) -> tuple[int, str]:
     """Where something stands that was meant to be ``run``, or the first line."""
     for node in body:
