@@ -59,7 +59,8 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
             for source, _, _, _ in visit.parts:
                 if source is not None and source is not well:
                     served.setdefault(source.ref, set()).add(well.ref)
-    for ref in roles.unnamed:
+    # In the order of the trace: a set's own order differs from process to process.
+    for ref in [well.ref for well in trace.wells.values() if well.ref in roles.unnamed]:
         if roles.of(ref):
             continue
         if ref not in served:
