@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from ..errors import ConfigurationError, RehearsalError
+
+_BINARY = "is a binary file, not a Python protocol."
+_CONTROL = re.compile(rb"[\x00-\x06\x0e-\x1a\x1c-\x1f]")
+"""Bytes that no text has, in whatever encoding."""
 
 
 def read_protocol(path: Path) -> str:
@@ -29,13 +34,15 @@ def read_protocol(path: Path) -> str:
         raise ConfigurationError("there is no such file.") from None
     except OSError as error:
         raise ConfigurationError(f"cannot be read: {error.strerror}.") from None
-    if b"\0" in data:
-        raise ConfigurationError("is a binary file, not a Python protocol.")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
+        if _CONTROL.search(data):
+            raise ConfigurationError(_BINARY) from None
         line = data.count(b"\n", 0, error.start) + 1
         raise RehearsalError("is not UTF-8 text, as Opentrons demands.", line) from None
+    if "\0" in text:
+        raise ConfigurationError(_BINARY)
     if not text.strip():
         raise ConfigurationError("is empty.")
     if text.lstrip().startswith("{") and _is_json(text):

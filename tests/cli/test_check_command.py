@@ -148,7 +148,7 @@ UNREADABLE: list[tuple[str, bytes | None, str]] = [
     ("missing.py", None, "there is no such file"),
     ("folder", None, "is a folder; name the protocols in it"),
     ("empty.py", b" \n", "is empty"),
-    ("binary.py", b"\x7fELF\x02\xff\xfe", "is not UTF-8 text"),
+    ("binary.py", b"\x7fELF\x02\xff\xfe", "is a binary file"),
     ("nul.py", b"def run(p):\n\0", "is a binary file"),
     ("protocol.json", b"{}", "only Python protocols"),
     ("bundle.zip", b"PK", "is a bundle"),
