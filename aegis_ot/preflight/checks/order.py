@@ -109,6 +109,7 @@ class RisingOrder(Check):
         liquid = frozenset(self.liquid)
         last: dict[tuple[int, int], tuple[Well, float | None, Visit]] = {}
         doubted = False
+        visited: dict[tuple[int, int], dict[Well, Visit]] = {}
         done: set[tuple[int, int, int]] = set()
         for visit in case.trace.visits:
             for source, volume, _, draw_line in visit.parts:
@@ -121,7 +122,11 @@ class RisingOrder(Check):
                 before = last.get(key)
                 if before is not None and before[0] is not source:
                     if before[1] is None or level is None:
-                        if not doubted:
+                        seen = visited.get(key, {})
+                        if source in seen and len(seen) >= _A_SERIES and (*key, 0) not in done:
+                            done.add((*key, 0))
+                            yield _second_pass(case, source, seen[source], before[2], visit)
+                        elif not doubted:
                             doubted = True
                             yield Doubt(
                                 f"one tip dispenses {place(before[0])} and then "
@@ -143,3 +148,23 @@ class RisingOrder(Check):
                             (before[2].line, visit.line),
                         )
                 last[key] = (source, level, visit)
+                visited.setdefault(key, {}).setdefault(source, visit)
+
+
+_A_SERIES = 3
+"""As many wells as this under one name are a series and no replicates of one another."""
+
+
+def _second_pass(case: Case, source: Well, first: Visit, last: Visit, visit: Visit) -> Violation:
+    """One tip comes back to a standard after others: whatever they hold, that is not rising."""
+    return Violation(
+        f"The tip that dispensed {case.title(source)} from {place(source)} {at(first.line)} and "
+        f"others since goes back to it for {place(visit.well)} {at(visit.line)}.",
+        (
+            Site(first.line, source.ref, "dispensed this first"),
+            Site(last.line, last.well.ref, "went on to others"),
+            Site(visit.line, visit.well.ref, "began again with the same tip"),
+        ),
+        visit.well,
+        (first.line, visit.line),
+    )

@@ -43,12 +43,15 @@ def assign_roles(
     candidates: dict[WellRef, list[Candidate]] = {}
     sides = Sides(usage)
     named_outright: set[str] = set()
+    levels: dict[WellRef, set[float | None]] = {}
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         matches = lexicon.find(clue.text)
         named = [clue.role] if clue.role in family.roles else roles_named(matches, clue, common)
         if not named:
             if clue.strength is Strength.LIQUID:
                 roles.unnamed.update(clue.wells)
+            for ref, level in zip(clue.wells, clue.levels, strict=False):
+                levels.setdefault(ref, set()).add(level)
             continue
         worth = _worth(clue)
         for position, ref in enumerate(clue.wells):
@@ -67,6 +70,9 @@ def assign_roles(
         assignment = _choose(roles, ref, found)
         if assignment is not None:
             roles.by_well[ref] = assignment
+            told = levels.get(ref, set())
+            if assignment.level is None and len(told) == 1:
+                assignment.level = told.pop()
     spread_over_channels(roles, trace)
     return roles
 

@@ -11,6 +11,7 @@ from ..text import SourceFacts
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
+from .loop_levels import loop_levels
 from .names import call_arguments, named_wells
 from .places import indexing_names
 from .plate_maps import plate_maps
@@ -41,10 +42,11 @@ def gather(
         *named_wells(deck, names, facts, common),
         *_labels(deck),
         *indexing_names(deck, facts),
-        *plate_maps(deck, facts),
+        *plate_maps(deck, facts, common),
         *written_wells(deck, facts),
         *step_comments(trace, facts, common),
         *call_arguments(trace, facts),
+        *loop_levels(trace, facts, common),
     ]
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
 

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ..text import SourceFacts
+from ..rules import Common
+from ..text import Lexicon, SourceFacts, origins
 from .clues import Clue, Strength
 from .deck import Deck
 from .well_names import WELL_NAME
 
 
-def plate_maps(deck: Deck, facts: SourceFacts) -> Iterator[Clue]:
+def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """Constants that hold well names: ``NTC_WELLS = ["H11", "H12"]``, ``{"A1": "NTC"}``."""
     for name, value in facts.constants.items():
         if name == "metadata":
             continue
         line = facts.assigned.get(name)
-        entries = list(_entries(name, value))
+        entries = list(_Reader(common).entries(name, value))
         all_names = [well for _, wells, _ in entries for well in wells]
         if not all_names:
             continue
@@ -41,75 +42,84 @@ def _used_with(deck: Deck, facts: SourceFacts, name: str) -> str:
     """The labware that is indexed by this constant, straight or in a comprehension."""
     keys: set[str] = set()
     for place in facts.places:
-        if name in place.names:
+        if name in origins(facts, place.names, (place.line,)):
             keys |= deck.by_name.get(place.labware, set())
     return next(iter(keys)) if len(keys) == 1 else ""
 
 
-def _entries(
-    name: str, value: Any, depth: int = 0
-) -> Iterator[tuple[str, tuple[str, ...], float | None]]:
-    """``(text, well names, level)`` of a constant that holds well names."""
-    if depth > 3:
-        return
-    if isinstance(value, str):
-        if WELL_NAME.match(value):
-            yield name, (value,), None
-        return
-    if isinstance(value, Mapping):
-        for key, item in value.items():
-            if isinstance(key, str) and WELL_NAME.match(key):
-                for text in _said_of(item):
-                    yield text, (key,), None
-                for number in _numbers_of(item):
-                    yield name, (key,), number
-            else:
-                level = float(key) if is_number(key) else None
-                for text, wells, own in _entries(f"{name} {key}", item, depth + 1):
-                    yield text, wells, level if own is None else own
-        return
-    if isinstance(value, (list, tuple)):
+Entry = tuple[str, tuple[str, ...], "float | None"]
+"""What is said, of which wells, and their level."""
+
+
+class _Reader:
+    """Reads a constant that holds well names."""
+
+    def __init__(self, common: Common) -> None:
+        self._amounts = Lexicon({"amount": common.amounts})
+        self._counts = Lexicon({"count": common.countings})
+
+    def entries(self, name: str, value: Any, depth: int = 0) -> Iterator[Entry]:
+        """Each group of wells with what is said of it."""
+        if depth > 3:
+            return
+        if isinstance(value, str):
+            if WELL_NAME.match(value):
+                yield name, (value,), None
+        elif isinstance(value, Mapping):
+            if depth > 0 and _is_record(value):
+                yield from self._record(name, value)
+                return
+            for key, item in value.items():
+                if isinstance(key, str) and WELL_NAME.match(key):
+                    yield from self._beside(name, (key,), item)
+                else:
+                    level = float(key) if is_number(key) else None
+                    for text, wells, own in self.entries(f"{name} {key}", item, depth + 1):
+                        yield text, wells, level if own is None else own
+        elif isinstance(value, (list, tuple)):
+            yield from self._listed(name, value, depth)
+
+    def _listed(self, name: str, value: Sequence[Any], depth: int) -> Iterator[Entry]:
         wells = tuple(item for item in value if isinstance(item, str) and WELL_NAME.match(item))
         if wells and len(wells) == len(value):
             yield name, wells, None
-            return
-        texts = [item for item in value if isinstance(item, str) and not WELL_NAME.match(item)]
-        if wells and depth > 0:
-            numbers = [float(item) for item in value if is_number(item)]
-            for text in texts or [name]:
-                yield text, wells, numbers[0] if len(numbers) == 1 else None
-            return
-        for item in value:
-            if isinstance(item, (list, tuple, Mapping)):
-                yield from _record(name, item, depth + 1)
+        elif wells and depth > 0:
+            yield from self._beside(name, wells, [item for item in value if item not in wells])
+        else:
+            for item in value:
+                if isinstance(item, (list, tuple, Mapping)):
+                    yield from self.entries(name, item, depth + 1)
 
-
-def _record(
-    name: str, item: Any, depth: int
-) -> Iterator[tuple[str, tuple[str, ...], float | None]]:
-    """A row of a table: ``{"well": "A1", "type": "NTC"}`` or ``("A1", "NTC", 5)``."""
-    if isinstance(item, Mapping):
+    def _record(self, name: str, item: Mapping[Any, Any]) -> Iterator[Entry]:
+        """A row of a table: ``{"well": "A1", "type": "NTC", "conc": 0}``."""
         wells = tuple(v for v in item.values() if isinstance(v, str) and WELL_NAME.match(v))
-        if len(wells) == 1:
-            for value in item.values():
-                if isinstance(value, str) and value not in wells:
-                    yield value, wells, None
+        texts = [v for v in item.values() if isinstance(v, str) and v not in wells]
+        numbers = {str(key): float(v) for key, v in item.items() if is_number(v)}
+        amounts = [number for key, number in numbers.items() if self._amounts.find(key)]
+        if not amounts and self._amounts.find(name):
+            amounts = [number for key, number in numbers.items() if not self._counts.find(key)]
+        level = amounts[0] if len(amounts) == 1 else None
+        for text in texts or [name]:
+            yield text, wells, level
+
+    def _beside(self, name: str, wells: tuple[str, ...], said: Any) -> Iterator[Entry]:
+        """What stands beside wells: ``"A1": "NTC"``, ``("A1", "NTC", 5)``."""
+        if isinstance(said, Mapping):
+            yield from self._record(name, {"": wells[0], **said})
             return
-    yield from _entries(name, item, depth)
+        listed = said if isinstance(said, (list, tuple)) else [said]
+        texts = [item for item in listed if isinstance(item, str)]
+        numbers = [float(item) for item in listed if is_number(item)]
+        level = numbers[0] if len(numbers) == 1 else None
+        for text in texts or ([name] if numbers else []):
+            yield text, wells, level
 
 
-def _said_of(item: Any) -> Iterator[str]:
-    if isinstance(item, str):
-        yield item
-    elif isinstance(item, Mapping):
-        yield from (value for value in item.values() if isinstance(value, str))
-    elif isinstance(item, (list, tuple)):
-        yield from (value for value in item if isinstance(value, str))
-
-
-def _numbers_of(item: Any) -> Iterator[float]:
-    if is_number(item):
-        yield float(item)
+def _is_record(value: Mapping[Any, Any]) -> bool:
+    """Whether this is one row, which says one well and more, rather than a map of wells."""
+    wells = [v for v in value.values() if isinstance(v, str) and WELL_NAME.match(v)]
+    keys = [key for key in value if isinstance(key, str) and not WELL_NAME.match(key)]
+    return len(wells) == 1 and len(keys) == len(value) and len(value) > 1
 
 
 def is_number(value: Any) -> bool:

@@ -170,6 +170,7 @@ class Common:
     rising: tuple[str, ...] = ()
     falling: tuple[str, ...] = ()
     amounts: tuple[str, ...] = ()
+    countings: tuple[str, ...] = ()
     waste: tuple[str, ...] = ()
     negations: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()

@@ -1,12 +1,14 @@
 """What the text of a protocol says: its comments, its constants, the words in its names."""
 
-from .facts import Place, SourceFacts
+from .facts import Loop, Place, SourceFacts
+from .flow import origins
 from .levels import direction_in, level_in, name_without_level, numbers_in_order
 from .reading import read_source
 from .words import Lexicon, Match, tokens
 
 __all__ = [
     "Lexicon",
+    "Loop",
     "Match",
     "Place",
     "SourceFacts",
@@ -14,6 +16,7 @@ __all__ = [
     "level_in",
     "name_without_level",
     "numbers_in_order",
+    "origins",
     "read_source",
     "tokens",
 ]

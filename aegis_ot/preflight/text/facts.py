@@ -29,6 +29,38 @@ class Place:
     line: int
 
 
+@dataclass(frozen=True)
+class Values:
+    """What one name of a loop holds in turn.
+
+    Attributes:
+        name: The name, with the key where rows are dicts or tuples: ``"std conc"``.
+        source: The names in what the loop runs over.
+        column: The values.
+    """
+
+    name: str
+    source: str
+    column: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Loop:
+    """A loop over literals.
+
+    Attributes:
+        names: Names whose value changes with each turn; for a comprehension, its result.
+        values: What the names of its target hold, where that is known.
+        first: First line on which it counts.
+        last: Last such line.
+    """
+
+    names: frozenset[str]
+    values: tuple[Values, ...]
+    first: int
+    last: int
+
+
 @dataclass
 class SourceFacts:
     """The facts of one protocol text.
@@ -48,6 +80,10 @@ class SourceFacts:
         blocks: For the first line of a run of statements without a gap, all lines of it.
         arguments: By line, the names that calls draw from and give to, as ``(side, name)``.
         liquids: Description of each liquid defined in the text, by its name.
+        comes_from: For each name, the names that its values are made of, with the first and the
+            last line on which that holds.
+        runs: Loops whose values are known.
+        draws: By line, all names in what a call draws from.
         names: Every identifier of the text, once.
         strings: Every other string of the text, with its line.
     """
@@ -66,5 +102,8 @@ class SourceFacts:
     blocks: dict[int, tuple[int, ...]] = field(default_factory=dict)
     arguments: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
     liquids: dict[str, str] = field(default_factory=dict)
+    comes_from: dict[str, set[tuple[str, int, int]]] = field(default_factory=dict)
+    runs: list[Loop] = field(default_factory=list)
+    draws: dict[int, set[str]] = field(default_factory=dict)
     names: set[str] = field(default_factory=set)
     strings: list[tuple[int, str]] = field(default_factory=list)

@@ -6,6 +6,7 @@ import ast
 
 from .comments import read_blocks, read_comments
 from .facts import SourceFacts
+from .flow import read_flow
 from .syntax import SyntaxReader
 
 
@@ -18,5 +19,6 @@ def read_source(text: str) -> SourceFacts:
     except (SyntaxError, ValueError):
         return facts
     SyntaxReader(facts).visit_module(tree)
+    read_flow(tree, facts)
     read_blocks(text, tree, facts)
     return facts

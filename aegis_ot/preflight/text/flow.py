@@ -1,0 +1,196 @@
+"""Which names of a protocol take their values from which, and what loops run over.
+
+``for (tube, conc), row in zip(BSA, "ABC")`` tells that ``tube`` and ``conc`` come from ``BSA``,
+and, where that is a literal, which values each of them takes in turn.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from .facts import Loop, SourceFacts, Values
+from .literals import names_in
+
+_DRAWN = {
+    "aspirate": (1, "location"),
+    "transfer": (1, "source"),
+    "distribute": (1, "source"),
+    "consolidate": (1, "source"),
+    "transfer_with_liquid_class": (2, "source"),
+}
+"""Where each liquid-moving call names its source: position and keyword."""
+
+_KEEPS_ORDER = ("list", "tuple", "iter")
+
+
+_ANYWHERE = (0, 1 << 30)
+
+
+def read_flow(tree: ast.Module, facts: SourceFacts) -> None:
+    """Note where names come from, loops over literals, and what each draw names."""
+    parameters = {
+        node.name: [argument.arg for argument in node.args.args]
+        for node in ast.walk(tree)
+        if isinstance(node, ast.FunctionDef)
+    }
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign):
+            _assigned(facts, node.targets, node.value)
+        elif isinstance(node, (ast.For, ast.AsyncFor)):
+            span = (node.lineno, node.end_lineno or node.lineno)
+            _loop(facts, node.target, node.iter, span, names_in(node.target))
+        elif isinstance(node, (ast.ListComp, ast.SetComp, ast.GeneratorExp, ast.DictComp)):
+            span = (node.lineno, node.end_lineno or node.lineno)
+            for generator in node.generators:
+                _loop(facts, generator.target, generator.iter, span, ())
+        elif isinstance(node, ast.Call):
+            if isinstance(node.func, ast.Name) and node.func.id in parameters:
+                for name, argument in zip(parameters[node.func.id], node.args, strict=False):
+                    _comes(facts, name, argument, _ANYWHERE)
+            elif isinstance(node.func, ast.Attribute) and node.func.attr in _DRAWN:
+                _draw(facts, node, *_DRAWN[node.func.attr])
+
+
+def origins(facts: SourceFacts, names: Iterable[str], lines: Collection[int]) -> set[str]:
+    """These names and all that their values come from, in loops around one of these lines."""
+    found: set[str] = set()
+    open_ = list(names)
+    while open_:
+        name = open_.pop()
+        if name in found:
+            continue
+        found.add(name)
+        for other, first, last in facts.comes_from.get(name, ()):
+            if any(first <= line <= last for line in lines):
+                open_.append(other)
+    return found
+
+
+def _comes(facts: SourceFacts, name: str, value: ast.expr, span: tuple[int, int]) -> None:
+    known = facts.comes_from.setdefault(name, set())
+    known.update((other, *span) for other in names_in(value) if other != name)
+
+
+def _assigned(facts: SourceFacts, targets: Iterable[ast.expr], value: ast.expr) -> None:
+    for target in targets:
+        for name in names_in(target):
+            _comes(facts, name, value, _ANYWHERE)
+        if not isinstance(target, ast.Name):
+            continue
+        if not isinstance(value, (ast.ListComp, ast.GeneratorExp)) or len(value.generators) > 1:
+            continue
+        made = value.generators[0]
+        if not made.ifs:
+            _loop(facts, made.target, made.iter, _ANYWHERE, (target.id,))
+
+
+def _draw(facts: SourceFacts, call: ast.Call, position: int, keyword: str) -> None:
+    given = call.args[position] if len(call.args) > position else None
+    given = next((k.value for k in call.keywords if k.arg == keyword), given)
+    if given is not None:
+        facts.draws.setdefault(call.lineno, set()).update(names_in(given))
+
+
+def _loop(
+    facts: SourceFacts,
+    target: ast.expr,
+    over: ast.expr,
+    span: tuple[int, int],
+    names: Iterable[str],
+) -> None:
+    """Note one loop; ``names`` are those that stand for its turn."""
+    values: list[Values] = []
+    for part, iterable in _parts(target, over):
+        if span != _ANYWHERE:
+            for name in names_in(part):
+                _comes(facts, name, iterable, span)
+        rows = _sequence(iterable, facts.constants)
+        if rows is not None:
+            beside = " ".join(names_in(iterable))
+            values += [Values(name, beside, column) for name, column in _columns(part, rows)]
+    carriers = frozenset(names)
+    if values and carriers:
+        facts.runs.append(Loop(carriers, tuple(values), *span))
+
+
+def _parts(target: ast.expr, over: ast.expr) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """Which part of the loop's target takes its values from which iterable."""
+    called = over.func.id if isinstance(over, ast.Call) and isinstance(over.func, ast.Name) else ""
+    if isinstance(over, ast.Call) and isinstance(target, ast.Tuple):
+        if called == "zip" and len(over.args) == len(target.elts):
+            for part, iterable in zip(target.elts, over.args, strict=True):
+                yield from _parts(part, iterable)
+            return
+        if called == "enumerate" and over.args and len(target.elts) == 2:
+            yield from _parts(target.elts[1], over.args[0])
+            return
+    yield target, over
+
+
+def _columns(target: ast.expr, rows: Sequence[Any]) -> Iterator[tuple[str, tuple[Any, ...]]]:
+    """The values that each name of a target takes, row by row; ``name key`` in rows of dicts."""
+    if isinstance(target, (ast.Tuple, ast.List)):
+        if all(isinstance(row, (tuple, list)) and len(row) == len(target.elts) for row in rows):
+            for at, part in enumerate(target.elts):
+                yield from _columns(part, [row[at] for row in rows])
+    elif isinstance(target, ast.Name):
+        yield target.id, tuple(rows)
+        first = rows[0] if rows else None
+        keys: Iterable[Any] = ()
+        if isinstance(first, dict):
+            keys = first
+        elif isinstance(first, (tuple, list)):
+            keys = range(len(first))
+        for key in keys:
+            try:
+                yield f"{target.id} {key}", tuple(row[key] for row in rows)
+            except (TypeError, KeyError, IndexError):
+                continue
+
+
+def _sequence(node: ast.expr, constants: Mapping[str, Any]) -> Sequence[Any] | None:
+    """What an iterable made of literals yields, in order."""
+    if isinstance(node, ast.Name):
+        value = constants.get(node.id)
+        return list(value) if isinstance(value, (list, tuple, dict)) else None
+    if isinstance(node, ast.Call):
+        return _called(node, constants)
+    if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice):
+        rows = _sequence(node.value, constants)
+        bounds = [_literal(b) for b in (node.slice.lower, node.slice.upper, node.slice.step)]
+        if rows is None or not all(bound is None or isinstance(bound, int) for bound in bounds):
+            return None
+        return rows[slice(*bounds)]
+    value = _literal(node)
+    return list(value) if isinstance(value, (list, tuple, dict)) else None
+
+
+def _called(node: ast.Call, constants: Mapping[str, Any]) -> Sequence[Any] | None:
+    if isinstance(node.func, ast.Attribute) and not node.args:
+        holder = node.func.value
+        value = constants.get(holder.id) if isinstance(holder, ast.Name) else _literal(holder)
+        if isinstance(value, dict) and node.func.attr in ("items", "keys", "values"):
+            return list(getattr(value, node.func.attr)())
+        return None
+    if not isinstance(node.func, ast.Name) or len(node.args) != 1 or node.keywords:
+        return None
+    rows = _sequence(node.args[0], constants)
+    if rows is None or node.func.id in _KEEPS_ORDER:
+        return rows
+    if node.func.id == "reversed":
+        return rows[::-1]
+    if node.func.id == "sorted":
+        try:
+            return sorted(rows)
+        except TypeError:
+            return None
+    return None
+
+
+def _literal(node: ast.expr | None) -> Any:
+    try:
+        return None if node is None else ast.literal_eval(node)
+    except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
+        return ...
