@@ -24,7 +24,7 @@ from ..evaluation.layer1 import (
 from ..preflight import load_database
 from ..reasoning import Configuration, load_prices
 from .app import BROKEN, CLEAN, app
-from .checks import write_text
+from .checks import make_folder, write_text
 from .judging import Labware, Rules, one_of, split
 from .models import RecordFolder, backend_of
 
@@ -82,6 +82,8 @@ def layer1(
         [family.family for family in database.families],
         [rule.id for rule in database.rules],
     )
+    if figures is not None:
+        make_folder(figures)
     results: list[Layer1Result] = []
     for asking in askings:
         settings = CheckSettings(
@@ -109,7 +111,11 @@ def layer1(
         shown = values[0] if len(values) == 1 else {"results": values}
         write_text(json_out, json.dumps(shown, indent=1, ensure_ascii=False) + "\n")
     if figures is not None:
-        for path in draw_ablation(results, figures):
+        try:
+            drawn = draw_ablation(results, figures)
+        except OSError as error:
+            raise ConfigurationError(f"A figure cannot be written: {error}.") from None
+        for path in drawn:
             typer.echo(f"figure: {path}", err=True)
     broken = any(result.unjudged or result.unanswered for result in results)
     raise typer.Exit(BROKEN if broken else CLEAN)

@@ -1,11 +1,13 @@
 """A model's opinions, asked for once per digest and remembered: the sidecar's half of Layer 1.
 
 Analysis asks while the scientist looks at the App; the live run of the same protocol finds the
-answer waiting. What a model said is kept; an outage is not, and is asked about again.
+answer waiting. What a model said is kept; an outage is not, and is asked about again. So is what
+another model said, or this one to other rules or another prompt, before a restart.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import logging
 import os
@@ -18,12 +20,17 @@ from ..preflight.dossier import Dossier
 from ..preflight.opinion import Opinion
 from ..vocabulary import from_json, to_json
 from .backend import Backend, State
-from .configurations import give_opinion
+from .configurations import Configuration, give_opinion, request_in
 
 MOST_PENDING = 8
 """Questions asked at once; more are told to come back."""
 
 _LASTING = {State.ANSWERED.value, State.REFUSED.value, State.TRUNCATED.value, State.INVALID.value}
+"""Not asked about again while the sidecar runs: the model itself said it."""
+
+_KEPT = {State.ANSWERED.value, State.REFUSED.value}
+"""Nor after a restart."""
+
 _log = logging.getLogger(__name__)
 
 
@@ -53,7 +60,7 @@ class Opinions:
         """See to it that this dossier has, or will have, an opinion; returns its digest."""
         digest = dossier.digest
         with self._changed:
-            known = self._known.get(digest) or self._from_disk(digest)
+            known = self._known.get(digest) or self._from_disk(dossier)
             if known is not None and known.state in _LASTING:
                 self._known[digest] = known
                 return digest
@@ -90,41 +97,54 @@ class Opinions:
     def _work(self, digest: str, dossier: Dossier) -> None:
         name = self._backend.name if self._backend is not None else "no model"
         try:
-            if self._database is None:
-                self._database = load_database()
-            opinion = give_opinion(dossier, self._database, self._backend)
+            opinion = give_opinion(dossier, self._rules(), self._backend)
         except Exception as error:  # a question must never stay pending for ever
             _log.exception("An opinion could not be had")
             detail = f"The sidecar failed ({type(error).__name__}); its log says more."
             opinion = Opinion(State.UNAVAILABLE.value, name, detail)
-        if opinion.state in _LASTING:
-            self._to_disk(digest, opinion)
+        if opinion.state in _KEPT:
+            self._to_disk(dossier, opinion)
         with self._changed:
             self._known[digest] = opinion
             self._pending.discard(digest)
             self._changed.notify_all()
 
-    def _from_disk(self, digest: str) -> Opinion | None:
-        if self._folder is None:
+    def _rules(self) -> Database:
+        if self._database is None:
+            self._database = load_database()
+        return self._database
+
+    def _place(self, dossier: Dossier) -> Path | None:
+        """Where its opinion is kept; another model or another question has another place."""
+        if self._folder is None or self._backend is None:
             return None
-        path = self._folder / f"{digest}.json"
+        request = request_in(Configuration.HYBRID, dossier, self._rules())
+        asked = f"{self._backend.name} {request.hash if request else ''}"
+        mark = hashlib.sha256(asked.encode("utf-8", "surrogatepass")).hexdigest()[:16]
+        return self._folder / f"{dossier.digest}-{mark}.json"
+
+    def _from_disk(self, dossier: Dossier) -> Opinion | None:
+        path = self._place(dossier)
+        if path is None:
+            return None
         try:
             return from_json(Opinion, json.loads(path.read_text(encoding="utf-8")))
         except FileNotFoundError:
             return None
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, RecursionError) as error:
             _log.warning("The opinion %s is damaged and is asked for again: %s", path, error)
             return None
 
-    def _to_disk(self, digest: str, opinion: Opinion) -> None:
-        if self._folder is None:
+    def _to_disk(self, dossier: Dossier, opinion: Opinion) -> None:
+        path = self._place(dossier)
+        if path is None:
             return
         try:
-            self._folder.mkdir(parents=True, exist_ok=True)
-            handle, name = tempfile.mkstemp(dir=self._folder, prefix=".writing-")
+            path.parent.mkdir(parents=True, exist_ok=True)
+            handle, name = tempfile.mkstemp(dir=path.parent, prefix=".writing-")
             with os.fdopen(handle, "w", encoding="utf-8") as file:
                 json.dump(to_json(opinion), file, ensure_ascii=False)
-            os.replace(name, self._folder / f"{digest}.json")
+            os.replace(name, path)
         except OSError as error:
             # It is in memory: the run goes on, a restart asks again.
             _log.warning("An opinion cannot be kept in %s: %s", self._folder, error)

@@ -304,6 +304,19 @@ def test_a_price_nobody_knows_is_no_price(aegis: Command, benchmark: Path, tmp_p
     assert json.loads(Path("one.json").read_text())["asked"]["cost"] is None
 
 
+def test_figures_that_cannot_be_written_are_told_before_anybody_is_asked(
+    aegis: Command, benchmark: Path, server: WireServer, tmp_path: Path
+) -> None:
+    (tmp_path / "taken").write_text("")
+    result = aegis(
+        "evaluate", "layer1", benchmark, "--config", "hybrid",
+        "--model", _openai(server.url), "--figures", "taken/below",
+    )  # fmt: skip
+    assert result.code == 2
+    assert "taken" in result.err
+    assert server.seen == []
+
+
 def test_a_configuration_that_asks_needs_a_model(aegis: Command, benchmark: Path) -> None:
     result = aegis("evaluate", "layer1", benchmark, "--config", "hybrid")
     assert result.code == 2

@@ -140,9 +140,28 @@ def test_opinions_outlive_the_sidecar(tmp_path: Path) -> None:
     second = Opinions(silent, tmp_path, database())
     assert second.wait(second.ask(dossier), 20) == said
     assert silent.requests == []
-    (tmp_path / f"{digest}.json").write_text("{")
+    (kept,) = tmp_path.glob(f"{digest}*.json")
+    kept.write_text("{")
     third = Opinions(ScriptedBackend([VIOLATED]), tmp_path, database())
     assert third.wait(third.ask(dossier), 20) == said
+
+
+def test_another_model_is_asked_after_a_restart(tmp_path: Path) -> None:
+    dossier = checked(SILENT)[1]
+
+    def said_by(name: str, answer: Any) -> tuple[str, int]:
+        backend = ScriptedBackend([answer])
+        backend.name = name
+        opinions = Opinions(backend, tmp_path, database())
+        opinion = opinions.wait(opinions.ask(dossier), 20)
+        assert opinion is not None
+        return opinion.state, len(backend.requests)
+
+    assert said_by("openai:small", answer()) == ("answered", 1)
+    assert said_by("openai:large", VIOLATED) == ("answered", 1)
+    assert said_by("openai:small", answer()) == ("answered", 0)
+    assert said_by("openai:odd", "no JSON") == ("invalid", 1)
+    assert said_by("openai:odd", answer()) == ("answered", 1), "no answer is worth keeping"
 
 
 def test_without_a_model_without_a_sidecar_with_a_wrong_token(serve: Serve) -> None:

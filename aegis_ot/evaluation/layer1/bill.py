@@ -28,7 +28,7 @@ class Bill:
     """See the module.
 
     Attributes:
-        models: Who answered, as the service names it.
+        models: Who answered, as the service names it; who was asked, if nobody did.
         asked: Protocols about which a model was asked.
         answered: Of these, how many got an answer.
         usage: Tokens of all calls.
@@ -79,8 +79,7 @@ class Bill:
 
     def lines(self) -> Iterator[str]:
         """For people."""
-        names = ", ".join(self.models) or "nobody"
-        yield f"  model     {names}: {self.answered} of {self.asked} answered"
+        yield f"  model     {', '.join(self.models)}: {self.answered} of {self.asked} answered"
         if self.usage.total_input or self.usage.output:
             yield (
                 f"  tokens    {self.usage.total_input} in ({self.cached_share:.0%} from the "
@@ -114,7 +113,7 @@ def bill_of(replies: Sequence[Reply | None], prices: PriceTable) -> Bill | None:
     unpriced = [r.model for r, cost in zip(asked, costs, strict=True) if cost is None]
     known = [cost for cost in costs if cost is not None]
     return Bill(
-        models=tuple(dict.fromkeys(reply.model for reply in asked)),
+        models=tuple(dict.fromkeys(r.model for r in [r for r in asked if r.answered] or asked)),
         asked=len(asked),
         answered=sum(reply.answered for reply in asked),
         usage=sum(counted, Usage()),

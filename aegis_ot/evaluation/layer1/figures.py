@@ -18,12 +18,14 @@ def draw_ablation(results: Sequence[Layer1Result], folder: Path) -> list[Path]:
 
     Args:
         results: Of one benchmark, one per configuration and model.
-        folder: Where to write; made if need be.
+        folder: Where to write.
 
     Returns:
         The files.
+
+    Raises:
+        OSError: One cannot be written.
     """
-    folder.mkdir(parents=True, exist_ok=True)
     return [
         _draw(results, labels, folder / f"ablation_{labels}.png")
         for labels in ("adjusted", "strict")

@@ -49,7 +49,7 @@ class Overlap:
 
     def __str__(self) -> str:
         if not self.violations:
-            return "no label names any"
+            return "no violation was reported whose label names any"
         return (
             f"{self.labelled_hit}/{self.labelled} labelled ones reported, "
             f"{self.reported_hit}/{self.reported} reported ones labelled, "
