@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import http.client
 import json
+import threading
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -32,6 +33,9 @@ LIVE_WAIT_S = 1.0
 
 _REQUEST_S = 5.0
 _POLL_S = 0.5
+_GRACE_S = 0.25
+"""A socket's own timeout comes first, and says more."""
+
 _LONGEST_ANSWER = 1 << 20
 
 
@@ -96,9 +100,28 @@ def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: fl
         dossier: What to ask about.
         timeout_s: Longest wait, s.
     """
+    heard: list[Opinion] = []
+    thread = threading.Thread(
+        target=lambda: heard.append(_exchange(address, token, dossier, timeout_s)),
+        name="aegis-ot-opinion",
+        daemon=True,
+    )
+    thread.start()
+    # Names that do not resolve and answers that drip outlast every timeout of a socket.
+    thread.join(timeout_s + _GRACE_S)
+    return heard[0] if heard else _too_late(timeout_s)
+
+
+def _too_late(timeout_s: float) -> Opinion:
+    detail = f"the sidecar has not answered in {timeout_s:g} s."
+    return Opinion("timeout", "the sidecar's model", detail)
+
+
+def _exchange(address: str, token: str | None, dossier: Dossier, timeout_s: float) -> Opinion:
     deadline = time.monotonic() + timeout_s
-    line = _Line(address, token)
+    line: _Line | None = None
     try:
+        line = _Line(address, token)
         answer = line.send("POST", "/v1/opinions", dossier.to_json(), deadline)
         while answer.get("opinion") is None:
             left = deadline - time.monotonic()
@@ -110,18 +133,18 @@ def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: fl
             answer = line.send("GET", path, None, deadline)
         return from_json(Opinion, answer["opinion"])
     except TimeoutError:
-        detail = f"the sidecar has not answered in {timeout_s:g} s."
-        return Opinion("timeout", "the sidecar's model", detail)
+        return _too_late(timeout_s)
     except (OSError, http.client.HTTPException) as error:
         detail = f"the sidecar cannot be reached ({type(error).__name__})."
         return Opinion("unavailable", "the sidecar's model", detail)
     except _Refused as error:
         return Opinion(error.state, "the sidecar's model", str(error))
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         detail = f"the sidecar's answer makes no sense ({error})."
         return Opinion("invalid", "the sidecar's model", detail)
     finally:
-        line.close()
+        if line is not None:
+            line.close()
 
 
 class _Refused(Exception):

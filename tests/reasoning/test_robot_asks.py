@@ -31,7 +31,9 @@ from aegis_ot.sidecar import SidecarConfig, create_app
 from aegis_ot.sidecar.config import CameraSettings
 from aegis_ot.vocabulary import to_json
 
-from .samples import SILENT, answer, checked, database, finding
+from ..runtime.live import LiveRun
+from .samples import CONTAMINATED, SILENT, answer, checked, database, finding
+from .wire_server import Answer, WireServer
 
 TOKEN = "robot-token"
 VIOLATED = answer(findings=[finding("PCR-2", ["2:A2", "4:H12"], [11, 15])])
@@ -123,6 +125,19 @@ def test_nobody_waits_longer_than_configured_and_the_answer_is_there_later(serve
     assert backend.asked == 1
 
 
+@pytest.mark.parametrize(
+    "answer",
+    [Answer(drip=True), Answer(hang=True), Answer(body=b"[" * 100_000), Answer(body={"digest": 3})],
+)
+def test_a_sidecar_that_makes_no_sense_holds_nobody(server: WireServer, answer: Answer) -> None:
+    server.answers = [answer]
+    began = time.monotonic()
+    opinion = ask_sidecar(server.url, TOKEN, checked(SILENT)[1], 0.4)
+    assert time.monotonic() - began < 3
+    assert opinion.state in ("timeout", "invalid", "unavailable")
+    assert opinion.detail
+
+
 def test_outages_are_asked_about_again(serve: Serve) -> None:
     backend = ScriptedBackend([State.UNAVAILABLE, VIOLATED])
     address = serve(backend)
@@ -186,9 +201,13 @@ def test_bad_bodies_are_refused(serve: Serve) -> None:
         assert client.post("/v1/opinions", json=values).status_code == 422
 
 
-GUARDED = "from aegis_ot import guard\n" + textwrap.dedent(SILENT).replace(
-    "def run(protocol):", "@guard(opinion='ask')\ndef run(protocol):"
-)
+def _guarded(text: str) -> str:
+    return "from aegis_ot import guard\n" + textwrap.dedent(text).replace(
+        "def run(protocol):", "@guard(opinion='ask')\ndef run(protocol):"
+    )
+
+
+GUARDED = _guarded(SILENT)
 
 
 def _simulate(text: str) -> list[str]:
@@ -209,6 +228,44 @@ def test_the_guard_rejects_what_the_model_shows(
     with pytest.raises(Exception, match="PCR-2"):
         _simulate(GUARDED)
     assert len(backend.requests) == 1
+
+
+def test_a_live_run_takes_the_remembered_verdict(
+    serve: Serve, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lines = answer(findings=[finding("PCR-2", ["2:A2", "4:H12"], [13, 17])])
+    backend = ScriptedBackend(lambda _: lines)
+    monkeypatch.setenv("AEGIS_OT_SIDECAR", serve(backend))
+    monkeypatch.setenv("AEGIS_OT_TOKEN", TOKEN)
+    with pytest.raises(Exception, match="PCR-2"):
+        _simulate(_on_p300(GUARDED))
+    live = _live(_on_p300(GUARDED))
+    assert "PCR-2 (found by the model)" in live.told
+    assert len(backend.requests) == 1, "the analysis had asked"
+    assert not any(command.commandType == "pickUpTip" for command in live.commands)
+
+
+def test_a_live_run_waits_for_nobody(serve: Serve, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What the checks decided ends it, with the model still thinking."""
+    backend = Slow()
+    monkeypatch.setenv("AEGIS_OT_SIDECAR", serve(backend))
+    monkeypatch.setenv("AEGIS_OT_TOKEN", TOKEN)
+    monkeypatch.setenv("AEGIS_OT_OPINION_TIMEOUT_S", "600")
+    live = _live(_on_p300(_guarded(CONTAMINATED)))
+    assert "PCR-2" in live.told
+    assert backend.asked == 1
+    assert not backend.let.is_set()
+
+
+def _on_p300(text: str) -> str:
+    """The pipette that the live run's hardware has."""
+    return text.replace("tiprack_20ul", "tiprack_300ul").replace("p20_single", "p300_single")
+
+
+def _live(text: str) -> LiveRun:
+    live = LiveRun(text).start()
+    live.play()
+    return live.join(60)
 
 
 def test_the_guard_is_served_by_imported_answers(

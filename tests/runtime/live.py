@@ -86,6 +86,13 @@ class LiveRun:
     def status(self) -> str:
         return str(self._orchestrator.get_run_status().value)
 
+    @property
+    def told(self) -> str:
+        """The errors in which the run ended, as the App shows them."""
+        return "\n".join(
+            error.model_dump_json() for error in self._orchestrator.get_state_summary().errors
+        )
+
     def wait_for_status(self, status: str, timeout: float = 10.0) -> None:
         until = time.monotonic() + timeout
         while self.status != status:
