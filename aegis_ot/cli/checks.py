@@ -16,6 +16,7 @@ from ..checking.baseline import baseline_text, read_baseline
 from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
 from ..reports import RENDERERS, check_text
+from ..vocabulary import VerdictWord, counted
 from .app import BROKEN, CLEAN, app
 from .judging import (
     Assay,
@@ -110,8 +111,13 @@ def check(
     if write_baseline:
         write_text(write_baseline, baseline_text(write_baseline, run.protocols))
         count = sum(len(checked.findings) for checked in run.protocols)
-        typer.echo(f"{write_baseline}: {count} findings are known from now on.", err=True)
-        raise typer.Exit(BROKEN if run.exit_code == BROKEN else CLEAN)
+        told = counted(count, "finding is", "findings are")
+        typer.echo(f"{write_baseline}: {told} known from now on.", err=True)
+        if run.exit_code != BROKEN:
+            raise typer.Exit(CLEAN)
+        silent = [c for c in run.protocols if c.unanswered or c.verdict is VerdictWord.ERROR]
+        typer.echo(check_text(dataclasses.replace(run, protocols=silent)), err=True, nl=False)
+        raise typer.Exit(BROKEN)
     _show(run, output_format, output)
     raise typer.Exit(run.exit_code)
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ConfigurationError, DatasetError
+from ..vocabulary import counted
 from .app import app
 
 if TYPE_CHECKING:
@@ -47,9 +48,10 @@ def simulate(
     write_dataset(out, plates, seed, pipette, size=_size(size))
     made = load_dataset(out)
     failures = sum(record.label == "failure" for record in made.records)
+    shown = counted(len(made.records), "trajectory", "trajectories")
     typer.echo(
-        f"{out}: {len(made.records)} trajectories on {len(made.plates)} plates, {failures} of them "
-        "failures; synthetic frames."
+        f"{out}: {shown} on {counted(len(made.plates), 'plate')}, {failures} of them failures; "
+        "synthetic frames."
     )
 
 
@@ -76,9 +78,10 @@ def export(
         told = export_runs(
             store, out, run or (), "default" if boxes == "detector" else boxes, shown
         )
+    written = counted(told.written, "trajectory", "trajectories")
     typer.echo(
-        f"{out}: {told.written} trajectories of {told.runs} runs, {told.failures} of them "
-        f"failures, {told.left_out} left out. The labels are verdicts, not truth."
+        f"{out}: {written} of {counted(told.runs, 'run')}, {told.failures} of them failures, "
+        f"{told.left_out} left out. The labels are verdicts, not truth."
     )
 
 

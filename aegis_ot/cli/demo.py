@@ -10,7 +10,7 @@ import typer
 import aegis_ot
 
 from ..dryrun import DryRun, DryRunSettings, read_script
-from ..vocabulary import Outcome
+from ..vocabulary import Outcome, counted
 from .app import BROKEN, app
 from .dryruns import console, run_and_show, write_report
 
@@ -38,7 +38,8 @@ def demo(
         (rejected.outcome == "rejected", f"{_REJECTED}: rejected before anything moved"),
         (
             watched.outcome == "succeeded" and not watched.flagged,
-            f"{_LONG}: {len(watched.wells)} wells, {_passed(watched)} passed, no false alarm",
+            f"{_LONG}: {counted(len(watched.wells), 'well')}, {_passed(watched)} passed, "
+            "no false alarm",
         ),
         (
             paused.outcome == "stopped"

@@ -17,7 +17,7 @@ from ..dryrun import DryRun, DryRunSettings, Progress, WellRow, dry_run, read_sc
 from ..preflight.checking import summary
 from ..reports import dry_run_html
 from ..sidecar import Judged, make_analyser
-from ..vocabulary import Outcome
+from ..vocabulary import Outcome, counted
 from .app import BROKEN, CLEAN, FINDINGS, app
 
 console = Console(highlight=False)
@@ -110,7 +110,7 @@ def show(result: DryRun) -> None:
     console.print(_table(result.wells))
     passed = sum(row.outcome is Outcome.PASS for row in result.wells)
     console.print(
-        f"{result.protocol}: {len(result.wells)} wells watched on simulated frames, "
+        f"{result.protocol}: {counted(len(result.wells), 'well')} watched on simulated frames, "
         f"{passed} passed, {len(result.flagged)} flagged; run {result.outcome} "
         f"({result.seconds:.1f} s)."
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ConfigurationError
+from ..vocabulary import counted
 from .app import app
 from .checks import write_text
 from .datasets import open_dataset
@@ -62,8 +63,8 @@ def inspect_wells(
     write_text(out, page)
     flagged = sum(well.flagged for well in inspection.wells)
     typer.echo(
-        f"{out}: {len(inspection.wells)} wells ({inspection.source} frames), {flagged} flagged; "
-        f"{len(page.encode()) / 1e6:.1f} MB."
+        f"{out}: {counted(len(inspection.wells), 'well')} ({inspection.source} frames), "
+        f"{flagged} flagged; {len(page.encode()) / 1e6:.1f} MB."
     )
 
 

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from ..checking import CheckSettings, Configuration
-from ..checking.configuration import ConfiguredWaiver
+from ..checking.configuration import TABLE, ConfiguredWaiver
 from ..checking.files import read_csv_paths, read_labware, read_values
 from ..errors import ConfigurationError
 from ..preflight import Database, Options, load_database
 
 DEFAULT_TIMEOUT_S = 120.0
+
+_PROJECT = f"pyproject.toml: {TABLE}"
 
 Files = Annotated[list[Path], typer.Argument(help="Python protocols.")]
 Assay = Annotated[
@@ -123,27 +125,37 @@ def _options(
     ignore: Sequence[str] | None,
 ) -> Options:
     families = [family.family for family in database.families]
+    named, selected = split(assay), split(select)
     return Options(
         assay=tuple(
-            _known(name, families, "--assay: there is no assay family")
-            for name in split(assay) or configured.assay
+            _known(name, families, f"{place}there is no assay family")
+            for name, place in _placed("assay", named, () if named else configured.assay)
         ),
         select=tuple(
-            known_rule(rule, database, "--select: ") for rule in split(select) or configured.select
+            known_rule(rule, database, place)
+            for rule, place in _placed("select", selected, () if selected else configured.select)
         ),
         ignore=tuple(
-            known_rule(rule, database, "--ignore: ")
-            for rule in [*split(ignore), *configured.ignore]
+            known_rule(rule, database, place)
+            for rule, place in _placed("ignore", split(ignore), configured.ignore)
         ),
         severity={
-            known_rule(rule, database, "pyproject.toml: tool.aegis-ot.severity: "): severity
+            known_rule(rule, database, f"{_PROJECT}.severity: "): severity
             for rule, severity in configured.severity.items()
         },
     )
 
 
+def _placed(
+    option: str, given: Iterable[str], configured: Iterable[str]
+) -> Iterator[tuple[str, str]]:
+    """Each value with the place that says it, for a complaint."""
+    yield from ((value, f"--{option}: ") for value in given)
+    yield from ((value, f"{_PROJECT}.{option}: ") for value in configured)
+
+
 def _waivers(database: Database, configured: Configuration) -> tuple[ConfiguredWaiver, ...]:
-    place = "pyproject.toml: tool.aegis-ot.waivers: "
+    place = f"{_PROJECT}.waivers: "
     for waiver in configured.waivers:
         for rule in waiver.rules:
             known_rule(rule, database, place)

@@ -10,6 +10,7 @@ import typer
 
 from ..checking import Asking, check_files, find_configuration
 from ..reasoning import ScriptedBackend, export_requests, import_answers, request_in
+from ..vocabulary import counted
 from .app import BROKEN, app
 from .judging import (
     Assay,
@@ -102,6 +103,6 @@ def import_(
     done = import_answers(answers, out, requests)
     for problem in done.problems:
         typer.echo(problem, err=True)
-    typer.echo(f"{out}: {done.kept} answers kept; use them with --model replay:{out}")
+    typer.echo(f"{out}: {counted(done.kept, 'answer')} kept; use them with --model replay:{out}")
     if done.problems or not done.kept:
         raise typer.Exit(BROKEN)

@@ -15,6 +15,7 @@ from ..preflight import Database, load_database
 from ..preflight.database import shipped_rules
 from ..preflight.examples import ExampleResult
 from ..reports import rule_list, rule_pages, rule_text
+from ..vocabulary import counted
 from .app import CLEAN, FINDINGS, app
 from .checks import write_text
 from .judging import known_rule, one_of, split
@@ -95,8 +96,8 @@ def run_rule_examples(
                     typer.echo(f"{result.rule}: {result.title}: {_wrong(result)}")
     bad = sum(not result.ok for result in results)
     typer.echo(
-        f"{len(wanted)} rules, {len(results)} examples: {len(results) - bad} as promised, "
-        f"{bad} not."
+        f"{counted(len(wanted), 'rule')}, {counted(len(results), 'example')}: "
+        f"{len(results) - bad} as promised, {bad} not."
     )
     raise typer.Exit(FINDINGS if bad else CLEAN)
 
@@ -118,7 +119,7 @@ def write_docs(
         raise typer.Exit(FINDINGS if stale else CLEAN)
     for name, text in pages.items():
         write_text(out / name, text)
-    typer.echo(f"{len(pages)} pages in {out}")
+    typer.echo(f"{counted(len(pages), 'page')} in {out}")
 
 
 def _text(path: Path) -> str | None:

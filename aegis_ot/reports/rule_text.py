@@ -6,6 +6,7 @@ import textwrap
 from collections.abc import Iterator
 
 from ..preflight.rules import Database, Example, Family, RuleSpec
+from ..vocabulary import counted
 
 _WIDTH = 100
 
@@ -67,5 +68,6 @@ def rule_list(database: Database) -> str:
             lines.append(
                 f"  {rule.id:{width}}  {rule.name:{names}}  {rule.severity}{scope}".rstrip()
             )
-    lines.append(f"{len(database.rules)} rules in {len(database.families)} families.")
+    families = counted(len(database.families), "family", "families")
+    lines.append(f"{counted(len(database.rules), 'rule')} in {families}.")
     return "\n".join(lines) + "\n"

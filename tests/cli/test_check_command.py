@@ -67,8 +67,16 @@ def test_text_names_rule_place_and_roles_and_a_baseline_silences(
     aegis: Command, tmp_path: Path
 ) -> None:
     protocol(tmp_path / "p" / "bad.py", tips="once")
+    (tmp_path / "p" / "broken.py").write_text("def run(p:\n", encoding="utf-8")
     first = aegis("check", "p/bad.py", "--explain-roles", "--write-baseline", "known.json")
-    assert first.code == 0
+    told = "known.json: 1 finding is known from now on."
+    assert (first.code, first.out, first.err) == (0, "", told + "\n")
+    second = aegis("check", "p/bad.py", "p/broken.py", "--write-baseline", "known.json")
+    assert (second.code, second.out) == (2, "")
+    assert second.err.splitlines()[:2] == [
+        told,
+        "p/broken.py:1: error: cannot be judged: not valid Python: '(' was never closed",
+    ]
     shown = aegis("check", "p/bad.py", "--explain-roles")
     assert shown.code == 1
     assert f"--> p/bad.py:{BAD_LINE}" in shown.out
@@ -99,6 +107,48 @@ def test_the_configuration_sets_severity_and_waives(aegis: Command, tmp_path: Pa
     )
     result = aegis("check", "bad.py", "--select", "pcr-3,PCR-1")
     assert (result.code, "PCR-3 waived: known" in result.out) == (0, True)
+
+
+def test_a_wrong_name_in_the_configuration_is_told_with_its_place(
+    aegis: Command, tmp_path: Path
+) -> None:
+    pytest.importorskip("tomllib")
+    protocol(tmp_path / "good.py")
+    config = tmp_path / "pyproject.toml"
+    for line, words in [
+        ('ignore = ["PCR-33"]', "tool.aegis-ot.ignore: there is no rule 'PCR-33'; did you mean"),
+        ('select = ["SD-9"]', "tool.aegis-ot.select: there is no rule 'SD-9'"),
+        ('assay = "qpcr"', "tool.aegis-ot.assay: there is no assay family 'qpcr'"),
+    ]:
+        config.write_text(f"[tool.aegis-ot]\n{line}\n", encoding="utf-8")
+        result = aegis("check", "good.py")
+        assert (result.code, result.out) == (2, "")
+        assert result.err.startswith(f"aegis-ot: pyproject.toml: {words}")
+
+
+SIXTH = Path(__file__).parents[2] / "examples" / "rules" / "elisa.json"
+PLATE = """
+metadata = {"apiLevel": "2.15", "protocolName": "Sandwich ELISA"}
+
+
+def run(protocol):
+    tips = protocol.load_labware("opentrons_96_tiprack_300ul", 1)
+    elisa_plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 2)
+    tubes = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 3)
+    p300 = protocol.load_instrument("p300_single_gen2", "left", [tips])
+    serum_samples = tubes.rows()[0][:3]
+    p300.transfer(50, serum_samples, elisa_plate.columns()[0][:3], new_tip="once")
+"""
+
+
+def test_a_family_of_ones_own_is_a_file(aegis: Command, tmp_path: Path) -> None:
+    (tmp_path / "plate.py").write_text(PLATE, encoding="utf-8")
+    result = aegis("check", "plate.py", "--rules", SIXTH, "-f", "json")
+    (entry,) = json.loads(result.out)["protocols"]
+    assert (result.code, entry["family"]) == (1, "elisa")
+    assert [finding["rule"] for finding in entry["findings"]] == ["ELISA-2"]
+    assert {undecided["rule"] for undecided in entry["undecided"]} == {"ELISA-1", "ELISA-3"}
+    assert "ELISA-2" in aegis("explain", "elisa-2", "--rules", SIXTH).out
 
 
 WRONG: list[tuple[list[str], str]] = [

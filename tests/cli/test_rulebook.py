@@ -44,7 +44,7 @@ def test_a_users_own_family_is_tested_and_a_broken_promise_reported(
     path = tmp_path / "ours.json"
     path.write_text(json.dumps(family), encoding="utf-8")
     kept = aegis("rules", "test", path)
-    assert (kept.code, kept.out) == (0, "1 rules, 2 examples: 2 as promised, 0 not.\n")
+    assert (kept.code, kept.out) == (0, "1 rule, 2 examples: 2 as promised, 0 not.\n")
     rule["examples"] = {"passing": [good], "failing": [{**bad, "code": good["code"]}]}
     path.write_text(json.dumps(family), encoding="utf-8")
     broken = aegis("rules", "test", path)
