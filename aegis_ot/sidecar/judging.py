@@ -11,11 +11,12 @@ from ..errors import ConfigurationError, ModelError
 from ..vision.calibration import PRESETS
 from ..vision.column_reader import MeasuredColumns
 from ..vision.detection import load_detector
-from ..vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
+from ..vision.gates import ConfirmingGate, OperatorGate
 from ..vision.models import SHIPPED, load_model
 from ..vision.monitor import MonitorSettings, RunMonitor
 from ..vision.scorers import make_scorer
 from ..vision.types import Scorer
+from ..vision.volumetric_gate import VolumetricGate
 from .analysis import Analyser
 from .config import CascadeSettings
 

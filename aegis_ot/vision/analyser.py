@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -15,11 +14,12 @@ from .camera import Frame
 from .cascade import Triage
 from .consistency import FREE, second_look
 from .evidence import evidence_of
-from .gates import Case, ConfirmingGate, GateDecision, VolumetricGate, examine_in_turn
+from .gates import Case, ConfirmingGate, GateDecision, examine_in_turn
 from .measuring import TipView
 from .stream import OpenTrajectory, Stream
 from .tips import pipette_class, tip_for
 from .types import Detector, TipDetection, TrajectorySample
+from .volumetric_gate import VolumetricGate
 
 MOST_OPEN = 32
 """Trajectories whose frames are kept at once: one that is never judged must not fill memory."""
@@ -97,8 +97,9 @@ class RunAnalyser:
         sample = self._sample(trajectory, seen)
         case = self._case(stream, seen, sample)
         volumetric = VolumetricGate().examine(case)
-        contradiction = volumetric.reason if volumetric.outcome is Outcome.FAIL else ""
-        triage = stream.cascade.triage(case.scores, case.missing, contradiction)
+        speaks = volumetric.outcome is Outcome.FAIL or case.alarming
+        against = volumetric.reason if speaks else ""
+        triage = stream.cascade.triage(case.scores, case.missing, against)
         case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
         self._learn(stream, case, seen, decision)
@@ -144,11 +145,7 @@ class RunAnalyser:
         )
         readings = stream.reader.read(seen.looks, sample.expected_ul)
         scores = stream.scorer.scores(sample, seen.excused)
-        p_value = None
-        if stream.scorer.gives_p_values:
-            # Of this run's normals: all of them may look unusual to a model of other runs.
-            score = scores.get(stream.scorer.name, 0.0)
-            p_value = math.exp(-max(score - stream.usual_score, 0.0))
+        p_value = stream.p_value(scores)
         return Case(sample, Route.GREY_ZONE, scores, readings, missing, stream.learned > 0, p_value)
 
     def _look(
@@ -197,6 +194,8 @@ class RunAnalyser:
             gross = VolumetricGate().examine(case)
             if gross.outcome is Outcome.FAIL:
                 return gross
+            if case.alarming or triage.missing:
+                return replace(gross, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR)
             number = f"Calibration well {stream.first_wells} of {stream.settings.wells}."
             return replace(gross, outcome=Outcome.PASS, gate=Gate.NONE, reason=number)
         if not triage.to_gate:

@@ -199,6 +199,11 @@ class RunCalibration:
         return tuple(self._first)
 
     @property
+    def normals(self) -> tuple[float, ...]:
+        """Scores of the latest wells that were judged normal, as many as are remembered."""
+        return tuple([*self._first, *self._recent][-self.settings.memory :])
+
+    @property
     def band(self) -> tuple[float, float] | None:
         """Silent-pass band; its lower end is minus infinity when one-sided."""
         if self.state is not CalibrationState.READY:
@@ -206,11 +211,6 @@ class RunCalibration:
         width = self.settings.multiplier * self._spread
         low = self._median - width if self.settings.two_sided else -math.inf
         return low, max(self._median + width, self.least_alarm)
-
-    @property
-    def median(self) -> float:
-        """Median score of this run's normals; not a number before the calibration."""
-        return self._median
 
     def add(self, score: float, volume_ul: float | None = None) -> CalibrationState:
         """Take the score of one calibration well; the last one closes the calibration.
@@ -251,8 +251,7 @@ class RunCalibration:
         del self._recent[: -self.settings.memory]
         # The first wells stay until enough accepted ones replace them: accepted wells are cut
         # off at the band's edge, and a band learned from them alone would only ever shrink.
-        kept = self._first + self._recent
-        self._median, self._spread = self._anchor(kept[-self.settings.memory :])
+        self._median, self._spread = self._anchor(self.normals)
 
     def _anchor(self, scores: Sequence[float]) -> tuple[float, float]:
         values = np.asarray(scores, dtype=np.float64)

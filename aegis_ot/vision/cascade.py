@@ -102,8 +102,8 @@ class Cascade:
         Args:
             scores: Anomaly scores by scorer name.
             missing: Keyframes in which no tip was found.
-            contradiction: How the measured columns contradict the protocol's volumes, if they
-                do: reason enough for the grey zone, whatever the scores say.
+            contradiction: How the measured columns contradict the protocol's volumes, or what
+                else looks alarming: reason enough for the grey zone inside any band.
         """
         if self.state is CalibrationState.COLLECTING:
             return Triage(

@@ -208,6 +208,10 @@ class MeasuredColumns:
                 return None if full else _FIRST_VAGUE
         volume = self._scale.volume(tip, found) if found != place else expected_ul
         sigma = self._scale.sigma_ul(tip, found, max(volume, expected_ul))
+        if most_ul > volume and found != place and not wet.known(top, found):
+            # It ends somewhere in rows that no other well showed: most likely where it was drawn.
+            sigma = float(np.hypot(sigma, 0.5 * (most_ul - volume)))
+            volume, found = most_ul, top
         gap, gap_sigma = self._gap(wet, found, seen) if volume > 0 and full else (0.0, 0.0)
         tested = self._usual.tested(full=full)
         return ColumnReading(

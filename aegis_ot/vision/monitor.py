@@ -12,10 +12,11 @@ from dataclasses import dataclass, field
 from .analyser import Judged, RunAnalyser
 from .calibration import CalibrationSettings, NormalPool
 from .column_reader import MeasuredColumns
-from .gates import ConfirmingGate, OperatorGate, VolumetricGate
+from .gates import ConfirmingGate, OperatorGate
 from .measuring import ColumnReader
 from .stream import Stream
 from .types import Detector, Scorer
+from .volumetric_gate import VolumetricGate
 
 __all__ = ["Judged", "MonitorSettings", "RunMonitor"]
 

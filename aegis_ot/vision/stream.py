@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from ..vocabulary import Keyframe, KeyframeKind, Outcome, Route
-from .calibration import CalibrationSettings, CalibrationState, NormalPool
+from .calibration import CalibrationSettings, NormalPool
 from .cascade import Cascade
 from .column_reader import MeasuredColumns
 from .consistency import TipConsistency
-from .gates import Case, VolumetricGate
+from .gates import Case
 from .measuring import ColumnReader
 from .run_scorer import LEAST_ALARM, RunScorer
 from .types import Image, Scorer, TipDetection, TrajectorySample
+from .volumetric_gate import VolumetricGate
+
+_MODEL_WEIGHT = 4.0
+"""How many of the run's own wells above their median the model's scale, one nat, is worth."""
+
+_LEAST_SCALE = 0.3
+"""Smallest scale, nats, and as a share of the median: a few wells can be alike by chance, and
+where all wells look unusual to the model, so they differ by more."""
 
 
 @dataclass
@@ -73,12 +84,23 @@ class Stream:
         self.doubt = ""
         self._first: list[tuple[Mapping[KeyframeKind, object], TrajectorySample]] = []
 
-    @property
-    def usual_score(self) -> float:
-        """Median score of this run's normal wells; 0 before it is known."""
-        calibration = self.cascade.calibrations[self.scorer.name]
-        ready = calibration.state is CalibrationState.READY
-        return max(calibration.median, 0.0) if ready else 0.0
+    def p_value(self, scores: Mapping[str, float]) -> float | None:
+        """How often a normal well of this run looks this unusual; ``None``: cannot be told.
+
+        All wells of a run may look unusual to a model of other runs. So the score is taken
+        against this run's own normal wells: beyond their median it falls off exponentially, as
+        it does among the wells of the model, with a scale that theirs draw away from the
+        model's.
+        """
+        known = np.array(self.cascade.calibrations[self.scorer.name].normals)
+        score = scores.get(self.scorer.name)
+        if not self.scorer.gives_p_values or score is None or not len(known):
+            return None
+        middle = float(np.median(known))
+        over = float(np.maximum(known - middle, 0.0).sum())
+        scale = (_MODEL_WEIGHT + over) / (_MODEL_WEIGHT + 0.5 * len(known))
+        scale = max(scale, _LEAST_SCALE, _LEAST_SCALE * middle)
+        return math.exp(-max(score - middle, 0.0) / scale)
 
     def learn(
         self, sample: TrajectorySample, looks: dict[KeyframeKind, object], scored: bool

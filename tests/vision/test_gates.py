@@ -7,14 +7,15 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.vision.gates import Case, OperatorGate, VolumetricGate, examine_in_turn
+from aegis_ot.vision.gates import Case, OperatorGate, examine_in_turn
 from aegis_ot.vision.measuring import ColumnReading
+from aegis_ot.vision.volumetric_gate import VolumetricGate
 from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
 
 from .samples import sample
 
-FULL = ColumnReading(100.0, 2.0)
-EMPTY = ColumnReading(0.0, 0.5)
+FULL = ColumnReading(100.0, 2.0, tested=6)
+EMPTY = ColumnReading(0.0, 0.5, tested=6)
 
 
 def case(
@@ -60,7 +61,7 @@ def test_differences_within_the_uncertainty_do_not_fail() -> None:
 
 @pytest.mark.parametrize(
     "seen",
-    [case(None, None), case(FULL, None), case(ColumnReading(100, 40.0), EMPTY)],
+    [case(None, None), case(FULL, None), case(ColumnReading(100, 40.0, tested=6), EMPTY)],
 )
 def test_what_cannot_be_measured_is_undecided(seen: Case) -> None:
     assert VolumetricGate().examine(seen).outcome is Outcome.UNDECIDED
@@ -100,15 +101,27 @@ def test_an_unusual_tip_is_asked_about_though_its_column_cannot_be_measured() ->
     assert VolumetricGate().examine(blind).outcome is Outcome.UNDECIDED
 
 
-def test_an_image_score_alone_stops_no_run() -> None:
+def test_in_a_long_run_an_image_score_alone_stops_nothing_that_happens_by_chance() -> None:
     decision = VolumetricGate().examine(replace(case(None, None), p_value=0.01))
     assert decision.outcome is Outcome.PASS
     assert "cannot be measured" in decision.reason
 
 
+def test_on_a_few_wells_what_the_score_flags_is_not_passed_for_want_of_proof() -> None:
+    for seen in (case(None, None), case()):
+        flagged = replace(seen, p_value=0.01, alarm_p=0.05)
+        assert VolumetricGate().examine(flagged).outcome is Outcome.UNDECIDED
+
+
+def test_agreement_of_untested_readings_is_no_proof() -> None:
+    untested = case(ColumnReading(100.0, 2.0), ColumnReading(0.0, 0.5))
+    assert VolumetricGate().examine(untested).outcome is Outcome.UNDECIDED
+
+
 def test_a_calibration_wells_column_of_another_height_proves_little_an_empty_tip_much() -> None:
     for seen, outcome in ((60.0, Outcome.PASS), (5.0, Outcome.FAIL)):
-        first = replace(case(ColumnReading(seen, 2.0), EMPTY, Route.CALIBRATION), p_value=1.0)
+        reading = ColumnReading(seen, 2.0, tested=4)
+        first = replace(case(reading, EMPTY, Route.CALIBRATION), p_value=1.0)
         assert VolumetricGate().examine(first).outcome is outcome
 
 

@@ -41,28 +41,44 @@ class Told:
         return self.found
 
 
-def keyframes(wells: int, channels: int = 1, reagent: str = "red dye") -> Iterator[Keyframe]:
+EQUAL_THEN_VARIED = (*[150.0] * 6, *(120.0, 135.0, 160.0, 180.0, 110.0, 145.0, 130.0, 165.0) * 2)
+
+
+def keyframes(
+    wells: int,
+    channels: int = 1,
+    reagent: str = "red dye",
+    volumes: Sequence[float] = VOLUMES,
+    pipette: str = "p1000",
+) -> Iterator[Keyframe]:
     sequence = 0
     for number in range(wells):
-        volume = VOLUMES[number % len(VOLUMES)]
+        volume = volumes[number % len(volumes)]
         well = WellRef("plate", f"{'ABCDEFGH'[number % 8]}{number // 8 + 1}", "plate", "2")
         source = WellRef("reservoir", "A1", "reservoir", "1")
         for kind in KeyframeKind:
             loaded = kind in (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT)
             yield Keyframe(
-                "run", sequence, number, kind, "p1000_single_gen2", "left", channels,
-                f"1:{number}", (source,), (well,), volume, volume if loaded else 0.0, 1000.0,
-                reagent,
+                "run", sequence, number, kind, f"{pipette}_single_gen2", "left", channels,
+                f"1:{number}", (source,), (well,), volume, volume if loaded else 0.0,
+                float(pipette[1:]), reagent,
             )  # fmt: skip
             sequence += 1
 
 
-def judge_run(wells: int, faults: Sequence[str] = (), history: Sequence[Judged] = ()) -> list:
-    parameters = SessionParameters.webcam(0)
-    plan, rng, detector = FaultPlan(faults), np.random.default_rng(0), Told()
+def judge_run(
+    wells: int,
+    faults: Sequence[str] = (),
+    history: Sequence[Judged] = (),
+    seed: int = 0,
+    volumes: Sequence[float] = VOLUMES,
+    pipette: str = "p1000",
+) -> list:
+    parameters = SessionParameters.webcam(seed)
+    plan, rng, detector = FaultPlan(faults), np.random.default_rng(seed), Told()
     analyser = RunMonitor(detector).begin("run", history)
     judged = []
-    for keyframe in keyframes(wells):
+    for keyframe in keyframes(wells, volumes=volumes, pipette=pipette):
         contents = plan.apply(keyframe).contents
         state = place_tip(
             parameters, keyframe.kind, tip_for(keyframe.pipette, keyframe.capacity_ul), contents,
@@ -87,6 +103,13 @@ def run() -> list:
 def test_normal_wells_raise_no_alarm(run) -> None:
     normal = [verdict for verdict, _ in run if verdict.trajectory + 1 not in (10, 14, 18, 22)]
     assert {verdict.outcome for verdict in normal} == {Outcome.PASS}
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_other_volumes_than_those_of_equal_first_wells_raise_no_alarm(seed) -> None:
+    """Rows that no calibration well filled are unknown: they must not lengthen the column."""
+    judged = judge_run(22, seed=seed, volumes=EQUAL_THEN_VARIED, pipette="p300")
+    assert {verdict.outcome for verdict, _ in judged} == {Outcome.PASS}
 
 
 def test_the_first_six_wells_calibrate(run) -> None:

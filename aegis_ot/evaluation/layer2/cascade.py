@@ -17,12 +17,13 @@ from ...vision.calibration import PRESETS
 from ...vision.cascade import Cascade, Triage
 from ...vision.column_reader import MeasuredColumns
 from ...vision.crops import missing_tips
-from ...vision.gates import Case, GateDecision, OperatorGate, VolumetricGate, examine_in_turn
+from ...vision.gates import RUN_ALARM, Case, GateDecision, OperatorGate, examine_in_turn
 from ...vision.measuring import ColumnReading, TipView
 from ...vision.tips import pipette_class, tip_for
 from ...vision.types import TrajectorySample
+from ...vision.volumetric_gate import VolumetricGate
 from ...vocabulary import Gate, KeyframeKind, Outcome, Route
-from .lopo import HeldOut, ScoredWell
+from .lopo import ALPHA, HeldOut, ScoredWell
 
 BAND_WELLS = 4
 """Calibration wells from which a band is set."""
@@ -101,9 +102,15 @@ class _Plate:
             return JudgedWell(well, triage, readings, decision)
         missing = missing_tips(sample)
         p_value = math.exp(-well.score) if self._p_values else None
-        case = Case(sample, Route.GREY_ZONE, self._scores(well), readings, missing, p_value=p_value)
+        # On a handful of wells, what the scorer flags and nothing clears stays flagged. A long
+        # run has its own band, and asks more of an alarm.
+        alarm = RUN_ALARM if self._banded else ALPHA
+        scores = self._scores(well)
+        case = Case(
+            sample, Route.GREY_ZONE, scores, readings, missing, p_value=p_value, alarm_p=alarm
+        )
         volumes = self._gates[0].examine(case)
-        contradiction = volumes.reason if volumes.outcome is Outcome.FAIL else ""
+        contradiction = volumes.reason if volumes.outcome is Outcome.FAIL or case.alarming else ""
         triage = self._triage(well, contradiction)
         if not triage.to_gate:
             decision = GateDecision(Outcome.PASS, Gate.NONE, triage.reason)

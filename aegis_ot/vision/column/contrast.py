@@ -95,11 +95,12 @@ class Wetness:
 
     def bracketed(self, end: float, reach: float) -> bool:
         """Whether most rows within ``reach`` of a column's end, above it and below, are known."""
-        sides = (
-            (self.u > end - reach) & (self.u < end),
-            (self.u > end) & (self.u < end + reach),
-        )
-        return all(rows.any() and float((self.weight[rows] > 0).mean()) > 0.5 for rows in sides)
+        return self.known(end - reach, end) and self.known(end, end + reach)
+
+    def known(self, low: float, high: float) -> bool:
+        """Whether anything is known of most rows between ``low`` and ``high`` (u)."""
+        rows = (self.u > low) & (self.u < high)
+        return bool(rows.any()) and float((self.weight[rows] > 0).mean()) > 0.5
 
     def longest_gap(self, low: float, high: float) -> tuple[float, float, float]:
         """Strongest run of empty rows between ``low`` and ``high``: strength, its ends (u)."""
