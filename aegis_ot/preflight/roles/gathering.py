@@ -46,7 +46,7 @@ def gather(
         *written_wells(deck, facts),
         *step_comments(trace, facts, common),
         *call_arguments(trace, facts),
-        *loop_levels(trace, facts, common),
+        *loop_levels(trace, names, facts, common),
     ]
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
 

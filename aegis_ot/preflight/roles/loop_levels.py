@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 
+from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import Lexicon, Loop, SourceFacts, origins
+from ..text import Lexicon, Loop, SourceFacts, Values, origins
 from ..trace import Trace
 from .clues import Clue, Strength
 from .plate_maps import is_number
@@ -15,7 +17,9 @@ Turn = tuple[WellRef, ...]
 """The wells that one step draws from: one per channel."""
 
 
-def loop_levels(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[Clue]:
+def loop_levels(
+    trace: Trace, names: Sequence[NameBinding], facts: SourceFacts, common: Common
+) -> Iterator[Clue]:
     """``for tube, conc in STANDARDS: p.aspirate(5, rack[tube])``: one level per well drawn from.
 
     The wells that a line draws from, in order, are as many as the loop has turns.
@@ -28,7 +32,7 @@ def loop_levels(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[Cl
                 continue
             if loop.names.isdisjoint(origins(facts, facts.draws[line], lines)):
                 continue
-            levels = _levels(loop, len(turns), common)
+            levels = _levels(loop, len(turns), names, common)
             if levels:
                 yield Clue(
                     Strength.NAME,
@@ -59,20 +63,54 @@ def _turns(trace: Trace, facts: SourceFacts) -> dict[int, tuple[list[Turn], set[
     }
 
 
-def _levels(loop: Loop, count: int, common: Common) -> tuple[float, ...]:
+def _levels(
+    loop: Loop, count: int, names: Sequence[NameBinding], common: Common
+) -> tuple[float, ...]:
     """The one column of numbers that speaks of amounts, as long as there are wells."""
     amounts = Lexicon({"amount": common.amounts})
     counts = Lexicon({"count": common.countings})
     named, listed = set(), set()
     for values in loop.values:
-        numbers = tuple(float(item) for item in values.column if is_number(item))
-        if len(numbers) != count or len(values.column) != count or len(set(numbers)) < 2:
-            continue
-        if amounts.find(values.name):
-            named.add(numbers)
-        elif amounts.find(values.source) and not counts.find(values.name):
-            listed.add(numbers)
+        for name, column in _columns(values, names):
+            numbers = tuple(found for found in map(_number, column) if found is not None)
+            if len(numbers) != count or len(column) != count or len(set(numbers)) < 2:
+                continue
+            if amounts.find(name):
+                named.add(numbers)
+            elif amounts.find(values.source) and not counts.find(name):
+                listed.add(numbers)
     for found in (named, listed):
         if found:
             return found.pop() if len(found) == 1 else ()
     return ()
+
+
+def _columns(
+    values: Values, names: Sequence[NameBinding]
+) -> Iterator[tuple[str, tuple[object, ...]]]:
+    """What a name of a loop holds in turn; rows that are no literal come from the rehearsal."""
+    if values.column is not None:
+        yield values.name, values.column
+        return
+    for binding in names:
+        if binding.name != values.source:
+            continue
+        rows = [row.cells for row in binding.rows]
+        if values.at is not None:
+            if all(len(row) > values.at for row in rows):
+                yield values.name, tuple(row[values.at][1] for row in rows)
+            continue
+        if binding.values:
+            yield values.name, binding.values
+        for column in dict.fromkeys(name for row in rows for name, _ in row if name):
+            found = [dict(row).get(column) for row in rows]
+            yield f"{values.name} {column}", tuple(found)
+
+
+def _number(value: object) -> float | None:
+    if is_number(value):
+        return float(value)  # type: ignore[arg-type]
+    if isinstance(value, str):
+        with suppress(ValueError):
+            return float(value)
+    return None

@@ -21,7 +21,7 @@ def named_wells(
 ) -> Iterator[Clue]:
     """What variables were called that held wells or whole labware."""
     comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
-    keyed = _numeric_keys(names)
+    keyed = {**_keyed_amounts(names, facts, common), **_numeric_keys(names)}
     for binding in names:
         base = binding.name.split("[", 1)[0]
         loose = (binding.function, base) in facts.loose or (
@@ -65,8 +65,10 @@ def call_arguments(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
         if visit.mixing or visit.line not in facts.arguments:
             continue
         side = "source" if visit.kind.value == "aspirate" else "destination"
-        for wanted, name in facts.arguments[visit.line]:
-            if wanted == side:
+        for wanted, argument in facts.arguments[visit.line]:
+            if wanted != side or _counts(facts, argument):
+                continue
+            for name in (argument, *_looped_over(facts, argument, visit.line)):
                 used.setdefault((side, name), {})[visit.well.ref] = None
                 at_line.setdefault(name, visit.line)
     for (_, name), wells in used.items():
@@ -74,6 +76,20 @@ def call_arguments(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
         yield Clue(
             Strength.LOOSE_NAME, name, tuple(wells), line, f"name `{name}` used at line {line}"
         )
+
+
+def _looped_over(facts: SourceFacts, name: str, line: int) -> Iterator[str]:
+    """The lists that loops around a line run over to give this name its values."""
+    for loop in facts.runs:
+        if 0 < loop.first <= line <= loop.last:
+            for values in loop.values:
+                if values.name == name and values.source.isidentifier():
+                    yield values.source
+
+
+def _counts(facts: SourceFacts, name: str) -> bool:
+    """Whether a name is a running number: it says which turn it is, not what the well holds."""
+    return any(other in ("range", "len") for other, _, _ in facts.comes_from.get(name, ()))
 
 
 def _numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
@@ -91,6 +107,28 @@ def _numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
             [float(n + 1) for n in range(len(values))],
         )
         found.update({name: None if counting else value for name, value in group.items()})
+    return found
+
+
+def _keyed_amounts(
+    names: Sequence[NameBinding], facts: SourceFacts, common: Common
+) -> dict[str, float | None]:
+    """Level of ``standards["s1"]`` where a dict of amounts has the same keys: ``CONC["s1"]``."""
+    groups: dict[str, dict[str, str]] = {}
+    for binding in names:
+        match = re.fullmatch(r"([^\[\]]+)\[(['\"])(.+)\2\]", binding.name)
+        if match:
+            groups.setdefault(match[1], {})[match[3]] = binding.name
+    amounts = Lexicon({"amount": common.amounts})
+    found: dict[str, float | None] = {}
+    for constant, value in facts.constants.items():
+        if not isinstance(value, dict) or not amounts.find(constant):
+            continue
+        if not all(is_number(number) for number in value.values()):
+            continue
+        for group in groups.values():
+            if len(group) > 1 and group.keys() <= value.keys():
+                found.update({name: float(value[key]) for key, name in group.items()})
     return found
 
 

@@ -1,6 +1,6 @@
 """What the text of a protocol says: its comments, its constants, the words in its names."""
 
-from .facts import Loop, Place, SourceFacts
+from .facts import Loop, Place, SourceFacts, Values
 from .flow import origins
 from .levels import direction_in, level_in, name_without_level, numbers_in_order
 from .reading import read_source
@@ -12,6 +12,7 @@ __all__ = [
     "Match",
     "Place",
     "SourceFacts",
+    "Values",
     "direction_in",
     "level_in",
     "name_without_level",

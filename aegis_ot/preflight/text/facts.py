@@ -36,21 +36,23 @@ class Values:
     Attributes:
         name: The name, with the key where rows are dicts or tuples: ``"std conc"``.
         source: The names in what the loop runs over.
-        column: The values.
+        column: The values; ``None`` where ``source`` is no literal.
+        at: Place of the name in each row that ``source`` holds; ``None`` for the whole row.
     """
 
     name: str
     source: str
-    column: tuple[Any, ...]
+    column: tuple[Any, ...] | None
+    at: int | None = None
 
 
 @dataclass(frozen=True)
 class Loop:
-    """A loop over literals.
+    """A loop over literals, or over names that the rehearsal may know.
 
     Attributes:
         names: Names whose value changes with each turn; for a comprehension, its result.
-        values: What the names of its target hold, where that is known.
+        values: What the names of its target hold, as far as that is known.
         first: First line on which it counts.
         last: Last such line.
     """
@@ -82,7 +84,7 @@ class SourceFacts:
         liquids: Description of each liquid defined in the text, by its name.
         comes_from: For each name, the names that its values are made of, with the first and the
             last line on which that holds.
-        runs: Loops whose values are known.
+        runs: Loops over literals and over names.
         draws: By line, all names in what a call draws from.
         names: Every identifier of the text, once.
         strings: Every other string of the text, with its line.

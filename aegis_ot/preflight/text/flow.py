@@ -107,9 +107,11 @@ def _loop(
             for name in names_in(part):
                 _comes(facts, name, iterable, span)
         rows = _sequence(iterable, facts.constants)
+        beside = " ".join(names_in(iterable))
         if rows is not None:
-            beside = " ".join(names_in(iterable))
             values += [Values(name, beside, column) for name, column in _columns(part, rows)]
+        elif isinstance(iterable, ast.Name):
+            values += [Values(name, beside, None, at) for name, at in _unread(part)]
     carriers = frozenset(names)
     if values and carriers:
         facts.runs.append(Loop(carriers, tuple(values), *span))
@@ -148,6 +150,16 @@ def _columns(target: ast.expr, rows: Sequence[Any]) -> Iterator[tuple[str, tuple
                 yield f"{target.id} {key}", tuple(row[key] for row in rows)
             except (TypeError, KeyError, IndexError):
                 continue
+
+
+def _unread(target: ast.expr) -> Iterator[tuple[str, int | None]]:
+    """The names of a target, with their places in rows that only the rehearsal knows."""
+    if isinstance(target, ast.Name):
+        yield target.id, None
+    elif isinstance(target, (ast.Tuple, ast.List)):
+        for at, part in enumerate(target.elts):
+            if isinstance(part, ast.Name):
+                yield part.id, at
 
 
 def _sequence(node: ast.expr, constants: Mapping[str, Any]) -> Sequence[Any] | None:

@@ -148,10 +148,9 @@ class SyntaxReader:
         given = [(sides.get(n), a) for n, a in enumerate(node.args)]
         given += [(sides.get(k.arg), k.value) for k in node.keywords if k.arg]
         for side, value in given:
-            while isinstance(value, (ast.Call, ast.Attribute)):
-                value = value.func if isinstance(value, ast.Call) else value.value
-            if side and isinstance(value, ast.Name):
-                self._facts.arguments.setdefault(node.lineno, []).append((side, value.id))
+            name = _root(value.slice if isinstance(value, ast.Subscript) else value)
+            if side and name:
+                self._facts.arguments.setdefault(node.lineno, []).append((side, name))
 
     def _liquid(self, node: ast.Call) -> None:
         values = dict(
@@ -170,3 +169,10 @@ class SyntaxReader:
             self._facts.places.append(
                 Place(labware, names, index_value(index, self._facts.constants), kind, line)
             )
+
+
+def _root(value: ast.expr) -> str:
+    """``std`` in ``std``, ``std.top()``, ``std.tube`` and ``std["tube"]``, else ``""``."""
+    while isinstance(value, (ast.Call, ast.Attribute, ast.Subscript)):
+        value = value.func if isinstance(value, ast.Call) else value.value
+    return value.id if isinstance(value, ast.Name) else ""
