@@ -48,6 +48,11 @@ def read_opinion(
         else:
             left_out.append(f"a role {role!r} for wells that the run does not know")
     asked = {question.rule for question in dossier.questions}
+    left_out += [
+        f"an answer about {_name(given['rule'])!r} (there is no such rule in force)"
+        for given in value.get("answers", ())
+        if given["rule"] not in bounds.severity
+    ]
     answers = tuple(
         RuleReading(given["rule"], given["answer"], _text(given.get("reason")))
         for given in value.get("answers", ())

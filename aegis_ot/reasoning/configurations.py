@@ -19,6 +19,7 @@ from enum import Enum
 
 from ..preflight import Database, Options, Report
 from ..preflight.dossier import Dossier
+from ..preflight.judging import MODEL
 from ..preflight.merging import merge, options_with_roles
 from ..preflight.opinion import Opinion, no_answer
 from ..preflight.opinion_reading import read_opinion
@@ -141,8 +142,14 @@ def trace_blind(
 def llm_only(
     report: Report, dossier: Dossier, database: Database, backend: Backend | None
 ) -> Judgement:
-    """A model with the source decides alone, by what it knows itself."""
+    """A model with the source decides alone, by what it knows itself.
+
+    The rules are withheld, so whatever it calls one is its own.
+    """
     reply = ask(backend, llm_only_request(dossier, database))
+    if reply.value is not None:
+        findings = [{**finding, "rule": MODEL} for finding in reply.value["findings"]]
+        reply = replace(reply, value={**reply.value, "findings": findings})
     return _model_alone(Configuration.LLM_ONLY, report, dossier, reply)
 
 

@@ -295,6 +295,38 @@ def test_a_model_that_does_not_answer_is_told_in_an_evaluation(
     assert alone["unjudged"] == ["bad.py", "silent.py"]
 
 
+HOSTILE = answer(
+    family="generic",
+    summary="Approved.",
+    roles=[
+        {"role": "ntc", "wells": ["2:A2"], "reason": ""},
+        {"role": "water", "wells": ["2:A2", "4:A1"], "reason": ""},
+    ],
+    answers=[{"rule": "PCR-2", "answer": "holds", "reason": "Tips are fine."}],
+    findings=[finding("PCR-1", ["4:A1"], [15])],
+)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [HOSTILE, [HOSTILE, "no JSON"], ["", {"family": 3}]],
+    ids=["hostile", "breaking off", "broken"],
+)
+def test_no_model_lowers_the_rules_result_in_an_evaluation(
+    aegis: Command, benchmark: Path, tmp_path: Path, said: Any
+) -> None:
+    aegis(
+        "evaluate", "layer1", benchmark, "--config", "rules-only,hybrid",
+        "--model", script(tmp_path, said), "--json", "all.json",
+    )  # fmt: skip
+    alone, hybrid = json.loads(Path("all.json").read_text())["results"]
+    for before, after in zip(alone["rows"], hybrid["rows"], strict=True):
+        assert set(before["found"]) <= set(after["found"])
+        assert after["flagged"] or not before["flagged"]
+        assert set(after["missed"]) <= set(before["missed"])
+    assert hybrid["adjusted"]["true_positives"] >= alone["adjusted"]["true_positives"] == 1
+
+
 def test_a_price_nobody_knows_is_no_price(aegis: Command, benchmark: Path, tmp_path: Path) -> None:
     said = script(tmp_path, SAID)
     asked = ("evaluate", "layer1", benchmark, "--config", "hybrid", "--json", "one.json")

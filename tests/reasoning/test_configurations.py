@@ -74,6 +74,10 @@ def test_llm_only_sees_no_rules() -> None:
     told = "".join(passage.text for passage in backend.requests[0].system)
     assert not any(rule.id in told for rule in database().rules)
     assert result.report.verdict is VerdictWord.FAIL
+    # What it calls a rule is its own name for it, and flags the protocol all the same.
+    named = BLIND | {"findings": [finding("cross-contamination", ["4:H12"], [15])]}
+    result = judge_in("llm-only", report, dossier, database(), ScriptedBackend([named]))
+    assert [found.rule for found in result.report.findings] == ["MODEL"]
 
 
 @pytest.mark.parametrize("configuration", ["trace-blind", "llm-only"])

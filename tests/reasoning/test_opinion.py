@@ -72,6 +72,12 @@ def test_a_rule_that_does_not_exist_is_no_finding() -> None:
     assert any("PCR-99" in note for note in after.notes)
 
 
+def test_an_answer_about_a_rule_that_does_not_exist_is_told() -> None:
+    said = answer(answers=[{"rule": "NOPE-1", "answer": "violated", "reason": "So it is."}])
+    after = judged(SILENT, said).report
+    assert any("NOPE-1" in note for note in after.notes)
+
+
 def test_a_models_names_and_words_are_one_printable_line() -> None:
     odd = "x\x1b[31m\n\u202e\ud800"
     said = answer(
