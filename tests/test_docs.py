@@ -7,7 +7,10 @@ from dataclasses import fields
 from pathlib import Path
 
 import pytest
+import typer
 
+from aegis_ot.checking.configuration import read_configuration
+from aegis_ot.cli.app import app
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar.config import ENVIRONMENT, SidecarConfig
 
@@ -59,3 +62,37 @@ def test_the_readme_shows_the_example_as_it_is():
     example = (ROOT / "examples" / "demo" / "hello_guard.py").read_text(encoding="utf-8")
     code = example[example.index("from aegis_ot") :]
     assert code in (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def test_the_project_table_that_is_shown_is_accepted(tmp_path):
+    tomllib = pytest.importorskip("tomllib")
+    text = (ROOT / "docs" / "check.md").read_text(encoding="utf-8")
+    (shown,) = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
+    table = tomllib.loads(shown)["tool"]["aegis-ot"]
+    configuration = read_configuration(table, tmp_path, "pyproject.toml")
+    for field in fields(configuration):
+        assert field.name == "folder" or getattr(configuration, field.name), field.name
+
+
+def test_every_option_that_is_shown_exists():
+    text = (ROOT / "docs" / "check.md").read_text(encoding="utf-8")
+    known = {
+        option
+        for command in typer.main.get_command(app).commands.values()
+        for part in (command, *getattr(command, "commands", {}).values())
+        for parameter in part.params
+        for option in parameter.opts
+    }
+    shown = set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", text))
+    assert shown - known == set()
+    assert len(shown) > 10
+
+
+def test_the_pre_commit_hook_calls_a_command_that_exists_with_extras_that_exist():
+    text = (ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8")
+    (entry,) = re.findall(r"^  entry: aegis-ot (\S+)$", text, re.MULTILINE)
+    assert entry in typer.main.get_command(app).commands
+    (extras,) = re.findall(r'additional_dependencies: \["\.\[(.*?)\]"\]', text)
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    for extra in extras.split(","):
+        assert re.search(rf"^{extra} = \[", project, re.MULTILINE)
