@@ -106,7 +106,7 @@ class CallReader:
         location = values.get("location", values.get("loc", values.get("disposal_location")))
         well_core = values.get("well_core")
         if well_core is None:
-            well_core = _well_core_of(location)
+            well_core = _well_core_of(location) or _well_core_below(location)
         nozzles = self._nozzles = Nozzles.of(self._core, self._nozzles)
         wells: tuple[WellRef | None, ...] = (None,) * len(nozzles.names)
         disposal = name == "drop_tip_in_disposal_location" or _is_disposal(location)
@@ -130,6 +130,7 @@ class CallReader:
             volume=self._volume(kind, values),
             from_top=from_top,
             from_bottom=from_bottom,
+            from_liquid=_over_liquid(values),
             position=_position(location),
             flow_rate=values.get("flow_rate"),
             in_place=bool(values.get("in_place", False)),
@@ -173,6 +174,32 @@ def _well_core_of(location: Any) -> Any:
     labware = getattr(location, "labware", None)
     if labware is not None and getattr(labware, "is_well", False):
         return labware.as_well()._core
+    return None
+
+
+def _well_core_below(location: Any) -> Any:
+    """The well that a point of a labware lies in, seen from above."""
+    labware = getattr(location, "labware", None)
+    if labware is None or not getattr(labware, "is_labware", False):
+        return None
+    point = location.point
+    for well in labware.as_labware().wells():
+        top = well.top().point
+        reach_x = (well.diameter or well.length) / 2
+        reach_y = (well.diameter or well.width) / 2
+        if abs(top.x - point.x) <= reach_x and abs(top.y - point.y) <= reach_y:
+            return well._core
+    return None
+
+
+def _over_liquid(values: Mapping[str, Any]) -> float | None:
+    """Height over the liquid that the call leaves behind; the level before it is another."""
+    for place, tracking in (
+        ("end_location", "end_meniscus_tracking"),
+        ("location", "meniscus_tracking"),
+    ):
+        if getattr(values.get(tracking), "value", None) == "end":
+            return float(values[place].point.z)
     return None
 
 

@@ -63,6 +63,8 @@ class Operation:
         from_top: Height of the tip end over the well's top, mm (negative: inside the well);
             ``None`` if unknown or if there is no well.
         from_bottom: Height of the tip end over the well's bottom, mm; likewise.
+        from_liquid: Height of the tip end over the liquid that stands there afterwards, mm, where
+            the protocol says it so (``well.meniscus(...)``); else ``None``.
         position: Tip end on the deck (x, y, z), mm, or ``None``.
         flow_rate: µL/s, or ``None``.
         in_place: Whether the core was told not to move first.
@@ -82,6 +84,7 @@ class Operation:
     volume: float = 0.0
     from_top: float | None = None
     from_bottom: float | None = None
+    from_liquid: float | None = None
     position: tuple[float, float, float] | None = None
     flow_rate: float | None = None
     in_place: bool = False

@@ -86,6 +86,47 @@ def test_a_nearly_full_tube_is_touched_where_an_empty_one_is_not() -> None:
     assert well(trace, "4:B1").capacity == 15_000
 
 
+def test_heights_over_the_meniscus_are_taken_at_their_word() -> None:
+    trace = traced(
+        flex(
+            """
+            water = protocol.define_liquid("Water", "", "#0000ff")
+            plate["A1"].load_liquid(water, 200)
+            plate["A2"].load_liquid(water, 100)
+            single.pick_up_tip()
+            single.aspirate(60, plate["A1"].meniscus(z=-1, target="end"))
+            single.dispense(20, plate["A2"].meniscus(z=3, target="end"))
+            single.dispense(20, plate["A2"].meniscus(z=-1, target="end"))
+            single.dispense(20, plate["A2"].meniscus(z=3, target="start"))   # and it rises
+            single.drop_tip()
+            """,
+            "2.23",
+        )
+    )
+    assert [visit.touch for visit in trace.visits] == [True, False, True, True]
+
+
+@pytest.mark.parametrize("level", ["2.13", "2.20"])
+def test_a_point_of_a_plate_is_the_well_it_lies_in(level: str) -> None:
+    trace = traced(
+        ot2(
+            """
+            from opentrons.types import Location, Point
+            single.pick_up_tip()
+            single.aspirate(50, Location(reservoir["A3"].bottom(1).point, reservoir))
+            single.aspirate(20, Location(plate["B2"].top(5).point, plate))     # air
+            single.dispense(70, Location(plate["B3"].bottom(1).point + Point(1, 1, 0), plate))
+            single.drop_tip()
+            """,
+            level,
+        )
+    )
+    assert [told(visit) for visit in trace.visits] == [
+        ("aspirate", "2:A3", 50, True),
+        ("dispense", "1:B3", 50, False),
+    ]
+
+
 @pytest.mark.parametrize("level", ["2.2", "2.13", "2.20"])
 def test_a_returned_tip_is_dirty_even_after_a_reset(level: str) -> None:
     trace = traced(

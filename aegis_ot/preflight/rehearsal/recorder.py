@@ -24,6 +24,7 @@ class Step(NamedTuple):
     air: bool
     from_top: float | None
     from_bottom: float | None
+    from_liquid: float | None
     line: int | None
     lines: tuple[int, ...]
     call: str
@@ -63,6 +64,7 @@ class Recorder:
                 operation.is_air,
                 operation.from_top,
                 operation.from_bottom,
+                operation.from_liquid,
                 operation.line,
                 operation.lines,
                 operation.call,

@@ -223,7 +223,8 @@ class _Builder:
                 Imbalance(well, self._index, step.line, True, well.volume, well.capacity)
             )
         visit.below = step.from_top is None or step.from_top < 0
-        if visit.below and not visit.empty_before and not well.clear_of_liquid(step.from_bottom):
+        clear = well.clear_of_liquid(step.from_bottom, step.from_liquid)
+        if visit.below and not visit.empty_before and not clear:
             visit.touch = True
             tip.touch(well, step.line, self._index)
         self._note_mix(tip, visit)

@@ -142,8 +142,10 @@ class Well:
         for origin, share in liquid.items():
             contents[origin] = contents.get(origin, 0.0) + volume * share
 
-    def clear_of_liquid(self, from_bottom: float | None) -> bool:
+    def clear_of_liquid(self, from_bottom: float | None, from_liquid: float | None = None) -> bool:
         """Whether a tip end at this height (mm) is known not to touch the liquid."""
+        if from_liquid is not None:
+            return from_liquid >= CLEARANCE_MM
         if not self.known or from_bottom is None or self.slope is None:
             return False
         level = min(self.volume * self.slope, self.depth)
