@@ -210,7 +210,8 @@ class MeasuredColumns:
         sigma = self._scale.sigma_ul(tip, found, max(volume, expected_ul))
         if most_ul > volume and found != place and not wet.known(top, found):
             # It ends somewhere in rows that no other well showed: most likely where it was drawn.
-            sigma = float(np.hypot(sigma, 0.5 * (most_ul - volume)))
+            # That there is one is as sure as its known part.
+            sigma *= most_ul / max(volume, 1e-6)
             volume, found = most_ul, top
         gap, gap_sigma = self._gap(wet, found, seen) if volume > 0 and full else (0.0, 0.0)
         tested = self._usual.tested(full=full)

@@ -124,10 +124,14 @@ class TipConsistency:
     ) -> bool:
         """Whether a tip that was not found in one frame is on the pipette all the same.
 
-        The two other frames above the destination show it, and this one is exposed otherwise
-        than they are, or they show it as clearly as this run's tips are seen.
+        It is if a later frame shows it, for tips fall off and do not come back. It is if the
+        two other frames above the destination show it, and this one is exposed otherwise than
+        they are, or they show it as clearly as this run's tips are seen.
         """
-        neighbours = [other for other in KeyframeKind if other not in (kind, _FIRST)]
+        order = list(KeyframeKind)
+        if any(detections.get(later) is not None for later in order[order.index(kind) + 1 :]):
+            return True
+        neighbours = [other for other in order if other not in (kind, KeyframeKind.ASPIRATE)]
         shown = [found for other in neighbours if (found := detections.get(other)) is not None]
         if len(shown) < len(neighbours) or kind not in frames:
             return False
@@ -177,10 +181,6 @@ class TipConsistency:
         for kind, found in pair.items():
             self._heights[kind].append(found.orifice[1])
             self._confidences.append(found.confidence)
-
-
-_FIRST = KeyframeKind.ASPIRATE
-"""Taken at another place: whether the tip was on then says little about now."""
 
 
 def _light(image: Image) -> float:

@@ -22,9 +22,10 @@ from .volumetric_gate import VolumetricGate
 _MODEL_WEIGHT = 4.0
 """How many of the run's own wells above their median the model's scale, one nat, is worth."""
 
-_LEAST_SCALE = 0.3
-"""Smallest scale, nats, and as a share of the median: a few wells can be alike by chance, and
-where all wells look unusual to the model, so they differ by more."""
+_LEAST_SCALE = 1.0, 0.3
+"""Smallest scale, nats, and as a share of the median. Wells of one run are more alike than those of
+a model's many runs, but for the rare one whose tip was found badly; and where all wells look
+unusual to the model, so they differ by more."""
 
 
 @dataclass
@@ -89,8 +90,7 @@ class Stream:
 
         All wells of a run may look unusual to a model of other runs. So the score is taken
         against this run's own normal wells: beyond their median it falls off exponentially, as
-        it does among the wells of the model, with a scale that theirs draw away from the
-        model's.
+        it does among the wells of the model, and more slowly if theirs scatter more.
         """
         known = np.array(self.cascade.calibrations[self.scorer.name].normals)
         score = scores.get(self.scorer.name)
@@ -99,7 +99,7 @@ class Stream:
         middle = float(np.median(known))
         over = float(np.maximum(known - middle, 0.0).sum())
         scale = (_MODEL_WEIGHT + over) / (_MODEL_WEIGHT + 0.5 * len(known))
-        scale = max(scale, _LEAST_SCALE, _LEAST_SCALE * middle)
+        scale = max(scale, _LEAST_SCALE[0], _LEAST_SCALE[1] * middle)
         return math.exp(-max(score - middle, 0.0) / scale)
 
     def learn(

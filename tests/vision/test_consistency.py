@@ -137,6 +137,12 @@ def test_one_frame_without_a_tip_is_excused_if_the_others_show_it_clearly(known)
     assert not known.excuses(K.POST_DISPENSE, {**shown, K.TRANSIT: None}, seen)
 
 
+def test_a_tip_that_a_later_frame_shows_was_on_before() -> None:
+    shown = {K.TRANSIT: None, K.DISPENSE: None, K.POST_DISPENSE: tip()}
+    assert TipConsistency().excuses(K.TRANSIT, shown, frames())
+    assert not TipConsistency().excuses(K.TRANSIT, {**shown, K.POST_DISPENSE: None}, frames())
+
+
 def test_an_overexposed_frame_is_no_sign_of_a_missing_tip():
     shown = {K.TRANSIT: tip(), K.DISPENSE: tip(), K.POST_DISPENSE: None}
     white = np.full((480, 640, 3), 250, np.uint8)
