@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
+from ..roles import Strength
 from ..trace import Well
 from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
 
@@ -55,8 +56,9 @@ def _unknown_source(case: Case, well: Well, served: set[tuple[str, str]]) -> Wel
 class Receives(Check):
     """Every well of ``wells`` receives a liquid of ``liquid``.
 
-    Judged only in labware where some well receives it, or that named wells stand in; a plate
-    that was replaced in a pause is judged together with its predecessor.
+    Judged only in labware where some well receives it; a plate that was replaced in a pause is
+    judged together with its predecessor. Where the liquid stands on the deck by name and no well
+    ever receives it, the wells of ``always`` alone are judged.
 
     Attributes:
         wells: Roles of the wells; those that receive nothing at all are judged only if they
@@ -85,7 +87,12 @@ class Receives(Check):
             for well in case.trace.wells.values()
             if received(case, well, liquid)[0] > 0
         }
-        if not plates:
+        if not plates and self._stands_unused(case, liquid):
+            plates = {ref.labware for ref in case.roles.by_well}
+            judged = [well for well in self._judged(case) if case.has(well, frozenset(self.always))]
+        else:
+            judged = list(self._judged(case))
+        if not plates or not judged:
             names = ", ".join(case.family.roles[role].title for role in self.liquid)
             yield Doubt(f"no well is seen to receive {names}; it may be added by hand")
             return
@@ -100,7 +107,7 @@ class Receives(Check):
             None,
         )
         title = " or ".join(case.family.roles[role].title for role in self.liquid)
-        for well in self._judged(case):
+        for well in judged:
             place_key = (well.ref.labware, well.ref.name)
             if place_key in served or place_key in reported:
                 continue
@@ -126,6 +133,16 @@ class Receives(Check):
             yield Violation(
                 message, (others, *sites) if others else sites, well, (case.title(well),)
             )
+
+    @staticmethod
+    def _stands_unused(case: Case, liquid: RoleSet) -> bool:
+        """Whether a well of its own is named for the liquid: then nobody adds it by hand."""
+        return any(
+            not liquid.isdisjoint(case.roles.closure(assigned.role))
+            and assigned.strength >= Strength.NAME
+            and not any("label" in said for said in assigned.evidence)
+            for assigned in case.roles.by_well.values()
+        )
 
     def _judged(self, case: Case) -> Iterator[Well]:
         wanted, always = frozenset(self.wells), frozenset(self.always)

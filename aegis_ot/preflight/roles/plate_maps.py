@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ..rules import Common
-from ..text import Lexicon, SourceFacts, origins
+from ..text import Lexicon, SourceFacts, origins, tokens
 from .clues import Clue, Strength
 from .deck import Deck
 from .well_names import WELL_NAME
@@ -22,7 +22,11 @@ def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]
         all_names = [well for _, wells, _ in entries for well in wells]
         if not all_names:
             continue
-        labware = _used_with(deck, facts, name) or deck.most_likely(dict.fromkeys(all_names))
+        labware = (
+            _used_with(deck, facts, name)
+            or _called_alike(deck, name, common)
+            or deck.most_likely(dict.fromkeys(all_names))
+        )
         if not labware:
             continue
         info = deck.trace.labware[labware]
@@ -45,6 +49,14 @@ def _used_with(deck: Deck, facts: SourceFacts, name: str) -> str:
         if name in origins(facts, place.names, (place.line,)):
             keys |= deck.by_name.get(place.labware, set())
     return next(iter(keys)) if len(keys) == 1 else ""
+
+
+def _called_alike(deck: Deck, name: str, common: Common) -> str:
+    """The one labware whose label shares a telling word with this constant's name."""
+    dull = {word for phrase in common.noise for word in tokens(phrase)}
+    words = set(tokens(name)) - dull
+    alike = [info.key for info in deck.plates() if words & (set(tokens(info.label)) - dull)]
+    return alike[0] if len(alike) == 1 else ""
 
 
 Entry = tuple[str, tuple[str, ...], "float | None"]

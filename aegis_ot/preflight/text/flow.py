@@ -109,7 +109,9 @@ def _loop(
         rows = _sequence(iterable, facts.constants)
         beside = " ".join(names_in(iterable))
         if rows is not None:
-            values += [Values(name, beside, column) for name, column in _columns(part, rows)]
+            for name, column in _columns(part, rows):
+                values.append(Values(name, beside, column))
+                values += [Values(n, n, c) for n, c in _looked_up(column, facts.constants)]
         elif isinstance(iterable, ast.Name):
             values += [Values(name, beside, None, at) for name, at in _unread(part)]
     carriers = frozenset(names)
@@ -152,6 +154,17 @@ def _columns(target: ast.expr, rows: Sequence[Any]) -> Iterator[tuple[str, tuple
                 continue
 
 
+def _looked_up(
+    column: tuple[Any, ...], constants: Mapping[str, Any]
+) -> Iterator[tuple[str, tuple[Any, ...]]]:
+    """What dicts hold for the values of a column: ``CONC[key]`` for each key."""
+    keys = {item for item in column if isinstance(item, str)}
+    if len(keys) == len(column) > 1:
+        for name, value in constants.items():
+            if isinstance(value, dict) and keys <= value.keys():
+                yield name, tuple(value[key] for key in column)
+
+
 def _unread(target: ast.expr) -> Iterator[tuple[str, int | None]]:
     """The names of a target, with their places in rows that only the rehearsal knows."""
     if isinstance(target, ast.Name):
@@ -166,7 +179,7 @@ def _sequence(node: ast.expr, constants: Mapping[str, Any]) -> Sequence[Any] | N
     """What an iterable made of literals yields, in order."""
     if isinstance(node, ast.Name):
         value = constants.get(node.id)
-        return list(value) if isinstance(value, (list, tuple, dict)) else None
+        return list(value) if isinstance(value, (list, tuple, dict, str)) else None
     if isinstance(node, ast.Call):
         return _called(node, constants)
     if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice):
@@ -176,7 +189,7 @@ def _sequence(node: ast.expr, constants: Mapping[str, Any]) -> Sequence[Any] | N
             return None
         return rows[slice(*bounds)]
     value = _literal(node)
-    return list(value) if isinstance(value, (list, tuple, dict)) else None
+    return list(value) if isinstance(value, (list, tuple, dict, str)) else None
 
 
 def _called(node: ast.Call, constants: Mapping[str, Any]) -> Sequence[Any] | None:
