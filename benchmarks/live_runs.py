@@ -1,6 +1,6 @@
 """Whole live runs on simulated frames: normal wells, and the same wells with a fault planted.
 
-``python -m benchmarks.live_runs [--seeds FIRST COUNT] [--json OUT]``
+``python -m benchmarks.live_runs [--seeds FIRST COUNT] [--wells N] [--no-faults] [--json OUT]``
 
 Every run is judged as the sidecar judges it. At four of its wells (the second, the fifth, and two
 after the calibration) each fault is also tried in the well's place: the run's state is put back
@@ -15,7 +15,7 @@ import copy
 import json
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
@@ -37,7 +37,7 @@ VOLUMES = {
     "p300": ((100.0,), (150.0, 60.0, 200.0, 250.0, 40.0)),
     "p1000": ((300.0,), (60.0, 500.0, 200.0, 800.0, 120.0)),
 }
-WELLS, STRUCK = 16, (1, 4, 8, 13)
+STRUCK = (1, 4, 8, 13)
 CALIBRATION = 6
 
 
@@ -66,7 +66,9 @@ def runs(first: int, count: int) -> Iterator[Run]:
         yield Run(camera, pipette, reagent, VOLUMES[pipette][turn % 2], first + number)
 
 
-def judged(run: Run) -> Iterator[tuple[int, str, Any]]:
+def judged(
+    run: Run, number_of_wells: int = 16, planted: Sequence[str] = FAULTS
+) -> Iterator[tuple[int, str, Any]]:
     """Number of the well, the fault planted in its place (or none), and the verdict."""
     import numpy as np
 
@@ -80,18 +82,18 @@ def judged(run: Run) -> Iterator[tuple[int, str, Any]]:
     else:
         session = getattr(SessionParameters, run.camera)(run.seed)
     analyser: Any = make_analyser().begin("run")
-    wells = _keyframes(run)
+    wells = _keyframes(run, number_of_wells)
 
     def judge(number: int, fault: str) -> Any:
-        planted = [f"{fault}@#{number + 1}"] if fault else []
-        camera = SimulatedCamera(run.seed, planted, session)
+        faults = [f"{fault}@#{number + 1}"] if fault else []
+        camera = SimulatedCamera(run.seed, faults, session)
         for keyframe in wells[number]:
             camera.announce(keyframe)
             analyser.observe(keyframe, camera.frame_after(0.0, 5.0))
         return analyser.judge(number)[0]
 
-    for number in range(WELLS):
-        for fault in FAULTS if number in STRUCK else ():
+    for number in range(number_of_wells):
+        for fault in planted if number in STRUCK else ():
             # Samples of earlier wells are looked up by identity: they stay what they are.
             streams = analyser._streams
             kept = {
@@ -106,12 +108,12 @@ def judged(run: Run) -> Iterator[tuple[int, str, Any]]:
         yield number, "", judge(number, "")
 
 
-def _keyframes(run: Run) -> list[list[Any]]:
+def _keyframes(run: Run, number_of_wells: int) -> list[list[Any]]:
     from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
     source = WellRef("reservoir", "A1", "reservoir", "1")
     wells = []
-    for number in range(WELLS):
+    for number in range(number_of_wells):
         volume = run.volumes[number % len(run.volumes)]
         well = WellRef("plate", f"{'ABCDEFGH'[number % 8]}{number // 8 + 1}", "plate", "2")
         frame = Keyframe(
@@ -131,19 +133,25 @@ def _keyframes(run: Run) -> list[list[Any]]:
     return wells
 
 
-def measure(first: int, count: int, progress: bool = False) -> dict[str, Any]:
+def measure(
+    first: int,
+    count: int,
+    progress: bool = False,
+    wells: int = 16,
+    planted: Sequence[str] = FAULTS,
+) -> dict[str, Any]:
     """Counts over ``count`` runs: normal wells by outcome and route, faults caught by kind."""
     normals: Counter[str] = Counter()
     faults: Counter[tuple[str, str, str, str]] = Counter()
     alarms = []
     for run in runs(first, count):
         liquid = "water" if run.reagent == "water" else "dye"
-        for number, fault, verdict in judged(run):
+        for number, fault, verdict in judged(run, wells, planted):
             outcome = verdict.outcome.value
             if fault:
                 when = "first wells" if number < CALIBRATION else "later"
-                faults[run.camera, liquid, fault, f"{when}: tried"] += 1
-                faults[run.camera, liquid, fault, f"{when}: caught"] += outcome != "pass"
+                faults[run.pipette, liquid, fault, f"{when}: tried"] += 1
+                faults[run.pipette, liquid, fault, f"{when}: caught"] += outcome != "pass"
                 continue
             normals[outcome] += 1
             if number >= CALIBRATION:
@@ -154,8 +162,8 @@ def measure(first: int, count: int, progress: bool = False) -> dict[str, Any]:
         if progress:
             sys.stderr.write(f"{run}\n")
     table = [
-        {"camera": camera, "liquid": liquid, "fault": fault, "which": which, "count": number}
-        for (camera, liquid, fault, which), number in sorted(faults.items())
+        {"pipette": pipette, "liquid": liquid, "fault": fault, "which": which, "count": number}
+        for (pipette, liquid, fault, which), number in sorted(faults.items())
     ]
     return {
         "frames": "simulated", "seeds": [first, first + count - 1], "normals": dict(normals),
@@ -167,29 +175,32 @@ def show(found: dict[str, Any]) -> str:
     """The counts as text."""
     normals = found["normals"]
     total = sum(normals.get(outcome, 0) for outcome in ("pass", "fail", "undecided"))
+    first, last = found["seeds"]
+    alarmed = len({alarm[0] for alarm in found["alarms"]})
     after, routed = normals.get("after calibration", 0), normals.get("routed", 0)
     lines = [
         f"Live runs on simulated frames, seeds {found['seeds'][0]} to {found['seeds'][1]}",
         f"normal wells: {total}, failed {normals.get('fail', 0)}, "
         f"undecided {normals.get('undecided', 0)}; "
         f"to the gate {routed}/{after} ({100 * routed / max(after, 1):.1f} %)",
+        f"runs with a normal well failed or undecided: {alarmed} of {last - first + 1}",
         "faults caught of those tried, in a liquid's first six wells and later:",
     ]
     counts = {
-        (row["camera"], row["liquid"], row["fault"], row["which"]): row["count"]
+        (row["pipette"], row["liquid"], row["fault"], row["which"]): row["count"]
         for row in found["faults"]
     }
-    lines.append(f"{'camera':8} {'liquid':6} " + " ".join(f"{fault:>12}" for fault in FAULTS))
-    for camera, liquid in sorted({key[:2] for key in counts}):
+    lines.append(f"{'pipette':8} {'liquid':6} " + " ".join(f"{fault:>12}" for fault in FAULTS))
+    for pipette, liquid in sorted({key[:2] for key in counts}):
         cells = []
         for fault in FAULTS:
             shares = [
-                f"{counts.get((camera, liquid, fault, f'{when}: caught'), 0)}"
-                f"/{counts.get((camera, liquid, fault, f'{when}: tried'), 0)}"
+                f"{counts.get((pipette, liquid, fault, f'{when}: caught'), 0)}"
+                f"/{counts.get((pipette, liquid, fault, f'{when}: tried'), 0)}"
                 for when in ("first wells", "later")
             ]
             cells.append(f"{' '.join(shares):>12}")
-        lines.append(f"{camera:8} {liquid:6} " + " ".join(cells))
+        lines.append(f"{pipette:8} {liquid:6} " + " ".join(cells))
     lines += [f"alarm on a normal well: {alarm}" for alarm in found["alarms"]]
     return "\n".join(lines) + "\n"
 
@@ -198,9 +209,13 @@ def main(arguments: list[str] | None = None) -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.live_runs", description=__doc__)
     parser.add_argument("--seeds", nargs=2, type=int, default=(REPORT_SEED, 30))
+    parser.add_argument("--wells", type=int, default=16, help="of each run")
+    parser.add_argument("--no-faults", action="store_true", help="normal wells only")
     parser.add_argument("--json", type=Path)
     given = parser.parse_args(arguments)
-    found = measure(*given.seeds, progress=True)
+    planted = () if given.no_faults else FAULTS
+    first, count = given.seeds
+    found = measure(first, count, progress=True, wells=given.wells, planted=planted)
     sys.stdout.write(show(found))
     if given.json is not None:
         given.json.write_text(json.dumps(found, indent=1), encoding="utf-8")
