@@ -86,17 +86,22 @@ def _onto_outline(
         rows_u = u[inside].astype(np.float64)
         radius = shape.radius(u[inside]).astype(np.float64)
         table = step[inside]
-        total = np.zeros((grid.size, grid.size))
         height, width = table.shape
-        index = np.arange(height)[:, None]
-        for i, top in enumerate(grid):
-            # (height, grid): centre of the axis per row for every shift of the lower end
-            centre = top * (1 - rows_u)[:, None] + grid[None, :] * rows_u[:, None]
-            for side in (-1.0, 1.0):
-                at = (centre + side * radius[:, None] - v[0]) * rows
-                low = np.clip(at.astype(np.int64), 0, width - 2)
-                part = np.clip(at - low, 0.0, 1.0)
-                total[i] += (table[index, low] * (1 - part) + table[index, low + 1] * part).sum(0)
+        # (height, grid, grid): centre of the axis per row for every shift of upper and lower end
+        centre = (
+            grid[None, :, None] * (1 - rows_u)[:, None, None]
+            + grid[None, None, :] * rows_u[:, None, None]
+        )
+        values = np.ascontiguousarray(table).ravel()
+        first = np.arange(0, height * width, width)[:, None, None]
+        total = np.zeros((grid.size, grid.size))
+        for side in (-1.0, 1.0):
+            at = (centre + (side * radius - v[0])[:, None, None]) * rows
+            low = np.clip(at.astype(np.intp), 0, width - 2)
+            part = np.clip(at - low, 0.0, 1.0)
+            low += first
+            here = values.take(low)
+            total += (here + (values.take(low + 1) - here) * part).sum(axis=0)
         off = 0.25 * (grid / _SIDEWAYS) ** 2
         total -= 2 * height * (off[:, None] + off[None, :])
         best = np.unravel_index(int(np.argmax(total)), total.shape)
