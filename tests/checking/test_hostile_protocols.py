@@ -29,7 +29,7 @@ AFTER = HEAD + "def run(p):\n    p.load_labware('nest_12_reservoir_15ml', 1)\n"
 
 # name: text, line at which it stops, words of the message
 HOSTILE: dict[str, tuple[str, int | None, str]] = {
-    "endless.py": (HEAD + "def run(p):\n    while True:\n        pass\n", 3, "did not end"),
+    "endless.py": (HEAD + "def run(p):\n    while True: pass\n", 3, "did not end"),
     "stubborn.py": (
         HEAD
         + "def run(p):\n    while True:\n        try:\n            n = 1\n"
@@ -88,7 +88,7 @@ HOSTILE: dict[str, tuple[str, int | None, str]] = {
         2,
         "AssertionError: no good",
     ),
-    "endless_import.py": (HEAD + "while True:\n    pass\ndef run(p): ...\n", 2, "did not end"),
+    "endless_import.py": (HEAD + "while True: pass\ndef run(p): ...\n", 2, "did not end"),
     "occupied.py": (
         HEAD
         + "def run(p):\n    for _ in '12':\n        p.load_labware('nest_12_reservoir_15ml', 1)\n",
