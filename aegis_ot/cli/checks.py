@@ -152,18 +152,6 @@ def _colours() -> bool:
     return sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
 
 
-def make_folder(path: Path) -> None:
-    """Make a folder for results, before work or money is spent on them.
-
-    Raises:
-        ConfigurationError: It cannot be made.
-    """
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ConfigurationError(f"The folder {path} cannot be made: {error.strerror}.") from None
-
-
 def write_text(path: Path, text: str) -> None:
     """Write a file, making its folder.
 

@@ -24,7 +24,8 @@ from ..evaluation.layer1 import (
 from ..preflight import load_database
 from ..reasoning import Configuration, load_prices
 from .app import BROKEN, CLEAN, app
-from .checks import make_folder, write_text
+from .checks import write_text
+from .datasets import writable_folder
 from .judging import Labware, Rules, one_of, split
 from .models import RecordFolder, backend_of
 
@@ -83,7 +84,7 @@ def layer1(
         [rule.id for rule in database.rules],
     )
     if figures is not None:
-        make_folder(figures)
+        writable_folder(figures)
     results: list[Layer1Result] = []
     for asking in askings:
         settings = CheckSettings(

@@ -174,10 +174,11 @@ def test_half_a_surrogate_pair_ends_no_report(aegis: Command, tmp_path: Path, si
     )
     (tmp_path / "odd.py").write_text(text)
     said = script(tmp_path, SAID | {"summary": "\ud800", "family": "\ud800"})
-    for output_format in ("text", "json", "sarif", "github", "junit", "html"):
-        result = aegis("check", silent, "odd.py", "--format", output_format, "--model", said)
-        assert (result.code, result.err) == (1, ""), output_format
-    assert aegis("check", "odd.py", "--output", "report.txt").code == 0
+    result = aegis("check", silent, "odd.py", "--model", said)
+    assert (result.code, result.err) == (1, "")
+    result = aegis("check", "odd.py", "--format", "json", "--output", "report.json")
+    assert result.code == 0
+    assert json.loads(Path("report.json").read_text())
 
 
 def test_recording_needs_a_model(aegis: Command, silent: Path) -> None:
@@ -309,8 +310,8 @@ HOSTILE = answer(
 
 @pytest.mark.parametrize(
     "said",
-    [HOSTILE, [HOSTILE, "no JSON"], ["", {"family": 3}]],
-    ids=["hostile", "breaking off", "broken"],
+    [HOSTILE, ["no JSON", HOSTILE]],
+    ids=["hostile", "hostile after none"],
 )
 def test_no_model_lowers_the_rules_result_in_an_evaluation(
     aegis: Command, benchmark: Path, tmp_path: Path, said: Any
