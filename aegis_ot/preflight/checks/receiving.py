@@ -52,6 +52,16 @@ def _unknown_source(case: Case, well: Well, served: set[tuple[str, str]]) -> Wel
     return None
 
 
+def _last_line(case: Case, well: Well) -> int | None:
+    """The line that last brought something to the labware of a well that nothing ever enters."""
+    lines = [
+        visit.line
+        for visit in case.trace.visits
+        if visit.well.ref.labware == well.ref.labware and visit.parts
+    ]
+    return lines[-1] if lines else None
+
+
 @dataclass(frozen=True)
 class Receives(Check):
     """Every well of ``wells`` receives a liquid of ``liquid``.
@@ -129,7 +139,7 @@ class Receives(Check):
             message = f"The {case.title(well)} {place(well)} never receives {title}" + (
                 f", though it receives {total:.4g} µL {at(line)}." if total > 0 else "."
             )
-            sites = (Site(line, well.ref, f"receives no {title}"),)
+            sites = (Site(line or _last_line(case, well), well.ref, f"receives no {title}"),)
             yield Violation(
                 message, (others, *sites) if others else sites, well, (case.title(well),)
             )
