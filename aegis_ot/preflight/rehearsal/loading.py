@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from copy import copy
 from typing import Any
 
 from ...errors import RehearsalError
 from .refusals import line_of, stopped, too_new, unloadable
 from .script import Script
+
+Limit = Callable[[], AbstractContextManager[None]]
+"""Makes a ``with`` block that a protocol's code has to end in time."""
 
 
 def load(script: Script) -> Any:
@@ -36,17 +41,19 @@ def load(script: Script) -> Any:
         )
     except Exception as error:  # opentrons raises its own zoo, and plain RuntimeErrors
         raise unloadable(error, script) from error
-    if protocol.api_level > MAX_SUPPORTED_VERSION:
-        raise too_new(script, protocol.api_level, MAX_SUPPORTED_VERSION)
     if not isinstance(protocol, PythonProtocol):
         raise RehearsalError(
             f"{script.file_name} is a JSON protocol; only Python protocols can be rehearsed."
         )
+    if protocol.api_level > MAX_SUPPORTED_VERSION:
+        raise too_new(script, protocol.api_level, MAX_SUPPORTED_VERSION)
     return protocol
 
 
-def runtime_parameters(protocol: Any, script: Script) -> Any:
+def runtime_parameters(protocol: Any, script: Script, limit: Limit) -> Any:
     """The ``Parameters`` of a loaded script, with the script's values set; ``None`` without any.
+
+    Opentrons executes the whole text to find ``add_parameters``; that stands under ``limit``.
 
     Raises:
         RehearsalError: A value is not accepted.
@@ -55,13 +62,13 @@ def runtime_parameters(protocol: Any, script: Script) -> Any:
     from opentrons.protocols.execution.execute_python import exec_add_parameters
 
     known = dict(script.parameters)
+    context = ParameterContext(api_version=protocol.api_level)
+    files = dict(script.csv_parameters)
     try:
-        return exec_add_parameters(
-            protocol,
-            ParameterContext(api_version=protocol.api_level),
-            known or None,
-            dict(script.csv_parameters) or None,
-        )
+        with limit():
+            return exec_add_parameters(protocol, context, known or None, files or None)
+    except RehearsalError:
+        raise
     except Exception as error:
         if not known and not script.csv_parameters and "add_parameters" not in script.text:
             raise stopped(error, script.file_name) from error

@@ -7,7 +7,7 @@ does on every load: nothing that the live protocol has at module level is touche
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import partial
@@ -17,13 +17,12 @@ from ...errors import AegisError, RehearsalError
 from ...instrumentation import LabwareInfo, Listener, NameBinding, NameCollector, tapped
 from .haste import hasty_builtins
 from .interruption import interrupted_after
-from .loading import copied_parameters, load, runtime_parameters
+from .loading import Limit, copied_parameters, load, runtime_parameters
 from .refusals import stopped
 from .script import Script
 from .simulated_context import simulated_context
 
 Run = Callable[[Any], Any]
-_Limit = Callable[[], AbstractContextManager[None]]
 
 _REHEARSING: ContextVar[bool] = ContextVar("aegis_ot_rehearsing", default=False)
 
@@ -116,11 +115,10 @@ def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.
 
 
 @contextmanager
-def _stage(protocol: Any, script: Script, live_parameters: Any, limit: _Limit) -> Iterator[Any]:
+def _stage(protocol: Any, script: Script, live_parameters: Any, limit: Limit) -> Iterator[Any]:
     """A simulated context that is ready for this protocol."""
     if live_parameters is None:
-        with limit():  # Opentrons executes the whole text to find add_parameters
-            parameters = runtime_parameters(protocol, script)
+        parameters = runtime_parameters(protocol, script, limit)
     else:
         parameters = copied_parameters(live_parameters)
     with simulated_context(
@@ -139,7 +137,7 @@ def _perform(
     protocol: Any,
     context: Any,
     wrap: Callable[[Run], Run],
-    limit: _Limit,
+    limit: Limit,
     namespace: dict[str, Any],
 ) -> dict[str, Any]:
     """Execute a loaded protocol in ``namespace``, and its ``run``; returns the namespace."""
