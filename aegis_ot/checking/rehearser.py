@@ -81,8 +81,7 @@ class Rehearser:
             TaskFailed: It raised, did not end in time, took its process with it, or was
                 cancelled.
         """
-        if not self._cancelled.is_set() and self._process is None:
-            self._start()
+        self.get_ready()
         if self._cancelled.is_set():
             raise TaskFailed(Problem("was interrupted."))
         limit_s = 2 * task.timeout_s + _AROUND_S
@@ -101,6 +100,11 @@ class Rehearser:
         if answer.problem is not None:
             raise TaskFailed(answer.problem)
         return answer.value
+
+    def get_ready(self) -> None:
+        """Start the process unless it runs: that takes seconds, which no task is to blame for."""
+        if not self._cancelled.is_set() and self._process is None:
+            self._start()
 
     def cancel(self) -> None:
         """End what another thread has it do now, and refuse all further tasks."""

@@ -109,9 +109,11 @@ def _check_file(
         extra_labware=settings.labware,
     )
     options = options_for(text, settings.options)
+    process = rehearser.get()
+    process.get_ready()
     start = time.monotonic()
     try:
-        judged = _judge(rehearser.get(), script, options, settings, database)
+        judged = _judge(process, script, options, settings, database)
     except TaskFailed as failed:
         seconds = time.monotonic() - start
         return CheckedProtocol(name, problem=failed.problem, lines=lines, seconds=seconds)
