@@ -9,6 +9,7 @@ from ..settings import Settings
 from ..vocabulary import Finding, Severity, VerdictWord, counted
 from .database import load_database
 from .judging import Options, Report, judge
+from .opinion import unanswered
 from .rehearsal import Recorder, Recording, Script, record
 from .rules import Database
 
@@ -80,7 +81,9 @@ def summary(report: Report) -> str:
         parts.append(f"{len(report.waived)} waived")
     rules = ", ".join(dict.fromkeys(finding.rule for finding in report.findings))
     told = f" ({rules})" if rules else ""
-    return f"Layer 1: {report.verdict.value}{told}: {', '.join(parts)}."
+    silence = unanswered(report)
+    model = f" The model was asked in vain: {silence}" if silence else ""
+    return f"Layer 1: {report.verdict.value}{told}: {', '.join(parts)}.{model}"
 
 
 def _tell(finding: Finding) -> str:

@@ -69,7 +69,9 @@ def _bar(axes: Any, where: float, width: float, f1: Interval, colour: int) -> No
         # The interval of a resampling need not hold the value itself.
         reach = [[max(f1.value - f1.low, 0)], [max(f1.high - f1.value, 0)]]
         axes.errorbar(where, f1.value, yerr=reach, fmt="none", ecolor="black", capsize=3, lw=1)
-    axes.text(where, 0.02, f"{f1.value:.3f}", ha="center", va="bottom", fontsize=7, color="white")
+    # Beside the error bar, which may reach down to it.
+    left = where - 0.42 * width
+    axes.text(left, 0.02, f"{f1.value:.3f}", ha="left", va="bottom", fontsize=7, color="white")
 
 
 def _model(result: Layer1Result) -> str:
