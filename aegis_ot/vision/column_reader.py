@@ -34,6 +34,9 @@ _SHORTEST = 0.05
 _LEFT = np.array([0.25, 0.5, 0.75, 1.0])
 """Shares of the column's height that are tried for what normal wells show of a column left."""
 
+_SHARES = np.arange(0.1, 1.01, 0.1)
+"""Shares of the column's height that are tried for the smallest column that would be seen."""
+
 _GAP_SHARE = 0.3
 """Air fills the bore: wetness of a break at most."""
 
@@ -208,6 +211,8 @@ class MeasuredColumns:
                 return None if full else _FIRST_VAGUE
         volume = self._scale.volume(tip, found) if found != place else expected_ul
         sigma = self._scale.sigma_ul(tip, found, max(volume, expected_ul))
+        if not full and found == place:
+            sigma = max(sigma, 0.5 * self._least_seen(wet, seen, top))
         if most_ul > volume and found != place and not wet.known(top, found):
             # It ends somewhere in rows that no other well showed: most likely where it was drawn.
             # That there is one is as sure as its known part.
@@ -218,6 +223,16 @@ class MeasuredColumns:
         return ColumnReading(
             max(volume - gap, 0.0), sigma, gap, gap_sigma, 1.0 - found, tested=tested
         )
+
+    def _least_seen(self, wet: Wetness, seen: Look, top: float) -> float:
+        """Smallest column, of those up to ``top`` (u), that an empty tip's rows rule out, µL."""
+        for share in _SHARES:
+            upper = 1.0 - share * (1.0 - top)
+            if upper < seen.lowest:
+                bore = seen.bore_px(upper, seen.lowest)
+                if 0.5 / self._usual.variance(wet, bore, full=False) >= _EVIDENCE:
+                    return self._scale.volume(seen.tip, upper)
+        return self._scale.volume(seen.tip, top)
 
     def _contradicts(self, wet: Wetness, found: float, place: float, seen: Look) -> bool:
         """Whether the rows between the column's end and its expected end say that it is off."""
