@@ -140,8 +140,8 @@ class Case:
         if one.liquids and one.liquids == other.liquids and any(map(str.isdigit, one.liquids[0])):
             return True
         mine, theirs = self.roles.by_well.get(one.ref), self.roles.by_well.get(other.ref)
-        if mine is None and theirs is None and one.liquids:
-            return one.liquids == other.liquids
+        if {one.ref, other.ref} <= self.roles.unnamed and one.liquids == other.liquids:
+            return one.ref not in self.roles.apart
         if mine is None or theirs is None or mine.role != theirs.role:
             return False
         if not self.family.roles[mine.role].one_liquid:

@@ -69,11 +69,11 @@ def infer_families(
     scored = []
     for family in database.families:
         found = _found(family, texts, database.common)
-        if family.chain_weight and chain >= 3:
+        if family.chain_weight and chain >= 2:
             # Wells filled from one place that then feed each other are a series without a word.
             weight = family.chain_weight * (2 if dilution >= 3 else 1)
             said = f"a chain of {chain} transfers from well to well"
-            found.append(_Found(weight * min(chain, 6) / 3, said, LONE, dilution >= 3))
+            found.append(_Found(weight * min(chain, 6) / 3, said, LONE, True))
         found.sort(key=lambda one: -one.worth)
         scored.append((max(sum(one.worth for one in found), 0.0), family, found))
     scored.sort(key=lambda item: -item[0])

@@ -61,8 +61,8 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
                     served.setdefault(source.ref, set()).add(well.ref)
     # In the order of the trace: a set's own order differs from process to process.
     for ref in [well.ref for well in trace.wells.values() if well.ref in roles.unnamed]:
-        if roles.of(ref):
-            continue
+        if not roles.of(ref) <= roles.closure(name):
+            continue  # something else, or more than "destination", is said of it
         if ref not in served:
             use = "kept" if ref in topped_up else ""
         else:
@@ -97,6 +97,7 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
         pairs = all(len(served[ref]) == 1 and not roles.of(ref) for ref in refs)
         into = {well for ref in refs for well in served[ref]}
         if pairs and len(refs) >= _FEWEST_PAIRS and len(into) == len(refs):
+            roles.apart.update(refs)
             for ref in refs:
                 roles.derived.setdefault(ref, set()).update(roles.closure(name))
 
