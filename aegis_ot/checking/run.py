@@ -14,6 +14,7 @@ from ..errors import ConfigurationError, RehearsalError
 from ..preflight import Database, Options, Report
 from ..preflight.dossier import Dossier
 from ..preflight.rehearsal import Script
+from ..preflight.text import source_lines
 from ..vocabulary import Finding, Remark
 from .baseline import Baseline
 from .configuration import ConfiguredWaiver
@@ -100,7 +101,7 @@ def _check_file(
         return CheckedProtocol(name, problem=Problem(str(error)))
     except RehearsalError as error:
         return CheckedProtocol(name, problem=Problem(str(error), error.line))
-    lines = tuple(text.splitlines())
+    lines = tuple(source_lines(text))
     script = Script(
         text=text,
         file_name=file.name,

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import hashlib
 import json
-import re
 from dataclasses import dataclass, replace
 from typing import Any
 
 from ..vocabulary import Finding, Severity, Undecided, WellRef, from_json, to_json
+from .text import source_lines
 
 
 @dataclass(frozen=True)
@@ -99,8 +99,8 @@ class Dossier:
 
     @property
     def source_lines(self) -> list[str]:
-        """Lines as Python counts them; ``splitlines`` knows more ends of lines than Python."""
-        return re.split(r"\r\n|\r|\n", self.source.rstrip("\r\n"))
+        """The protocol's lines, as findings number them."""
+        return source_lines(self.source)
 
     @property
     def digest(self) -> str:

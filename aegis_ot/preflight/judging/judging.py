@@ -12,6 +12,7 @@ from ..checks import Case, Doubt, Violation, make_check
 from ..rehearsal import Recording
 from ..roles import Roles
 from ..rules import Database, Family, RuleSpec
+from ..text import source_lines
 from .findings import Broken, findings_of
 from .options import Options, check_options
 from .reading import Reading, read_recording
@@ -120,7 +121,7 @@ def _report(
         waived=tuple(waived),
         remarks=(*_conflicts(reading.roles), *waiver_remarks(waivers, waived, judged, known)),
         judged=tuple(judged),
-        lines=tuple(recording.text.splitlines()),
+        lines=tuple(source_lines(recording.text)),
     )
 
 

@@ -17,7 +17,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from ...vocabulary import Finding, Remark
-from ..text import SourceFacts
+from ..text import SourceFacts, source_lines
 
 _WAIVER = re.compile(
     r"aegis\s*:\s*ignore\s*(?:\[(?P<rules>[^\]]*)\])?\s*(?P<reason>.*)$", re.IGNORECASE
@@ -104,7 +104,7 @@ class _Places:
             tree = ast.parse(text)
         except (SyntaxError, ValueError):
             return
-        self._first = len(text.splitlines()) + 1
+        self._first = len(source_lines(text)) + 1
         for node in tree.body:
             if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
                 self._first = node.lineno

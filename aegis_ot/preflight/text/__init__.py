@@ -3,6 +3,7 @@
 from .facts import Loop, Place, SourceFacts, Values
 from .flow import origins
 from .levels import direction_in, level_in, name_without_level, numbers_in_order
+from .lines import source_lines
 from .reading import read_source
 from .words import Lexicon, Match, tokens
 
@@ -19,5 +20,6 @@ __all__ = [
     "numbers_in_order",
     "origins",
     "read_source",
+    "source_lines",
     "tokens",
 ]

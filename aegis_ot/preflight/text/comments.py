@@ -7,6 +7,7 @@ import io
 import tokenize
 
 from .facts import SourceFacts
+from .lines import source_lines
 
 
 def read_comments(text: str, facts: SourceFacts) -> None:
@@ -23,7 +24,7 @@ def read_comments(text: str, facts: SourceFacts) -> None:
 
 def read_blocks(text: str, tree: ast.Module, facts: SourceFacts) -> None:
     """A comment heads the statements below it, up to a blank line or the next comment."""
-    lines = text.splitlines()
+    lines = source_lines(text)
     for node in ast.walk(tree):
         if not isinstance(node, ast.stmt) or isinstance(node, ast.FunctionDef):
             continue
