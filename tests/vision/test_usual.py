@@ -1,0 +1,55 @@
+"""How far readings of normal tips stray."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from aegis_ot.vision.column import Wetness
+from aegis_ot.vision.usual import ENOUGH, Usual, alike
+
+
+def wetness(power: float = 400.0) -> Wetness:
+    u = np.linspace(0.0, 1.0, 100, dtype=np.float32)
+    return Wetness(u, np.zeros(100), np.ones(100), power)
+
+
+def test_a_narrow_bore_is_read_less_surely() -> None:
+    usual = Usual()
+    wide, narrow = (usual.variance(wetness(), px, full=False) for px in (6.0, 2.0))
+    assert narrow > 5 * wide
+
+
+def test_a_liquid_that_hardly_shows_is_read_less_surely() -> None:
+    usual = Usual()
+    assert usual.variance(wetness(4.0), 6.0, full=True) > usual.variance(wetness(), 6.0, full=True)
+
+
+def test_steady_normal_tips_make_readings_surer_and_straying_ones_less_sure() -> None:
+    steady, straying, fresh = Usual(), Usual(), Usual()
+    for _ in range(8):
+        steady.note_empty(0.02)
+        straying.note_empty(0.6)
+    known = [u.variance(wetness(), 3.0, full=False) for u in (steady, fresh, straying)]
+    assert known == sorted(known)
+    assert (steady.tested(full=False), steady.tested(full=True)) == (8, 0)
+
+
+def test_a_break_is_judged_only_beside_the_breaks_of_normal_columns() -> None:
+    usual = Usual()
+    assert usual.gap_limit(wetness()) is None
+    for _ in range(ENOUGH):
+        usual.note_full(1.0, 4.0)
+    limit = usual.gap_limit(wetness())
+    assert limit is not None
+    assert limit > 8.0
+
+
+def test_frames_of_another_brightness_are_not_compared() -> None:
+    usual = Usual()
+    assert usual.comparable(250.0)
+    for _ in range(ENOUGH):
+        usual.note_light(100.0)
+    assert usual.comparable(120.0)
+    assert not usual.comparable(250.0)
+    assert not usual.anew().comparable(250.0)
+    assert alike(100.0, 110.0)
