@@ -15,7 +15,7 @@ def guard_arguments(text: str) -> dict[str, Any]:
     """The literal arguments of the protocol's guard that concern judging; empty without one."""
     try:
         tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError):
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
         return {}
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and _is_guard(node.func):

@@ -63,6 +63,8 @@ HOSTILE: dict[str, tuple[str, int | None, str]] = {
         "is written for API version 2.99, and",
     ),
     "syntax.py": (HEAD + "def run(p:\n    pass\n", 2, "not valid Python"),
+    "deep.py": (HEAD + f"x = {'-' * 200_000}1\ndef run(p): ...\n", None, "nested too deeply"),
+    "long.py": (HEAD + f"x = {'1+' * 100_000}1\ndef run(p): ...\n", None, "nested too deeply"),
     "no_run.py": (HEAD + "x = 1\n", 1, "defines no function run(protocol) at its"),
     "nested_run.py": (
         HEAD + "class P:\n    def run(self, p):\n        pass\n",

@@ -8,7 +8,7 @@ from copy import copy
 from typing import Any
 
 from ...errors import RehearsalError
-from .refusals import line_of, stopped, too_new, unloadable
+from .refusals import line_of, stopped, too_deep, too_new, unloadable
 from .script import Script
 
 Limit = Callable[[], AbstractContextManager[None]]
@@ -32,6 +32,8 @@ def load(script: Script) -> Any:
         reason = getattr(error, "msg", None) or str(error)
         where = f"{script.file_name}, line {line}" if line else script.file_name
         raise RehearsalError(f"{where}: not valid Python: {reason}", line) from error
+    except (RecursionError, MemoryError) as error:
+        raise too_deep(script) from error
     try:
         protocol = parse(
             script.text,
@@ -39,6 +41,8 @@ def load(script: Script) -> Any:
             extra_labware=dict(script.extra_labware),
             extra_data=dict(script.data_files),
         )
+    except (RecursionError, MemoryError) as error:
+        raise too_deep(script) from error
     except Exception as error:  # opentrons raises its own zoo, and plain RuntimeErrors
         raise unloadable(error, script) from error
     if not isinstance(protocol, PythonProtocol):

@@ -66,6 +66,12 @@ def unloadable(error: Exception, script: Script) -> RehearsalError:
     return RehearsalError(f"Opentrons cannot load {script.file_name}: {short}", line)
 
 
+def too_deep(script: Script) -> RehearsalError:
+    """The error of a protocol with a statement of thousands of parts in each other."""
+    told = f"{script.file_name}: not valid Python: nested too deeply to be compiled"
+    return RehearsalError(told)
+
+
 def too_new(script: Script, wanted: Any, newest: Any) -> RehearsalError:
     """The error of a protocol for a newer API than the opentrons installed here knows."""
     told = (
