@@ -48,7 +48,7 @@ class DetectorSettings:
         threads: CPU threads.
     """
 
-    rounds: int = 6
+    rounds: int = 7
     frames: int = 1200
     passes: int = 3
     frozen: int = 2
