@@ -247,7 +247,7 @@ class DoseOrder(Check):
                 break
             left -= 1
             there = doses.get(other, {})
-            if other is visit.well or not there:
+            if other is visit.well or not there or visit.well in case.destinations.get(other, {}):
                 continue
             if set(there) != set(here):
                 continue

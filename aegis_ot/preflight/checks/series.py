@@ -7,7 +7,7 @@ order), running away from the well in which the stock stands.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ...vocabulary import WellRef
@@ -44,7 +44,6 @@ def find_series(
     spec = roles.family.series
     stock = frozenset(spec.stock) if spec else frozenset()
     diluent = frozenset(spec.diluent) if spec else frozenset()
-    named = frozenset(spec.wells) if spec else frozenset()
     links = [
         link
         for link in links_of(trace)
@@ -53,12 +52,11 @@ def find_series(
         and not roles.has(link.source.ref, stock)
     ]
     links = _dilutions(trace, roles, links, diluent)
-    found = []
-    for group in chains_of(links):
-        if len({(s.source, s.well) for s in group}) < shortest:
-            continue
-        found.append(_series(trace, roles, group, stock, diluent, named))
-    return found
+    groups = [
+        group for group in chains_of(links) if len({(s.source, s.well) for s in group}) >= shortest
+    ]
+    linked = {well for group in groups for link in group for well in (link.source, link.well)}
+    return [_series(trace, roles, group, stock, diluent, linked) for group in groups]
 
 
 def _dilutions(
@@ -111,10 +109,10 @@ def _series(
     links: list[Transfer],
     stock: frozenset[str],
     diluent: frozenset[str],
-    named: frozenset[str],
+    taken: Collection[Well],
 ) -> Series:
     linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
-    members = _with_neighbours(trace, roles, linked, diluent | stock)
+    members = _with_neighbours(trace, roles, linked, diluent | stock, taken)
     order = best_order(members, links)
     steps: list[Transfer] = []
     entries: list[Well] = []
@@ -185,9 +183,16 @@ def _feeds_last(well: Well, links: Sequence[Transfer]) -> bool:
 
 
 def _with_neighbours(
-    trace: Trace, roles: Roles, linked: list[Well], filling: frozenset[str]
+    trace: Trace,
+    roles: Roles,
+    linked: list[Well],
+    filling: frozenset[str],
+    taken: Collection[Well],
 ) -> list[Well]:
-    """Add wells of the same row or column that were given stock or diluent, but no link."""
+    """Add wells of the same row or column that were given stock or diluent, but no link.
+
+    Wells of another series (``taken``) in that row are none of this one's.
+    """
     rows = {well.order[0] for well in linked}
     columns = {well.order[1] for well in linked}
     if len(rows) != 1 and len(columns) != 1:
@@ -195,7 +200,7 @@ def _with_neighbours(
     first = linked[0]
     members = list(linked)
     for well in trace.wells.values():
-        if well in members or well.ref.labware != first.ref.labware:
+        if well in members or well in taken or well.ref.labware != first.ref.labware:
             continue
         if well.generation != first.generation:
             continue

@@ -76,6 +76,9 @@ def fitting_role(
     if clue.step and clue.step != side:
         return None
     fitting = [role for role in named if specs[role].side in ("any", side)]
+    if passes_on and any(specs[role].side == "source" for role in named):
+        # A plate of doses that is made here and given on is no plate of treated cells.
+        fitting = [role for role in fitting if not specs[role].implies_contents]
     if not fitting and passes_on and not clue.whole and clue.strength is not Strength.COMMENT:
         fitting = [role for role in named if specs[role].side == "source"]
     if not fitting or _ambiguous(fitting, roles, clue):
