@@ -1,0 +1,49 @@
+"""The digest of the code that decides the weights, and the shipped weights' own."""
+
+from __future__ import annotations
+
+import ast
+import json
+from importlib import resources
+from pathlib import Path
+
+import aegis_ot
+from aegis_ot.training.sources import SOURCES
+
+PACKAGE = Path(aegis_ot.__file__).parent
+ONLY_TYPES = {"vision/types"}
+
+
+def _imported(module: str) -> set[str]:
+    """Modules of the three rooms that a module imports by their own name, not through a door."""
+    folder = Path(module).parent
+    found = set()
+    for node in ast.walk(ast.parse((PACKAGE / f"{module}.py").read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level and node.module:
+            origin = folder
+            for _ in range(node.level - 1):
+                origin = origin.parent
+            name = (origin / node.module.replace(".", "/")).as_posix()
+            if (PACKAGE / f"{name}.py").is_file() and name.split("/")[0] in SOURCES:
+                found.add(name)
+    return found
+
+
+def test_no_module_that_decides_is_left_out() -> None:
+    listed = {f"{room}/{name}" for room, names in SOURCES.items() for name in names}
+    needed = set().union(*(_imported(module) for module in listed))
+    assert needed - listed - ONLY_TYPES == set()
+
+
+def _shipped() -> dict:
+    folder = resources.files("aegis_ot.vision").joinpath("weights")
+    return json.loads(folder.joinpath("tip_detector.json").read_text(encoding="utf-8"))
+
+
+def test_the_shipped_weights_were_measured_on_plates_they_did_not_learn() -> None:
+    described = _shipped()
+    assert described["data"]["held_out_plates"]
+    for figures in described["held_out_figures"].values():
+        assert figures["found"] >= 0.98
+        assert figures["false_alarms"] == 0
+        assert figures["highest_empty"] < described["threshold"] < figures["lowest_tip"]
