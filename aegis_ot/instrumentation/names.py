@@ -6,6 +6,7 @@ and helpers, even in helpers that move no liquid.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -18,6 +19,10 @@ from .held import DEEPEST, Reader, Row, entries, items
 from .own_functions import helper_modules, own_functions
 from .returns import heard_returns
 from .wells import WellResolver
+
+_SHARES_LOCALS = sys.version_info < (3, 13)
+"""Whether all who ask for a function's local names get the same dict, brought up to date."""
+_ASKS_FOR_LOCALS = frozenset({"locals", "vars", "f_locals"})
 
 
 @dataclass(frozen=True)
@@ -168,6 +173,8 @@ class NameCollector:
 
     def _look_at(self, frame: FrameType) -> None:
         code = frame.f_code
+        if _SHARES_LOCALS and not _ASKS_FOR_LOCALS.isdisjoint(code.co_names):
+            return  # to look would write into the dict that the protocol itself holds
         if code.co_filename == self._file_name:
             self.look(frame.f_locals, code.co_name, code.co_firstlineno)
         else:

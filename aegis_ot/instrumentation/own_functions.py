@@ -12,6 +12,7 @@ import os
 import sys
 import sysconfig
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from types import CodeType, FunctionType, MethodType, ModuleType
 from typing import Any
 
@@ -37,15 +38,28 @@ def _module_of(value: Any) -> ModuleType | None:
     """A module, or the one that a function or class (``from layout import wells``) is from."""
     if type(value) is ModuleType:
         return value
-    if type(value) is FunctionType or isinstance(value, type):
-        module = sys.modules.get(str(value.__module__))
+    if type(value) is FunctionType or _is_class(value):
+        module = sys.modules.get(_module_name(value))
         return module if type(module) is ModuleType else None
     return None
 
 
+def _is_class(value: Any) -> bool:
+    # Not isinstance, which asks the value: a proxy may answer anything, or raise.
+    return issubclass(type(value), type)
+
+
+def _module_name(value: Any) -> str:
+    """Of a function or class; ``""`` for a class whose metaclass does not tell."""
+    try:
+        return str(value.__module__)
+    except Exception:
+        return ""
+
+
 def _is_helper(module: ModuleType) -> bool:
-    file = getattr(module, "__file__", None)
-    root = module.__name__.partition(".")[0]
+    file = vars(module).get("__file__")
+    root = str(vars(module).get("__name__", "")).partition(".")[0]
     if not isinstance(file, str) or not file.endswith(".py"):
         return False
     if root in ("opentrons", "opentrons_shared_data", __name__.partition(".")[0]):
@@ -111,8 +125,9 @@ def _within(value: Any) -> Iterator[Any]:
         yield from (value.fget, value.fset)
     elif kind in _CONTAINERS and len(value) <= _LONGEST:
         yield from value.values() if kind is dict else value
-    elif isinstance(value, type) and not str(value.__module__).startswith("opentrons"):
-        yield from list(vars(value).values())
+    elif _is_class(value) and not _module_name(value).startswith("opentrons"):
+        with suppress(Exception):  # a metaclass that does not tell
+            yield from list(vars(value).values())
 
 
 def codes_of(code: CodeType) -> Iterator[CodeType]:

@@ -8,6 +8,7 @@ import time
 import pytest
 
 from aegis_ot.errors import RehearsalError
+from aegis_ot.instrumentation import EventKind
 from tests.support.rehearsing import ot2, run
 
 
@@ -27,6 +28,54 @@ def test_odd_objects_are_left_alone(made):
     lines = "\n".join(f"    {line}" for line in made.splitlines())
     _, rehearsal = run(ot2(f"def helper():\n{lines}\nhelper()\nntc = plate['H12']\n"))
     assert "ntc" in {binding.name for binding in rehearsal.names}
+
+
+_PROXIES = """
+metadata = {"apiLevel": "2.15"}
+class Proxy:
+    def __getattribute__(self, name):
+        raise RuntimeError("bound to nothing: " + name)
+class Meta(type):
+    def __getattribute__(cls, name):
+        raise RuntimeError("not told: " + name)
+class Silent(metaclass=Meta):
+    pass
+proxy = Proxy()
+table = {"proxy": proxy, "silent": Silent}
+def run(protocol):
+    plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 2)
+    helper(plate)
+def helper(plate):
+    held = [proxy, Silent]
+    ntc = plate["H12"]
+"""
+
+
+def test_globals_that_answer_nothing_are_left_alone():
+    _, rehearsal = run(_PROXIES)
+    assert "ntc" in {binding.name for binding in rehearsal.names}
+
+
+_LOCALS = """
+metadata = {"apiLevel": "2.15"}
+def settings():
+    volume = 50
+    found = locals()
+    found["volume"] = 77
+    return found
+def each():
+    one, two = 1, 2
+    for name in locals():
+        yield name
+def run(protocol):
+    protocol.comment(f"{settings()} {list(each())}")
+"""
+
+
+def test_the_dict_that_a_protocol_got_from_locals_stays_as_it_left_it():
+    heard, _ = run(_LOCALS)
+    told = [event.text for event in heard.events if event.kind is EventKind.COMMENT]
+    assert told == ["{'volume': 77} ['one', 'two']"]
 
 
 def test_a_well_of_another_context_is_left_alone():
