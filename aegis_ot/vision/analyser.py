@@ -18,7 +18,7 @@ from .gates import Case, ConfirmingGate, GateDecision, examine_in_turn
 from .measuring import TipView
 from .stream import OpenTrajectory, Stream
 from .tips import pipette_class, tip_for
-from .types import Detector, TipDetection, TrajectorySample
+from .types import Detector, Image, TipDetection, TrajectorySample
 from .volumetric_gate import VolumetricGate
 
 MOST_OPEN = 32
@@ -146,7 +146,10 @@ class RunAnalyser:
         readings = stream.reader.read(seen.looks, sample.expected_ul)
         scores = stream.scorer.scores(sample, seen.excused)
         p_value = stream.p_value(scores)
-        return Case(sample, Route.GREY_ZONE, scores, readings, missing, stream.learned > 0, p_value)
+        return Case(
+            sample, Route.GREY_ZONE, scores, readings, missing, stream.learned > 0, p_value,
+            clearly_absent=seen.clearly_absent,
+        )  # fmt: skip
 
     def _look(
         self, stream: Stream, seen: OpenTrajectory, kind: KeyframeKind, detection: TipDetection
@@ -161,8 +164,12 @@ class RunAnalyser:
         """Put the detections right by the run's own tip, and look again where one changed."""
         guess = getattr(self._detector, "best_guess", None)
         if guess is not None:
+            guess = _once_each(guess)
             seen.detections.update(second_look(guess, seen.detections, seen.frames))
             seen.detections.update(stream.tip.recognise(guess, seen.detections, seen.frames))
+            missing = [kind for kind in FREE if seen.detections.get(kind, ...) is None]
+            guesses = [guess(seen.frames[kind]) for kind in missing]
+            seen.clearly_absent = stream.tip.clearly_absent(guesses)
         settled = stream.tip.settle(seen.detections, seen.frames)
         for kind, detection in settled.items():
             if detection is seen.detections[kind] and (detection is None or kind in seen.looks):
@@ -251,6 +258,20 @@ def _with_doubt(stream: Stream, decision: GateDecision) -> GateDecision:
         return decision
     reason, stream.doubt = stream.doubt, ""
     return replace(decision, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR, reason=reason)
+
+
+def _once_each(
+    guess: Callable[[Image], TipDetection | None],
+) -> Callable[[Image], TipDetection | None]:
+    """The same, asked once for each frame: it costs as much as finding the tip."""
+    known: dict[int, TipDetection | None] = {}
+
+    def remembered(image: Image) -> TipDetection | None:
+        if id(image) not in known:
+            known[id(image)] = guess(image)
+        return known[id(image)]
+
+    return remembered
 
 
 def _is_image(image: object) -> bool:

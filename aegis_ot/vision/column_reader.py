@@ -177,7 +177,7 @@ class MeasuredColumns:
             self._fullest = max(self._fullest, volume)
             share, weight = wet.mean(top + 0.02, end)
             gap, _, _ = wet.longest_gap(top + 0.05, min(end, seen.wide_down_to(_GAP_BORE_PX)))
-            self._usual.note_full(share if weight > 0 else None, gap)
+            self._usual.note_full(share if weight > 0 else None, gap, wet.misfit)
             found = wet.column(ceiling(tip), end)
             reach = NEAR if self._scale.known else 0.05 + 0.15 * (1.0 - top)
             if abs(found - top) < reach and wet.power > 4 and wet.bracketed(found, NEAR):
@@ -195,6 +195,8 @@ class MeasuredColumns:
         wet = self._wetness(seen)
         if wet is None:
             return None
+        if not self._usual.fits(wet):
+            return None if expected_ul > 0 else _FIRST_VAGUE
         tip, end = seen.tip, seen.lowest
         place, highest = self._scale.place(tip, expected_ul), ceiling(tip)
         if most_ul > expected_ul:

@@ -8,7 +8,7 @@ perspective aside, and TRANSIT and POST_DISPENSE show the same tip above the sam
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 
 import cv2
@@ -40,6 +40,9 @@ _REACH = 0.35
 _SAME_END = 0.15
 """An orifice this close to its usual height, tip lengths, is the tip's: a bare shaft ends most of a
 tip higher, and a meniscus that was taken for the collar does not move the other end."""
+
+_CLEARLY = 0.6
+"""What looks like a tip less than this times as clearly as the run's tips do is none."""
 
 _EXPOSURE = 1.4
 """A frame this many times brighter or darker than the others shows no tip that they show."""
@@ -115,6 +118,16 @@ class TipConsistency:
             for kind, found in zip(FREE, (before, after), strict=True)
         )
         return faint if usual and aside <= _SAME_END else {}
+
+    def clearly_absent(self, guesses: Collection[TipDetection | None]) -> bool:
+        """Whether the likeliest tips of frames without one are clearly fainter than this run's.
+
+        In a view in which the tips themselves are hardly to be seen, not to see one proves nothing.
+        """
+        if not self._confidences:
+            return True
+        limit = _CLEARLY * float(np.median(self._confidences))
+        return all(guess is None or guess.confidence < limit for guess in guesses)
 
     def excuses(
         self,

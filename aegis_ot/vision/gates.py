@@ -29,6 +29,7 @@ class Case:
         alarm_p: A well that looks more unusual than this is not passed for want of proof: it is
             left to the operator. In a run of a hundred wells it has to be small; on a plate of
             few wells, of which one is known to be normal, the scorer's own threshold serves.
+        clearly_absent: Whether nothing like this run's tips is in the frames without one.
     """
 
     sample: TrajectorySample
@@ -39,6 +40,7 @@ class Case:
     calibrated: bool = True
     p_value: float | None = None
     alarm_p: float = RUN_ALARM
+    clearly_absent: bool = True
 
     @property
     def alarming(self) -> bool:

@@ -39,6 +39,7 @@ class OpenTrajectory:
         looks: What the column reader took from each.
         unusable: Keyframes whose frame was no image.
         excused: Keyframes in which no tip was found though it is on, as the others show.
+        clearly_absent: Whether nothing like this run's tips is in the frames without one.
     """
 
     keyframes: dict[KeyframeKind, Keyframe] = field(default_factory=dict)
@@ -47,6 +48,7 @@ class OpenTrajectory:
     looks: dict[KeyframeKind, object] = field(default_factory=dict)
     unusable: list[KeyframeKind] = field(default_factory=list)
     excused: tuple[KeyframeKind, ...] = ()
+    clearly_absent: bool = True
 
 
 class Stream:

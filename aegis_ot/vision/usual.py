@@ -40,6 +40,13 @@ _GAP_FAINT = 25.0
 """A break counts from this strength, from this multiple of the strongest that this run's normal
 columns showed, and while they are few from more."""
 
+_MISFIT_LEAST = 3.0
+_MISFIT_FACTOR = 3.0
+_MISFIT_SHARE = 0.1
+"""A frame whose rows look like neither an empty nor a filled tip, by this, by this multiple of what
+the run's normal ones usually show and by this share of what the liquid changes, was laid beside
+the tip, or something else is before it."""
+
 _EXPOSURE = 1.4
 """A frame this many times brighter or darker than the run's others cannot be compared."""
 
@@ -52,6 +59,7 @@ class Usual:
         self._dry: list[float] = []
         self._wet: list[float] = []
         self._gaps: list[float] = []
+        self._misfits: list[float] = []
 
     def anew(self) -> Usual:
         """Nothing but how bright the run's frames are."""
@@ -63,10 +71,11 @@ class Usual:
         """Median brightness of a normal well's frame."""
         _keep(self._lights, light)
 
-    def note_full(self, share: float | None, gap: float) -> None:
+    def note_full(self, share: float | None, gap: float, misfit: float) -> None:
         """Mean wetness of a column that was full (``None``: not told), and its strongest break."""
         if share is not None:
             _keep(self._wet, share - 1.0)
+        _keep(self._misfits, misfit)
         _keep(self._gaps, gap)
 
     def note_empty(self, share: float) -> None:
@@ -94,6 +103,11 @@ class Usual:
         limit = max(_GAP_LEAST, _GAP_FACTOR * max(known) + 1.0)
         # A liquid that shows faintly is full of what looks like gaps.
         return (limit + _GAP_FIRST / len(known)) * (1.0 + _GAP_FAINT / max(wet.power, 1.0))
+
+    def fits(self, wet: Wetness) -> bool:
+        """Whether a frame's rows look like tips, empty or filled, of this run."""
+        usual = _MISFIT_FACTOR * float(np.median(self._misfits or [0.0]))
+        return wet.misfit <= max(_MISFIT_LEAST, usual, _MISFIT_SHARE * wet.power)
 
     def comparable(self, light: float) -> bool:
         """Whether a frame is about as bright as the run's others."""

@@ -57,6 +57,12 @@ class VolumetricGate:
     def examine(self, case: Case) -> GateDecision:
         sample = case.sample
         absent = {KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE} <= set(case.missing)
+        if absent and not case.clearly_absent:
+            return GateDecision(
+                Outcome.UNDECIDED,
+                self.gate,
+                "No tip was found, but in this view the tips of this run are hardly to be seen.",
+            )
         if absent:
             return GateDecision(
                 Outcome.FAIL,

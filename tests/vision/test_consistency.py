@@ -148,3 +148,9 @@ def test_an_overexposed_frame_is_no_sign_of_a_missing_tip():
     white = np.full((480, 640, 3), 250, np.uint8)
     seen = {K.TRANSIT: frame(), K.DISPENSE: frame(), K.POST_DISPENSE: white}
     assert TipConsistency().excuses(K.POST_DISPENSE, shown, seen)
+
+
+def test_no_tip_is_sure_only_where_tips_are_plain_to_see(known):
+    bare = [replace(tip(), confidence=0.2), None]
+    assert known.clearly_absent(bare)
+    assert not known.clearly_absent([replace(tip(), confidence=0.5), None])

@@ -82,6 +82,12 @@ def test_no_tip_where_it_hangs_free_fails() -> None:
     assert decision.failure is FailureType.NO_TIP
 
 
+def test_where_tips_are_hardly_to_be_seen_none_is_no_proof() -> None:
+    both = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+    seen = replace(case(None, None, missing=both), clearly_absent=False)
+    assert VolumetricGate().examine(seen).outcome is Outcome.UNDECIDED
+
+
 def test_calibration_wells_fail_for_gross_mismatches_only() -> None:
     slight = case(FULL, ColumnReading(16.0, 2.0), Route.CALIBRATION)
     gross = case(FULL, ColumnReading(80.0, 2.0), Route.CALIBRATION)

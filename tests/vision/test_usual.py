@@ -38,7 +38,7 @@ def test_a_break_is_judged_only_beside_the_breaks_of_normal_columns() -> None:
     usual = Usual()
     assert usual.gap_limit(wetness()) is None
     for _ in range(ENOUGH):
-        usual.note_full(1.0, 4.0)
+        usual.note_full(1.0, 4.0, 1.0)
     limit = usual.gap_limit(wetness())
     assert limit is not None
     assert limit > 8.0
@@ -53,3 +53,14 @@ def test_frames_of_another_brightness_are_not_compared() -> None:
     assert not usual.comparable(250.0)
     assert not usual.anew().comparable(250.0)
     assert alike(100.0, 110.0)
+
+
+def test_a_frame_that_looks_like_no_tip_of_this_run_is_not_read() -> None:
+    usual = Usual()
+    odd = Wetness(wetness().u, np.zeros(100), np.ones(100), 30.0, misfit=6.0)
+    plain = Wetness(wetness().u, np.zeros(100), np.ones(100), 400.0, misfit=6.0)
+    assert usual.fits(wetness())
+    assert not usual.fits(odd)
+    assert usual.fits(plain)
+    usual.note_full(1.0, 0.0, 5.0)
+    assert usual.fits(odd)

@@ -62,12 +62,15 @@ class Wetness:
         weight: ``(rows,)`` precision of it, correlation counted; 0 where nothing is known.
         power: Typical squared distance of filled from empty, in standard deviations: how well
             this liquid shows before this camera.
+        misfit: Typical squared distance of a row from all that lies between empty and filled,
+            in variances: 1 where the tip was laid straight as in the other frames.
     """
 
     u: Array
     share: NDArray[np.float64]
     weight: NDArray[np.float64]
     power: float
+    misfit: float = 1.0
 
     def mean(self, low: float, high: float) -> tuple[float, float]:
         """Weighted mean share of the rows between ``low`` and ``high`` (u), and their weight."""
@@ -117,11 +120,17 @@ class Wetness:
 
 @dataclass(frozen=True)
 class _Templates:
-    """Empty tip, what liquid changes, and the discriminant: ``(rows, features)``."""
+    """Empty tip, what liquid changes, and the discriminant: ``(rows, features)``.
+
+    ``power``: squared distance of filled from empty in each row. ``precision``: inverse of the
+    rows' covariance, ``(features, features)``.
+    """
 
     dry: NDArray[np.float64]
+    change: NDArray[np.float64]
     weights: NDArray[np.float64]
     power: NDArray[np.float64]
+    precision: NDArray[np.float64]
 
 
 class WetAndDry:
@@ -160,13 +169,18 @@ class WetAndDry:
         known = self._templates
         inside = (profile.u > low) & (profile.u < high) & np.isfinite(known.power)
         power = np.where(inside, known.power, 0.0)
-        score = np.nan_to_num((known.weights * (signals(profile) - known.dry)).sum(axis=1))
+        seen = signals(profile) - known.dry
+        score = np.nan_to_num((known.weights * seen).sum(axis=1))
         share = np.where(power > 0, score / np.maximum(power, 0.5), 0.0)
+        share = np.clip(share, -1.0, 2.0)
+        rest = (seen - np.clip(share, 0.0, 1.0)[:, None] * known.change)[inside]
+        off = np.einsum("ij,jk,ik->i", rest, known.precision, rest) / rest.shape[1]
         return Wetness(
             profile.u,
-            np.clip(share, -1.0, 2.0),
+            share,
             np.minimum(power, _POWER_MOST) / _CORRELATED,
             float(np.median(known.power[inside])) if inside.any() else 0.0,
+            float(np.median(off)) if len(off) else 1.0,
         )
 
     def _make(self) -> _Templates | None:
@@ -183,7 +197,8 @@ class WetAndDry:
         scatter = (scatter + prior) / (len(rest) + _NOISE_ROWS)
         change = _smoothed(wet - dry)
         weights = np.linalg.solve(scatter, change.T).T
-        return _Templates(dry, weights, (weights * change).sum(axis=1))
+        power = (weights * change).sum(axis=1)
+        return _Templates(dry, change, weights, power, np.linalg.inv(scatter))
 
 
 def _median(frames: Sequence[Array]) -> tuple[NDArray[np.float64], float]:
