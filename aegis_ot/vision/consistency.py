@@ -27,6 +27,10 @@ _MEMORY = 24
 _SAME_LENGTH = 0.12
 """Lengths in one run differ by less than this, as a fraction."""
 
+_PERSPECTIVE = 0.2
+"""The same where both free frames show it: from the first row of a plate to the last a tip comes
+nearer to the camera."""
+
 _MATCH = 0.6
 """Correlation from which the collar of one free frame is found again in the other."""
 
@@ -67,17 +71,17 @@ class TipConsistency:
         fallen off.
         """
         settled = dict(detections)
-        if self._known:
-            for kind, found in detections.items():
-                if found is not None and not self._plausible(found, kind):
-                    settled[kind] = self._collar_mended(found, kind)
         pair = {kind: found for kind in FREE if (found := detections.get(kind)) is not None}
-        if len(pair) < len(FREE):
-            return settled
-        before, after = (pair[kind] for kind in FREE)
-        if abs(before.length / after.length - 1.0) <= _SAME_LENGTH:
-            if all(settled[kind] is pair[kind] for kind in FREE):
-                self._learn(pair)
+        lengths = [found.length for found in pair.values()]
+        agree = len(pair) == len(FREE) and abs(lengths[0] / lengths[1] - 1.0) <= _SAME_LENGTH
+        if self._known:
+            within = _PERSPECTIVE if agree else _SAME_LENGTH
+            for kind, found in detections.items():
+                if found is not None and not self._plausible(found, kind, within):
+                    settled[kind] = self._collar_mended(found, kind)
+        if agree and all(settled[kind] is pair[kind] for kind in FREE):
+            self._learn(pair)
+        if agree or len(pair) < len(FREE):
             return settled
         good, bad = sorted(FREE, key=lambda kind: self._strangeness(pair[kind]))
         if settled[good] is not None and settled[bad] is pair[bad]:
@@ -159,9 +163,11 @@ class TipConsistency:
     def _known(self) -> bool:
         return len(self._lengths) >= _ENOUGH
 
-    def _plausible(self, found: TipDetection, kind: KeyframeKind) -> bool:
+    def _plausible(
+        self, found: TipDetection, kind: KeyframeKind, within: float = _SAME_LENGTH
+    ) -> bool:
         usual = float(np.median(self._lengths))
-        if abs(found.length / usual - 1.0) > _SAME_LENGTH:
+        if abs(found.length / usual - 1.0) > within:
             # Labware hides part of a tip in a well; only there may it look shorter.
             return kind not in FREE and found.length < usual
         return kind not in FREE or self._off_end(found, kind) <= _REACH
