@@ -75,10 +75,10 @@ class TipConsistency:
         lengths = [found.length for found in pair.values()]
         agree = len(pair) == len(FREE) and abs(lengths[0] / lengths[1] - 1.0) <= _SAME_LENGTH
         if self._known:
-            within = _PERSPECTIVE if agree else _SAME_LENGTH
+            within, end = (_PERSPECTIVE, _REACH) if agree else (_SAME_LENGTH, _SAME_END)
             for kind, found in detections.items():
                 if found is not None and not self._plausible(found, kind, within):
-                    settled[kind] = self._collar_mended(found, kind)
+                    settled[kind] = self._collar_mended(found, kind, end)
         if agree and all(settled[kind] is pair[kind] for kind in FREE):
             self._learn(pair)
         if agree or len(pair) < len(FREE):
@@ -172,9 +172,11 @@ class TipConsistency:
             return kind not in FREE and found.length < usual
         return kind not in FREE or self._off_end(found, kind) <= _REACH
 
-    def _collar_mended(self, found: TipDetection, kind: KeyframeKind) -> TipDetection | None:
-        """The tip with its usual length, if only its upper end is not where it should be."""
-        if kind not in FREE or not self._ends_as_usual(found, kind):
+    def _collar_mended(
+        self, found: TipDetection, kind: KeyframeKind, end: float
+    ) -> TipDetection | None:
+        """The tip with its usual length, if its lower end is about where it should be."""
+        if kind not in FREE or self._off_end(found, kind) > end:
             return None
         x, y = found.orifice
         share = float(np.median(self._lengths)) / max(found.length, 1.0)
