@@ -165,7 +165,7 @@ class SidecarLink:
         except (http.client.RemoteDisconnected, http.client.IncompleteRead) as error:
             self.close()
             raise self._unreachable("closed the connection without an answer") from error
-        except http.client.HTTPException as error:
+        except (http.client.HTTPException, ValueError) as error:  # a chunk of negative length, say
             self.close()
             raise self._garbled(f"its answer is no HTTP ({type(error).__name__})") from error
         except OSError as error:
@@ -199,7 +199,7 @@ class SidecarLink:
     def _understand(self, status: int, data: bytes) -> dict[str, Any]:
         try:
             answer = json.loads(data)
-        except ValueError:
+        except (ValueError, RecursionError):
             answer = None
         said = _error_text(answer)
         if status == 401 or status == 403:

@@ -37,6 +37,12 @@ class Waiter:
         """Seconds until the deadline, 0 after it."""
         return max(0.0, self.deadline - time.monotonic())
 
+    def check(self) -> None:
+        """Raise what ``check_stop`` raises, or :class:`TimeoutError` after the deadline."""
+        self.check_stop()
+        if self.left <= 0:
+            raise TimeoutError("no answer in time")
+
     def until_ready(self, sock: socket.socket, write: bool = False) -> None:
         """Wait until ``sock`` can be read (or written).
 
@@ -51,15 +57,12 @@ class Waiter:
                 selector.register(sock, selectors.EVENT_WRITE if write else selectors.EVENT_READ)
                 if selector.select(wait):
                     return
-            if self.left <= 0:
-                raise TimeoutError("no answer in time")
+            self.check()
 
     def until_done(self, thread: threading.Thread) -> None:
         """Wait for a helper thread; :class:`TimeoutError` as above."""
         while thread.is_alive():
-            self.check_stop()
-            if self.left <= 0:
-                raise TimeoutError("no answer in time")
+            self.check()
             thread.join(min(SLICE_S, self.left))
 
 
@@ -99,6 +102,8 @@ class _Reader(io.RawIOBase):
         return True
 
     def readinto(self, buffer: Any) -> int:
+        # Here too, not only while nothing comes: an answer without an end never waits.
+        self._waiter.check()
         while True:
             try:
                 return self._sock.recv_into(buffer)

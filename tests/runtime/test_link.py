@@ -132,6 +132,8 @@ GARBAGE = {
     "endless headers": b"HTTP/1.1 200 OK\r\n" + b"X: y\r\n" * 200,
     "cut short": b'HTTP/1.1 200 OK\r\nContent-Length: 99\r\n\r\n{"wire": 1',
     "nothing": b"",
+    "nested for ever": b"HTTP/1.1 200 OK\r\nContent-Length: 200000\r\n\r\n" + b"[" * 200_000,
+    "less than nothing": b"HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n-5\r\nabc",
 }
 
 
@@ -209,6 +211,40 @@ def test_an_answer_that_drips_byte_by_byte_still_ends_in_time(
         link.health(0.3)
     release.set()
     assert time.monotonic() - began < 1.0
+
+
+@pytest.mark.parametrize(
+    "again", [b"HTTP/1.1 100 Continue\r\n\r\n" * 100, b"X: y\r\n" * 1000, b"1\r\nx\r\n" * 1000]
+)
+@pytest.mark.parametrize("stopped", [False, True])
+def test_an_answer_without_an_end_ends_in_time(
+    again: bytes, stopped: bool, sidecar: FakeSidecar
+) -> None:
+    """It never makes the robot wait, so the wait is not what ends it."""
+
+    def fault(handler: Handler) -> bool:
+        if again[:1] != b"H":
+            handler.wfile.write(b"HTTP/1.1 200 OK\r\nTransfer-Encoding: chunked\r\n\r\n")
+        if again[:1] == b"X":
+            handler.wfile.write(b"0\r\n")
+        try:
+            while True:
+                handler.wfile.write(again)
+        except OSError:
+            return True
+
+    began = time.monotonic()
+
+    def check_stop() -> None:
+        if stopped and time.monotonic() - began > 0.2:
+            raise Stop
+
+    link = SidecarLink(sidecar.url, None, check_stop)
+    sidecar.fault = fault
+    with pytest.raises(Stop if stopped else LinkError):
+        link.health(60.0 if stopped else 0.3)
+    assert time.monotonic() - began < 1.5
+    link.close()
 
 
 def test_a_stop_ends_any_wait_at_once(sidecar: FakeSidecar) -> None:
