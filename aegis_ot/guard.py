@@ -8,7 +8,6 @@ when ``run`` is called.
 from __future__ import annotations
 
 import functools
-import inspect
 import sys
 from collections.abc import Callable
 from types import FrameType
@@ -78,17 +77,10 @@ def _decorate(function: Any, settings: dict[str, Any], nameless: tuple[Any, ...]
         from .guarded_run import run_guarded
 
         _refuse(nameless)
-        return run_guarded(
-            lambda: inner(protocol, *args, **kwargs), protocol, merged, _file_name_of(inner), inner
-        )
+        return run_guarded(lambda: inner(protocol, *args, **kwargs), protocol, merged, inner)
 
     setattr(run, _MARK, (inner, merged))
     return run
-
-
-def _file_name_of(function: Any) -> str:
-    code = getattr(inspect.unwrap(function), "__code__", None)
-    return str(code.co_filename) if code is not None else "<protocol>"
 
 
 def _refuse(nameless: tuple[Any, ...]) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import dis
 import sys
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack, nullcontext
 from contextvars import ContextVar
 from types import FrameType
@@ -34,27 +34,25 @@ def _is_guarded(protocol: Any) -> bool:
     return guarded is not None and guarded() is protocol
 
 
-def run_guarded(
-    call: Callable[[], Any], protocol: Any, keywords: dict[str, Any], file_name: str, run: Any
-) -> Any:
+def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any], run: Any) -> Any:
     """Call ``call()``, which runs the user's protocol, with both layers around it.
 
     Args:
         call: The user's ``run``, bound to its context.
         protocol: The context.
         keywords: The guard's keyword arguments.
-        file_name: ``co_filename`` of the protocol's code.
-        run: The user's function, for its module's names.
+        run: What the user decorated.
     """
-    from .preflight.rehearsal import is_rehearsing
+    from .preflight.rehearsal import find_home, is_rehearsing
 
     if is_rehearsing() or _is_guarded(protocol):
         return call()
+    file_name, module = find_home(run)
     token = _GUARDED.set(weakref.ref(protocol))
     try:
         settings = load_settings(**keywords)
         if protocol.is_simulating():
-            return _rehearse_by_running(call, protocol, settings, file_name, run)
+            return _rehearse_by_running(call, protocol, settings, file_name, module)
         layer1 = _preflight(protocol, settings, file_name)
         return _watched(call, protocol, settings, file_name, layer1)
     except AegisError as error:
@@ -71,11 +69,11 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
     rehearsed here, in simulation too, and the end of the run is seen by a profile hook on the
     return of this very frame.
     """
-    from .preflight.rehearsal import is_rehearsing
+    from .preflight.rehearsal import find_home, is_rehearsing
 
     if is_rehearsing() or _is_guarded(protocol):
         return
-    file_name = frame.f_code.co_filename
+    file_name, _ = find_home(frame)
     try:
         settings = load_settings(**keywords)
         layer1 = _preflight(protocol, settings, file_name)
@@ -125,7 +123,11 @@ def _outermost(frame: FrameType, file_name: str) -> FrameType | None:
 
 
 def _rehearse_by_running(
-    call: Callable[[], Any], protocol: Any, settings: Settings, file_name: str, run: Any
+    call: Callable[[], Any],
+    protocol: Any,
+    settings: Settings,
+    file_name: str,
+    module: Mapping[str, Any],
 ) -> Any:
     from .preflight.rehearsal import Recorder
 
@@ -136,7 +138,7 @@ def _rehearse_by_running(
         return call()
     with tapped(protocol, listeners, file_name) as tap:
         names = NameCollector(tap.wells, file_name)
-        module, text = getattr(run, "__globals__", {}), _text_of(file_name, protocol)
+        text = _text_of(file_name, protocol)
         with names.watching(module, text) if recorder is not None else nullcontext():
             result = _call_watched(call, watcher, tap)
         names.look(module, "<module>", 1)

@@ -316,6 +316,58 @@ def caught(how: str, settings: str, level: str = "2.15", body: str = BAD) -> str
     )
 
 
+_STAND_INS = {
+    "partial": "import functools\nrun = guard(functools.partial(_run, None), {settings})\n",
+    "lambda": "run = guard(lambda protocol: _run(None, protocol), {settings})\n",
+    "object": "class Runs:\n    def __call__(self, protocol): _run(None, protocol)\n"
+    "run = guard(Runs(), {settings})\n",
+    "helper's decorator": "import helper\n@guard({settings})\n@helper.announced\n"
+    "def run(protocol): _run(None, protocol)\n",
+    "helper's guard": "import helper\ndef run(protocol):\n"
+    "    helper.guarded(protocol, {settings})\n    _run(None, protocol)\n",
+}
+_HELPER = """
+from aegis_ot import guard
+
+def announced(function):
+    def wrapper(protocol):
+        return function(protocol)
+    return wrapper
+
+def guarded(protocol, **settings):
+    return guard(protocol, **settings)
+"""
+
+
+@pytest.mark.parametrize("kind", _STAND_INS)
+class TestWhateverRunIs:
+    """A ``run`` that does not lead back to its text is judged by the same text."""
+
+    @pytest.fixture(autouse=True)
+    def helper(self, tmp_path, monkeypatch):
+        (tmp_path / "helper.py").write_text(_HELPER)
+        monkeypatch.syspath_prepend(tmp_path)
+        yield
+        sys.modules.pop("helper", None)
+
+    def text(self, kind, body, settings=""):
+        plain = protocol(body).replace("@guard()\n", "").replace("run(p", "_run(_, p")
+        unused = "def run(protocol): ...\n" if "def run" not in _STAND_INS[kind] else ""
+        return plain + unused + _STAND_INS[kind].format(settings=settings)
+
+    def test_a_bad_protocol_is_rejected_with_wells_and_lines(self, kind):
+        text = self.text(kind, BAD)
+        line = text[: text.index("p300.dispense(40, ntc)")].count("\n") + 1
+        with pytest.raises(Exception, match=rf"PCR-2.*H12 of plate.* at line {line}\."):
+            simulated(text)
+
+    def test_a_good_one_is_watched_to_its_end(self, kind):
+        with stub_sidecar() as (url, keyframes):
+            lines = simulated(self.text(kind, GOOD, f'sidecar="{url}", watch_simulation=True'))
+        assert "Layer 2 watched 2 deliveries: 2 passed" in of_guard(lines)[-1]
+        assert len(keyframes) == 8
+
+
 @pytest.mark.parametrize("how", CAUGHT)
 class TestARejectionThatIsCaught:
     @pytest.mark.parametrize("level", ["2.11", "2.16"])

@@ -9,7 +9,7 @@ from .recorder import Record, Recorder, Step
 from .recording import Recording, record
 from .refusals import in_words, line_of
 from .rehearsing import Rehearsal, is_rehearsing, play, rehearse
-from .script import Script, find_script
+from .script import Script, find_home, find_script
 
 __all__ = [
     "Record",
@@ -18,6 +18,7 @@ __all__ = [
     "Rehearsal",
     "Script",
     "Step",
+    "find_home",
     "find_script",
     "in_words",
     "interrupted_after",

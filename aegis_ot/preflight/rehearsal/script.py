@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import functools
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import FrameType
+from types import CodeType, FrameType, FunctionType, MethodType
 from typing import Any
+
+_MOST_LAYERS = 20
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,45 @@ class Script:
     data_files: Mapping[str, bytes] = field(default_factory=dict)
 
 
+def find_home(run: Any) -> tuple[str, Mapping[str, Any]]:
+    """Where the protocol that is running right now is written.
+
+    A ``run`` that went through a decorator, a ``partial`` or an object of the protocol's own does
+    not always lead back to its text; Opentrons' loader knows it.
+
+    Args:
+        run: What was guarded, or the frame that asked for it: for where no loader is on the stack.
+
+    Returns:
+        ``co_filename`` of the protocol's code, and its globals.
+    """
+    loader = _loader(sys._getframe(1))
+    if loader is not None:
+        code, namespace = loader["proto"].contents, loader.get("new_globs")
+        if isinstance(code, CodeType) and isinstance(namespace, dict):
+            return code.co_filename, namespace
+    if isinstance(run, FrameType):
+        return run.f_code.co_filename, run.f_globals
+    function = _function_behind(run)
+    if function is None:
+        return "<protocol>", {}
+    return function.__code__.co_filename, function.__globals__
+
+
+def _function_behind(run: Any) -> FunctionType | None:
+    """The function that a decorator, a ``partial`` or an object with ``__call__`` stands for."""
+    for _ in range(_MOST_LAYERS):
+        if type(run) is FunctionType and not hasattr(run, "__wrapped__"):
+            return run
+        if type(run) is MethodType:
+            run = run.__func__
+        elif type(run) is functools.partial:
+            run = run.func
+        else:
+            run = getattr(run, "__wrapped__", None) or type(run).__call__
+    return None
+
+
 def find_script(file_name: str, protocol: Any) -> Script | None:
     """The script that is running right now, or ``None`` where its text cannot be had.
 
@@ -42,8 +84,9 @@ def find_script(file_name: str, protocol: Any) -> Script | None:
         file_name: ``co_filename`` of the protocol's code.
         protocol: The live ``ProtocolContext``; its custom labware is taken along.
     """
-    loaded = _loaded_protocol(sys._getframe(1))
-    if loaded is not None:
+    loader = _loader(sys._getframe(1))
+    if loader is not None:
+        loaded = loader["proto"]
         text = loaded.text
         return Script(
             text=text.decode("utf-8", "replace") if isinstance(text, bytes) else text,
@@ -58,13 +101,14 @@ def find_script(file_name: str, protocol: Any) -> Script | None:
     return Script(text=text, file_name=file_name, extra_labware=_custom_labware(protocol))
 
 
-def _loaded_protocol(frame: FrameType | None) -> Any:
-    """The ``PythonProtocol`` that Opentrons' loader holds on this stack."""
+def _loader(frame: FrameType | None) -> Mapping[str, Any] | None:
+    """Local names of Opentrons' loader on this stack: its ``PythonProtocol`` is ``proto``."""
     while frame is not None:
         if frame.f_code.co_name == "exec_run":
-            candidate = frame.f_locals.get("proto")
-            if hasattr(candidate, "text") and hasattr(candidate, "contents"):
-                return candidate
+            names = frame.f_locals
+            proto = names.get("proto")
+            if hasattr(proto, "text") and hasattr(proto, "contents"):
+                return names
         frame = frame.f_back
     return None
 
