@@ -16,9 +16,7 @@ from types import CodeType, FrameType, FunctionType
 from typing import Any
 
 from .own_functions import codes_of
-from .rewritten import rewritten
-
-Look = Callable[[FrameType], None]
+from .rewritten import Look, rewritten
 
 _TOOL_IDS = (4, 3)
 """Those that Python keeps for no kind of tool."""

@@ -12,36 +12,63 @@ import sys
 import uuid
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from threading import get_ident
+from threading import Lock, get_ident
 from types import CodeType, FrameType, FunctionType
+from typing import TypeAlias
 
 from .own_functions import codes_of
+
+Look: TypeAlias = Callable[[FrameType], None]
 
 _FUTURES = 0x1FE0000
 """The flags of ``from __future__``, which a loader may hand on to what it compiles."""
 
 
-class _Ear:
-    """Stands in the rewritten code as a constant: no name has to be lent by the protocol."""
+_LENDING = Lock()
+"""Two runs in two threads may call the functions of one helper module."""
 
-    def __init__(self, look: Callable[[FrameType], None]) -> None:
-        self._look: Callable[[FrameType], None] | None = look
-        self._thread = get_ident()
+
+class _Ear:
+    """Stands in the rewritten code as a constant: no name has to be lent by the protocol.
+
+    A run that finds it in a function joins it; the last run that leaves gives the functions their
+    own code back. One that outlives all runs is not heard and keeps none of them alive.
+    """
+
+    def __init__(self) -> None:
+        self._listeners: list[tuple[int, Look]] = []
+        self._own: list[tuple[FunctionType, CodeType]] = []
 
     def returned(self) -> None:
-        if self._look is not None and get_ident() == self._thread:
-            self._look(sys._getframe(1))
+        thread = get_ident()
+        for listener, look in tuple(self._listeners):
+            if listener == thread:
+                look(sys._getframe(1))
 
-    def close(self) -> None:
-        """A function that outlives the run must not keep the run alive."""
-        self._look = None
+    def enter(self, function: FunctionType, telling: CodeType) -> None:
+        self._own.append((function, function.__code__))
+        function.__code__ = telling
+
+    def join(self, listener: tuple[int, Look]) -> None:
+        self._listeners.append(listener)
+
+    def leave(self, listener: tuple[int, Look]) -> None:
+        self._listeners.remove(listener)
+        if self._listeners:
+            return
+        for function, own in self._own:
+            if _ear_in(function) is self:
+                function.__code__ = own
+        self._own.clear()
+
+
+def _ear_in(function: FunctionType) -> _Ear | None:
+    return next((c for c in function.__code__.co_consts if type(c) is _Ear), None)
 
 
 @contextmanager
 def rewritten(
-    functions: Sequence[FunctionType],
-    sources: Callable[[str], str],
-    look: Callable[[FrameType], None],
+    functions: Sequence[FunctionType], sources: Callable[[str], str], look: Look
 ) -> Iterator[None]:
     """Tell ``look`` of each return of these functions, and of those within them.
 
@@ -50,32 +77,31 @@ def rewritten(
         sources: The text of a file, by ``co_filename``.
         look: Gets the frame that returns, in this thread only.
     """
-    ear = _Ear(look)
-    ours: list[tuple[FunctionType, CodeType, CodeType]] = []
-    for (file_name, flags), group in _by_file(functions).items():
-        codes = _telling(sources(file_name), file_name, flags, ear)
-        ours += [
-            (function, function.__code__, codes[function.__code__])
-            for function in group
-            if function.__code__ in codes
-        ]
+    ear, listener = _Ear(), (get_ident(), look)
+    codes = {
+        (file_name, flags): _telling(sources(file_name), file_name, flags, ear)
+        for file_name, flags in set(map(_origin, functions))
+    }
+    with _LENDING:
+        for function in functions:
+            telling = codes[_origin(function)].get(function.__code__)
+            if telling is not None:
+                ear.enter(function, telling)
+        ears = {ear, *filter(None, map(_ear_in, functions))}
+        for one in ears:
+            one.join(listener)
     try:
-        for function, _, telling in ours:
-            function.__code__ = telling
         yield
     finally:
-        ear.close()
-        for function, own, telling in ours:
-            if function.__code__ is telling:
-                function.__code__ = own
+        with _LENDING:
+            for one in ears:
+                one.leave(listener)
 
 
-def _by_file(functions: Sequence[FunctionType]) -> dict[tuple[str, int], list[FunctionType]]:
-    groups: dict[tuple[str, int], list[FunctionType]] = {}
-    for function in functions:
-        code = function.__code__
-        groups.setdefault((code.co_filename, code.co_flags & _FUTURES), []).append(function)
-    return groups
+def _origin(function: FunctionType) -> tuple[str, int]:
+    """What its code was compiled from, and how."""
+    code = function.__code__
+    return code.co_filename, code.co_flags & _FUTURES
 
 
 def _telling(text: str, file_name: str, flags: int, ear: _Ear) -> Mapping[CodeType, CodeType]:

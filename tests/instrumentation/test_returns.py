@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import sys
+import threading
 import traceback
 
 import pytest
@@ -117,6 +118,59 @@ def test_functions_look_the_same_and_are_given_back(way):
     with pytest.raises(IndexError):
         heard(names, lambda: names["failing"](1), way)
     assert all(names[name].__code__ is code for name, code in codes.items())
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_two_threads_that_share_a_module_hear_each_its_own_calls(way):
+    """Two analyses of a robot server, say: the second used to hear nothing."""
+    names = loaded()
+    code = names["plain"].__code__
+    inside, first_is_over = threading.Event(), threading.Event()
+    looks = {}
+
+    def first():
+        def call():
+            inside.set()
+            assert second_called.wait(10)
+            names["plain"](1)
+
+        _, looks["first"] = heard(names, call, way)
+        first_is_over.set()
+
+    def second():
+        def call():
+            names["plain"](2)
+            second_called.set()
+            assert first_is_over.wait(10)
+            names["plain"](3)
+
+        assert inside.wait(10)
+        _, looks["second"] = heard(names, call, way)
+
+    second_called = threading.Event()
+    threads = [threading.Thread(target=first), threading.Thread(target=second)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(20)
+    assert [values["x"] for _, values in looks["first"]] == [1]
+    assert [values["x"] for _, values in looks["second"]] == [2, 3]
+    assert names["plain"].__code__ is code
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_functions_of_two_files_that_look_alike_stay_in_their_files(way):
+    one, other = loaded(), {"__name__": "builtins"}
+    exec(compile(TEXT, "helper.py", "exec"), other)
+    files = []
+    with way(
+        own_functions(one | {"other": other["plain"]}, {"protocol.py", "helper.py"}),
+        lambda _: TEXT,
+        lambda frame: files.append(frame.f_code.co_filename),
+    ):
+        one["plain"](1)
+        other["plain"](1)
+    assert files == ["protocol.py", "helper.py"]
 
 
 def test_a_function_that_outlives_the_run_is_not_heard_any_more():
