@@ -11,6 +11,7 @@ from ..evaluation.layer2.cascade import JudgedWell, run_cascade
 from ..evaluation.layer2.evaluate import own_threshold
 from ..evaluation.layer2.lopo import HeldOut, ScoredWell, hold_out, score_with
 from ..vision.dataset import Dataset, first_normals
+from ..vision.gates import in_sentences
 from ..vision.measuring import ColumnReading
 from ..vision.scorers import make_scorer
 from ..vision.tips import TipGeometry, tip_for
@@ -113,7 +114,7 @@ def _well(data: Dataset, judged: JudgedWell, show: bool, scored: bool) -> SeenWe
         route=judged.triage.route.value,
         gate=decision.gate.value,
         failure=decision.failure.value if decision.failure else "",
-        reason=_sentences(judged.triage.reason, decision.reason),
+        reason=in_sentences(judged.triage.reason, decision.reason),
         truth=_truth(sample),
         agreement="" if judged.calibration else _agreement(well.failed, judged.flagged),
         score=well.score if scored else None,
@@ -121,10 +122,6 @@ def _well(data: Dataset, judged: JudgedWell, show: bool, scored: bool) -> SeenWe
         frames=_frames(data, judged, show),
         parts=sorted(well.parts.items(), key=lambda part: -part[1]),
     )
-
-
-def _sentences(*reasons: str) -> str:
-    return " ".join(dict.fromkeys(reason for reason in reasons if reason))
 
 
 def _truth(sample: TrajectorySample) -> str:

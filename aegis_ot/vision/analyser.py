@@ -14,7 +14,7 @@ from .camera import Frame
 from .cascade import Triage
 from .consistency import FREE, second_look
 from .evidence import evidence_of
-from .gates import Case, ConfirmingGate, GateDecision, examine_in_turn
+from .gates import Case, ConfirmingGate, GateDecision, examine_in_turn, in_sentences
 from .measuring import TipView
 from .stream import OpenTrajectory, Stream
 from .tips import pipette_class, tip_for
@@ -216,9 +216,7 @@ class RunAnalyser:
                 case.sample.expected_ul.get(KeyframeKind.POST_DISPENSE),
             )
         decision = examine_in_turn(self._gates, case)
-        if triage.reason == decision.reason:
-            return decision
-        return replace(decision, reason=f"{triage.reason} {decision.reason}")
+        return replace(decision, reason=in_sentences(triage.reason, decision.reason))
 
     def _learn(
         self, stream: Stream, case: Case, seen: OpenTrajectory, decision: GateDecision

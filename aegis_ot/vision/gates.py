@@ -94,7 +94,15 @@ def examine_in_turn(gates: Sequence[ConfirmingGate], case: Case) -> GateDecision
     if not decisions:
         return GateDecision(Outcome.UNDECIDED, Gate.NONE, "No gate is configured.")
     first, last = decisions[0], decisions[-1]
-    reason = first.reason if first is last else f"{first.reason} {last.reason}"
+    reason = in_sentences(first.reason, last.reason)
     return GateDecision(
         Outcome.UNDECIDED, last.gate, reason, None, first.measured_ul, first.expected_ul
+    )
+
+
+def in_sentences(*reasons: str) -> str:
+    """Reasons one after another; what a later one says again is said once."""
+    later = [" ".join(reasons[number + 1 :]) for number in range(len(reasons))]
+    return " ".join(
+        said for said, rest in zip(reasons, later, strict=True) if said and said not in rest
     )

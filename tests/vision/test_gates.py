@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.vision.gates import Case, OperatorGate, examine_in_turn
+from aegis_ot.vision.gates import Case, OperatorGate, examine_in_turn, in_sentences
 from aegis_ot.vision.measuring import ColumnReading
 from aegis_ot.vision.volumetric_gate import VolumetricGate
 from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
@@ -138,3 +138,10 @@ def test_gates_are_asked_in_turn_until_one_decides() -> None:
     assert blind.outcome is Outcome.UNDECIDED
     assert blind.gate is Gate.OPERATOR
     assert examine_in_turn([], case()).outcome is Outcome.UNDECIDED
+
+
+def test_no_reason_is_said_twice() -> None:
+    odd, look = "The tip looks odd.", "Please look at it."
+    assert in_sentences(odd, odd) == odd
+    assert in_sentences(odd, f"{odd} {look}") == f"{odd} {look}"
+    assert in_sentences("", odd, look) == f"{odd} {look}"
