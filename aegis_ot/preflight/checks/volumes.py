@@ -39,7 +39,10 @@ class VolumeBookkeeping(Check):
                 continue
             undeclared = not imbalance.overfilled and well.declared is None
             if undeclared and (
-                case.loose_volumes or well.ref in case.unsure or well.ref.labware in by_hand
+                case.loose_volumes
+                or well.ref in case.unsure
+                or well.ref.labware in by_hand
+                or well.generation  # brought by hand in a pause: nobody says what it holds
             ):
                 continue  # it may have held what nobody declared
             seen.add(key)

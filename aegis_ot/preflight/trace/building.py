@@ -108,7 +108,7 @@ class _Builder:
         for key in said.replaced:
             self._replace(key)
         if said.volumes_unsure:
-            self._plates.forget_volumes()
+            self._plates.forget_volumes(reckon=not said.refilled)
 
     def _replace(self, key: str) -> None:
         info = self._trace.labware.get(key)
@@ -204,6 +204,8 @@ class _Builder:
         tip.touch(well, step.line, self._index)
         liquid = well.liquid()
         held = well.volume
+        if not well.prefilled:
+            tip.unsure += max(step.volume - well.least, 0.0)
         missing = well.draw(step.volume)
         if missing > _slack(step.volume):
             self._trace.imbalances.append(
@@ -217,10 +219,12 @@ class _Builder:
         visit.parts = parts
         for _, volume, liquid, _ in parts:
             visit.volume += volume
-            well.add(volume, liquid)
-        if well.volume > well.capacity + _slack(well.capacity) and visit.volume > 0:
+            unsure = min(tip.unsure, volume)
+            tip.unsure -= unsure
+            well.add(volume, liquid, unsure)
+        if well.least > well.capacity + _slack(well.capacity) and visit.volume > 0:
             self._trace.imbalances.append(
-                Imbalance(well, self._index, step.line, True, well.volume, well.capacity)
+                Imbalance(well, self._index, step.line, True, well.least, well.capacity)
             )
         visit.below = step.from_top is None or step.from_top < 0
         clear = well.clear_of_liquid(step.from_bottom, step.from_liquid)

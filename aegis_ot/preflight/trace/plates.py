@@ -55,11 +55,11 @@ class Plates:
         for ref in [ref for ref in self._current if ref.labware == key]:
             del self._current[ref]
 
-    def forget_volumes(self) -> None:
-        """Someone may have filled or emptied wells by hand."""
+    def forget_volumes(self, reckon: bool) -> None:
+        """Someone may have filled or emptied wells by hand; ``reckon`` if nothing says so."""
         for well in self._current.values():
             if well.visits or well.prefilled:
-                well.forget_volume()
+                well.forget_volume(reckon)
 
     def _order(self, ref: WellRef) -> tuple[int, int]:
         orders = self._orders.get(ref.labware)

@@ -22,12 +22,14 @@ class Intervention:
         all_tips: Whether used tips were replaced.
         shaken: Whether plates were mixed by hand or on a shaker.
         volumes_unsure: Whether wells may have been filled or emptied by hand.
+        refilled: Whether the message says so.
     """
 
     replaced: frozenset[str] = frozenset()
     all_tips: bool = False
     shaken: bool = False
     volumes_unsure: bool = False
+    refilled: bool = False
 
 
 @dataclass
@@ -56,6 +58,7 @@ class Replacements:
             return Intervention(volumes_unsure=True)
         topics = {match.topic for match in self._lexicon.find(text)}
         shaken = "shake" in topics
+        refill = "refill" in topics
         tips_only = "tips" in topics and "plate" not in topics
         if "replace" in topics and tips_only:
             return Intervention(all_tips=True, shaken=shaken)
@@ -70,9 +73,9 @@ class Replacements:
                 and len(info.wells) >= 6
                 and not info.centers_channels
             }
-            return Intervention(frozenset(plates), "tips" in topics, shaken, "refill" in topics)
-        unsure = "refill" in topics or not topics
-        return Intervention(all_tips="tips" in topics, shaken=shaken, volumes_unsure=unsure)
+            return Intervention(frozenset(plates), "tips" in topics, shaken, refill, refill)
+        unsure = refill or not topics
+        return Intervention(frozenset(), "tips" in topics, shaken, unsure, refill)
 
     @staticmethod
     def _named(text: str, labware: Mapping[str, LabwareInfo], slots: Mapping[str, str]) -> set[str]:

@@ -33,15 +33,17 @@ class Tip:
         layers: Liquid and air in it, drawn last stands last.
         origins: Each liquid it has met, with the first contact, in that order.
         touched: Each well it has touched, with the first contact, in that order.
+        unsure: µL of its liquid that may be air: drawn from a well beyond what that held.
     """
 
-    __slots__ = ("home", "layers", "number", "origins", "picked_up", "session", "touched")
+    __slots__ = ("home", "layers", "number", "origins", "picked_up", "session", "touched", "unsure")
 
     def __init__(self, number: int, home: WellRef | None, line: int | None) -> None:
         self.number = number
         self.home = home
         self.picked_up = line
         self.session = 0
+        self.unsure = 0.0
         self.layers: list[Layer] = []
         self.origins: dict[Well, Met] = {}
         self.touched: dict[Well, Met] = {}
@@ -132,6 +134,7 @@ class TipBox:
             tip = self._on.pop((pipette, nozzle), None)
             if tip is not None:
                 tip.layers.clear()
+                tip.unsure = 0.0
                 if home is not None:
                     self._returned[home] = tip
                     self._taken.discard(home)

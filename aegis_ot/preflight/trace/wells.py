@@ -37,6 +37,8 @@ class Well:
         mixes: ``(first index, last index, line)`` of each time it was mixed.
         prefilled: Whether it held liquid before the run.
         fed: Whether the run has put liquid into it.
+        unsure: µL of ``volume`` that may not be there: drawn from a well beyond what it held.
+        reckoned: Volume at the time when someone may have changed it by hand, followed since, µL.
     """
 
     __slots__ = (
@@ -53,8 +55,10 @@ class Well:
         "order",
         "prefilled",
         "pure",
+        "reckoned",
         "ref",
         "slope",
+        "unsure",
         "visits",
         "volume",
     )
@@ -72,6 +76,8 @@ class Well:
         self.known = True
         self.prefilled = False
         self.fed = False
+        self.unsure = 0.0
+        self.reckoned: float | None = None
         self.declared: float | None = None
         self.contents: dict[Well, float] = {}
         self.liquids: list[str] = []
@@ -88,6 +94,11 @@ class Well:
         """Whether it surely holds nothing now."""
         return self.known and self.volume <= EMPTY_UL
 
+    @property
+    def least(self) -> float:
+        """µL that it surely holds."""
+        return self.volume - self.unsure
+
     def fill_before_run(self, volume: float | None) -> None:
         """It held liquid of its own before the run, of a declared or an unknown volume."""
         if volume is not None and volume <= 0:
@@ -101,10 +112,18 @@ class Well:
             self.volume += volume
             self.contents[self] = self.contents.get(self, 0.0) + volume
 
-    def forget_volume(self) -> None:
-        """Someone may have filled or emptied it by hand."""
+    def forget_volume(self, reckon: bool = False) -> None:
+        """Someone may have filled or emptied it by hand.
+
+        Args:
+            reckon: Whether nothing says so: then what it held still tells how high it stood.
+        """
+        if not reckon:
+            self.reckoned = None
+        elif self.known:
+            self.reckoned = self.volume
         self.known = False
-        self.volume = 0.0
+        self.volume = self.unsure = 0.0
 
     def liquid(self) -> Composition:
         """What a tip would draw now."""
@@ -120,7 +139,11 @@ class Well:
     def draw(self, volume: float) -> float:
         """Take liquid out; returns how much of it the well did not hold (0 if unknown)."""
         missing = volume - self.volume if self.known and volume > self.volume else 0.0
+        least = max(self.least - volume, 0.0)
         self.volume = self.volume - volume if self.volume > volume else 0.0
+        self.unsure = self.volume - least
+        if self.reckoned is not None:
+            self.reckoned = max(self.reckoned - volume, 0.0)
         if self.known and self.volume <= EMPTY_UL:
             self.volume = 0.0
             self.last = self.liquid()
@@ -134,9 +157,12 @@ class Well:
                     self.contents[origin] *= factor
         return missing
 
-    def add(self, volume: float, liquid: Composition) -> None:
-        """Put liquid in."""
+    def add(self, volume: float, liquid: Composition, unsure: float = 0.0) -> None:
+        """Put liquid in; ``unsure`` µL of it may be air."""
         self.volume += volume
+        self.unsure += unsure
+        if self.reckoned is not None:
+            self.reckoned += volume
         self.fed = self.fed or volume > 0
         contents = self.contents
         for origin, share in liquid.items():
@@ -146,9 +172,10 @@ class Well:
         """Whether a tip end at this height (mm) is known not to touch the liquid."""
         if from_liquid is not None:
             return from_liquid >= CLEARANCE_MM
-        if not self.known or from_bottom is None or self.slope is None:
+        volume = self.volume if self.known else self.reckoned
+        if volume is None or from_bottom is None or self.slope is None:
             return False
-        level = min(self.volume * self.slope, self.depth)
+        level = min(volume * self.slope, self.depth)
         return from_bottom >= level + CLEARANCE_MM
 
     def _guess(self) -> float:
