@@ -9,11 +9,15 @@ from typing import Annotated, Any
 
 import typer
 
+from ..errors import ConfigurationError
+from ..reasoning import VlmGate
+from ..vision.gates import ConfirmingGate
 from .app import CLEAN
 from .checks import write_text
 from .datasets import open_dataset, writable_folder
 from .evaluations import evaluate
 from .judging import one_of, split
+from .models import ModelName, RecordFolder, backend_of
 
 _SCORERS = (
     "pca, isolation-forest, one-class-svm, autoencoder, single-frame-pca, mahalanobis (the "
@@ -53,12 +57,15 @@ def layer2(
         Path | None, typer.Option(help="Draw figures into this folder, as PNG.")
     ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Of the bootstrap.")] = 0,
+    model: ModelName = None,
+    record: RecordFolder = None,
 ) -> None:
     """Score Layer 2 on a trajectory data set, leaving one plate out at a time.
 
     Each plate is scored by a model fitted on the normal wells of all other plates. The plate's
     own first normal well sets the threshold, and is not scored. With several scorers the five
-    figures at the top of the JSON are those of the first.
+    figures at the top of the JSON are those of the first. A model is asked, in the cascade, about
+    the wells that the volumetric gate leaves open.
 
     Exit codes: 0 scored, 2 the data set or a setting is no good.
     """
@@ -71,6 +78,7 @@ def layer2(
         one_of("--scorer", name.replace("_", "-"), [known.replace("_", "-") for known in SCORERS])
     one_of("--protocol", protocol, PROTOCOLS)
     one_of("--threshold", threshold, ("", *THRESHOLDS))
+    gates = _model_gates(protocol, model, record)
     if figures is not None:
         writable_folder(figures)
     data = open_dataset(dataset)
@@ -80,8 +88,9 @@ def layer2(
         for name in dict.fromkeys(names):
             begun = time.monotonic()
             result = evaluate_layer2(
-                data, name, protocol, threshold=threshold, seed=seed, tips=tips, progress=shown
-            )
+                data, name, protocol,
+                threshold=threshold, seed=seed, tips=tips, gates=gates, progress=shown,
+            )  # fmt: skip
             results.append(result)
             seconds.append(time.monotonic() - begun)
         if figures is not None:
@@ -104,3 +113,17 @@ def layer2(
     if figures is not None:
         typer.echo(f"{len(drawn)} figures in {figures}", err=True)
     raise typer.Exit(CLEAN)
+
+
+def _model_gates(protocol: str, model: str | None, record: Path | None) -> list[ConfirmingGate]:
+    """The model as a gate of the cascade, if the command line names one.
+
+    Raises:
+        ConfigurationError: One is named where none is asked.
+    """
+    if protocol == "cascade":
+        backend = backend_of(model, record)
+        return [] if backend is None else [VlmGate(backend)]
+    if model is not None or record is not None:
+        raise ConfigurationError("A model is a gate of the cascade: add --protocol cascade.")
+    return []

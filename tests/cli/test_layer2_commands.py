@@ -9,6 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from aegis_ot.reasoning.vlm import LENSES
+
+from ..reasoning.wire_server import Answer, WireServer, openai_completion
 from .commands import Command
 
 
@@ -43,6 +46,43 @@ def test_several_scorers_and_the_cascade(aegis: Command, drawn: Path) -> None:
     assert list(told["scorers"]) == ["pca", "isolation_forest", "mahalanobis"]
     assert told["scorer"] == "pca"
     assert sum(told["settled"].values()) == told["wells"]["scored"] + told["no_tip"]["total"]
+
+
+def test_a_model_looks_at_what_the_volumes_leave_open_and_can_be_replayed(
+    aegis: Command, drawn: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("AEGIS_OT_LLM_API_KEY", "sk-test")
+    monkeypatch.setenv("NO_PROXY", "127.0.0.1")
+    said = {"verdict": "fail", "confidence": "high", "failure": "air_bubble", "reason": "A gap."}
+    command = (
+        "evaluate",
+        "layer2",
+        drawn,
+        "--scorer",
+        "pca",
+        "--boxes",
+        "true",
+        "--json",
+        "o.json",
+    )
+
+    def settled(*options: str) -> dict[str, int]:
+        result = aegis(*command, "--protocol", "cascade", *options)
+        assert result.code == 0, result.err
+        return json.loads(Path("o.json").read_text(encoding="utf-8"))["settled"]
+
+    alone = settled()
+    left_open = alone.pop("operator_undecided")
+    with WireServer() as server:
+        server.answers = [Answer(body=openai_completion(json.dumps(dict.fromkeys(LENSES, said))))]
+        asked = settled("--model", f"openai:m@{server.url}/v1", "--record", "kept")
+        assert len(server.seen) == left_open > 0
+    assert asked.pop("vlm_fail") == left_open
+    assert asked == alone
+    assert settled("--model", "replay:kept") == {**alone, "vlm_fail": left_open}
+    wrong = aegis(*command, "--model", "replay:kept")
+    assert wrong.code == 2
+    assert "--protocol cascade" in wrong.err
 
 
 def _edited(drawn: Path, to: Path, keep) -> Path:

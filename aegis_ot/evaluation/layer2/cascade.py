@@ -17,7 +17,14 @@ from ...vision.calibration import PRESETS
 from ...vision.cascade import Cascade, Triage
 from ...vision.column_reader import MeasuredColumns
 from ...vision.crops import missing_tips
-from ...vision.gates import RUN_ALARM, Case, GateDecision, OperatorGate, examine_in_turn
+from ...vision.gates import (
+    RUN_ALARM,
+    Case,
+    ConfirmingGate,
+    GateDecision,
+    OperatorGate,
+    examine_in_turn,
+)
 from ...vision.measuring import ColumnReading, TipView
 from ...vision.tips import pipette_class, tip_for
 from ...vision.types import TrajectorySample
@@ -60,8 +67,13 @@ class JudgedWell:
         return self.decision.outcome is not Outcome.PASS
 
 
-def run_cascade(held: HeldOut) -> list[JudgedWell]:
-    """Judge every well of every plate, in the order in which they were pipetted."""
+def run_cascade(held: HeldOut, asked: Sequence[ConfirmingGate] = ()) -> list[JudgedWell]:
+    """Judge every well of every plate, in the order in which they were pipetted.
+
+    Args:
+        held: The scored wells.
+        asked: Gates between the volumetric one and the operator.
+    """
     judged: list[JudgedWell] = []
     for anchor, wells in held.plates():
         leading = [anchor]
@@ -71,19 +83,21 @@ def run_cascade(held: HeldOut) -> list[JudgedWell]:
             leading.append(well)
         if len(leading) < BAND_WELLS:
             leading = leading[:1]
-        judged += _Plate(leading, held).judge([anchor, *wells])
+        judged += _Plate(leading, held, asked).judge([anchor, *wells])
     return judged
 
 
 class _Plate:
-    def __init__(self, leading: Sequence[ScoredWell], held: HeldOut) -> None:
+    def __init__(
+        self, leading: Sequence[ScoredWell], held: HeldOut, asked: Sequence[ConfirmingGate]
+    ) -> None:
         self._leading = leading
         self._name = held.scorer
         self._p_values = held.gives_p_values
         settings = replace(PRESETS["default"], wells=len(leading))
         self._cascade = Cascade((self._name,), settings)
         self._reader = MeasuredColumns()
-        self._gates = (VolumetricGate(), OperatorGate())
+        self._gates = (VolumetricGate(), *asked, OperatorGate())
         self._banded = len(leading) >= BAND_WELLS
         for well in leading:
             self._reader.learn(self._looks(well.sample), well.sample.expected_ul)

@@ -10,6 +10,7 @@ from typing import TypeVar
 
 from ...errors import ConfigurationError
 from ...vision.dataset import Dataset, TrueBoxes, load_dataset
+from ...vision.gates import ConfirmingGate
 from ...vision.scorers import BASELINES, make_scorer
 from ...vision.types import Detector, Scorer, TrajectorySample
 from ...vocabulary import KeyframeKind
@@ -34,6 +35,7 @@ def evaluate_layer2(
     make: Callable[[], Scorer] | None = None,
     seed: int = 0,
     tips: FoundTips | None = None,
+    gates: Sequence[ConfirmingGate] = (),
     progress: Progress | None = None,
 ) -> Layer2Result:
     """Evaluate one scorer, leaving one plate out at a time.
@@ -52,6 +54,7 @@ def evaluate_layer2(
         seed: Of the bootstrap.
         tips: What :func:`find_tips` found in this set, in ``detector``'s place: several scorers
             then share what was read from the frames.
+        gates: Of the cascade, asked after the volumetric gate: a vision model, say.
         progress: Told how far it is.
 
     Raises:
@@ -72,7 +75,7 @@ def evaluate_layer2(
     routed = flagged = [well.flagged for well in wells]
     settled: Counter[str] = Counter()
     if protocol == "cascade":
-        judged = [well for well in run_cascade(held) if not well.calibration]
+        judged = [well for well in run_cascade(held, gates) if not well.calibration]
         wells = [well.scored for well in judged]
         routed = [well.triage.to_gate for well in judged]
         flagged = [well.flagged for well in judged]
