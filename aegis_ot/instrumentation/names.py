@@ -7,6 +7,7 @@ and helpers, even in helpers that move no liquid.
 from __future__ import annotations
 
 import sys
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -23,6 +24,8 @@ from .wells import WellResolver
 _SHARES_LOCALS = sys.version_info < (3, 13)
 """Whether all who ask for a function's local names get the same dict, brought up to date."""
 _ASKS_FOR_LOCALS = frozenset({"locals", "vars", "f_locals"})
+_MOST_LOOKS = 5000
+"""A function that returns more often computes something: at 10 µs a look it would be felt."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,7 @@ class NameCollector:
         self._reader = Reader(wells)
         self._file_name = file_name
         self._bindings: dict[NameBinding, None] = {}
+        self._returns: Counter[tuple[str, int]] = Counter()
         self._looks: dict[tuple[str, str], tuple[int, ...]] = {}
         self._labware: dict[str, Any] = {}
 
@@ -175,6 +179,10 @@ class NameCollector:
         code = frame.f_code
         if _SHARES_LOCALS and not _ASKS_FOR_LOCALS.isdisjoint(code.co_names):
             return  # to look would write into the dict that the protocol itself holds
+        place = (code.co_filename, code.co_firstlineno)
+        self._returns[place] += 1
+        if self._returns[place] > _MOST_LOOKS:
+            return
         if code.co_filename == self._file_name:
             self.look(frame.f_locals, code.co_name, code.co_firstlineno)
         else:

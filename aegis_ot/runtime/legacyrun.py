@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from concurrent.futures import wait
 from typing import Any
 
 from .runstate import RunState
@@ -48,9 +49,12 @@ class LegacyRun:
 
         protocol._core.pause(msg=None)
         action = PauseAction(source=PauseSource.PROTOCOL)
-        asyncio.run_coroutine_threadsafe(
+        sent = asyncio.run_coroutine_threadsafe(
             self._plugin._dispatch_action_list([action]), self._plugin._engine_loop
-        ).result()
+        )
+        while not wait([sent], _LOOK_S).done:
+            rest(0.0)
+        sent.result()
         state = RunState(protocol)
         rest(_LOOK_S)
         while state.paused:

@@ -8,7 +8,7 @@ import time
 import pytest
 
 from aegis_ot.errors import RehearsalError
-from aegis_ot.instrumentation import EventKind
+from aegis_ot.instrumentation import EventKind, NameCollector
 from tests.support.rehearsing import ot2, run
 
 
@@ -114,6 +114,30 @@ def test_long_tables_cost_nothing():
     began = time.monotonic()
     run(ot2(body))
     assert time.monotonic() - began < 15  # 90 s when every row was looked at every time
+
+
+def test_a_helper_that_computes_is_not_looked_at_for_ever(monkeypatch):
+    """Each look takes 10 µs: fib(25) took the guard three seconds."""
+    text = """
+    metadata = {"apiLevel": "2.15"}
+    def fib(n):
+        return n if n < 2 else fib(n - 1) + fib(n - 2)
+    def run(protocol):
+        plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 1)
+        fib(20)
+        ntc = plate["H12"]
+    """
+    looks = []
+    look = NameCollector.look
+
+    def counted(self, names, function, line):
+        looks.append(function)
+        look(self, names, function, line)
+
+    monkeypatch.setattr(NameCollector, "look", counted)
+    _, rehearsal = run(text)
+    assert looks.count("fib") == 5000
+    assert "ntc" in {binding.name for binding in rehearsal.names}
 
 
 _HELPED = """
