@@ -107,6 +107,12 @@ class Reader:
         plain = tuple(item for item in found if _is_plain(item))
         return plain if len(plain) == len(found) > 1 else ()
 
+    def numbers(self, value: Any) -> tuple[tuple[str, float], ...]:
+        """Keys and numbers of a dict of at least two that holds nothing else."""
+        found = [(str(key), item) for key, item in entries(value) if _is_plain(key)]
+        plain = tuple((key, item) for key, item in found if _is_number(item))
+        return plain if len(plain) == len(entries(value)) > 1 else ()
+
     def rows(self, value: Any) -> tuple[Row, ...]:
         """A plate map: ``{"A1": "NTC"}``, or rows (of a CSV file, say) that each name a well."""
         named = entries(value) or self.fields(value)
@@ -176,6 +182,8 @@ def items(value: Any) -> tuple[Any, ...]:
     for kind in (list, tuple, set, frozenset):
         if issubclass(type(value), kind):
             return tuple(kind.__iter__(value)) if kind.__len__(value) <= LONGEST else ()
+    if type(value).__name__ == "ndarray" and type(value).__module__ == "numpy":
+        return tuple(value.tolist()) if value.ndim == 1 and value.size <= LONGEST else ()
     return ()
 
 
@@ -194,4 +202,8 @@ def _is_plain(value: Any) -> bool:
     """Words or a number; not a flag."""
     if isinstance(value, str):
         return 0 < len(value) <= _LONGEST_TEXT
+    return _is_number(value)
+
+
+def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)

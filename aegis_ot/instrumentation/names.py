@@ -44,6 +44,7 @@ class NameBinding:
         spots: Names of wells (``"A12"``) that it held as text, in order, of whatever labware.
         rows: Rows of a plate map that it held: words and numbers beside wells.
         values: Words and numbers that it held as a plain list, one beside another.
+        numbers: Keys and numbers that it held as a plain dict: ``{"std1": 2000.0}``.
     """
 
     name: str
@@ -54,6 +55,7 @@ class NameBinding:
     spots: tuple[str, ...] = ()
     rows: tuple[Row, ...] = ()
     values: tuple[str | float, ...] = ()
+    numbers: tuple[tuple[str, float], ...] = ()
 
 
 class NameCollector:
@@ -118,13 +120,14 @@ class NameCollector:
             read.spots(value, depth),
             read.rows(value),
             read.values(value),
+            read.numbers(value),
         )
         if len(binding.labware) == 1 and issubclass(type(value), read.labware_type):
             self._labware[binding.labware[0]] = value
         self._add(binding)
 
     def _add(self, found: NameBinding) -> None:
-        if found.wells or found.labware or found.spots or found.rows or found.values:
+        if any((found.wells, found.labware, found.spots, found.rows, found.values, found.numbers)):
             self._bindings.setdefault(found)
 
     def _look_at_notes(self) -> None:

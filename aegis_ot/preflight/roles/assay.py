@@ -176,7 +176,9 @@ def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> 
         known = (
             family,
             Lexicon(
-                {str(n): signal.words for n, signal in enumerate(family.signals)}, common.aliases
+                {str(n): signal.words for n, signal in enumerate(family.signals)},
+                common.aliases,
+                common.endings,
             ),
         )
         if len(_LEXICONS) > 64:

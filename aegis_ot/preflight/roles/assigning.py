@@ -45,8 +45,7 @@ def assign_roles(
     named_outright: set[str] = set()
     levels: dict[WellRef, set[float | None]] = {}
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
-        matches = lexicon.find(clue.text)
-        named = [clue.role] if clue.role in family.roles else roles_named(matches, clue, common)
+        named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
         if not named:
             if clue.strength is Strength.LIQUID:
                 roles.unnamed.update(clue.wells)

@@ -16,6 +16,7 @@ from .names import call_arguments, named_wells
 from .places import indexing_names
 from .plate_maps import plate_maps
 from .remarks import step_comments, written_wells
+from .run_maps import spotted_names, tabled_wells
 from .well_names import spec_wells
 
 
@@ -43,6 +44,8 @@ def gather(
         *_labels(deck),
         *indexing_names(deck, facts),
         *plate_maps(deck, facts, common),
+        *spotted_names(deck, names, facts, common),
+        *tabled_wells(deck, names, facts, common),
         *written_wells(deck, facts),
         *step_comments(trace, facts, common),
         *call_arguments(trace, facts),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
@@ -21,6 +22,7 @@ def named_wells(
 ) -> Iterator[Clue]:
     """What variables were called that held wells or whole labware."""
     comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
+    lists = _lists(names, facts)
     keyed = {**_keyed_amounts(names, facts, common), **_numeric_keys(names)}
     for binding in names:
         base = binding.name.split("[", 1)[0]
@@ -43,7 +45,7 @@ def named_wells(
         )
         if binding.name == base and binding.wells:
             yield from _beside(binding, facts, line)
-            yield from _parallel(binding, facts, common)
+            yield from _parallel(binding, lists, facts, common)
         note = facts.notes.get(base)
         if note and not loose and binding.name == base:
             yield Clue(
@@ -121,14 +123,18 @@ def _keyed_amounts(
             groups.setdefault(match[1], {})[match[3]] = binding.name
     amounts = Lexicon({"amount": common.amounts})
     found: dict[str, float | None] = {}
-    for constant, value in facts.constants.items():
-        if not isinstance(value, dict) or not amounts.find(constant):
-            continue
-        if not all(is_number(number) for number in value.values()):
+    maps = [
+        (constant, {str(key): float(number) for key, number in value.items()})
+        for constant, value in facts.constants.items()
+        if isinstance(value, dict) and all(is_number(number) for number in value.values())
+    ]
+    maps += [(binding.name, dict(binding.numbers)) for binding in names if binding.numbers]
+    for constant, by_key in maps:
+        if not amounts.find(constant):
             continue
         for group in groups.values():
-            if len(group) > 1 and group.keys() <= value.keys():
-                found.update({name: float(value[key]) for key, name in group.items()})
+            if len(group) > 1 and group.keys() <= by_key.keys():
+                found.update({name: by_key[key] for key, name in group.items()})
     return found
 
 
@@ -161,22 +167,44 @@ def _beside(binding: NameBinding, facts: SourceFacts, line: int) -> Iterator[Clu
             )
 
 
-def _parallel(binding: NameBinding, facts: SourceFacts, common: Common) -> Iterator[Clue]:
+def _lists(names: Sequence[NameBinding], facts: SourceFacts) -> list[tuple[str, tuple[float, ...]]]:
+    """Lists of numbers by name: written down, or made in the run (``[2000 / 2**n ...]``)."""
+    known: list[tuple[str, Sequence[Any]]] = [
+        (name, value)
+        for name, value in facts.constants.items()
+        if isinstance(value, (list, tuple)) and len(value) > 1
+    ]
+    known += [
+        (binding.name, binding.values)
+        for binding in names
+        if len(binding.values) > 1 and binding.name not in facts.constants
+    ]
+    return list(
+        dict.fromkeys(
+            (name, tuple(float(item) for item in value))
+            for name, value in known
+            if all(is_number(item) for item in value)
+        )
+    )
+
+
+def _parallel(
+    binding: NameBinding,
+    lists: Sequence[tuple[str, tuple[float, ...]]],
+    facts: SourceFacts,
+    common: Common,
+) -> Iterator[Clue]:
     """A list of concentrations as long as the list of wells: ``standard_concs``."""
     amounts = Lexicon({"amount": common.amounts})
-    lists = []
-    for name, value in facts.constants.items():
-        if not isinstance(value, (list, tuple)) or len(value) != len(binding.wells):
-            continue
-        if len(value) < 2 or not all(is_number(item) for item in value):
-            continue
-        if amounts.find(name):
-            shared = set(tokens(name)) & set(tokens(binding.name))
-            lists.append((len(shared), name, tuple(float(item) for item in value)))
-    if not lists:
+    fitting = [
+        (len(set(tokens(name)) & set(tokens(binding.name))), name, levels)
+        for name, levels in lists
+        if len(levels) == len(binding.wells) and amounts.find(name)
+    ]
+    if not fitting:
         return
-    best = max(shared for shared, _, _ in lists)
-    chosen = [entry for entry in lists if entry[0] == best]
+    best = max(shared for shared, _, _ in fitting)
+    chosen = [entry for entry in fitting if entry[0] == best]
     if len({levels for _, _, levels in chosen}) == 1:
         _, name, levels = chosen[0]
         line = facts.assigned.get(name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ..rules import Common, Family
-from ..text import Lexicon, Match, tokens
+from ..text import Lexicon, tokens
 from .clues import Clue, Strength
 from .roles import Roles
 
@@ -20,7 +20,7 @@ def role_words(family: Family, common: Common) -> Lexicon:
         for name, spec in family.roles.items():
             phrases[name] = spec.words
             phrases[f"!{name}"] = spec.never
-        known = (family, Lexicon(phrases, common.aliases))
+        known = (family, Lexicon(phrases, common.aliases, common.endings))
         if len(_LEXICONS) > 64:
             _LEXICONS.clear()
         _LEXICONS[id(family)] = known
@@ -30,21 +30,23 @@ def role_words(family: Family, common: Common) -> Lexicon:
 _BOTH = frozenset({"and", "plus", "all", "und", "et", "y"})
 
 
-def roles_named(matches: Sequence[Match], clue: Clue, common: Common) -> list[str]:
-    """The roles that a text names, the head of the phrase first.
+def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
+    """The roles that the text of a clue names, the head of the phrase first.
 
     English puts the head last: ``sample_buffer`` is a buffer; but what follows "in" or "for"
-    only says more about it.
+    only says more about it, and so does all that stands beside a word that is always the head:
+    ``diluent_plasma`` is a diluent, ``eau_pcr`` is water.
     """
     places: dict[int, list[str]] = {}
-    for match in matches:
+    for match in lexicon.find(clue.text):
         places.setdefault(match.start, []).append(match.topic)
-    words = tokens(clue.text)
+    words = lexicon.words(clue.text)
     joints = [at for at, word in enumerate(words) if word in common.joints]
     if joints and any(at < joints[0] for at in places):
         # "drug in medium" is a drug.
         places = {at: topics for at, topics in places.items() if at < joints[0]}
-    ordered = [places[at] for at in sorted(places, reverse=True)]
+    heads = {at for at in places if clue.subject and words[at] in common.heads}
+    ordered = [places[at] for at in sorted(places, key=lambda at: (at in heads, at), reverse=True)]
     return [topic for group in ordered for topic in group if not topic.startswith("!")]
 
 

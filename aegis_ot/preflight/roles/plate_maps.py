@@ -22,11 +22,7 @@ def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]
         all_names = [well for _, wells, _ in entries for well in wells]
         if not all_names:
             continue
-        labware = (
-            _used_with(deck, facts, name)
-            or _called_alike(deck, name, common)
-            or deck.most_likely(dict.fromkeys(all_names))
-        )
+        labware = labware_of_map(deck, facts, name, all_names, common)
         if not labware:
             continue
         info = deck.trace.labware[labware]
@@ -40,6 +36,17 @@ def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]
                 f"plate map `{text}` at line {line}",
                 levels=() if level is None else (level,) * len(refs),
             )
+
+
+def labware_of_map(
+    deck: Deck, facts: SourceFacts, name: str, spots: Sequence[str], common: Common
+) -> str:
+    """The labware that a plate map of this name speaks of; ``""`` where that is not plain."""
+    return (
+        _used_with(deck, facts, name)
+        or _called_alike(deck, name, common)
+        or deck.most_likely(dict.fromkeys(spots))
+    )
 
 
 def _used_with(deck: Deck, facts: SourceFacts, name: str) -> str:

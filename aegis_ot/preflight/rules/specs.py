@@ -174,6 +174,8 @@ class Common:
     waste: tuple[str, ...] = ()
     negations: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
+    heads: tuple[str, ...] = ()
+    endings: tuple[str, ...] = ()
     aliases: Mapping[str, str] = field(default_factory=dict)
     noise: tuple[str, ...] = ()
     distinct: tuple[str, ...] = ()

@@ -20,6 +20,7 @@ class Place:
             ``None``.
         kind: ``well``, ``wells``, ``columns`` or ``rows``: what is indexed.
         line: Where it stands.
+        keys: Keys and attributes in the index: ``"tube"`` in ``rack[row["tube"]]``.
     """
 
     labware: str
@@ -27,6 +28,7 @@ class Place:
     value: Any
     kind: str
     line: int
+    keys: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -89,3 +89,12 @@ def names_in(node: ast.AST) -> Iterator[str]:
     for inner in ast.walk(node):
         if isinstance(inner, ast.Name):
             yield inner.id
+
+
+def keys_in(node: ast.AST) -> Iterator[str]:
+    """The keys and attributes that an expression asks for: ``row["tube"]``, ``row.tube``."""
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Attribute):
+            yield inner.attr
+        elif isinstance(inner, ast.Subscript) and plain_text(inner.slice):
+            yield plain_text(inner.slice)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from .facts import Place, SourceFacts
-from .literals import index_value, last_name, names_in, plain_text, rows_of
+from .literals import index_value, keys_in, last_name, names_in, plain_text, rows_of
 
 _SIDES: dict[str, dict[int | str, str]] = {
     "aspirate": {1: "source", "location": "source"},
@@ -167,7 +167,14 @@ class SyntaxReader:
         names = tuple(dict.fromkeys(names_in(index)))
         if names:
             self._facts.places.append(
-                Place(labware, names, index_value(index, self._facts.constants), kind, line)
+                Place(
+                    labware,
+                    names,
+                    index_value(index, self._facts.constants),
+                    kind,
+                    line,
+                    tuple(keys_in(index)),
+                )
             )
 
 

@@ -17,6 +17,9 @@ from typing import NamedTuple
 _PIECES = re.compile(r"#|[A-Z]{2,}s(?![a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+(?:\.\d+)?|[^\W\d_]+")
 
 
+_SHORTEST_PART = 3
+
+
 class Match(NamedTuple):
     """A phrase found: its topic, the phrase, and which tokens it covers."""
 
@@ -29,9 +32,19 @@ class Match(NamedTuple):
 @functools.lru_cache(maxsize=8192)
 def tokens(text: str) -> tuple[str, ...]:
     """Cut a text or identifier into lower-case words, plurals reduced."""
-    plain = unicodedata.normalize("NFKD", text.replace("ß", "ss").replace("µ", "u"))
+    for written, plain in _LETTERS.items():
+        text = text.replace(written, plain)
+    plain = unicodedata.normalize("NFKD", text)
     plain = "".join(c for c in plain if not unicodedata.combining(c)).replace("'", "")
-    return tuple(_singular(piece.lower()) for piece in _PIECES.findall(plain))
+    return tuple(_singular(_folded(piece.lower())) for piece in _PIECES.findall(plain))
+
+
+_LETTERS = {"ß": "ss", "µ": "u", "æ": "ae", "Æ": "Ae", "œ": "oe", "Œ": "Oe"}
+
+
+def _folded(word: str) -> str:
+    """``stammloesung`` and "Stammlösung" are one word, ``oestradiol`` and "œstradiol" too."""
+    return word.replace("ae", "a").replace("oe", "o").replace("ue", "u")
 
 
 def _singular(word: str) -> str:
@@ -58,12 +71,18 @@ class Lexicon:
         phrases: For each topic its phrases. A phrase that stands under several topics is
             reported for each.
         aliases: Abbreviations and what they stand for, word by word.
+        endings: What compound words may end in: with ``reagenz``, "Bradfordreagenz" is read as
+            "Bradford Reagenz", unless a phrase begins with the whole word.
     """
 
     def __init__(
-        self, phrases: Mapping[str, Sequence[str]], aliases: Mapping[str, str] | None = None
+        self,
+        phrases: Mapping[str, Sequence[str]],
+        aliases: Mapping[str, str] | None = None,
+        endings: Sequence[str] = (),
     ) -> None:
         self._aliases = aliases or {}
+        self._endings = tuple(tokens(ending)[0] for ending in endings)
         self._by_first: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
         for topic, listed in phrases.items():
             for phrase in listed:
@@ -78,8 +97,26 @@ class Lexicon:
         """All phrases in ``text``, none overlapping a longer one, in order."""
         found = self._cache.get(text)
         if found is None:
-            found = self._cache[text] = tuple(self._search(self._full(tokens(text))))
+            found = self._cache[text] = tuple(self._search(self.words(text)))
         return found
+
+    def words(self, text: str) -> tuple[str, ...]:
+        """The words of a text that matches count: abbreviations spelled out, compounds cut."""
+        return self._cut(self._full(tokens(text)))
+
+    def _cut(self, words: tuple[str, ...]) -> tuple[str, ...]:
+        """Compound words cut before their last part, the longest one that fits."""
+        if not self._endings or all(word in self._by_first for word in words):
+            return words
+        parts: list[str] = []
+        for word in words:
+            fitting = [end for end in self._endings if word.endswith(end)]
+            ending = max(fitting, key=len, default=word)
+            if word in self._by_first or len(word) - len(ending) < _SHORTEST_PART:
+                parts.append(word)
+            else:
+                parts += [word[: -len(ending)], ending]
+        return tuple(parts)
 
     def _full(self, words: tuple[str, ...]) -> tuple[str, ...]:
         aliases = self._aliases

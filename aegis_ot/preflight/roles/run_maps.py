@@ -1,0 +1,132 @@
+"""Plate maps that only the run knows: read from a CSV text, or made of row letters and numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+
+from ...instrumentation import NameBinding
+from ...vocabulary import WellRef
+from ..rules import Common
+from ..text import Lexicon, SourceFacts
+from .clues import Clue, Strength
+from .deck import Deck
+from .plate_maps import is_number, labware_of_map
+
+
+def spotted_names(
+    deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
+) -> Iterator[Clue]:
+    """Names that held well names in the run: ``CONTROLS = [f"{row}12" for row in "ABCD"]``."""
+    loose = {name for _, name in facts.loose}
+    for binding in names:
+        base = binding.name.split("[", 1)[0]
+        if not binding.spots or base in facts.constants or base in loose:
+            continue
+        labware = labware_of_map(deck, facts, base, binding.spots, common)
+        if labware:
+            line = facts.assigned.get(base, binding.line)
+            yield Clue(
+                Strength.NAME,
+                binding.name,
+                tuple(_refs(deck, labware, binding.spots)),
+                line,
+                f"plate map `{binding.name}` at line {line}",
+            )
+
+
+def tabled_wells(
+    deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
+) -> Iterator[Clue]:
+    """Rows that the run held: words and amounts beside wells, or beside names of wells."""
+    amounts = Lexicon({"amount": common.amounts})
+    counts = Lexicon({"count": common.countings})
+    for binding in names:
+        base = binding.name.split("[", 1)[0]
+        if len(binding.rows) < 2 or base in facts.constants:
+            continue
+        labware = _labware_of_columns(deck, facts, binding)
+        line = facts.assigned.get(base, binding.line)
+        beside: dict[str, dict[WellRef, None]] = {}
+        levels: dict[WellRef, float] = {}
+        for row in binding.rows:
+            wells = [*row.wells]
+            for column, cell in row.cells:
+                if isinstance(cell, str) and column in labware and cell in row.spots:
+                    wells += _refs(deck, labware[column], (cell,))
+            said = [(column, cell, _number(cell)) for column, cell in row.said]
+            for _, cell, number in said:
+                if isinstance(cell, str) and number is None:
+                    beside.setdefault(cell, {}).update(dict.fromkeys(wells))
+            found = [
+                number
+                for column, _, number in said
+                if number is not None and amounts.find(column) and not counts.find(column)
+            ]
+            if len(found) == 1:
+                levels.update(dict.fromkeys(wells, found[0]))
+        for text, held in beside.items():
+            yield Clue(
+                Strength.NAME,
+                text,
+                tuple(held),
+                line,
+                f"'{text}' beside it in `{binding.name}` at line {line}",
+                levels=tuple(levels.get(ref) for ref in held) if levels else (),
+            )
+        if levels:
+            yield Clue(
+                Strength.NAME,
+                "",
+                tuple(levels),
+                line,
+                f"numbers beside it in `{binding.name}` at line {line}",
+                levels=tuple(levels.values()),
+            )
+
+
+def _labware_of_columns(deck: Deck, facts: SourceFacts, binding: NameBinding) -> dict[str, str]:
+    """In which labware the well names of each column stand, where that is plain.
+
+    It is the one that is indexed by that column's name, else the only one in which the run uses
+    all these wells.
+    """
+    spots: dict[str, dict[str, None]] = {}
+    for row in binding.rows:
+        for column, cell in row.cells:
+            if isinstance(cell, str) and cell in row.spots:
+                spots.setdefault(column, {})[cell] = None
+    found: dict[str, str] = {}
+    for column, listed in spots.items():
+        indexed: set[str] = set()
+        for place in facts.places:
+            if column and (column in place.keys or column in place.names):
+                indexed |= deck.by_name.get(place.labware, set())
+        if len(indexed) == 1:
+            found[column] = next(iter(indexed))
+            continue
+        using = [
+            info.key
+            for info in deck.plates()
+            if all((info.key, spot) in deck.refs for spot in listed)
+        ]
+        if len(using) == 1:
+            found[column] = using[0]
+    return found
+
+
+def _refs(deck: Deck, labware: str, spots: Sequence[str]) -> Iterator[WellRef]:
+    info = deck.trace.labware.get(labware)
+    for spot in spots:
+        name = spot[0] + str(int(spot[1:]))
+        if info is not None and name in info.wells:
+            yield deck.ref(labware, name)
+
+
+def _number(cell: object) -> float | None:
+    if is_number(cell):
+        return float(cell)  # type: ignore[arg-type]
+    if isinstance(cell, str):
+        with suppress(ValueError):
+            return float(cell)
+    return None
