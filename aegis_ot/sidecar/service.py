@@ -24,7 +24,10 @@ from .wire import Finish, Hold, RunStart, WireError
 log = logging.getLogger(__name__)
 
 SESSIONS_KEPT = 16
-"""Finished runs beyond this number leave memory; the store keeps them."""
+"""Runs beyond this number leave memory if they are finished or silent; the store keeps them."""
+SILENT_S = 3600.0
+"""A robot that asked nothing for so long was switched off in its run, or stands in a pause. If it
+does go on, its run is made again from the store."""
 
 
 class Sidecar:
@@ -47,6 +50,7 @@ class Sidecar:
         self._analyser = analyser
         self._notifier = Notifier(config.notifications.urls)
         self._sessions: dict[str, Session] = {}
+        self._asked: dict[str, float] = {}
         self._opening = threading.Lock()
         self._camera_trouble = ""
         # A camera that is told what to show must not hear of another keyframe in between.
@@ -82,6 +86,7 @@ class Sidecar:
                     self._notifier.send,
                     self.config.operator.timeout_s,
                 )
+            self._asked[run] = time.monotonic()
             return session
 
     def require(self, run: str) -> None:
@@ -167,11 +172,13 @@ class Sidecar:
     def _evict(self) -> None:
         if len(self._sessions) < SESSIONS_KEPT:
             return
+        silent_before = time.monotonic() - SILENT_S
         for run, session in list(self._sessions.items()):
             row = self.store.run(run)
-            if row is not None and row["finished"] and session.idle:
+            finished = row is not None and row["finished"]
+            if session.idle and (finished or self._asked[run] < silent_before):
                 session.close()
-                del self._sessions[run]
+                del self._sessions[run], self._asked[run]
 
 
 def _check_frame(frame: Frame, moment: float) -> None:

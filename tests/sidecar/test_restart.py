@@ -18,7 +18,7 @@ import httpx
 import pytest
 
 from aegis_ot.errors import StoreError
-from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.sidecar import SidecarConfig, running_sidecar, service
 from aegis_ot.sidecar.cameras.codec import decode_jpeg
 from aegis_ot.sidecar.frames import FrameFiles
 from aegis_ot.sidecar.schema import MIGRATIONS
@@ -62,6 +62,30 @@ def test_what_was_captured_and_not_judged_is_judged_after_a_restart(
     Store(config.data)._db.execute("DELETE FROM verdicts")
     with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
         assert robot.verdict(0)["verdict"]["outcome"] == "pass"
+
+
+@pytest.mark.parametrize("silent", [False, True])
+def test_runs_that_robots_left_without_a_word_leave_memory_and_come_back(
+    config: SidecarConfig, silent: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A robot that is switched off in its run never says how it ended."""
+    if silent:
+        monkeypatch.setattr(service, "SILENT_S", -1.0)
+    analyser = StubAnalyser(fails=[0])
+    with running_sidecar(config, StubCamera(), analyser) as url, Robot(url, "first") as first:
+        first.register()
+        first.cycle(0)
+        assert first.verdict(0)["verdict"]["outcome"] == "fail"
+        first.send(4)
+        for number in range(service.SESSIONS_KEPT):
+            with Robot(url, f"left-{number}") as robot:
+                robot.register()
+        threads = [t for t in threading.enumerate() if t.name.startswith("analysis-")]
+        assert (len(threads) < service.SESSIONS_KEPT) is silent
+        assert first.verdict(0)["verdict"]["outcome"] == "fail"
+        for sequence in (5, 6, 7):
+            assert first.send(sequence).status_code == 200
+        assert first.verdict(1)["verdict"]["outcome"] == "pass"
 
 
 @contextlib.contextmanager
