@@ -97,6 +97,7 @@ class Receives(Check):
             for well in case.trace.wells.values()
             if received(case, well, liquid)[0] > 0
         }
+        plates |= {key for plate in plates for key in case.roles.replicates.get(plate, ())}
         if not plates and self._stands_unused(case, liquid):
             plates = {ref.labware for ref in case.roles.by_well}
             judged = [well for well in self._judged(case) if case.has(well, frozenset(self.always))]
@@ -141,7 +142,11 @@ class Receives(Check):
             )
             sites = (Site(line or _last_line(case, well), well.ref, f"receives no {title}"),)
             yield Violation(
-                message, (others, *sites) if others else sites, well, (case.title(well),)
+                message,
+                (others, *sites) if others else sites,
+                well,
+                (case.title(well),),
+                (well,),
             )
 
     @staticmethod

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...vocabulary import WellRef
@@ -113,7 +113,8 @@ def read_recording(recording: Recording, database: Database, options: Options) -
         roles=tuple(roles),
         waste=_waste(clues, common),
         loose_volumes=_loose_volumes(facts, common),
-        unsure=frozenset(_prefilled_by_words(clues, common)),
+        unsure=frozenset(_prefilled_by_words(clues, common))
+        | _implied_elsewhere(database, families, clues, usage, trace),
         database=database,
     )
 
@@ -126,6 +127,32 @@ def _loose_volumes(facts: SourceFacts, common: Common) -> bool:
     texts += [text for _, text in facts.strings]
     texts += list(facts.names)
     return any(lexicon.find(text) for text in texts)
+
+
+_PLAUSIBLE = 1.0
+"""From this score on a family that is not judged may still say what wells held."""
+
+
+def _implied_elsewhere(
+    database: Database,
+    families: Iterable[Inference],
+    clues: Sequence[Clue],
+    usage: Mapping[WellRef, Usage],
+    trace: Trace,
+) -> frozenset[WellRef]:
+    """Wells that held liquid before the run in the eyes of a family that is not judged.
+
+    Too little to accuse anyone, enough not to.
+    """
+    if not any(i.well.declared is None and not i.overfilled for i in trace.imbalances):
+        return frozenset()
+    found: set[WellRef] = set()
+    for inference in families:
+        if not inference.applies and inference.score >= _PLAUSIBLE:
+            family = database.family(inference.family)
+            roles = assign_roles(family, database.common, clues, usage, trace)
+            found |= implied_contents(roles, trace)
+    return frozenset(found)
 
 
 def _prefilled_by_words(clues: Iterable[Clue], common: Common) -> set[WellRef]:

@@ -16,6 +16,7 @@ from .channels import spread_over_channels
 from .clues import Clue, Strength
 from .levels import level_of
 from .phrases import fitting_role, role_words, roles_named
+from .replicates import spread_over_replicates
 from .roles import Assignment, Roles
 from .usage import Sides, Usage
 
@@ -73,6 +74,7 @@ def assign_roles(
             if assignment.level is None and len(told) == 1:
                 assignment.level = told.pop()
     spread_over_channels(roles, trace)
+    spread_over_replicates(roles, trace)
     return roles
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...vocabulary import WellRef
-from ..trace import Trace
+from ..trace import Trace, chains_of, links_of
 from .roles import Roles
 
 
@@ -57,8 +57,34 @@ def settle_diluent(roles: Roles, trace: Trace) -> None:
             if assigned.role in otherwise:
                 sources.setdefault(assigned.text, set()).add(ref)
         filled = {text: set() for text in sources} if len(sources) == 1 else {}
+    if not filled:
+        _settle_by_use(roles, trace, spec.diluent[0])
+        return
     total = len(set().union(*filled.values())) if filled else 0
     for text, wells in filled.items():
         if len(wells) >= 0.3 * total:
             for ref in sources[text]:
                 roles.by_well[ref].role = spec.diluent[0]
+
+
+_FEWEST_FILLED = 3
+
+
+def _settle_by_use(roles: Roles, trace: Trace, diluent: str) -> None:
+    """Where no name says so, the diluent is the one source that most of a chain is filled from.
+
+    It goes into the wells before they are linked, all but the first and perhaps a few others.
+    """
+    links = [link for group in chains_of(list(links_of(trace))) for link in group]
+    targets, sources = {link.well for link in links}, {link.source for link in links}
+    filled: dict[WellRef, set[WellRef]] = {}
+    for well in targets:
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is None or source in sources or source in targets:
+                    continue
+                if visit.empty_before:
+                    filled.setdefault(source.ref, set()).add(well.ref)
+    best = [ref for ref, wells in filled.items() if 2 * len(wells) > len(targets)]
+    if len(best) == 1 and len(filled[best[0]]) >= _FEWEST_FILLED and not roles.of(best[0]):
+        roles.derived.setdefault(best[0], set()).update(roles.closure(diluent))

@@ -19,6 +19,8 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
     for name, spec in roles.family.roles.items():
         if spec.feeds:
             _derive_source(roles, name, spec, trace)
+        if spec.single_with:
+            _derive_single(roles, name, spec, trace)
         if spec.one_to_one:
             _derive_one_to_one(roles, name, trace)
         if spec.loaded:
@@ -43,6 +45,47 @@ def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
         right = sum(roles.has(well, wanted) for well in wells)
         if right * 2 > len(wells):
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+_FEWEST_SINGLES = 3
+"""One or two sources may be anything; so many, each in wells of its own, are samples."""
+
+
+def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
+    """Unnamed sources that each go into wells of their own, beside a liquid common to all."""
+    common = frozenset(spec.single_with)
+    likes = frozenset({name})
+    served: dict[WellRef, set[WellRef]] = {}
+    sources: dict[WellRef, set[WellRef]] = {}
+    for well in trace.wells.values():
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None and source is not well:
+                    served.setdefault(source.ref, set()).add(well.ref)
+                    sources.setdefault(well.ref, set()).add(source.ref)
+    fed = {ref for refs in served.values() for ref in refs}
+    own = {
+        ref: wells
+        for ref, wells in served.items()
+        if not roles.of(ref)
+        and ref not in fed
+        and all(
+            any(roles.has(source, common) for source in sources[well])
+            and not any(roles.has(source, likes) for source in sources[well])
+            and sum(not roles.of(source) for source in sources[well]) == 1
+            and not _is_control(roles, well)
+            for well in wells
+        )
+    }
+    if len(own) >= _FEWEST_SINGLES:
+        for ref in own:
+            roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+def _is_control(roles: Roles, ref: WellRef) -> bool:
+    """Whether a well has a role that is named apart from what it receives."""
+    assigned = roles.by_well.get(ref)
+    return assigned is not None and bool(roles.family.roles[assigned.role].parents)
 
 
 _SHARED = 3

@@ -46,7 +46,7 @@ def gather(
         *plate_maps(deck, facts, common),
         *spotted_names(deck, names, facts, common),
         *tabled_wells(deck, names, facts, common),
-        *written_wells(deck, facts),
+        *written_wells(deck, facts, common),
         *step_comments(trace, facts, common),
         *call_arguments(trace, facts),
         *loop_levels(trace, names, facts, common),

@@ -14,13 +14,19 @@ from .deck import Deck
 from .well_names import WELL_SPEC, wells_meant
 
 
-def written_wells(deck: Deck, facts: SourceFacts) -> Iterator[Clue]:
+def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """Well names in comments and docstrings: "A1-A8: samples", "NTC in H12"."""
     texts = list(facts.docstrings)
     texts += list(facts.comments.items())
     texts += [(1, text) for text in facts.metadata.values()]
     for line, text in texts:
+        heading = ""
         for number, written in enumerate(text.splitlines() or [text]):
+            of_line = _labware_named(deck, written, common)
+            if of_line and written.rstrip().endswith(":"):
+                heading = of_line
+            elif not written.strip():
+                heading = ""
             for clause in re.split(
                 r"[;|]|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))", written
             ):
@@ -30,36 +36,58 @@ def written_wells(deck: Deck, facts: SourceFacts) -> Iterator[Clue]:
                 rest = WELL_SPEC.sub(" ", clause)
                 if not tokens(rest):
                     continue
-                at = line + number
-                yield from _spoken(deck, clause, rest, found, at)
+                named = _labware_named(deck, clause, common) or of_line or heading
+                yield from _spoken(deck, clause, rest, found, line + number, named)
+
+
+def _labware_named(deck: Deck, text: str, common: Common) -> str:
+    """The one labware that a text calls by its label or by the name of its variable."""
+    words = f" {' '.join(tokens(text))} "
+    named = {
+        info.key
+        for info in deck.plates()
+        if info.label and f" {' '.join(tokens(info.label))} " in words
+    }
+    if not named:
+        dull = {word for phrase in common.pauses.get("plate", ()) for word in tokens(phrase)}
+        for name, keys in deck.by_name.items():
+            telling = set(tokens(name)) - dull
+            if len(keys) == 1 and telling and f" {' '.join(tokens(name))} " in words:
+                named |= keys
+    return next(iter(named)) if len(named) == 1 else ""
 
 
 def _spoken(
-    deck: Deck, clause: str, rest: str, found: Sequence[re.Match[str]], line: int
+    deck: Deck, clause: str, rest: str, found: Sequence[re.Match[str]], line: int, named: str
 ) -> Iterator[Clue]:
-    named = [
-        info.key
-        for info in deck.plates()
-        if info.label and f" {' '.join(tokens(info.label))} " in f" {' '.join(tokens(rest))} "
-    ]
-    for labware in named if len(named) == 1 else [info.key for info in deck.plates()]:
-        info = deck.trace.labware[labware]
-        wells: list[WellRef] = []
-        for match in found:
-            wells.extend(
-                deck.ref(labware, name)
-                for name in wells_meant(match, info)
-                if (labware, name) in deck.refs
-            )
+    meant: dict[str, list[WellRef]] = {}
+    for info in [deck.trace.labware[named]] if named else deck.plates():
+        wells = [
+            deck.ref(info.key, name)
+            for match in found
+            for name in wells_meant(match, info)
+            if (info.key, name) in deck.refs
+        ]
         if wells:
-            yield Clue(
-                Strength.COMMENT,
-                rest,
-                tuple(wells),
-                line,
-                f"'{shortened(clause)}' at line {line}",
-                subject=False,
-            )
+            meant[info.key] = wells
+    if len(meant) > 1:
+        # Of several labware that have such wells it speaks of the one that is filled in the run.
+        meant = {
+            key: wells
+            for key, wells in meant.items()
+            if all((key, ref.name) in deck.received for ref in wells)
+        }
+    if len(meant) != 1:
+        return
+    for wells in meant.values():
+        yield Clue(
+            Strength.COMMENT,
+            rest,
+            tuple(wells),
+            line,
+            f"'{shortened(clause)}' at line {line}",
+            subject=False,
+        )
 
 
 _LONGEST_STEP_COMMENT = 14

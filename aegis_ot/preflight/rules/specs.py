@@ -47,6 +47,9 @@ class RoleSpec:
         implies_contents: Whether such a well held liquid before the run.
         filled_by: Roles whose liquid, given in the run, would make up those contents.
         feeds: Derived: an unnamed source that mostly feeds wells of these roles.
+        single_with: Derived: unnamed sources, three at least, that each go into wells of their own
+            which all get a liquid of these roles as well.
+        replicated: Whether plates that are filled alike and called alike have it in the same wells.
         one_liquid: Whether all wells of this role hold the same liquid unless named apart.
         one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
         loaded: Derived: a well with a loaded liquid whose name says no role: ``shared`` where it
@@ -65,6 +68,8 @@ class RoleSpec:
     filled_by: tuple[str, ...] = ()
     feeds: tuple[str, ...] = ()
     one_to_one: bool = False
+    single_with: tuple[str, ...] = ()
+    replicated: bool = False
     loaded: str = ""
     one_liquid: bool = False
     level: float | None = None

@@ -1,0 +1,68 @@
+"""Replicate plates share their layout: what is said of one holds for the others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...instrumentation import LabwareInfo
+from ...vocabulary import WellRef
+from ..text import tokens
+from ..trace import Trace
+from .clues import Strength
+from .roles import Assignment, Roles
+
+
+def spread_over_replicates(roles: Roles, trace: Trace) -> None:
+    """Give the same wells of replicate plates the roles that the family says are replicated."""
+    replicated = {name for name, spec in roles.family.roles.items() if spec.replicated}
+    named = {
+        ref: assigned
+        for ref, assigned in roles.by_well.items()
+        if assigned.role in replicated
+        and assigned.strength >= Strength.NAME
+        and not all("label" in said for said in assigned.evidence)
+    }
+    if not named:
+        return
+    for one, other in _replicates(trace):
+        roles.replicates.setdefault(one.key, set()).add(other.key)
+        for ref, assigned in named.items():
+            if ref.labware != one.key:
+                continue
+            copy = WellRef(other.key, ref.name, other.label or other.display_name, other.slot)
+            known = roles.by_well.get(copy)
+            if known is None or (
+                known.role in roles.closure(assigned.role) and known.role != assigned.role
+            ):
+                roles.by_well[copy] = Assignment(
+                    assigned.role,
+                    [f"{said} (replicate plate)" for said in assigned.evidence],
+                    assigned.strength,
+                    assigned.text,
+                    assigned.level,
+                )
+
+
+def _replicates(trace: Trace) -> Iterator[tuple[LabwareInfo, LabwareInfo]]:
+    """Pairs of plates of one kind, called the same but for a number, and filled alike."""
+    given: dict[str, dict[str, set[WellRef]]] = {}
+    for well in trace.wells.values():
+        for visit in trace.deliveries(well):
+            for source, _, _, _ in visit.parts:
+                if source is not None:
+                    given.setdefault(well.ref.labware, {}).setdefault(well.ref.name, set()).add(
+                        source.ref
+                    )
+    plates = [info for key, info in trace.labware.items() if key in given and info.label]
+    for one in plates:
+        for other in plates:
+            if one is other or one.load_name != other.load_name or _called(one) != _called(other):
+                continue
+            shared = given[one.key].keys() & given[other.key].keys()
+            alike = sum(not given[one.key][n].isdisjoint(given[other.key][n]) for n in shared)
+            if alike * 2 > max(len(given[one.key]), len(given[other.key])):
+                yield one, other
+
+
+def _called(info: LabwareInfo) -> tuple[str, ...]:
+    return tuple(word for word in tokens(info.label) if len(word) > 1 and not word.isdigit())
