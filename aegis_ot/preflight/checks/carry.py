@@ -84,7 +84,9 @@ class Carry(Check):
         brought = case.meant.get(well, {})
         if self.stock:
             first = brought.get(origin)
-            return first is not None and _on_purpose(case, well, origin, visit)
+            return first is not None and (
+                _on_purpose(case, well, origin, visit) or self._made_of(case, visit, origin)
+            )
         if self.meant and any(case.same_liquid(origin, other) for other in brought):
             return True
         if self.pooled:
@@ -99,6 +101,28 @@ class Carry(Check):
             ):
                 return True
         return False
+
+    def _made_of(self, case: Case, visit: Visit, origin: Well) -> bool:
+        """Whether the liquid is brought as a measured volume to make what the well is drawn for.
+
+        Then nothing made of the well afterwards is given such a liquid in another way.
+        """
+        well = visit.well
+        if not any(
+            source is not well for known, _, source, _ in delivered(visit) if known is origin
+        ):
+            return False
+        drawn_for = case.destinations.get(well, {})
+        later = [dest for dest, index in drawn_for.items() if index > visit.index]
+        if drawn_for and not later:
+            return False
+        carried = frozenset(self.carried)
+        return not any(
+            source is not well and case.has(source, carried)
+            for dest in later
+            for given in case.trace.deliveries(dest)
+            for _, _, source, _ in delivered(given)
+        )
 
     def _violation(self, case: Case, visit: Visit, origin: Well, met: Met) -> Violation:
         well = visit.well

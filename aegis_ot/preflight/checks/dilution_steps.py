@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..trace import Transfer, Well
+from ..trace import Composition, Transfer, Well
 from .base import Case
 
 NO_SERIES = "no chain of transfers from well to well was found"
@@ -26,8 +26,22 @@ def diluent_arrivals(case: Case, well: Well) -> list[int]:
     return [
         visit.index
         for visit in case.trace.deliveries(well)
-        if any(part[0] is not None and case.has(part[0], diluent) for part in visit.parts)
+        if any(
+            source is not None
+            and (case.has(source, diluent) or _is_made_diluent(case, well, source, liquid))
+            for source, _, liquid, _ in visit.parts
+        )
     ]
+
+
+def _is_made_diluent(case: Case, well: Well, source: Well, liquid: Composition) -> bool:
+    """Whether a source elsewhere was filled in the run with diluent, and with no stock."""
+    return (
+        source.ref.labware != well.ref.labware
+        and not source.prefilled
+        and any(case.has(origin, diluent_roles(case)) for origin in liquid)
+        and not any(case.has(origin, stock_roles(case)) for origin in liquid)
+    )
 
 
 def is_dilution(case: Case, step: Transfer) -> bool:

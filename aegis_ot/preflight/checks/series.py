@@ -53,10 +53,26 @@ def find_series(
     ]
     links = _dilutions(trace, roles, links, diluent)
     groups = [
-        group for group in chains_of(links) if len({(s.source, s.well) for s in group}) >= shortest
+        group
+        for group in chains_of(links)
+        if len({(s.source, s.well) for s in group}) >= shortest and not _is_copying(trace, group)
     ]
     linked = {well for group in groups for link in group for well in (link.source, link.well)}
     return [_series(trace, roles, group, stock, diluent, linked) for group in groups]
+
+
+def _is_copying(trace: Trace, links: Sequence[Transfer]) -> bool:
+    """Whether wells are only shared out to others that hold nothing else and feed none."""
+    sources = {link.source for link in links}
+    return all(
+        link.well not in sources
+        and all(
+            part[0] in (link.source, link.well)
+            for visit in trace.deliveries(link.well)
+            for part in visit.parts
+        )
+        for link in links
+    )
 
 
 def _dilutions(

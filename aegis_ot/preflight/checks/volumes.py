@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from ...vocabulary import Site
 from ..trace import Imbalance
-from .base import Case, Check, Result, Violation, at, place
+from .base import Case, Check, Doubt, Result, Violation, at, place
 
 _FAR_SHORT = 4.0
 """Where several times more is drawn than the run has put in, the plate was filled by hand."""
@@ -46,7 +46,18 @@ class VolumeBookkeeping(Check):
             ):
                 continue  # it may have held what nobody declared
             seen.add(key)
+            if undeclared and _is_mix(imbalance):
+                yield Doubt(
+                    f"{place(well)} is mixed with {imbalance.volume:.4g} µL {at(imbalance.line)}, "
+                    f"and the run has put {imbalance.limit:.4g} µL there: it may have held more"
+                )
+                continue
             yield _violation(imbalance)
+
+
+def _is_mix(imbalance: Imbalance) -> bool:
+    """Whether what was drawn went straight back."""
+    return any(visit.mixing for visit in imbalance.well.visits if visit.index == imbalance.index)
 
 
 def _violation(imbalance: Imbalance) -> Violation:

@@ -183,8 +183,9 @@ class _Builder:
                 self._give(step, tip, well, parts)
         elif kind is OperationKind.TOUCH_TIP and well is not None and not well.empty:
             visit = self._visit(step, tip, well)
-            visit.below = visit.touch = True
-            tip.touch(well, step.line, self._index)
+            visit.below = visit.touch = step.from_top is None or step.from_top < 0
+            if visit.touch:
+                tip.touch(well, step.line, self._index)
 
     def _visit(self, step: Step, tip: Tip, well: Well) -> Visit:
         visit = Visit(step.kind, tip, well, self._index, step.line, step.lines, step.mixing)
@@ -206,7 +207,7 @@ class _Builder:
         held = well.volume
         if not well.prefilled:
             tip.unsure += max(step.volume - well.least, 0.0)
-        missing = well.draw(step.volume)
+        missing = well.draw(step.volume, step.mixing)
         if missing > _slack(step.volume):
             self._trace.imbalances.append(
                 Imbalance(well, self._index, step.line, False, step.volume, held)
@@ -258,4 +259,4 @@ class _Builder:
 
 def _slack(volume: float) -> float:
     """Rounding that volumes computed in a protocol may show, µL."""
-    return max(0.01, abs(volume) * 1e-4)
+    return max(0.1, abs(volume) * 2e-3)

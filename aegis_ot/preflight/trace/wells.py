@@ -18,6 +18,9 @@ Composition = Mapping["Well", float]
 CLEARANCE_MM = 2.0
 """A tip end at least this far above the liquid does not touch it (``spec/rules.md``)."""
 
+UPPER = 2 / 3
+"""Share of a well's depth above which a well of unknown volume is hardly filled."""
+
 EMPTY_UL = 1e-6
 
 
@@ -37,6 +40,7 @@ class Well:
         mixes: ``(first index, last index, line)`` of each time it was mixed.
         prefilled: Whether it held liquid before the run.
         fed: Whether the run has put liquid into it.
+        drawn: Whether the run has taken liquid out of it, otherwise than to mix it.
         unsure: µL of ``volume`` that may not be there: drawn from a well beyond what it held.
         reckoned: Volume at the time when someone may have changed it by hand, followed since, µL.
     """
@@ -46,6 +50,7 @@ class Well:
         "contents",
         "declared",
         "depth",
+        "drawn",
         "fed",
         "generation",
         "known",
@@ -76,6 +81,7 @@ class Well:
         self.known = True
         self.prefilled = False
         self.fed = False
+        self.drawn = False
         self.unsure = 0.0
         self.reckoned: float | None = None
         self.declared: float | None = None
@@ -136,8 +142,9 @@ class Well:
             return self.last
         return {origin: volume / total for origin, volume in contents.items()}
 
-    def draw(self, volume: float) -> float:
+    def draw(self, volume: float, mixing: bool = False) -> float:
         """Take liquid out; returns how much of it the well did not hold (0 if unknown)."""
+        self.drawn = self.drawn or not mixing
         missing = volume - self.volume if self.known and volume > self.volume else 0.0
         least = max(self.least - volume, 0.0)
         self.volume = self.volume - volume if self.volume > volume else 0.0
@@ -169,10 +176,16 @@ class Well:
             contents[origin] = contents.get(origin, 0.0) + volume * share
 
     def clear_of_liquid(self, from_bottom: float | None, from_liquid: float | None = None) -> bool:
-        """Whether a tip end at this height (mm) is known not to touch the liquid."""
+        """Whether a tip end at this height (mm) is known not to touch the liquid.
+
+        Unknown volume is not clear; but a well that something was taken from is not full to its
+        upper third again by what is put back from there.
+        """
         if from_liquid is not None:
             return from_liquid >= CLEARANCE_MM
         volume = self.volume if self.known else self.reckoned
+        if volume is None and self.drawn and from_bottom is not None:
+            return 0 < self.depth * UPPER <= from_bottom
         if volume is None or from_bottom is None or self.slope is None:
             return False
         level = min(volume * self.slope, self.depth)
