@@ -68,7 +68,7 @@ class CallReader:
         values.update(kwargs)
         try:
             return self._operation(name, values, site)
-        except (AttributeError, KeyError, TypeError):
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
             return None
 
     def done(self, operation: Operation) -> None:
