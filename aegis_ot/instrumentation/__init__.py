@@ -1,5 +1,6 @@
 """Taps the instruments of one protocol run, so that others can listen. Robot side."""
 
+from .held import Row
 from .labware import LabwareInfo, WellInfo
 from .names import NameBinding, NameCollector
 from .operation import Event, EventKind, Listener, Operation, OperationKind, Pipette
@@ -15,6 +16,7 @@ __all__ = [
     "Operation",
     "OperationKind",
     "Pipette",
+    "Row",
     "Tap",
     "WellInfo",
     "tapped",

@@ -148,10 +148,11 @@ class Reader:
         cells: list[tuple[str, Cell]] = []
         for name, item in pairs:
             column = name if isinstance(name, str) else ""
-            if issubclass(type(item), self._well_type):
-                cells += [(column, ref) for ref in self.wells(item)]
-            elif _is_plain(item):
+            if _is_plain(item):
                 cells.append((column, item))
+            else:
+                cells += [(column, ref) for ref in self.wells(item, DEEPEST - 1)]
+                cells += [(column, spot) for spot in self.spots(item, DEEPEST - 1)]
         return tuple(cells)
 
     def fields(self, value: Any) -> list[tuple[str, Any]]:

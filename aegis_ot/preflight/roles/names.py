@@ -23,6 +23,7 @@ def named_wells(
     """What variables were called that held wells or whole labware."""
     comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
     lists = _lists(names, facts)
+    amounts_named = _amounts_in_names(names)
     keyed = {**_keyed_amounts(names, facts, common), **_numeric_keys(names)}
     for binding in names:
         base = binding.name.split("[", 1)[0]
@@ -46,6 +47,15 @@ def named_wells(
         if binding.name == base and binding.wells:
             yield from _beside(binding, facts, line)
             yield from _parallel(binding, lists, facts, common)
+        if binding.name in amounts_named:
+            yield Clue(
+                Strength.LOOSE_NAME,
+                "standard",
+                wells,
+                line,
+                f"name `{binding.name}`, one of several with amounts, at line {line}",
+                levels=(amounts_named[binding.name],) * len(wells),
+            )
         note = facts.notes.get(base)
         if note and not loose and binding.name == base:
             yield Clue(
@@ -110,6 +120,30 @@ def _numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
         )
         found.update({name: None if counting else value for name, value in group.items()})
     return found
+
+
+_FEWEST_AMOUNTS = 3
+
+
+def _amounts_in_names(names: Sequence[NameBinding]) -> dict[str, float]:
+    """Level of names like ``s_2000``, ``s_500``, ``s_0``: alike but for numbers too far apart to
+    count something. So many amounts of one thing are its standards.
+    """
+    groups: dict[str, dict[str, float]] = {}
+    for binding in names:
+        match = re.fullmatch(r"([A-Za-z]+?)_?(\d+(?:p\d+)?)", binding.name)
+        if match and len(binding.wells) == 1:
+            groups.setdefault(match[1], {})[binding.name] = float(match[2].replace("p", "."))
+    return {
+        name: value
+        for group in groups.values()
+        if len(group) >= _FEWEST_AMOUNTS and max(group.values()) >= _FAR * len(group)
+        for name, value in group.items()
+    }
+
+
+_FAR = 10
+"""Numbers as large as so many times their count are amounts."""
 
 
 def _keyed_amounts(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable, Sequence
 
 from ..rules import Common, Family
@@ -41,13 +42,19 @@ def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
     for match in lexicon.find(clue.text):
         places.setdefault(match.start, []).append(match.topic)
     words = lexicon.words(clue.text)
-    joints = [at for at, word in enumerate(words) if word in common.joints]
+    joints = [at for at, word in enumerate(words) if word in _first_words(common.joints)]
     if joints and any(at < joints[0] for at in places):
         # "drug in medium" is a drug.
         places = {at: topics for at, topics in places.items() if at < joints[0]}
-    heads = {at for at in places if clue.subject and words[at] in common.heads}
+    always = _first_words(common.heads) if clue.subject else frozenset()
+    heads = {at for at in places if words[at] in always}
     ordered = [places[at] for at in sorted(places, key=lambda at: (at in heads, at), reverse=True)]
     return [topic for group in ordered for topic in group if not topic.startswith("!")]
+
+
+@functools.lru_cache(maxsize=8)
+def _first_words(phrases: tuple[str, ...]) -> frozenset[str]:
+    return frozenset(tokens(phrase)[0] for phrase in phrases)
 
 
 def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 
-from ...instrumentation import NameBinding
+from ...instrumentation import NameBinding, Row
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import Lexicon, SourceFacts
 from .clues import Clue, Strength
 from .deck import Deck
 from .plate_maps import is_number, labware_of_map
+from .well_names import WELL_NAME
 
 
 def spotted_names(
@@ -45,16 +46,22 @@ def tabled_wells(
         base = binding.name.split("[", 1)[0]
         if len(binding.rows) < 2 or base in facts.constants:
             continue
-        labware = _labware_of_columns(deck, facts, binding)
+        titles = _titles(facts, base)
+        rows = [tuple(_titled(row, titles)) for row in binding.rows]
+        labware = _labware_of_columns(deck, facts, rows)
         line = facts.assigned.get(base, binding.line)
         beside: dict[str, dict[WellRef, None]] = {}
         levels: dict[WellRef, float] = {}
-        for row in binding.rows:
-            wells = [*row.wells]
-            for column, cell in row.cells:
-                if isinstance(cell, str) and column in labware and cell in row.spots:
-                    wells += _refs(deck, labware[column], (cell,))
-            said = [(column, cell, _number(cell)) for column, cell in row.said]
+        for row in rows:
+            wells = [cell for _, cell in row if isinstance(cell, WellRef)]
+            for column, cell in row:
+                if _is_spot(cell) and column in labware:
+                    wells += _refs(deck, labware[column], (str(cell),))
+            said = [
+                (column, cell, _number(cell))
+                for column, cell in row
+                if not isinstance(cell, WellRef) and not _is_spot(cell)
+            ]
             for _, cell, number in said:
                 if isinstance(cell, str) and number is None:
                     beside.setdefault(cell, {}).update(dict.fromkeys(wells))
@@ -85,17 +92,40 @@ def tabled_wells(
             )
 
 
-def _labware_of_columns(deck: Deck, facts: SourceFacts, binding: NameBinding) -> dict[str, str]:
+Cells = tuple[tuple[str, "WellRef | str | float"], ...]
+"""A row: what each column, by name or else by its place, holds."""
+
+
+def _titles(facts: SourceFacts, name: str) -> dict[int, str]:
+    """What the loops over some rows call the columns: ``for dest, src, kind in rows``."""
+    return {
+        values.at: values.name
+        for loop in facts.runs
+        for values in loop.values
+        if values.source == name and values.at is not None
+    }
+
+
+def _titled(row: Row, titles: Mapping[int, str]) -> Iterator[tuple[str, WellRef | str | float]]:
+    for at, (column, cell) in enumerate(row.cells):
+        yield column or titles.get(at, str(at)), cell
+
+
+def _is_spot(cell: object) -> bool:
+    return isinstance(cell, str) and WELL_NAME.match(cell) is not None
+
+
+def _labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Cells]) -> dict[str, str]:
     """In which labware the well names of each column stand, where that is plain.
 
     It is the one that is indexed by that column's name, else the only one in which the run uses
     all these wells.
     """
     spots: dict[str, dict[str, None]] = {}
-    for row in binding.rows:
-        for column, cell in row.cells:
-            if isinstance(cell, str) and cell in row.spots:
-                spots.setdefault(column, {})[cell] = None
+    for row in rows:
+        for column, cell in row:
+            if _is_spot(cell):
+                spots.setdefault(column, {})[str(cell)] = None
     found: dict[str, str] = {}
     for column, listed in spots.items():
         indexed: set[str] = set()

@@ -96,5 +96,5 @@ def keys_in(node: ast.AST) -> Iterator[str]:
     for inner in ast.walk(node):
         if isinstance(inner, ast.Attribute):
             yield inner.attr
-        elif isinstance(inner, ast.Subscript) and plain_text(inner.slice):
-            yield plain_text(inner.slice)
+        elif isinstance(inner, ast.Subscript) and isinstance(inner.slice, ast.Constant):
+            yield str(inner.slice.value)
