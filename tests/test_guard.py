@@ -190,11 +190,12 @@ class TestLive:
         assert run.status == "succeeded"
         assert len(keyframes) == 8
 
-    def test_analysis_and_live_show_the_same_command_types(self, form):
+    @pytest.mark.parametrize("level", ["2.15", "2.24"])
+    def test_analysis_and_live_show_the_same_command_types(self, form, level):
         from aegis_ot.preflight.rehearsal import Script, play
 
         with stub_sidecar() as (url, _):
-            text = protocol(GOOD, f'sidecar="{url}"', form)
+            text = protocol(GOOD, f'sidecar="{url}"', form, level)
             run = LiveRun(text).start()
             run.play()
             run.join()

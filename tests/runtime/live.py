@@ -21,6 +21,7 @@ from opentrons.protocol_engine.create_protocol_engine import create_protocol_eng
 from opentrons.protocol_reader import ProtocolReader
 from opentrons.protocol_runner import RunOrchestrator, create_protocol_runner
 from opentrons.protocol_runner.protocol_runner import LiveRunner
+from opentrons.protocols.api_support.deck_type import should_load_fixed_trash
 from opentrons.protocols.parse import PythonParseMode
 from opentrons.types import Mount
 
@@ -148,20 +149,20 @@ class LiveRun:
         }
         hardware = await API.build_hardware_simulator(attached_instruments=instruments)
         hardware._em_simulate = False  # wait and be cancelled as on a robot
-        engine = await create_protocol_engine(
-            hardware_api=hardware,
-            config=Config(
-                robot_type="OT-2 Standard",
-                deck_type=DeckType.OT2_STANDARD,
-                use_simulated_deck_config=True,
-            ),
-            error_recovery_policy=error_recovery_policy.never_recover,
-            load_fixed_trash=True,
-        )
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "live.py"
             path.write_text(self._text(key), encoding="utf-8")
             source = await ProtocolReader().read_saved([path], directory=None)
+            engine = await create_protocol_engine(
+                hardware_api=hardware,
+                config=Config(
+                    robot_type="OT-2 Standard",
+                    deck_type=DeckType.OT2_STANDARD,
+                    use_simulated_deck_config=True,
+                ),
+                error_recovery_policy=error_recovery_policy.never_recover,
+                load_fixed_trash=should_load_fixed_trash(source.config),
+            )
             runner = create_protocol_runner(
                 protocol_config=source.config, protocol_engine=engine, hardware_api=hardware
             )

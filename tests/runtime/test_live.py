@@ -53,7 +53,7 @@ def test_a_good_run_is_whole(sidecar: FakeSidecar) -> None:
     assert "2 passed" in run.watcher.summary()
 
 
-@pytest.mark.parametrize("api", ["2.15", "2.13"])
+@pytest.mark.parametrize("api", ["2.24", "2.15", "2.13"])
 def test_a_stop_during_a_hold_ends_the_run_within_half_a_second(
     api: str, sidecar: FakeSidecar
 ) -> None:
