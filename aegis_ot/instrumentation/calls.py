@@ -149,9 +149,10 @@ class CallReader:
             return 0.0
         volume = float(values.get("volume") or 0.0)
         if kind is OperationKind.DISPENSE:
-            # Older apiLevels clamp a dispense to what is in the tip, air included.
-            held = self._core.get_current_volume()
-            return min(volume, float(held)) if held else volume
+            # Older apiLevels clamp a dispense to what is in the tip, air included; their
+            # simulator does not, and then counts below zero, which says nothing of the tip.
+            held = float(self._core.get_current_volume() or 0.0)
+            return min(volume, held) if held > 0 else volume
         return volume
 
     @staticmethod

@@ -95,12 +95,19 @@ class Carry(Check):
                 for dest, index in case.destinations.get(well, {}).items()
                 if index >= visit.index
             ]
-            if later and all(
+            held = [
                 any(case.same_liquid(origin, other) for other in case.meant.get(dest, {}))
                 for dest in later
-            ):
+            ]
+            # Water and then sample, drawn for one well, spoils no sample for its other uses.
+            if any(held) if self._is_one_liquid(case, origin) else held and all(held):
                 return True
         return False
+
+    @staticmethod
+    def _is_one_liquid(case: Case, well: Well) -> bool:
+        roles = case.family.roles
+        return any(roles[role].one_liquid for role in case.of(well))
 
     def _made_of(self, case: Case, visit: Visit, origin: Well) -> bool:
         """Whether the liquid is brought as a measured volume to make what the well is drawn for.
@@ -108,9 +115,7 @@ class Carry(Check):
         Then nothing made of the well afterwards is given such a liquid in another way.
         """
         well = visit.well
-        if not any(
-            source is not well for known, _, source, _ in delivered(visit) if known is origin
-        ):
+        if not any(known is origin for known, _, _, _ in delivered(visit)):
             return False
         drawn_for = case.destinations.get(well, {})
         later = [dest for dest, index in drawn_for.items() if index > visit.index]

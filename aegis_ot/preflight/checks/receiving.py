@@ -170,7 +170,10 @@ class Receives(Check):
             if (usage is not None and usage.received) or case.has(well, always):
                 yield well
         visited = {well.ref for well in case.trace.wells.values()}
+        drawn = {ref.labware for ref, usage in case.usage.items() if usage.first_drawn}
         for ref in case.roles.by_well:
+            if ref.labware in drawn:
+                continue  # among sources: a tube that this run leaves out
             if ref not in visited and not always.isdisjoint(case.roles.of(ref)):
                 info = case.trace.labware.get(ref.labware)
                 yield Well(ref, 0, info.wells.get(ref.name) if info else None, (0, 0))
