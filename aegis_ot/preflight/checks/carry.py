@@ -14,6 +14,7 @@ from .base import (
     Check,
     Doubt,
     Result,
+    RoleSet,
     Violation,
     at,
     carried_liquids,
@@ -123,7 +124,7 @@ class Carry(Check):
             return False
         carried = frozenset(self.carried)
         return not any(
-            source is not well and case.has(source, carried)
+            source is not well and _is_called(case, source, carried)
             for dest in later
             for given in case.trace.deliveries(dest)
             for _, _, source, _ in delivered(given)
@@ -148,6 +149,12 @@ class Carry(Check):
             (visit.line, met.line, what),
             (origin, well),
         )
+
+
+def _is_called(case: Case, well: Well, roles: RoleSet) -> bool:
+    """Whether something says that a well has one of these roles, and not its use alone."""
+    assigned = case.roles.by_well.get(well.ref)
+    return assigned is not None and not roles.isdisjoint(case.roles.closure(assigned.role))
 
 
 def _was_fed(case: Case, met: Met) -> bool:
