@@ -15,7 +15,7 @@ from ..trace import Trace
 from .channels import spread_over_channels
 from .clues import Clue, Strength
 from .levels import level_of
-from .phrases import fitting_role, role_words, roles_named
+from .phrases import fitting_role, role_words, roles_named, says_only_the_side
 from .replicates import spread_over_replicates
 from .roles import Assignment, Roles
 from .usage import Sides, Usage
@@ -53,10 +53,10 @@ def assign_roles(
             for ref, level in zip(clue.wells, clue.levels, strict=False):
                 levels.setdefault(ref, set()).add(level)
             continue
-        worth = _worth(clue)
+        worth, passing = _worth(clue), says_only_the_side(clue, common)
         for position, ref in enumerate(clue.wells):
             role = fitting_role(named, roles, sides(ref), clue)
-            if role is None:
+            if role is None or (passing and _is_trough(trace, ref)):
                 continue
             if not clue.step and clue.strength >= Strength.DESCRIPTION and not clue.whole:
                 named_outright.add(role)
@@ -76,6 +76,12 @@ def assign_roles(
     spread_over_channels(roles, trace)
     spread_over_replicates(roles, trace)
     return roles
+
+
+def _is_trough(trace: Trace, ref: WellRef) -> bool:
+    """Whether a well belongs to a reservoir, where reagents stand rather than samples."""
+    info = trace.labware.get(ref.labware)
+    return info is not None and info.centers_channels
 
 
 def _worth(clue: Clue) -> tuple[float, ...]:

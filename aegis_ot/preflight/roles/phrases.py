@@ -36,7 +36,8 @@ def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
 
     English puts the head last: ``sample_buffer`` is a buffer; but what follows "in" or "for"
     only says more about it, and so does all that stands beside a word that is always the head:
-    ``diluent_plasma`` is a diluent, ``eau_pcr`` is water.
+    ``diluent_plasma`` is a diluent, ``eau_pcr`` is water. A word that only says on which side of
+    a transfer something stands comes last: ``water_src`` is water.
     """
     places: dict[int, list[str]] = {}
     for match in lexicon.find(clue.text):
@@ -47,14 +48,26 @@ def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
         # "drug in medium" is a drug.
         places = {at: topics for at, topics in places.items() if at < joints[0]}
     always = _first_words(common.heads) if clue.subject else frozenset()
-    heads = {at for at in places if words[at] in always}
-    ordered = [places[at] for at in sorted(places, key=lambda at: (at in heads, at), reverse=True)]
+    sides = _first_words(common.sides)
+    ordered = [
+        places[at]
+        for at in sorted(
+            places, key=lambda at: (words[at] in always, words[at] not in sides, at), reverse=True
+        )
+    ]
     return [topic for group in ordered for topic in group if not topic.startswith("!")]
 
 
 @functools.lru_cache(maxsize=8)
 def _first_words(phrases: tuple[str, ...]) -> frozenset[str]:
     return frozenset(tokens(phrase)[0] for phrase in phrases)
+
+
+def says_only_the_side(clue: Clue, common: Common) -> bool:
+    """Whether a passing name is no more than ``src``: it is given to whatever is drawn from."""
+    if clue.strength is not Strength.LOOSE_NAME:
+        return False
+    return set(tokens(clue.text)) <= _first_words(common.sides)
 
 
 def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:

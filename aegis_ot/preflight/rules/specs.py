@@ -181,6 +181,7 @@ class Common:
     joints: tuple[str, ...] = ()
     heads: tuple[str, ...] = ()
     endings: tuple[str, ...] = ()
+    sides: tuple[str, ...] = ()
     aliases: Mapping[str, str] = field(default_factory=dict)
     noise: tuple[str, ...] = ()
     distinct: tuple[str, ...] = ()
