@@ -52,6 +52,19 @@ def _unknown_source(case: Case, well: Well, served: set[tuple[str, str]]) -> Wel
     return None
 
 
+def _is_of_another_stage(case: Case, well: Well, served: set[tuple[str, str]]) -> bool:
+    """Whether nothing of the labware that fills this well goes to a served well of its plate."""
+    fed_from: dict[bool, set[str]] = {True: set(), False: set()}
+    for other in case.trace.wells.values():
+        key = (other.ref.labware, other.ref.name)
+        if other.ref.labware == well.ref.labware and (key in served or other is well):
+            for visit in case.trace.deliveries(other):
+                fed_from[other is well] |= {
+                    part[0].ref.labware for part in visit.parts if part[0] is not None
+                }
+    return fed_from[True].isdisjoint(fed_from[False])
+
+
 def _last_line(case: Case, well: Well) -> int | None:
     """The line that last brought something to the labware of a well that nothing ever enters."""
     lines = [
@@ -129,6 +142,13 @@ class Receives(Check):
                     f"{place(well)} receives something from {place(unknown)}, and nothing says "
                     "what stands there"
                 )
+                continue
+            if (
+                case.loose_volumes
+                and not case.has(well, frozenset(self.always))
+                and _is_of_another_stage(case, well, served)
+            ):
+                yield Doubt(f"{place(well)} is filled from elsewhere, after a clean-up perhaps")
                 continue
             reported.add(place_key)
             total, line = filled(case, well)
