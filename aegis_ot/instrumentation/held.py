@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from types import SimpleNamespace
@@ -183,7 +184,8 @@ def items(value: Any) -> tuple[Any, ...]:
     for kind in (list, tuple, set, frozenset):
         if issubclass(type(value), kind):
             return tuple(kind.__iter__(value)) if kind.__len__(value) <= LONGEST else ()
-    if type(value).__name__ == "ndarray" and type(value).__module__ == "numpy":
+    numpy = sys.modules.get("numpy")  # where the protocol has it
+    if numpy is not None and type(value) is numpy.ndarray:
         return tuple(value.tolist()) if value.ndim == 1 and value.size <= LONGEST else ()
     return ()
 

@@ -89,3 +89,23 @@ def test_a_list_that_grows_is_read_again():
     """
     _, rehearsal = run(ot2(body))
     assert [b.spots for b in rehearsal.names if b.name == "seen"] == [("A1",), ("A1", "B1")]
+
+
+def test_dicts_of_numbers_and_arrays_are_told():
+    found = names(
+        "import numpy\nug_ml = dict(zip('AB', (200, 0)))\nmixed = {'a': 1, 'b': 'x'}\n"
+        "conc = numpy.linspace(0, 1, 3)\n"
+    )
+    assert found["ug_ml"].numbers == (("A", 200), ("B", 0))
+    assert "mixed" not in found
+    assert found["conc"].values == (0.0, 0.5, 1.0)
+
+
+def test_an_object_with_several_wells_is_one_row():
+    before = (
+        "class Job:\n    def __init__(self, name, wells):\n        vars(self).update(locals())\n"
+    )
+    found = names("jobs = [Job('NTC', plate.columns()[0][:2]), Job('s1', ['A2', 'B2'])]\n", before)
+    (spots, wells, said), (more, none, _) = told(found["jobs"])
+    assert (wells, said) == (("A1", "B1"), (("name", "NTC"),))
+    assert (spots, more, none) == ((), ("A2", "B2"), ())
