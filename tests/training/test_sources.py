@@ -8,7 +8,7 @@ from importlib import resources
 from pathlib import Path
 
 import aegis_ot
-from aegis_ot.training.sources import SOURCES
+from aegis_ot.training.sources import SOURCES, sources_digest
 
 PACKAGE = Path(aegis_ot.__file__).parent
 ONLY_TYPES = {"vision/types"}
@@ -47,3 +47,8 @@ def test_the_shipped_weights_were_measured_on_plates_they_did_not_learn() -> Non
         assert figures["found"] >= 0.98
         assert figures["false_alarms"] == 0
         assert figures["highest_empty"] < described["threshold"] < figures["lowest_tip"]
+
+
+def test_this_code_made_the_shipped_weights() -> None:
+    """If this fails, 'aegis-ot train detector' no longer gives them: train anew, or undo."""
+    assert _shipped()["made_with"]["sources_sha256"] == sources_digest()

@@ -26,7 +26,7 @@ SETS = (
 )
 """Pipette, frame size (px) and seed of each set. The seeds serve nothing else."""
 
-PLATES = 12
+PLATES = 16
 WELLS = 3
 """Sessions (camera, lamp, deck, volume) of a set, and normal wells of each."""
 
