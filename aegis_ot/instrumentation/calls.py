@@ -9,6 +9,7 @@ from typing import Any
 
 from ..vocabulary import WellRef
 from .callsite import CallSite
+from .labware import LabwareInfo
 from .operation import Operation, OperationKind, Pipette
 from .wells import Nozzles, WellResolver
 
@@ -118,7 +119,7 @@ class CallReader:
             else:
                 target = str(well_core.get_name())
                 wells = self._wells.covered(info, target, nozzles)
-                from_top = self._height(name, values, location, well_core)
+                from_top = self._height(name, values, location, info, well_core)
                 if from_top is not None:
                     from_bottom = from_top + info.wells[target].depth
         operation = Operation(
@@ -155,9 +156,13 @@ class CallReader:
             return min(volume, held) if held > 0 else volume
         return volume
 
-    @staticmethod
     def _height(
-        name: str, values: Mapping[str, Any], location: Any, well_core: Any
+        self,
+        name: str,
+        values: Mapping[str, Any],
+        location: Any,
+        info: LabwareInfo,
+        well_core: Any,
     ) -> float | None:
         if name == "touch_tip":
             return float(values["z_offset"])
@@ -168,7 +173,8 @@ class CallReader:
         point = getattr(location, "point", None)
         if point is None or not isinstance(getattr(point, "z", None), (int, float)):
             return None
-        return round(float(point.z) - float(well_core.get_top(z_offset=0).z), 3)
+        rim = self._wells.rim_of(info, str(well_core.get_name()), well_core)
+        return round(float(point.z) - rim, 3)
 
 
 def _well_core_of(location: Any) -> Any:

@@ -94,6 +94,8 @@ class EventTap:
 
     def _loaded(self, labware_core: Any) -> None:
         info = self._wells.register(labware_core)
+        # What ``set_offset`` calls: every height on this labware changes.
+        self._after(labware_core, "set_calibration", lambda *_: self._wells.forget_heights())
         if info.is_tip_rack:
             self._after(
                 labware_core,

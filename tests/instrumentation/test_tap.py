@@ -33,6 +33,40 @@ def test_transfer_is_heard_move_by_move(level):
     assert liquid[2].from_top < 0
 
 
+@pytest.mark.parametrize("level", ["2.13", "2.20"])
+def test_heights_stay_true_when_a_labware_gets_another_offset(level):
+    heard, _ = run(
+        ot2(
+            """
+            single.pick_up_tip()
+            single.aspirate(20, plate["B1"].bottom(2))
+            plate.set_offset(0, 0, 3)
+            single.dispense(20, plate["B1"].bottom(2))
+            """,
+            level,
+        )
+    )
+    heights = [o.from_bottom for o in heard.of(K.ASPIRATE, K.DISPENSE)]
+    assert heights == pytest.approx([2, 2], abs=0.01)
+
+
+def test_heights_stay_true_when_a_plate_moves_onto_a_module():
+    heard, _ = run(
+        ot2(
+            """
+            block = protocol.load_module("temperature module gen2", 9)
+            single.pick_up_tip()
+            single.aspirate(20, plate["B1"].bottom(2))
+            protocol.move_labware(plate, block)
+            single.dispense(20, plate["B1"].bottom(2))
+            """,
+            "2.20",
+        )
+    )
+    heights = [o.from_bottom for o in heard.of(K.ASPIRATE, K.DISPENSE)]
+    assert heights == pytest.approx([2, 2], abs=0.01)
+
+
 @pytest.mark.parametrize("level", LEVELS)
 def test_each_operation_is_heard_once(level):
     heard, _ = run(
