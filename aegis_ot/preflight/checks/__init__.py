@@ -11,12 +11,14 @@ from typing import Any
 from ...errors import RuleError
 from ..rules import read_dataclass
 from .base import Case, Check, Doubt, Result, Violation
-from .carry import Carry, DoseOrder
+from .carry import Carry
 from .dilution import SeriesDirection, SeriesMixed
+from .dose_order import DoseOrder
 from .filling import SeriesFilledFirst, SeriesFilledFrom
 from .order import MixedAfter, ReceivedBefore, RisingOrder
-from .receiving import NeverReceives, Receives, UniformVolume
+from .receiving import NeverReceives, Receives
 from .series_tip import SeriesTip
+from .uniform_volume import UniformVolume
 from .volumes import VolumeBookkeeping
 
 CHECKS: dict[str, type[Check]] = {

@@ -1,0 +1,169 @@
+"""The check on one tip that doses several wells."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...vocabulary import Site
+from ..text import Lexicon, name_without_level
+from ..trace import Met, Visit, Well
+from .base import (
+    Case,
+    Check,
+    Doubt,
+    Result,
+    Violation,
+    at,
+    carried_liquids,
+    delivered,
+    place,
+    role_field,
+)
+
+
+@dataclass(frozen=True)
+class DoseOrder(Check):
+    """One tip never goes from a well of a higher dose, or of another compound, to ``wells``.
+
+    Doses come from the levels of the ``liquid`` and the volumes that were given.
+
+    Attributes:
+        liquid: Roles of the dosed liquid.
+        wells: Roles of the wells that are dosed.
+    """
+
+    name: ClassVar[str] = "dose_order"
+    liquid: tuple[str, ...] = role_field()
+    wells: tuple[str, ...] = role_field()
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Follow each tip through the dosed wells."""
+        liquid, wanted = frozenset(self.liquid), frozenset(self.wells)
+        doses = self._doses(case, liquid)
+        seen: set[tuple[int, int]] = set()
+        for visit in case.trace.visits:
+            if not visit.below or not visit.carried or not case.has(visit.well, wanted):
+                continue
+            here = doses.get(visit.well, {})
+            key = (visit.tip.number, id(visit.well))
+            if key in seen:
+                continue
+            for origin, met in carried_liquids(visit):
+                if origin is visit.well or not case.has(origin, liquid):
+                    continue
+                if not any(case.same_liquid(origin, other) for other in here):
+                    result = self._other(case, visit, origin, met, here)
+                    if result is not None:
+                        seen.add(key)
+                        yield result
+                        break
+            else:
+                worse = self._higher(case, visit, here, doses)
+                if worse is not None:
+                    seen.add(key)
+                    yield worse
+
+    def _doses(self, case: Case, liquid: frozenset[str]) -> dict[Well, dict[Well, float]]:
+        """For each well the µL of each dosed liquid that it is given in the whole run."""
+        doses: dict[Well, dict[Well, float]] = {}
+        for visit in case.trace.visits:
+            for origin, volume, _, _ in delivered(visit):
+                if case.has(origin, liquid):
+                    into = doses.setdefault(visit.well, {})
+                    into[origin] = into.get(origin, 0.0) + volume
+        return doses
+
+    def _other(
+        self, case: Case, visit: Visit, origin: Well, met: Met, here: dict[Well, float]
+    ) -> Result | None:
+        """The tip carries a liquid that this well never gets."""
+        mine = case.level(origin)
+        own = [case.level(other) for other in here]
+        what = f"{case.title(origin)} from {place(origin)}"
+        if here and mine is not None and all(level is not None for level in own):
+            same = all(_compound(case, origin) == _compound(case, other) for other in here)
+            if same and all(level is not None and mine <= level for level in own):
+                return None
+            harm = "a well of a lower dose" if same else "a well of another compound"
+        elif here and (mine is not None or any(level is not None for level in own)):
+            return Doubt(f"the dose in {place(origin)} or of its neighbours is not known")
+        elif here and all(_in_one_list(case, origin, other) for other in here):
+            return Doubt(
+                f"one tip visits several {case.title(origin)} wells, and nothing says "
+                "which dose is higher"
+            )
+        else:
+            harm = "a treated well that is not meant for it"
+        return Violation(
+            f"The tip that met {what} {at(met.line)} entered {place(visit.well)}, {harm}, "
+            f"{at(visit.line)}.",
+            (
+                Site(met.line, met.well.ref, f"met {case.title(origin)}"),
+                Site(visit.line, visit.well.ref, f"entered {harm}"),
+            ),
+            visit.well,
+            (visit.line, met.line, harm),
+            (origin, visit.well),
+        )
+
+    def _higher(
+        self,
+        case: Case,
+        visit: Visit,
+        here: dict[Well, float],
+        doses: dict[Well, dict[Well, float]],
+    ) -> Violation | None:
+        """The tip has touched a well that gets more of the same liquid."""
+        left = visit.met
+        for other, met in visit.tip.touched.items():
+            if left <= 0:
+                break
+            left -= 1
+            there = doses.get(other, {})
+            if other is visit.well or not there or visit.well in case.destinations.get(other, {}):
+                continue
+            if set(there) != set(here):
+                continue
+            first = min(case.meant[other].get(origin, met.index + 1) for origin in there)
+            if first > met.index and not self._touched_later(visit, other, first):
+                continue
+            if any(volume > here[origin] * 1.01 for origin, volume in there.items()):
+                return Violation(
+                    f"The tip that touched {place(other)}, a well of a higher dose, "
+                    f"{at(met.line)} entered {place(visit.well)} {at(visit.line)}.",
+                    (
+                        Site(met.line, other.ref, "touched a well of a higher dose"),
+                        Site(visit.line, visit.well.ref, "entered a well of a lower dose"),
+                    ),
+                    visit.well,
+                    (visit.line, met.line, "falling"),
+                    (other, visit.well),
+                )
+        return None
+
+    @staticmethod
+    def _touched_later(visit: Visit, other: Well, first: int) -> bool:
+        return any(
+            v.tip is visit.tip and v.touch and first <= v.index < visit.index for v in other.visits
+        )
+
+
+def _compound(case: Case, well: Well) -> tuple[str, ...]:
+    """What the name of a dosed liquid says besides its dose: ``("cisplatin",)``, ``("b",)``."""
+    assigned = case.roles.by_well.get(well.ref)
+    return name_without_level(assigned.text, case.common) if assigned else ()
+
+
+def _in_one_list(case: Case, one: Well, other: Well) -> bool:
+    """Whether two wells have their role from one name, and may be doses of one compound."""
+    mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
+    if mine is None or theirs is None:
+        return False
+    kinds = Lexicon({"distinct": case.common.distinct, "dosed": case.common.dosed})
+    said = {match.topic for match in kinds.find(mine.text)}
+    same = name_without_level(mine.text, case.common) == name_without_level(
+        theirs.text, case.common
+    )
+    return same and ("dosed" in said or "distinct" not in said)

@@ -1,0 +1,95 @@
+"""The check on wells of one assay that should get the same volumes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...vocabulary import Site
+from ..trace import Well
+from .base import Case, Check, Result, RoleSet, Violation, at, place, role_field
+from .receiving import filled, received
+
+
+@dataclass(frozen=True)
+class UniformVolume(Check):
+    """All wells of ``wells`` that received the same ``liquid`` received as much of it, and end
+    at the same volume.
+
+    Wells that received different sources of ``liquid`` are different assays and are compared
+    apart; end volumes are compared only where the run brings everything.
+
+    Attributes:
+        tolerance: Share of the usual volume by which a well may differ.
+    """
+
+    name: ClassVar[str] = "uniform_volume"
+    wells: tuple[str, ...] = role_field()
+    liquid: tuple[str, ...] = role_field()
+    tolerance: float = 0.01
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Compare each well with what most wells of its assay get."""
+        liquid = frozenset(self.liquid)
+        groups: dict[tuple[str, ...], list[tuple[Well, float, float]]] = {}
+        for well in case.wells(frozenset(self.wells)):
+            usage = case.usage.get(well.ref)
+            if well.prefilled or (usage is not None and usage.first_drawn):
+                continue
+            got, _ = received(case, well, liquid)
+            if got > 0:
+                total, _ = filled(case, well)
+                groups.setdefault(self._assay(case, well, liquid), []).append((well, got, total))
+        for members in groups.values():
+            yield from self._compare(case, members)
+
+    def _assay(self, case: Case, well: Well, liquid: RoleSet) -> tuple[str, ...]:
+        names = set()
+        for origin in case.meant.get(well, {}):
+            if case.has(origin, liquid):
+                assigned = case.roles.by_well.get(origin.ref)
+                kind = assigned.text if assigned else ""
+                names.add(f"{kind or origin.ref.address}")
+        return (well.ref.labware, str(well.generation), *sorted(names))
+
+    def _compare(self, case: Case, members: list[tuple[Well, float, float]]) -> Iterator[Result]:
+        if len(members) < 2:
+            return
+        title = " or ".join(case.family.roles[role].title for role in self.liquid)
+        usual_got = _usual([got for _, got, _ in members])
+        usual_total = _usual([total for _, _, total in members])
+        # Where a good part of the wells ends elsewhere, several kinds of reactions are meant.
+        few = (
+            3
+            * sum(
+                abs(total - usual_total) > max(self.tolerance * usual_total, 0.01)
+                for _, _, total in members
+            )
+            <= len(members)
+            or len(members) < 6
+        )
+        for well, got, total in members:
+            if abs(got - usual_got) > max(self.tolerance * usual_got, 0.01):
+                what = f"receives {got:.4g} µL of {title}; the others receive {usual_got:.4g} µL"
+                line = received(case, well, frozenset(self.liquid))[1]
+            elif abs(total - usual_total) > max(self.tolerance * usual_total, 0.01) and few:
+                what = f"ends at {total:.4g} µL; the others end at {usual_total:.4g} µL"
+                line = filled(case, well)[1]
+            else:
+                continue
+            yield Violation(
+                f"The {case.title(well)} {place(well)} {what} ({at(line)}).",
+                (Site(line, well.ref, what),),
+                well,
+                (line, case.title(well), what),
+            )
+
+
+def _usual(values: list[float]) -> float:
+    """The most frequent value (to 0.1 %), the larger one of equals."""
+    counts: dict[str, list[float]] = {}
+    for value in values:
+        counts.setdefault(f"{value:.3g}", []).append(value)
+    best = max(counts.values(), key=lambda same: (len(same), same[0]))
+    return best[0]
