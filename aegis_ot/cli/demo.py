@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 import aegis_ot
 
-from ..dryrun import DryRun, DryRunSettings, read_script
 from ..vocabulary import Outcome, counted
 from .app import BROKEN, app
-from .dryruns import console, run_and_show, write_report
+
+if TYPE_CHECKING:
+    from ..dryrun import DryRun
 
 _REJECTED = "pcr_setup_contaminated.py"
 _LONG = "normalisation_plate.py"
@@ -25,6 +26,8 @@ def demo(
     out: Annotated[Path, typer.Option(help="Folder for the report.")] = Path("out"),
 ) -> None:
     """Show a protocol rejected, a run watched, and a run paused at the failed well."""
+    from .dryrun_screen import console, write_report
+
     console.rule("1. Layer 1 rejects a contaminated PCR set-up")
     rejected = _run(_REJECTED)
     console.rule("2. Layer 2 watches a whole normal run (simulated frames)")
@@ -59,6 +62,9 @@ def _passed(result: DryRun) -> int:
 
 
 def _run(name: str, **settings: object) -> DryRun:
+    from ..dryrun import DryRunSettings, read_script
+    from .dryrun_screen import run_and_show
+
     package = Path(aegis_ot.__file__).parent
     # In the wheel, and in a checkout.
     places = (package / "demo_protocols" / name, package.parent / "examples" / "demo" / name)

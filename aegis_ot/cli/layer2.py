@@ -5,19 +5,20 @@ from __future__ import annotations
 import json
 import time
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..errors import ConfigurationError
-from ..reasoning import VlmGate
-from ..vision.gates import ConfirmingGate
 from .app import CLEAN
 from .checks import write_text
 from .datasets import open_dataset, writable_folder
 from .evaluations import evaluate
 from .judging import one_of, split
 from .models import ModelName, RecordFolder, backend_of
+
+if TYPE_CHECKING:
+    from ..vision.gates import ConfirmingGate
 
 _SCORERS = (
     "pca, isolation-forest, one-class-svm, autoencoder, single-frame-pca, mahalanobis (the "
@@ -122,6 +123,8 @@ def _model_gates(protocol: str, model: str | None, record: Path | None) -> list[
         ConfigurationError: One is named where none is asked.
     """
     if protocol == "cascade":
+        from ..reasoning.vlm import VlmGate
+
         backend = backend_of(model, record)
         return [] if backend is None else [VlmGate(backend)]
     if model is not None or record is not None:

@@ -7,8 +7,6 @@ from typing import Annotated
 
 import typer
 
-from ..sidecar import SidecarConfig, make_analyser, serve
-from ..sidecar.reasoning_routes import gates_of
 from .app import app
 
 
@@ -35,6 +33,9 @@ def sidecar(
     ] = None,
 ) -> None:
     """Watch the robot's tips: capture, score, judge, and show a page."""
+    from ..sidecar import SidecarConfig, make_analyser, serve
+    from ..sidecar.reasoning_routes import gates_of
+
     settings = SidecarConfig.load(
         config,
         host=host,

@@ -1,7 +1,7 @@
 """Language and vision models behind one small protocol. Workstation side.
 
 Door: :func:`make_backend` for a model by name, :func:`judge_in` for Layer 1 with it,
-:class:`VlmGate` for Layer 2, :class:`Opinions` for the sidecar.
+:class:`Opinions` for the sidecar. The gate of Layer 2 is in :mod:`.vlm`, which alone needs OpenCV.
 """
 
 from .backend import Backend, Message, Passage, Picture, Reply, Request, State, Usage
@@ -26,7 +26,6 @@ from .configurations import Configuration, Judgement, judge_in, request_in
 from .opinions import Opinions
 from .prices import Price, PriceTable, load_prices
 from .tokens import RequestSize, estimate_tokens, request_size
-from .vlm import VlmGate, gate_request
 
 __all__ = [
     "MODEL_FORMS",
@@ -54,10 +53,8 @@ __all__ = [
     "ScriptedBackend",
     "State",
     "Usage",
-    "VlmGate",
     "estimate_tokens",
     "export_requests",
-    "gate_request",
     "import_answers",
     "judge_in",
     "load_prices",

@@ -16,7 +16,8 @@ from starlette.concurrency import run_in_threadpool
 from ..errors import ConfigurationError
 from ..preflight.dossier import Dossier
 from ..preflight.opinion import Opinion
-from ..reasoning import Backend, Opinions, VlmGate, make_backend
+from ..reasoning import Backend, Opinions, make_backend
+from ..reasoning.vlm import VlmGate
 from ..vision.gates import ConfirmingGate
 from ..vocabulary import to_json
 from .config import SidecarConfig

@@ -22,11 +22,10 @@ from aegis_ot.reasoning import (
     ReplayBackend,
     ScriptedBackend,
     State,
-    VlmGate,
-    gate_request,
     import_answers,
     make_backend,
 )
+from aegis_ot.reasoning.vlm import VlmGate, gate_request
 from aegis_ot.sidecar import SidecarConfig, make_analyser
 from aegis_ot.sidecar.reasoning_routes import gates_of
 from aegis_ot.vision.gates import Case, OperatorGate, examine_in_turn

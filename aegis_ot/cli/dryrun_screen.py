@@ -1,0 +1,120 @@
+"""How a dry run is shown: a progress bar, the table of wells, the report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
+from rich.progress import Progress as Bar
+from rich.table import Table
+from rich.text import Text
+
+from ..dryrun import DryRun, DryRunSettings, Progress, WellRow, dry_run
+from ..preflight.checking import summary
+from ..reports import dry_run_html
+from ..sidecar import Judged, make_analyser
+from ..vocabulary import Outcome, counted
+from .app import BROKEN, CLEAN, FINDINGS
+
+console = Console(highlight=False)
+
+_COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
+
+
+def run_and_show(script: Any, settings: DryRunSettings) -> DryRun:
+    """Run with a progress bar and print the table of wells."""
+    with Bar(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+    ) as bar:
+        result = dry_run(script, settings, make_analyser(), _Shown(bar, script.file_name))
+    show(result)
+    return result
+
+
+class _Shown(Progress):
+    def __init__(self, bar: Bar, name: str) -> None:
+        self._bar = bar
+        self._task = bar.add_task(f"Layer 1 checks {name}", total=None)
+
+    def checked(self, report: Any) -> None:
+        self._bar.update(self._task, description="Layer 1 done")
+
+    def begin(self, wells: int) -> None:
+        self._bar.update(self._task, description="Running, wells judged", total=wells)
+
+    def judged(self, judged: Judged) -> None:
+        self._bar.advance(self._task)
+
+
+def show(result: DryRun) -> None:
+    """Print a finished dry run."""
+    if result.report is not None:
+        console.print(Text(summary(result.report)))
+    if result.outcome == "rejected":
+        console.print(Text(result.detail, style="red"))
+        console.print(f"{result.protocol}: rejected before anything moved.")
+        return
+    console.print(_table(result.wells))
+    passed = sum(row.outcome is Outcome.PASS for row in result.wells)
+    console.print(
+        f"{result.protocol}: {counted(len(result.wells), 'well')} watched on simulated frames, "
+        f"{passed} passed, {len(result.flagged)} flagged; run {result.outcome} "
+        f"({result.seconds:.1f} s)."
+    )
+    for row in result.flagged:
+        console.print(
+            Text(f"  {row.well}: {row.reason}", style=_COLOURS[row.outcome or Outcome.PASS])
+        )
+    if result.outcome == "stopped":
+        after = ", ".join(result.touched_after_failure) or "none"
+        console.print(f"Paused: {result.detail}", style="bold", markup=False)
+        console.print(f"Wells touched after the failed dispense: {after}.")
+    elif result.detail:
+        console.print(result.detail, style="red", markup=False)
+
+
+def _table(rows: Sequence[WellRow]) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for heading, side in (
+        ("#", "right"), ("well", "left"), ("µL", "right"), ("score", "right"), ("route", "left"),
+        ("gate", "left"), ("verdict", "left"), ("hold s", "right"),
+    ):  # fmt: skip
+        table.add_column(heading, justify=side, no_wrap=True)  # type: ignore[arg-type]
+    for row in rows:
+        verdict = row.outcome.value if row.outcome else "none"
+        failure = f" ({row.failure.value})" if row.failure else ""
+        table.add_row(
+            str(row.trajectory),
+            Text(row.address),
+            f"{row.volume_ul:g}",
+            "-" if row.score is None else f"{row.score:.3g}",
+            row.route.value if row.route else "-",
+            row.gate.value,
+            Text(verdict + failure, style=_COLOURS.get(row.outcome or Outcome.UNDECIDED, "")),
+            f"{row.hold_s:.2f}",
+        )
+    return table
+
+
+def write_report(path: Path, results: Sequence[DryRun]) -> None:
+    """Write the HTML report, making its folder."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(dry_run_html(results), encoding="utf-8")
+    console.print(f"Report: {path}", markup=False, soft_wrap=True)
+
+
+def exit_code(result: DryRun) -> int:
+    """0 clean, 1 findings or flagged wells, 2 the run itself failed."""
+    if result.outcome == "failed":
+        return BROKEN
+    if result.outcome != "succeeded" or result.flagged:
+        return FINDINGS
+    return CLEAN
