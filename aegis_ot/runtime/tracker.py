@@ -109,10 +109,10 @@ class Tracker:
                 # No lift: what the protocol does next in place must happen in that place.
                 self._settle(hand, steps, lift=False)
             self._ask(self._awaiting.all(), "a pause", steps)
-        elif event.kind is EventKind.LABWARE_MOVED:
+        elif event.kind is EventKind.LABWARE_MOVING:
             for hand in self._hands.values():
                 if hand.current and hand.current.delivered and is_on(hand.current, event.labware):
-                    self._settle(hand, steps, lift=False)  # the wells are not there any more
+                    self._settle(hand, steps, lift=False)  # its wells are about to leave
             self._ask(self._awaiting.on(event.labware), "the labware is moved", steps)
         return steps
 

@@ -326,6 +326,16 @@ def pause_before_the_tip_goes(context: Any) -> None:
 
 
 @case()
+def destination_moved(context: Any) -> None:
+    plate, pipette = deck(context)
+    pipette.pick_up_tip()
+    pipette.aspirate(50, plate["A1"])
+    pipette.dispense(50, plate["A2"])
+    context.move_labware(plate, "3")
+    pipette.drop_tip()
+
+
+@case()
 def delay_after_the_dispense(context: Any) -> None:
     plate, pipette = deck(context)
     pipette.pick_up_tip()

@@ -7,7 +7,7 @@ from typing import Any
 
 from opentrons import simulate
 
-from aegis_ot.instrumentation import Event, Operation
+from aegis_ot.instrumentation import Event, EventKind, Operation
 from aegis_ot.instrumentation.tap import tapped
 from aegis_ot.runtime.steps import Abandon, Capture, Hold, Lift, Step
 from aegis_ot.runtime.tracker import Tracker
@@ -40,6 +40,8 @@ class Recorder:
         self.take(self.tracker.after(operation))
 
     def event(self, event: Event) -> None:
+        if event.kind is EventKind.LABWARE_MOVED:
+            self.words.append(f"moved:{event.text}")
         self.take(self.tracker.event(event))
 
     def take(self, steps: list[Step]) -> None:
