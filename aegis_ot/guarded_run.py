@@ -11,7 +11,7 @@ import dis
 import sys
 import weakref
 from collections.abc import Callable, Mapping
-from contextlib import ExitStack, nullcontext
+from contextlib import ExitStack
 from contextvars import ContextVar
 from types import FrameType
 from typing import TYPE_CHECKING, Any
@@ -67,7 +67,7 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
 
     Used for ``protocol = guard(protocol)``. There is no call to wrap, so the protocol is
     rehearsed here, in simulation too, and the end of the run is seen by a profile hook on the
-    return of this very frame.
+    return of the protocol's outermost function.
     """
     from .preflight.rehearsal import find_home, is_rehearsing
 
@@ -137,14 +137,16 @@ def _rehearse_by_running(
     if not listeners:
         return call()
     with tapped(protocol, listeners, file_name) as tap:
+        if recorder is None:
+            result = _call_watched(call, watcher, tap)
+            _say(protocol, "", watcher)
+            return result
         names = NameCollector(tap.wells, file_name)
         text = _text_of(file_name, protocol)
-        with names.watching(module, text) if recorder is not None else nullcontext():
+        with names.watching(module, text):
             result = _call_watched(call, watcher, tap)
         names.look(module, "<module>", 1)
-    layer1 = ""
-    if recorder is not None:
-        layer1 = _judge(recorder, names.bindings, protocol, settings, file_name)
+    layer1 = _judge(recorder, names.bindings, text, protocol, settings, file_name)
     _say(protocol, layer1, watcher)
     return result
 
@@ -173,7 +175,7 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
         # A protocol that fails by itself fails with its own error; that is not the guard's to
         # change.
         return f"Layer 1 could not rehearse the protocol: {error}"
-    return _judge(recorder, rehearsal.names, protocol, settings, file_name)
+    return _judge(recorder, rehearsal.names, script.text, protocol, settings, file_name)
 
 
 def _watched(
@@ -255,7 +257,12 @@ def _text_of(file_name: str, protocol: Any) -> str:
 
 
 def _judge(
-    recorder: Recorder, names: Any, protocol: Any, settings: Settings, file_name: str
+    recorder: Recorder,
+    names: Any,
+    text: str,
+    protocol: Any,
+    settings: Settings,
+    file_name: str,
 ) -> str:
     """Layer 1's summary.
 
@@ -264,7 +271,6 @@ def _judge(
     """
     from .preflight.checking import check_recording, is_rejected, rejection, summary
 
-    text = _text_of(file_name, protocol)
     try:
         report = check_recording(recorder, names, text, file_name, settings)
         if settings.opinion == "ask":

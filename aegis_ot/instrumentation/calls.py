@@ -119,7 +119,7 @@ class CallReader:
             else:
                 target = str(well_core.get_name())
                 wells = self._wells.covered(info, target, nozzles)
-                from_top = self._height(name, values, location, info, well_core)
+                from_top = self._height(name, values, location, info, target, well_core)
                 if from_top is not None:
                     from_bottom = from_top + info.wells[target].depth
         operation = Operation(
@@ -162,6 +162,7 @@ class CallReader:
         values: Mapping[str, Any],
         location: Any,
         info: LabwareInfo,
+        target: str,
         well_core: Any,
     ) -> float | None:
         if name == "touch_tip":
@@ -173,8 +174,7 @@ class CallReader:
         point = getattr(location, "point", None)
         if point is None or not isinstance(getattr(point, "z", None), (int, float)):
             return None
-        rim = self._wells.rim_of(info, str(well_core.get_name()), well_core)
-        return round(float(point.z) - rim, 3)
+        return round(float(point.z) - self._wells.top_of(info, target, well_core), 3)
 
 
 def _well_core_of(location: Any) -> Any:

@@ -74,7 +74,7 @@ class WellResolver:
         self._slots: dict[str, str] = {}
         self._covered: dict[tuple[str, str, Nozzles], tuple[WellRef | None, ...]] = {}
         self._refs: dict[tuple[str, str], WellRef] = {}
-        self._rims: dict[tuple[str, str], float] = {}
+        self._tops: dict[tuple[str, str], float] = {}
         self.labware: dict[str, LabwareInfo] = {}
 
     def register(self, labware_core: Any) -> LabwareInfo:
@@ -139,16 +139,16 @@ class WellResolver:
             return self.register(well_core.geometry.parent)
         return self.labware[self.key_of_id(labware_id)]
 
-    def rim_of(self, info: LabwareInfo, name: str, well_core: Any) -> float:
+    def top_of(self, info: LabwareInfo, name: str, well_core: Any) -> float:
         """Height of a well's top on the deck, mm. Kept, since the engine reckons it anew."""
-        rim = self._rims.get((info.key, name))
-        if rim is None:
-            rim = self._rims[(info.key, name)] = float(well_core.get_top(z_offset=0).z)
-        return rim
+        top = self._tops.get((info.key, name))
+        if top is None:
+            top = self._tops[(info.key, name)] = float(well_core.get_top(z_offset=0).z)
+        return top
 
     def forget_heights(self) -> None:
         """A labware stands elsewhere, or its offset is another one."""
-        self._rims.clear()
+        self._tops.clear()
 
     def _slot_of(self, labware_core: Any) -> str:
         labware_id = getattr(labware_core, "labware_id", None)

@@ -16,7 +16,7 @@ from collections.abc import Callable
 from typing import Any
 
 SLICE_S = 0.1
-"""Longest single wait, s. The robot's stop button must work within 0.5 s; see DESIGN, 6."""
+"""Longest single wait, s. The robot's stop button must work within 0.5 s."""
 
 CheckStop = Callable[[], None]
 

@@ -1,6 +1,6 @@
 """The per-run cascade on a held-out plate: calibrate, triage, gate, well by well.
 
-It follows what the sidecar does live (``aegis_ot.vision.monitor``), with the plate as the run.
+It follows what the sidecar does live (``aegis_ot.vision.analyser``), with the plate as the run.
 The first normal wells of a plate, at most six, are its calibration wells and are not scored.
 Where there are enough of them they set the band, as in a live run. Plates in the paper's shape
 begin with one or two normals: no band can be set on those, and such a plate routes by the
@@ -125,19 +125,19 @@ class _Plate:
         )
         volumes = self._gates[0].examine(case)
         contradiction = volumes.reason if volumes.outcome is Outcome.FAIL or case.alarming else ""
-        triage = self._triage(well, contradiction)
+        triage = self._triage(well, case, contradiction)
         if not triage.to_gate:
             decision = GateDecision(Outcome.PASS, Gate.NONE, triage.reason)
         else:
             decision = examine_in_turn(self._gates, replace(case, route=triage.route))
         normal = decision.outcome is Outcome.PASS
-        self._cascade.learn(self._scores(well), normal=normal, volume_ul=sample.volume_ul)
+        self._cascade.learn(scores, normal=normal, volume_ul=sample.volume_ul)
         if normal and KeyframeKind.TRANSIT in looks:
             self._reader.learn(looks, sample.expected_ul)
         return JudgedWell(well, triage, readings, decision)
 
-    def _triage(self, well: ScoredWell, contradiction: str) -> Triage:
-        triage = self._cascade.triage(self._scores(well), missing_tips(well.sample), contradiction)
+    def _triage(self, well: ScoredWell, case: Case, contradiction: str) -> Triage:
+        triage = self._cascade.triage(case.scores, case.missing, contradiction)
         decided = contradiction or triage.route is Route.BLANK_FLOOR
         if self._banded or decided:
             return triage
