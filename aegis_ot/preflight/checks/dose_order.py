@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
-from ..text import Lexicon, name_without_level
+from ..text import lexicon_of, name_without_level
 from ..trace import Met, Visit, Well
 from .base import (
     Case,
@@ -161,7 +161,7 @@ def _in_one_list(case: Case, one: Well, other: Well) -> bool:
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
     if mine is None or theirs is None:
         return False
-    kinds = Lexicon({"distinct": case.common.distinct, "dosed": case.common.dosed})
+    kinds = lexicon_of({"distinct": case.common.distinct, "dosed": case.common.dosed})
     said = {match.topic for match in kinds.find(mine.text)}
     same = name_without_level(mine.text, case.common) == name_without_level(
         theirs.text, case.common

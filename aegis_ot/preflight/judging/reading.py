@@ -22,7 +22,7 @@ from ..roles import (
     usage_of,
 )
 from ..rules import Common, Database, RuleSpec
-from ..text import Lexicon, SourceFacts, read_source
+from ..text import SourceFacts, lexicon_of, read_source
 from ..trace import Replacements, Trace, build_trace
 from .options import Options
 
@@ -121,7 +121,7 @@ def read_recording(recording: Recording, database: Database, options: Options) -
 
 def _loose_volumes(facts: SourceFacts, common: Common) -> bool:
     """Whether the protocol is of a kind whose wells held liquid that nobody declares."""
-    lexicon = Lexicon({"kind": common.protocol_prefilled})
+    lexicon = lexicon_of({"kind": common.protocol_prefilled})
     texts = [text for _, text in facts.docstrings]
     texts += list(facts.metadata.values())
     texts += [text for _, text in facts.strings]
@@ -157,7 +157,7 @@ def _implied_elsewhere(
 
 def _prefilled_by_words(clues: Iterable[Clue], common: Common) -> set[WellRef]:
     """Wells whose names say, in any family, that they held liquid before the run."""
-    lexicon = Lexicon({"prefilled": common.prefilled})
+    lexicon = lexicon_of({"prefilled": common.prefilled})
     return {
         ref
         for clue in clues
@@ -167,5 +167,5 @@ def _prefilled_by_words(clues: Iterable[Clue], common: Common) -> set[WellRef]:
 
 
 def _waste(clues: Iterable[Clue], common: Common) -> frozenset[WellRef]:
-    lexicon = Lexicon({"waste": common.waste})
+    lexicon = lexicon_of({"waste": common.waste})
     return frozenset(ref for clue in clues if lexicon.find(clue.text) for ref in clue.wells)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..rules import Common, Database, Family
-from ..text import Lexicon, SourceFacts, tokens
+from ..text import SourceFacts, lexicon_of, tokens
 from ..trace import Trace, longest_chain, longest_dilution
 from .clues import Clue, Strength
 
@@ -167,24 +167,12 @@ def _nothing_against(found: Sequence[_Found]) -> bool:
     return len(against) <= 1 or sum(one.worth for one in found) >= SURE
 
 
-_LEXICONS: dict[int, tuple[Family, Lexicon]] = {}
-
-
 def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> list[_Found]:
-    known = _LEXICONS.get(id(family))
-    if known is None or known[0] is not family:
-        known = (
-            family,
-            Lexicon(
-                {str(n): signal.words for n, signal in enumerate(family.signals)},
-                common.aliases,
-                common.endings,
-            ),
-        )
-        if len(_LEXICONS) > 64:
-            _LEXICONS.clear()
-        _LEXICONS[id(family)] = known
-    lexicon = known[1]
+    lexicon = lexicon_of(
+        {str(n): signal.words for n, signal in enumerate(family.signals)},
+        common.aliases,
+        common.endings,
+    )
     best: dict[tuple[str, str], _Found] = {}
     for where, text in texts:
         for match in lexicon.find(text):

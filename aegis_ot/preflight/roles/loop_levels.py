@@ -8,7 +8,7 @@ from contextlib import suppress
 from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import Lexicon, Loop, SourceFacts, Values, origins
+from ..text import Loop, SourceFacts, Values, lexicon_of, origins
 from ..trace import Trace
 from .clues import Clue, Strength
 from .plate_maps import is_number
@@ -67,8 +67,8 @@ def _levels(
     loop: Loop, count: int, names: Sequence[NameBinding], common: Common
 ) -> tuple[float, ...]:
     """The one column of numbers that speaks of amounts, as long as there are wells."""
-    amounts = Lexicon({"amount": common.amounts})
-    counts = Lexicon({"count": common.countings})
+    amounts = lexicon_of({"amount": common.amounts})
+    counts = lexicon_of({"count": common.countings})
     named, listed = set(), set()
     for values in loop.values:
         for name, column in _columns(values, names):

@@ -9,7 +9,7 @@ from typing import Any
 from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import Lexicon, SourceFacts, tokens
+from ..text import SourceFacts, lexicon_of, tokens
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
@@ -155,7 +155,7 @@ def _keyed_amounts(
         match = re.fullmatch(r"([^\[\]]+)\[(['\"])(.+)\2\]", binding.name)
         if match:
             groups.setdefault(match[1], {})[match[3]] = binding.name
-    amounts = Lexicon({"amount": common.amounts})
+    amounts = lexicon_of({"amount": common.amounts})
     found: dict[str, float | None] = {}
     maps = [
         (constant, {str(key): float(number) for key, number in value.items()})
@@ -229,7 +229,7 @@ def _parallel(
     common: Common,
 ) -> Iterator[Clue]:
     """A list of concentrations as long as the list of wells: ``standard_concs``."""
-    amounts = Lexicon({"amount": common.amounts})
+    amounts = lexicon_of({"amount": common.amounts})
     fitting = [
         (len(set(tokens(name)) & set(tokens(binding.name))), name, levels)
         for name, levels in lists

@@ -6,26 +6,18 @@ import functools
 from collections.abc import Iterable, Sequence
 
 from ..rules import Common, Family
-from ..text import Lexicon, tokens
+from ..text import Lexicon, lexicon_of, tokens
 from .clues import Clue, Strength
 from .roles import Roles
-
-_LEXICONS: dict[int, tuple[Family, Lexicon]] = {}
 
 
 def role_words(family: Family, common: Common) -> Lexicon:
     """The words of all roles of a family; those that speak against one stand under ``!role``."""
-    known = _LEXICONS.get(id(family))
-    if known is None or known[0] is not family:
-        phrases: dict[str, Sequence[str]] = {}
-        for name, spec in family.roles.items():
-            phrases[name] = spec.words
-            phrases[f"!{name}"] = spec.never
-        known = (family, Lexicon(phrases, common.aliases, common.endings))
-        if len(_LEXICONS) > 64:
-            _LEXICONS.clear()
-        _LEXICONS[id(family)] = known
-    return known[1]
+    phrases: dict[str, Sequence[str]] = {}
+    for name, spec in family.roles.items():
+        phrases[name] = spec.words
+        phrases[f"!{name}"] = spec.never
+    return lexicon_of(phrases, common.aliases, common.endings)
 
 
 _BOTH = frozenset({"and", "plus", "all", "und", "et", "y"})

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ..rules import Common
-from ..text import Lexicon, SourceFacts, origins, tokens
+from ..text import SourceFacts, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import Deck
 from .well_names import WELL_NAME
@@ -74,8 +74,8 @@ class _Reader:
     """Reads a constant that holds well names."""
 
     def __init__(self, common: Common) -> None:
-        self._amounts = Lexicon({"amount": common.amounts})
-        self._counts = Lexicon({"count": common.countings})
+        self._amounts = lexicon_of({"amount": common.amounts})
+        self._counts = lexicon_of({"count": common.countings})
 
     def entries(self, name: str, value: Any, depth: int = 0) -> Iterator[Entry]:
         """Each group of wells with what is said of it."""

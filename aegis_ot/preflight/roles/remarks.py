@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import Lexicon, SourceFacts, tokens
+from ..text import SourceFacts, lexicon_of, tokens
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
@@ -100,7 +100,7 @@ def step_comments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[
     may name a single destination ("# NTC").
     """
     beside = _comment_of_line(facts)
-    unsaid = Lexicon({"not": common.negations})
+    unsaid = lexicon_of({"not": common.negations})
     drawn: dict[str, dict[WellRef, None]] = {}
     given: dict[str, dict[WellRef, None]] = {}
     at_line: dict[str, int] = {}

@@ -8,7 +8,7 @@ from contextlib import suppress
 from ...instrumentation import NameBinding, Row
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import Lexicon, SourceFacts
+from ..text import SourceFacts, lexicon_of
 from .clues import Clue, Strength
 from .deck import Deck
 from .plate_maps import is_number, labware_of_map
@@ -40,8 +40,8 @@ def tabled_wells(
     deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
 ) -> Iterator[Clue]:
     """Rows that the run held: words and amounts beside wells, or beside names of wells."""
-    amounts = Lexicon({"amount": common.amounts})
-    counts = Lexicon({"count": common.countings})
+    amounts = lexicon_of({"amount": common.amounts})
+    counts = lexicon_of({"count": common.countings})
     for binding in names:
         base = binding.name.split("[", 1)[0]
         if len(binding.rows) < 2 or base in facts.constants:

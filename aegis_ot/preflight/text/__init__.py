@@ -5,7 +5,7 @@ from .flow import origins
 from .levels import direction_in, level_in, name_without_level, numbers_in_order
 from .lines import source_lines
 from .reading import read_source
-from .words import Lexicon, Match, tokens
+from .words import Lexicon, Match, lexicon_of, tokens
 
 __all__ = [
     "Lexicon",
@@ -16,6 +16,7 @@ __all__ = [
     "Values",
     "direction_in",
     "level_in",
+    "lexicon_of",
     "name_without_level",
     "numbers_in_order",
     "origins",

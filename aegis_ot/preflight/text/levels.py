@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 
 from ..rules import Common
-from .words import Lexicon, tokens
+from .words import Lexicon, lexicon_of, tokens
 
 _NUMBER = r"(?<![\w.])(\d+(?:[.,]\d+)?(?:[eE]-?\d+)?)"
 
@@ -43,8 +43,6 @@ _WITH_UNIT = re.compile(
 _LONG_NUMBER = re.compile(r"(?<![\d.])(\d{2,}(?:\.\d+)?|\d+\.\d+|0)(?![\d.])")
 
 _RATIO = re.compile(r"\b1\s*(?::|/|to|in)\s*(\d+)\b", re.IGNORECASE)
-
-_LEXICONS: dict[int, tuple[Common, Lexicon]] = {}
 
 
 def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | None:
@@ -81,7 +79,7 @@ def name_without_level(text: str, common: Common) -> tuple[str, ...]:
     differ are doses of one.
     """
     plain = _WITH_UNIT.sub(" ", text.replace("µ", "u").replace("μ", "u"))
-    lexicon = Lexicon({"noise": (*common.noise, *common.levels)})
+    lexicon = lexicon_of({"noise": (*common.noise, *common.levels)})
     words = tokens(plain)
     covered = {at for match in lexicon.find(plain) for at in range(match.start, match.end)}
     return tuple(
@@ -108,15 +106,11 @@ def direction_in(text: str, common: Common) -> int:
 
 
 def _level_words(common: Common) -> Lexicon:
-    known = _LEXICONS.get(id(common))
-    if known is None or known[0] is not common:
-        known = (common, Lexicon({word: (word,) for word in common.levels}))
-        _LEXICONS[id(common)] = known
-    return known[1]
+    return lexicon_of({word: (word,) for word in common.levels})
 
 
 def _direction_words(common: Common) -> Lexicon:
-    return Lexicon({"rising": common.rising, "falling": common.falling})
+    return lexicon_of({"rising": common.rising, "falling": common.falling})
 
 
 def _unit(unit: str) -> str:

@@ -64,6 +64,9 @@ def _same(here: tuple[str, ...], parts: tuple[str, ...]) -> bool:
     )
 
 
+_MOST_TEXTS = 4096
+
+
 class Lexicon:
     """Phrases by topic, ready to be searched for; ``#`` in a phrase stands for any number.
 
@@ -97,6 +100,8 @@ class Lexicon:
         """All phrases in ``text``, none overlapping a longer one, in order."""
         found = self._cache.get(text)
         if found is None:
+            if len(self._cache) > _MOST_TEXTS:  # it outlives a protocol
+                self._cache.clear()
             found = self._cache[text] = tuple(self._search(self.words(text)))
         return found
 
@@ -136,3 +141,22 @@ class Lexicon:
                     found.append(Match(topic, phrase, at, at + length))
             at += length or 1
         return found
+
+
+def lexicon_of(
+    phrases: Mapping[str, Sequence[str]],
+    aliases: Mapping[str, str] | None = None,
+    endings: Sequence[str] = (),
+) -> Lexicon:
+    """The lexicon of a rule file's lists (see :class:`Lexicon`), made once for equal lists."""
+    listed = tuple((topic, tuple(words)) for topic, words in phrases.items())
+    return _made(listed, tuple((aliases or {}).items()), tuple(endings))
+
+
+@functools.lru_cache(maxsize=128)
+def _made(
+    phrases: tuple[tuple[str, tuple[str, ...]], ...],
+    aliases: tuple[tuple[str, str], ...],
+    endings: tuple[str, ...],
+) -> Lexicon:
+    return Lexicon(dict(phrases), dict(aliases), endings)

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ...instrumentation import LabwareInfo
-from ..text import Lexicon, tokens
+from ..text import lexicon_of, tokens
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Replacements:
     words: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self._lexicon = Lexicon({topic: tuple(phrases) for topic, phrases in self.words.items()})
+        self._lexicon = lexicon_of({topic: tuple(phrases) for topic, phrases in self.words.items()})
 
     def shakes(self, text: str) -> bool:
         """Whether a text speaks of shaking or mixing a plate."""
