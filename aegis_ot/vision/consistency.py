@@ -35,8 +35,8 @@ _MATCH = 0.6
 """Correlation from which the collar of one free frame is found again in the other."""
 
 _FAINT = 0.2
-"""Confidence of a faint tip that another frame confirms; a bare shaft stays below (0.19 at most
-on rendered frames)."""
+"""Confidence of a faint tip that a sure one in another frame confirms. Bare shafts reach 0.41 on
+rendered frames, so two faint ones confirm nothing: both may be the same shaft."""
 
 _REACH = 0.35
 """The free tip's orifice stays within this many tip lengths, up or down, of its usual height."""
@@ -213,23 +213,20 @@ def second_look(
     detections: Mapping[KeyframeKind, TipDetection | None],
     frames: Mapping[KeyframeKind, Image],
 ) -> dict[KeyframeKind, TipDetection]:
-    """Faint tips to believe in the free frames: two that show the same one confirm each other.
+    """Faint tips to believe in the free frames: those that the other one surely shows.
 
     Args:
         guess: The likeliest tip in a frame, however faint.
         detections: What the detector was sure of.
         frames: The frames.
     """
-    missing = [kind for kind in FREE if kind in frames and detections.get(kind) is None]
-    guesses = {kind: guess(frames[kind]) for kind in missing}
     found: dict[KeyframeKind, TipDetection] = {}
     for kind, other in (FREE, FREE[::-1]):
-        if kind not in missing:
-            continue
-        faint, partner = guesses[kind], detections.get(other) or guesses.get(other)
-        sure = partner is not None and partner.confidence >= _FAINT
-        if faint is not None and partner is not None and sure and confirms(faint, partner, _FAINT):
-            found[kind] = faint
+        partner = detections.get(other)
+        if kind in frames and detections.get(kind) is None and partner is not None:
+            faint = guess(frames[kind])
+            if faint is not None and confirms(faint, partner, _FAINT):
+                found[kind] = faint
     return found
 
 
@@ -239,7 +236,7 @@ def confirms(guess: TipDetection | None, partner: TipDetection, least: float) ->
     Args:
         guess: The likeliest tip in one free frame.
         partner: The tip in the other free frame of the same trajectory.
-        least: Confidence below which nothing is believed; above any bare shaft's.
+        least: Confidence below which nothing is believed.
     """
     return (
         guess is not None

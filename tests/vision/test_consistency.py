@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from aegis_ot.vision.consistency import TipConsistency, confirms, find_again
+from aegis_ot.vision.consistency import TipConsistency, confirms, find_again, second_look
 from aegis_ot.vision.types import TipDetection
 from aegis_ot.vocabulary import KeyframeKind as K
 
@@ -154,3 +154,11 @@ def test_no_tip_is_sure_only_where_tips_are_plain_to_see(known):
     bare = [replace(tip(), confidence=0.2), None]
     assert known.clearly_absent(bare)
     assert not known.clearly_absent([replace(tip(), confidence=0.5), None])
+
+
+def test_two_faint_tips_confirm_nothing_but_a_sure_one_confirms_a_faint_one() -> None:
+    transit, after = K.TRANSIT, K.POST_DISPENSE
+    image = np.zeros((540, 960, 3), np.uint8)
+    frames, faint = {transit: image, after: image}, replace(tip(), confidence=0.35)
+    assert second_look(lambda _: faint, {transit: None, after: None}, frames) == {}
+    assert second_look(lambda _: faint, {transit: tip(), after: None}, frames) == {after: faint}
