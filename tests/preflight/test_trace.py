@@ -62,6 +62,21 @@ def test_an_unknown_volume_is_not_clear() -> None:
     assert bench.trace().visits[-1].touch
 
 
+@pytest.mark.parametrize(("taken", "touches"), [(100, False), (20, True)])
+def test_a_well_emptied_in_part_is_no_fuller_than_what_a_full_one_left(
+    taken: float, touches: bool
+) -> None:
+    """Less than 100 (or 180) of 200 µL are left; 40 more stand up to 7 (or 10) of 10 mm."""
+    bench = Bench()
+    bench.load("plate:A1", None)
+    bench.pick()
+    bench.draw("plate:A1", taken)
+    bench.give("source:B1", taken)
+    bench.draw("source:A1", 40)
+    bench.give("plate:A1", 40, top=-0.5)
+    assert bench.trace().visits[-1].touch is touches
+
+
 def test_a_returned_tip_goes_on_with_its_history() -> None:
     bench = Bench()
     bench.pick("A1")

@@ -207,7 +207,7 @@ class _Builder:
         held = well.volume
         if not well.prefilled:
             tip.unsure += max(step.volume - well.least, 0.0)
-        missing = well.draw(step.volume, step.mixing)
+        missing = well.draw(step.volume)
         if missing > _slack(step.volume):
             self._trace.imbalances.append(
                 Imbalance(well, self._index, step.line, False, step.volume, held)

@@ -18,9 +18,6 @@ Composition = Mapping["Well", float]
 CLEARANCE_MM = 2.0
 """A tip end at least this far above the liquid does not touch it (``spec/rules.md``)."""
 
-UPPER = 2 / 3
-"""Share of a well's depth above which a well of unknown volume is hardly filled."""
-
 EMPTY_UL = 1e-6
 
 
@@ -40,7 +37,7 @@ class Well:
         mixes: ``(first index, last index, line)`` of each time it was mixed.
         prefilled: Whether it held liquid before the run.
         fed: Whether the run has put liquid into it.
-        drawn: Whether the run has taken liquid out of it, otherwise than to mix it.
+        most: What it holds at most while that is unknown, µL: a full well less what was taken.
         unsure: µL of ``volume`` that may not be there: drawn from a well beyond what it held.
         reckoned: Volume at the time when someone may have changed it by hand, followed since, µL.
     """
@@ -50,13 +47,13 @@ class Well:
         "contents",
         "declared",
         "depth",
-        "drawn",
         "fed",
         "generation",
         "known",
         "last",
         "liquids",
         "mixes",
+        "most",
         "order",
         "prefilled",
         "pure",
@@ -81,7 +78,7 @@ class Well:
         self.known = True
         self.prefilled = False
         self.fed = False
-        self.drawn = False
+        self.most = self.capacity
         self.unsure = 0.0
         self.reckoned: float | None = None
         self.declared: float | None = None
@@ -129,6 +126,7 @@ class Well:
         elif self.known:
             self.reckoned = self.volume
         self.known = False
+        self.most = self.capacity
         self.volume = self.unsure = 0.0
 
     def liquid(self) -> Composition:
@@ -142,9 +140,9 @@ class Well:
             return self.last
         return {origin: volume / total for origin, volume in contents.items()}
 
-    def draw(self, volume: float, mixing: bool = False) -> float:
+    def draw(self, volume: float) -> float:
         """Take liquid out; returns how much of it the well did not hold (0 if unknown)."""
-        self.drawn = self.drawn or not mixing
+        self.most = max(self.most - volume, 0.0)
         missing = volume - self.volume if self.known and volume > self.volume else 0.0
         least = max(self.least - volume, 0.0)
         self.volume = self.volume - volume if self.volume > volume else 0.0
@@ -167,6 +165,7 @@ class Well:
     def add(self, volume: float, liquid: Composition, unsure: float = 0.0) -> None:
         """Put liquid in; ``unsure`` µL of it may be air."""
         self.volume += volume
+        self.most = min(self.most + volume, self.capacity)
         self.unsure += unsure
         if self.reckoned is not None:
             self.reckoned += volume
@@ -178,16 +177,16 @@ class Well:
     def clear_of_liquid(self, from_bottom: float | None, from_liquid: float | None = None) -> bool:
         """Whether a tip end at this height (mm) is known not to touch the liquid.
 
-        Unknown volume is not clear; but a well that something was taken from is not full to its
-        upper third again by what is put back from there.
+        Unknown volume is not clear; but a well that was emptied in part stands no higher than a
+        full one less what was taken.
         """
         if from_liquid is not None:
             return from_liquid >= CLEARANCE_MM
-        volume = self.volume if self.known else self.reckoned
-        if volume is None and self.drawn and from_bottom is not None:
-            return 0 < self.depth * UPPER <= from_bottom
-        if volume is None or from_bottom is None or self.slope is None:
+        if from_bottom is None or self.slope is None:
             return False
+        volume = self.volume if self.known else self.reckoned
+        if volume is None:
+            volume = self.most
         level = min(volume * self.slope, self.depth)
         return from_bottom >= level + CLEARANCE_MM
 
