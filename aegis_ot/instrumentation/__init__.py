@@ -1,6 +1,6 @@
 """Taps the instruments of one protocol run, so that others can listen. Robot side."""
 
-from .held import Row
+from .held import Row, is_spot
 from .labware import LabwareInfo, WellInfo
 from .names import NameBinding, NameCollector
 from .operation import Event, EventKind, Listener, Operation, OperationKind, Pipette
@@ -19,5 +19,6 @@ __all__ = [
     "Row",
     "Tap",
     "WellInfo",
+    "is_spot",
     "tapped",
 ]

@@ -133,7 +133,6 @@ class CallReader:
             from_bottom=from_bottom,
             from_liquid=_over_liquid(values),
             position=_position(location),
-            flow_rate=values.get("flow_rate"),
             in_place=bool(values.get("in_place", False)),
             line=site.line,
             lines=site.lines,

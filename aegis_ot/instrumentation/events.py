@@ -54,7 +54,6 @@ class EventTap:
         self._after(self._core, "load_module", lambda result, *_: self._tap_module(result))
         self._before(self._core, "pause", self._said(EventKind.PAUSED))
         self._after(self._core, "comment", self._said(EventKind.COMMENT))
-        self._after(self._core, "delay", self._said(EventKind.DELAY))
         client = getattr(self._core, "_engine_client", None)
         if client is not None:
             # Liquids are loaded through wells and labware alike; both end here.

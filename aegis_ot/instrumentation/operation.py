@@ -66,7 +66,6 @@ class Operation:
         from_liquid: Height of the tip end over the liquid that stands there afterwards, mm, where
             the protocol says it so (``well.meniscus(...)``); else ``None``.
         position: Tip end on the deck (x, y, z), mm, or ``None``.
-        flow_rate: µL/s, or ``None``.
         in_place: Whether the core was told not to move first.
         line: Source line of the protocol that the innermost protocol frame stands on.
         lines: All protocol lines on the stack, innermost first.
@@ -86,7 +85,6 @@ class Operation:
     from_bottom: float | None = None
     from_liquid: float | None = None
     position: tuple[float, float, float] | None = None
-    flow_rate: float | None = None
     in_place: bool = False
     line: int | None = None
     lines: tuple[int, ...] = ()
@@ -140,7 +138,6 @@ class EventKind(str, Enum):
     TIPS_RESET = "tips_reset"
     PAUSED = "paused"
     COMMENT = "comment"
-    DELAY = "delay"
     MODULE = "module"
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Met, Visit, Well
 from .base import (
@@ -168,7 +169,7 @@ def _on_purpose(case: Case, stock: Well, origin: Well, visit: Visit) -> bool:
         if any(source is origin for _, _, source, _ in delivered(earlier)) and (
             earlier.tip is not visit.tip
             or not any(
-                other.well is stock and other.kind.value == "aspirate"
+                other.well is stock and other.kind is OperationKind.ASPIRATE
                 for other in case.trace.visits
                 if other.tip is visit.tip and other.index < earlier.index
             )

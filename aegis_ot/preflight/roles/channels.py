@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..trace import Trace
-from .roles import Assignment, Roles
+from .roles import Roles
 
 
 def spread_over_channels(roles: Roles, trace: Trace) -> None:
@@ -26,17 +26,7 @@ def spread_over_channels(roles: Roles, trace: Trace) -> None:
                 other.strength <= assigned.strength
                 and assigned.role != other.role
                 and assigned.role not in roles.closure(other.role)
-                and _is_wide(other)
-                and not _is_wide(assigned)
+                and other.by_label
+                and not assigned.by_label
             ):
-                roles.by_well[ref] = Assignment(
-                    assigned.role,
-                    [f"{said} (same channel group)" for said in assigned.evidence],
-                    assigned.strength,
-                    assigned.text,
-                    assigned.level,
-                )
-
-
-def _is_wide(assignment: Assignment) -> bool:
-    return all("label" in said for said in assignment.evidence)
+                roles.by_well[ref] = assigned.copied("same channel group")

@@ -19,16 +19,11 @@ def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
     }
     if not found:
         return set()
-    for well in trace.wells.values():
-        if well.ref not in found:
-            continue
-        for visit in trace.deliveries(well):
-            for source, _, _, _ in visit.parts:
-                if source is None or source is well or well.ref not in found:
-                    continue
-                theirs = roles.of(source.ref)
-                if not theirs or not found[well.ref].isdisjoint(theirs):
-                    del found[well.ref]
+    for source, well, _ in trace.feedings():
+        if well.ref in found:
+            theirs = roles.of(source.ref)
+            if not theirs or not found[well.ref].isdisjoint(theirs):
+                del found[well.ref]
     return set(found)
 
 
@@ -45,13 +40,11 @@ def settle_diluent(roles: Roles, trace: Trace) -> None:
     otherwise = frozenset(spec.diluent_else)
     filled: dict[str, set[WellRef]] = {}
     sources: dict[str, set[WellRef]] = {}
-    for well in trace.wells.values():
-        for visit in trace.deliveries(well):
-            for source, _, _, _ in visit.parts:
-                if source is not None and roles.has(source.ref, otherwise):
-                    text = roles.by_well[source.ref].text
-                    filled.setdefault(text, set()).add(well.ref)
-                    sources.setdefault(text, set()).add(source.ref)
+    for source, well, _ in trace.feedings():
+        if roles.has(source.ref, otherwise):
+            text = roles.by_well[source.ref].text
+            filled.setdefault(text, set()).add(well.ref)
+            sources.setdefault(text, set()).add(source.ref)
     if not filled:  # named, and never used: then something else is used in its place
         for ref, assigned in roles.by_well.items():
             if assigned.role in otherwise:
@@ -78,13 +71,9 @@ def _settle_by_use(roles: Roles, trace: Trace, diluent: str) -> None:
     links = [link for group in chains_of(list(links_of(trace))) for link in group]
     targets, sources = {link.well for link in links}, {link.source for link in links}
     filled: dict[WellRef, set[WellRef]] = {}
-    for well in targets:
-        for visit in trace.deliveries(well):
-            for source, _, _, _ in visit.parts:
-                if source is None or source in sources or source in targets:
-                    continue
-                if visit.empty_before:
-                    filled.setdefault(source.ref, set()).add(well.ref)
+    for source, well, visit in trace.feedings():
+        if well in targets and source not in sources | targets and visit.empty_before:
+            filled.setdefault(source.ref, set()).add(well.ref)
     best = [ref for ref, wells in filled.items() if 2 * len(wells) > len(targets)]
     if len(best) == 1 and len(filled[best[0]]) >= _FEWEST_FILLED and not roles.of(best[0]):
         roles.derived.setdefault(best[0], set()).update(roles.closure(diluent))

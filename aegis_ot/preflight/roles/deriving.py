@@ -34,11 +34,9 @@ def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
     """A source without a name that goes into named wells of ``spec.feeds``, mostly."""
     wanted = frozenset(spec.feeds)
     fed: dict[WellRef, set[WellRef]] = {}
-    for well in trace.wells.values():
-        for visit in trace.deliveries(well):
-            for source, _, _, _ in visit.parts:
-                if source is not None and source.prefilled:
-                    fed.setdefault(source.ref, set()).add(well.ref)
+    for source, well, _ in trace.feedings():
+        if source.prefilled:
+            fed.setdefault(source.ref, set()).add(well.ref)
     for ref, wells in fed.items():
         if roles.of(ref):
             continue
@@ -57,12 +55,9 @@ def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
     likes = frozenset({name})
     served: dict[WellRef, set[WellRef]] = {}
     sources: dict[WellRef, set[WellRef]] = {}
-    for well in trace.wells.values():
-        for visit in trace.deliveries(well):
-            for source, _, _, _ in visit.parts:
-                if source is not None and source is not well:
-                    served.setdefault(source.ref, set()).add(well.ref)
-                    sources.setdefault(well.ref, set()).add(source.ref)
+    for source, well, _ in trace.feedings():
+        served.setdefault(source.ref, set()).add(well.ref)
+        sources.setdefault(well.ref, set()).add(source.ref)
     fed = {ref for refs in served.values() for ref in refs}
     own = {
         ref: wells
@@ -96,12 +91,9 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
     """A loaded liquid has a use even if its name is none of the known words."""
     served: dict[WellRef, set[WellRef]] = {}
     topped_up: set[WellRef] = set()
-    for well in trace.wells.values():
-        for visit in trace.deliveries(well):
-            topped_up.add(well.ref)
-            for source, _, _, _ in visit.parts:
-                if source is not None and source is not well:
-                    served.setdefault(source.ref, set()).add(well.ref)
+    for source, well, _ in trace.feedings():
+        topped_up.add(well.ref)
+        served.setdefault(source.ref, set()).add(well.ref)
     # In the order of the trace: a set's own order differs from process to process.
     for ref in [well.ref for well in trace.wells.values() if well.ref in roles.unnamed]:
         if not roles.of(ref) <= roles.closure(name):
@@ -125,11 +117,9 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
     A liquid that stands in several wells (a strip of master mix) serves several wells each.
     """
     served: dict[WellRef, set[WellRef]] = {}
-    for well in trace.wells.values():
-        for visit in trace.deliveries(well):
-            for source, _, _, _ in visit.parts:
-                if source is not None and source is not well and source.prefilled:
-                    served.setdefault(source.ref, set()).add(well.ref)
+    for source, well, _ in trace.feedings():
+        if source.prefilled:
+            served.setdefault(source.ref, set()).add(well.ref)
     plates: dict[str, list[WellRef]] = {}
     for ref in served:
         info = trace.labware.get(ref.labware)

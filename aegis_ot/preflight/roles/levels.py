@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+from typing import Any
+
 from ..rules import Common
 from ..text import direction_in, level_in, numbers_in_order
 from .clues import Clue
@@ -27,3 +30,18 @@ def level_of(clue: Clue, position: int, common: Common) -> float | None:
 def _one_value(clue: Clue) -> bool:
     """Whether one level may hold for all wells of the clue: replicates, a column."""
     return not clue.whole
+
+
+def is_number(value: Any) -> bool:
+    """Whether a value of the protocol is a number."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def number_in(value: Any) -> float | None:
+    """The number that a value of the protocol is, or that its text says."""
+    if is_number(value):
+        return float(value)
+    if isinstance(value, str):
+        with suppress(ValueError):
+            return float(value)
+    return None

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 
-from ...instrumentation import NameBinding
+from ...instrumentation import NameBinding, OperationKind
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import Loop, SourceFacts, Values, lexicon_of, origins
 from ..trace import Trace
 from .clues import Clue, Strength
-from .plate_maps import is_number
+from .levels import number_in
 
 Turn = tuple[WellRef, ...]
 """The wells that one step draws from: one per channel."""
@@ -51,7 +50,7 @@ def _turns(trace: Trace, facts: SourceFacts) -> dict[int, tuple[list[Turn], set[
     steps: dict[int, dict[int, list[WellRef]]] = {}
     callers: dict[int, set[int]] = {}
     for visit in trace.visits:
-        if visit.mixing or visit.kind.value != "aspirate":
+        if visit.mixing or visit.kind is not OperationKind.ASPIRATE:
             continue
         for line in visit.lines:
             if line in facts.draws:
@@ -72,7 +71,7 @@ def _levels(
     named, listed = set(), set()
     for values in loop.values:
         for name, column in _columns(values, names):
-            numbers = tuple(found for found in map(_number, column) if found is not None)
+            numbers = tuple(found for found in map(number_in, column) if found is not None)
             if len(numbers) != count or len(column) != count or len(set(numbers)) < 2:
                 continue
             if amounts.find(name):
@@ -105,12 +104,3 @@ def _columns(
         for column in dict.fromkeys(name for row in rows for name, _ in row if name):
             found = [dict(row).get(column) for row in rows]
             yield f"{values.name} {column}", tuple(found)
-
-
-def _number(value: object) -> float | None:
-    if is_number(value):
-        return float(value)  # type: ignore[arg-type]
-    if isinstance(value, str):
-        with suppress(ValueError):
-            return float(value)
-    return None

@@ -6,15 +6,14 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ...instrumentation import NameBinding
+from ...instrumentation import NameBinding, OperationKind, is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, lexicon_of, tokens
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
-from .plate_maps import is_number
-from .well_names import WELL_NAME
+from .levels import is_number
 
 
 def named_wells(
@@ -76,7 +75,7 @@ def call_arguments(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
     for visit in trace.visits:
         if visit.mixing or visit.line not in facts.arguments:
             continue
-        side = "source" if visit.kind.value == "aspirate" else "destination"
+        side = "source" if visit.kind is OperationKind.ASPIRATE else "destination"
         for wanted, argument in facts.arguments[visit.line]:
             if wanted != side or _counts(facts, argument):
                 continue
@@ -179,7 +178,7 @@ def _beside(binding: NameBinding, facts: SourceFacts, line: int) -> Iterator[Clu
         return
     for row, ref in zip(rows, binding.wells, strict=False):
         for text in row:
-            if isinstance(text, str) and not WELL_NAME.match(text):
+            if isinstance(text, str) and not is_spot(text):
                 yield Clue(
                     Strength.NAME,
                     text,

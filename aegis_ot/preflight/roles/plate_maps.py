@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from ...instrumentation import is_spot
 from ..rules import Common
 from ..text import SourceFacts, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import Deck
-from .well_names import WELL_NAME
+from .levels import is_number
 
 
 def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
@@ -82,14 +83,14 @@ class _Reader:
         if depth > 3:
             return
         if isinstance(value, str):
-            if WELL_NAME.match(value):
+            if is_spot(value):
                 yield name, (value,), None
         elif isinstance(value, Mapping):
             if depth > 0 and _is_record(value):
                 yield from self._record(name, value)
                 return
             for key, item in value.items():
-                if isinstance(key, str) and WELL_NAME.match(key):
+                if is_spot(key):
                     yield from self._beside(name, (key,), item)
                 else:
                     level = float(key) if is_number(key) else None
@@ -99,7 +100,7 @@ class _Reader:
             yield from self._listed(name, value, depth)
 
     def _listed(self, name: str, value: Sequence[Any], depth: int) -> Iterator[Entry]:
-        wells = tuple(item for item in value if isinstance(item, str) and WELL_NAME.match(item))
+        wells = tuple(item for item in value if is_spot(item))
         if wells and len(wells) == len(value):
             yield name, wells, None
         elif wells and depth > 0:
@@ -111,7 +112,7 @@ class _Reader:
 
     def _record(self, name: str, item: Mapping[Any, Any]) -> Iterator[Entry]:
         """A row of a table: ``{"well": "A1", "type": "NTC", "conc": 0}``."""
-        wells = tuple(v for v in item.values() if isinstance(v, str) and WELL_NAME.match(v))
+        wells = tuple(v for v in item.values() if is_spot(v))
         texts = [v for v in item.values() if isinstance(v, str) and v not in wells]
         numbers = {str(key): float(v) for key, v in item.items() if is_number(v)}
         amounts = [number for key, number in numbers.items() if self._amounts.find(key)]
@@ -136,11 +137,6 @@ class _Reader:
 
 def _is_record(value: Mapping[Any, Any]) -> bool:
     """Whether this is one row, which says one well and more, rather than a map of wells."""
-    wells = [v for v in value.values() if isinstance(v, str) and WELL_NAME.match(v)]
-    keys = [key for key in value if isinstance(key, str) and not WELL_NAME.match(key)]
+    wells = [v for v in value.values() if is_spot(v)]
+    keys = [key for key in value if isinstance(key, str) and not is_spot(key)]
     return len(wells) == 1 and len(keys) == len(value) and len(value) > 1
-
-
-def is_number(value: Any) -> bool:
-    """Whether a constant is a number."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool)

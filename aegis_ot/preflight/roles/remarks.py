@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
+from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, lexicon_of, tokens
@@ -112,7 +113,7 @@ def step_comments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[
             if text is None:
                 continue
             at_line[text] = line
-            if visit.kind.value == "aspirate":
+            if visit.kind is OperationKind.ASPIRATE:
                 drawn.setdefault(text, {})[visit.well.ref] = None
             elif visit.parts:
                 given.setdefault(text, {})[visit.well.ref] = None

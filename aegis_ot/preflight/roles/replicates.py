@@ -9,7 +9,7 @@ from ...vocabulary import WellRef
 from ..text import tokens
 from ..trace import Trace
 from .clues import Strength
-from .roles import Assignment, Roles
+from .roles import Roles
 
 
 def spread_over_replicates(roles: Roles, trace: Trace) -> None:
@@ -20,7 +20,7 @@ def spread_over_replicates(roles: Roles, trace: Trace) -> None:
         for ref, assigned in roles.by_well.items()
         if assigned.role in replicated
         and assigned.strength >= Strength.NAME
-        and not all("label" in said for said in assigned.evidence)
+        and not assigned.by_label
     }
     if not named:
         return
@@ -34,25 +34,15 @@ def spread_over_replicates(roles: Roles, trace: Trace) -> None:
             if known is None or (
                 known.role in roles.closure(assigned.role) and known.role != assigned.role
             ):
-                roles.by_well[copy] = Assignment(
-                    assigned.role,
-                    [f"{said} (replicate plate)" for said in assigned.evidence],
-                    assigned.strength,
-                    assigned.text,
-                    assigned.level,
-                )
+                roles.by_well[copy] = assigned.copied("replicate plate")
 
 
 def _replicates(trace: Trace) -> Iterator[tuple[LabwareInfo, LabwareInfo]]:
     """Pairs of plates of one kind, called the same but for a number, and filled alike."""
     given: dict[str, dict[str, set[WellRef]]] = {}
-    for well in trace.wells.values():
-        for visit in trace.deliveries(well):
-            for source, _, _, _ in visit.parts:
-                if source is not None:
-                    given.setdefault(well.ref.labware, {}).setdefault(well.ref.name, set()).add(
-                        source.ref
-                    )
+    for source, well, _ in trace.feedings():
+        by_name = given.setdefault(well.ref.labware, {})
+        by_name.setdefault(well.ref.name, set()).add(source.ref)
     plates = [info for key, info in trace.labware.items() if key in given and info.label]
     for one in plates:
         for other in plates:

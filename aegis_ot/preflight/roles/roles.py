@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from ...vocabulary import WellRef
 from ..rules import Family
@@ -28,6 +28,16 @@ class Assignment:
     text: str
     level: float | None = None
     conflict: str = ""
+
+    @property
+    def by_label(self) -> bool:
+        """Whether nothing but the name of a whole labware says so."""
+        return all("label" in said for said in self.evidence)
+
+    def copied(self, why: str) -> Assignment:
+        """The same for a well that shares this one's part, which the evidence then says."""
+        evidence = [f"{said} ({why})" for said in self.evidence]
+        return replace(self, evidence=evidence, conflict="")
 
 
 @dataclass

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 
-from ...instrumentation import NameBinding, Row
+from ...instrumentation import NameBinding, Row, is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, lexicon_of
 from .clues import Clue, Strength
 from .deck import Deck
-from .plate_maps import is_number, labware_of_map
-from .well_names import WELL_NAME
+from .levels import number_in
+from .plate_maps import labware_of_map
 
 
 def spotted_names(
@@ -47,21 +46,17 @@ def tabled_wells(
         if len(binding.rows) < 2 or base in facts.constants:
             continue
         titles = _titles(facts, base)
-        rows = [tuple(_titled(row, titles)) for row in binding.rows]
+        rows = [_titled(row, titles) for row in binding.rows]
         labware = _labware_of_columns(deck, facts, rows)
         line = facts.assigned.get(base, binding.line)
         beside: dict[str, dict[WellRef, None]] = {}
         levels: dict[WellRef, float] = {}
         for row in rows:
-            wells = [cell for _, cell in row if isinstance(cell, WellRef)]
-            for column, cell in row:
-                if _is_spot(cell) and column in labware:
+            wells = list(row.wells)
+            for column, cell in row.cells:
+                if is_spot(cell) and column in labware:
                     wells += _refs(deck, labware[column], (str(cell),))
-            said = [
-                (column, cell, _number(cell))
-                for column, cell in row
-                if not isinstance(cell, WellRef) and not _is_spot(cell)
-            ]
+            said = [(column, cell, number_in(cell)) for column, cell in row.said]
             for _, cell, number in said:
                 if isinstance(cell, str) and number is None:
                     beside.setdefault(cell, {}).update(dict.fromkeys(wells))
@@ -92,10 +87,6 @@ def tabled_wells(
             )
 
 
-Cells = tuple[tuple[str, "WellRef | str | float"], ...]
-"""A row: what each column, by name or else by its place, holds."""
-
-
 def _titles(facts: SourceFacts, name: str) -> dict[int, str]:
     """What the loops over some rows call the columns: ``for dest, src, kind in rows``."""
     return {
@@ -106,16 +97,16 @@ def _titles(facts: SourceFacts, name: str) -> dict[int, str]:
     }
 
 
-def _titled(row: Row, titles: Mapping[int, str]) -> Iterator[tuple[str, WellRef | str | float]]:
-    for at, (column, cell) in enumerate(row.cells):
-        yield column or titles.get(at, str(at)), cell
+def _titled(row: Row, titles: Mapping[int, str]) -> Row:
+    """A row whose columns have names, or else their places."""
+    return Row(
+        tuple(
+            (column or titles.get(at, str(at)), cell) for at, (column, cell) in enumerate(row.cells)
+        )
+    )
 
 
-def _is_spot(cell: object) -> bool:
-    return isinstance(cell, str) and WELL_NAME.match(cell) is not None
-
-
-def _labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Cells]) -> dict[str, str]:
+def _labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Row]) -> dict[str, str]:
     """In which labware the well names of each column stand, where that is plain.
 
     It is the one that is indexed by that column's name, else the only one in which the run uses
@@ -123,8 +114,8 @@ def _labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Cells]) -
     """
     spots: dict[str, dict[str, None]] = {}
     for row in rows:
-        for column, cell in row:
-            if _is_spot(cell):
+        for column, cell in row.cells:
+            if is_spot(cell):
                 spots.setdefault(column, {})[str(cell)] = None
     found: dict[str, str] = {}
     for column, listed in spots.items():
@@ -151,12 +142,3 @@ def _refs(deck: Deck, labware: str, spots: Sequence[str]) -> Iterator[WellRef]:
         name = spot[0] + str(int(spot[1:]))
         if info is not None and name in info.wells:
             yield deck.ref(labware, name)
-
-
-def _number(cell: object) -> float | None:
-    if is_number(cell):
-        return float(cell)  # type: ignore[arg-type]
-    if isinstance(cell, str):
-        with suppress(ValueError):
-            return float(cell)
-    return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..trace import Trace
 
@@ -25,7 +26,7 @@ def usage_of(trace: Trace) -> dict[WellRef, Usage]:
     for well in trace.wells.values():
         usage = usages.setdefault(well.ref, Usage())
         usage.prefilled = usage.prefilled or well.prefilled
-        if well.visits and well.visits[0].kind.value == "aspirate":
+        if well.visits and well.visits[0].kind is OperationKind.ASPIRATE:
             usage.first_drawn = True
     for visit in trace.visits:
         for source, volume, _, _ in visit.parts:

@@ -9,8 +9,6 @@ from ..trace import row_column
 
 _WELL = r"[A-P](?:0?[1-9]|1\d|2[0-4])"
 
-WELL_NAME = re.compile(rf"^{_WELL}$")
-
 WELL_SPEC = re.compile(
     rf"\b(?:(?P<first>{_WELL})(?:\s*(?:-|–|—|to|through|\.\.+|:)\s*(?P<last>{_WELL}))?"
     r"|col(?:umn)?s?\.?\s*(?P<column>1\d|2[0-4]|[1-9])(?:\s*(?:-|–|to)\s*(?P<column2>\d+))?"

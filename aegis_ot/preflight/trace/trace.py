@@ -49,6 +49,14 @@ class Trace:
             if visit.parts and any(part[0] is not well for part in visit.parts):
                 yield visit
 
+    def feedings(self) -> Iterator[tuple[Well, Well, Visit]]:
+        """Every time that liquid of one well came into another: source, destination, visit."""
+        for well in self.wells.values():
+            for visit in self.deliveries(well):
+                for source, _, _, _ in visit.parts:
+                    if source is not None and source is not well:
+                        yield source, well, visit
+
     def mixed_since(self, well: Well, index: int, before: float) -> bool:
         """Whether ``well`` was mixed or shaken after ``index`` and before ``before``."""
         if any(index < last and first < before for first, last, _ in well.mixes):
