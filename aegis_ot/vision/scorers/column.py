@@ -17,7 +17,7 @@ from ..models import ModelFile
 from ..tips import pipette_class, tip_for
 from ..types import TrajectorySample
 from .looks import looks
-from .surprise import Tail, alarm_level, fit_tail
+from .surprise import Tail, fit_tail
 
 NO_TIP = 40.0
 """Score of a trajectory in which no tip is seen when it hangs free, nats."""
@@ -154,10 +154,6 @@ class ColumnScorer:
 
     def _model(self, pipette: str) -> TipModel:
         return self.models.get(pipette_class(pipette), TipModel())
-
-    def alarm_level(self, calibration: Sequence[float]) -> float:
-        """Score above which a well is worth a second look, given those of its first normals."""
-        return alarm_level(calibration)
 
     def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
         """Arrays and settings for a model file."""

@@ -17,7 +17,6 @@ from ..tips import pipette_class
 from ..types import TrajectorySample
 from .column import ColumnReport, ColumnScorer
 from .patches import PatchesScorer, describe
-from .surprise import alarm_level
 
 NO_TIP = 40.0
 """Score of a trajectory in which no tip is seen when it hangs free."""
@@ -111,10 +110,6 @@ class EnsembleScorer:
         patches = self.patches.score_of_seen(sample)
         total = column.score + _OVERLAP * patches
         return EnsembleReport(self._surprise(total, pipette_class(sample.pipette)), column, patches)
-
-    def alarm_level(self, calibration: Sequence[float]) -> float:
-        """Score above which a well is worth a second look, given those of its first normals."""
-        return alarm_level(calibration)
 
     def p_value(self, sample: TrajectorySample) -> float:
         """How often a normal trajectory scores this high."""

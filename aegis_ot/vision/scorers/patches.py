@@ -26,7 +26,7 @@ from ..tips import pipette_class, tip_for
 from ..types import TrajectorySample
 from .column import NO_TIP
 from .looks import looks
-from .surprise import Tail, alarm_level, fit_tail
+from .surprise import Tail, fit_tail
 
 ABOVE, BELOW = 8, 16
 """Patches along the tip above the expected meniscus, and below it down to the orifice."""
@@ -133,10 +133,6 @@ class PatchesScorer:
         nearest = np.sort(np.where(np.isnan(distance), np.inf, distance), axis=0)
         mean = nearest[: min(_NEIGHBOURS, len(nearest))].mean(axis=0)
         return np.where(np.isfinite(mean), mean, np.nan).astype(np.float32)
-
-    def alarm_level(self, calibration: Sequence[float]) -> float:
-        """Score above which a well is worth a second look, given those of its first normals."""
-        return alarm_level(calibration)
 
     def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
         """Arrays and settings for a model file."""

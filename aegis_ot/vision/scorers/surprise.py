@@ -52,17 +52,3 @@ def fit_tail(values: Sequence[float], prior: Tail) -> Tail:
     over = known[known > start] - start
     scale = (float(over.sum()) + prior.scale) / (len(over) + 1.0)
     return Tail(start, float(np.clip(scale, 0.5 * prior.scale, 1.5 * prior.scale)))
-
-
-_LEAST_ALARM = 2.5
-_ABOVE_OWN = 1.0
-
-
-def alarm_level(calibration: Sequence[float]) -> float:
-    """Score, nats, above which a well is worth a second look.
-
-    One nat above the run's own calibration wells, and never below 2.5 (p = 0.08): a single
-    lucky calibration well must not turn its ordinary neighbours into alarms.
-    """
-    own = float(np.median(np.asarray(calibration, dtype=float))) if len(calibration) else 0.0
-    return max(own + _ABOVE_OWN, _LEAST_ALARM)

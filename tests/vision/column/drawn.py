@@ -14,6 +14,9 @@ RED = (0.62, 0.60, 0.97)
 
 WATER = (1.0, 1.0, 1.0)
 
+ALARM = 2.5
+"""Score, nats, under which every normal stays (p = 0.08)."""
+
 
 def draw_tip(
     *,

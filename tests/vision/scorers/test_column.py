@@ -13,7 +13,7 @@ from aegis_ot.vision.scorers.column import NO_TIP, ColumnScorer
 from aegis_ot.vision.types import TrajectorySample
 from aegis_ot.vocabulary import KeyframeKind
 
-from ..column.drawn import FULL, WATER, normals, trajectory
+from ..column.drawn import ALARM, FULL, WATER, normals, trajectory
 
 
 @pytest.fixture(scope="module")
@@ -42,8 +42,8 @@ def failures() -> dict[str, TrajectorySample]:
 @pytest.mark.parametrize("what", sorted(failures()))
 def test_failures_surprise_and_normals_do_not(scorer: ColumnScorer, what: str) -> None:
     normal = max(scorer.score(trajectory(f"n{i}", "new", seed=100 + i)) for i in range(3))
-    assert normal < scorer.alarm_level([])
-    assert scorer.score(failures()[what]) > max(scorer.alarm_level([normal]), normal + 2)
+    assert normal < ALARM
+    assert scorer.score(failures()[what]) > max(ALARM, normal + 2)
 
 
 def test_the_report_names_the_sign(scorer: ColumnScorer) -> None:
@@ -89,7 +89,7 @@ def test_an_overexposed_frame_is_left_out(scorer: ColumnScorer) -> None:
     sample = trajectory("n", "new", seed=120)
     frames = dict(sample.frames)
     frames[KeyframeKind.DISPENSE] = frames[KeyframeKind.DISPENSE] * 0 + 255
-    assert scorer.score(replace(sample, frames=frames)) < scorer.alarm_level([])
+    assert scorer.score(replace(sample, frames=frames)) < ALARM
 
 
 def test_nothing_to_learn_from_is_an_error() -> None:

@@ -10,7 +10,7 @@ import pytest
 from aegis_ot.errors import ModelError
 from aegis_ot.vision.models import ModelFile, load_model, save_model
 from aegis_ot.vision.scorers.ensemble import NO_TIP, EnsembleScorer
-from aegis_ot.vision.scorers.surprise import MOST, Tail, alarm_level, fit_tail
+from aegis_ot.vision.scorers.surprise import MOST, Tail, fit_tail
 
 from ..column.drawn import normals, trajectory
 
@@ -74,8 +74,3 @@ def test_a_few_agreeing_normals_do_not_make_a_needle_of_a_tail() -> None:
     assert fit_tail([1.0] * 5, prior).scale >= 0.5
     assert fit_tail([], prior) == prior
     assert fit_tail([0.0] * 20 + [100.0], prior).scale <= 1.5
-
-
-def test_the_alarm_level_forgives_one_lucky_calibration_well() -> None:
-    assert alarm_level([0.0]) == alarm_level([]) == 2.5
-    assert alarm_level([4.0, 4.2, 30.0]) == pytest.approx(5.2)

@@ -15,7 +15,7 @@ from aegis_ot.vision.scorers.patches import NO_TIP, PatchesScorer, describe
 from aegis_ot.vision.types import TrajectorySample
 from aegis_ot.vocabulary import KeyframeKind
 
-from ..column.drawn import normals, trajectory
+from ..column.drawn import ALARM, normals, trajectory
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +37,7 @@ def with_drop(seed: int) -> TrajectorySample:
 
 def test_debris_is_seen_though_no_column_is_wrong(scorer: PatchesScorer) -> None:
     normal = max(scorer.score(trajectory(f"n{i}", seed=60 + i)) for i in range(3))
-    assert scorer.score(with_drop(70)) > max(normal + 1, scorer.alarm_level([normal]))
+    assert scorer.score(with_drop(70)) > max(ALARM, normal + 1)
 
 
 def test_a_run_of_its_own_look_is_learned_by_calibration(scorer: PatchesScorer) -> None:
@@ -64,7 +64,7 @@ def test_a_missing_tip_scores_highest_and_leaves_gaps(scorer: PatchesScorer) -> 
 def test_one_missing_frame_is_no_alarm(scorer: PatchesScorer) -> None:
     sample = trajectory("n", seed=80)
     found = {**sample.detections, KeyframeKind.DISPENSE: None}
-    assert scorer.score(replace(sample, detections=found)) < scorer.alarm_level([])
+    assert scorer.score(replace(sample, detections=found)) < ALARM
 
 
 def test_unfitted_or_fitted_on_nothing_is_an_error() -> None:
