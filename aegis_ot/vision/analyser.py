@@ -12,13 +12,13 @@ from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
 from .calibration import CalibrationState
 from .camera import Frame
 from .cascade import Triage
-from .consistency import FREE, second_look
+from .consistency import second_look
 from .evidence import evidence_of
 from .gates import Case, ConfirmingGate, GateDecision, examine_in_turn, in_sentences
 from .measuring import TipView
 from .stream import OpenTrajectory, Stream
 from .tips import pipette_class, tip_for
-from .types import Detector, Image, TipDetection, TrajectorySample
+from .types import FREE, Detector, Image, TipDetection, TrajectorySample
 from .volumetric_gate import VolumetricGate
 
 MOST_OPEN = 32

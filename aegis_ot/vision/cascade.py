@@ -14,9 +14,6 @@ from .calibration import (
     Standing,
 )
 
-DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
-"""Keyframes in which the tip hangs free. In the others labware may hide it."""
-
 CROP_SCORERS = ("pca", "single_frame_pca", "autoencoder")
 """Scorers to which the score floor applies: a blank crop costs them almost nothing."""
 

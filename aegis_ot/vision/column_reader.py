@@ -14,13 +14,11 @@ from .measuring import ColumnReading, TipView
 from .scorers.looks import look
 from .tip_scale import NEAR, TipScale
 from .tips import TipGeometry
+from .types import FREE
 from .usual import Usual, alike
 
 Well = tuple[Mapping[KeyframeKind, object], Mapping[KeyframeKind, float]]
 """Looks and expected volumes of one trajectory."""
-
-FREE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
-"""Keyframes in which the tip hangs free: only those are measured."""
 
 _EVIDENCE = 5.0
 """Log-likelihood ratio from which rows are believed to be wet, or dry, against expectation."""

@@ -15,10 +15,7 @@ import cv2
 import numpy as np
 
 from ..vocabulary import KeyframeKind
-from .types import Image, TipDetection
-
-FREE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
-"""Keyframes in which the tip hangs free above its destination."""
+from .types import FREE, Image, TipDetection
 
 _ENOUGH = 3
 """Agreeing trajectories from which the run's tip is known."""

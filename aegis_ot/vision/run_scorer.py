@@ -12,7 +12,7 @@ from ..vocabulary import KeyframeKind
 from .crops import trajectory_vector
 from .scorers import Calibrating
 from .scorers.pca import PcaScorer
-from .types import Scorer, TrajectorySample
+from .types import FREE, Scorer, TrajectorySample
 
 LEAST_ALARM = 3.5
 """Score up to which a well passes in any run, for scorers in nats (p = 0.03)."""
@@ -61,7 +61,7 @@ class RunScorer:
     def needed(self) -> tuple[KeyframeKind, ...]:
         """Keyframes in which a tip must be found for a score to mean anything."""
         if self._adapts is not None:
-            return (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+            return FREE
         # A blank crop would be scored as an anomaly, and learned as normal.
         return tuple(KeyframeKind)
 

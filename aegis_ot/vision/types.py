@@ -18,6 +18,9 @@ from ..vocabulary import KeyframeKind
 
 Image = NDArray[np.uint8]
 
+FREE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
+"""Keyframes in which the tip hangs free above its well; in the others labware may hide it."""
+
 
 @dataclass(frozen=True)
 class TipDetection:
@@ -82,6 +85,11 @@ class TrajectorySample:
     failure_type: str = ""
     retained_fraction: float | None = None
     notes: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def lacks_tip(self) -> bool:
+        """Whether no tip was found in a frame that shows one wherever there is one."""
+        return any(self.detections.get(kind) is None for kind in FREE)
 
 
 class Scorer(Protocol):

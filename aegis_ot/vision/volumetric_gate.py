@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
 from .gates import Case, GateDecision
 from .measuring import ColumnReading
-from .types import TrajectorySample
+from .types import FREE, TrajectorySample
 from .usual import ENOUGH
 
 
@@ -56,7 +56,7 @@ class VolumetricGate:
 
     def examine(self, case: Case) -> GateDecision:
         sample = case.sample
-        absent = {KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE} <= set(case.missing)
+        absent = set(FREE) <= set(case.missing)
         if absent and not case.clearly_absent:
             return GateDecision(
                 Outcome.UNDECIDED,
@@ -70,7 +70,7 @@ class VolumetricGate:
                 "No tip is on the pipette, neither in transit nor after the dispense.",
                 FailureType.NO_TIP,
             )
-        for kind in (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE):
+        for kind in FREE:
             reading = case.readings.get(kind)
             if reading is None or reading.vague:
                 continue

@@ -12,8 +12,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ...errors import ConfigurationError, DatasetError
-from ...vision.cascade import DECISIVE
-from ...vision.crops import missing_tips
 from ...vision.dataset import first_normals
 from ...vision.scorers import Calibrating
 from ...vision.types import Scorer, TrajectorySample
@@ -158,8 +156,8 @@ def score_plate(
     wells = []
     for sample in [anchor_well, *(sample for sample in samples if sample is not anchor_well)]:
         score = anchor if sample is anchor_well else scorer.score(sample)
-        parts = _parts(scorer, sample) if explain and not _tipless(sample) else {}
-        wells.append(ScoredWell(sample, score, anchor, 0.0, _tipless(sample), parts=parts))
+        parts = _parts(scorer, sample) if explain and not sample.lacks_tip else {}
+        wells.append(ScoredWell(sample, score, anchor, 0.0, sample.lacks_tip, parts=parts))
     return wells
 
 
@@ -201,10 +199,6 @@ def _parts(scorer: Scorer, sample: TrajectorySample) -> dict[str, float]:
     parts = {str(sign): float(value) for sign, value in getattr(column, "surprises", {}).items()}
     patches = getattr(report, "patches", None)
     return parts if patches is None else parts | {"patches": float(patches)}
-
-
-def _tipless(sample: TrajectorySample) -> bool:
-    return any(kind in DECISIVE for kind in missing_tips(sample))
 
 
 def _first_normal(wells: Sequence[ScoredWell]) -> list[ScoredWell]:

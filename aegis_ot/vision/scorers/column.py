@@ -17,10 +17,7 @@ from ..models import ModelFile
 from ..tips import pipette_class, tip_for
 from ..types import TrajectorySample
 from .looks import looks
-from .surprise import Tail, fit_tail
-
-NO_TIP = 40.0
-"""Score of a trajectory in which no tip is seen when it hangs free, nats."""
+from .surprise import NO_TIP, Tail, fit_tail
 
 _MOST_MISFILL = 7.0
 """Standard deviations beyond which a meniscus elsewhere is no surer a sign: it may be another
@@ -28,8 +25,6 @@ edge."""
 
 _SHARED = 0.7
 """Share of what a run's own normals show that is put down to the run: the rest was chance."""
-
-_DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 
 PRIORS: Mapping[str, Tail] = {
     "retained": Tail(3.0, 1.0),
@@ -131,7 +126,7 @@ class ColumnScorer:
 
     def score(self, sample: TrajectorySample) -> float:
         """Surprise of one trajectory, nats, >= 0."""
-        if any(sample.detections.get(kind) is None for kind in _DECISIVE):
+        if sample.lacks_tip:
             return NO_TIP
         return self.report(sample).score
 

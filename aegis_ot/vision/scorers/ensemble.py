@@ -11,17 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ModelError
-from ...vocabulary import KeyframeKind
 from ..models import ModelFile
 from ..tips import pipette_class
 from ..types import TrajectorySample
 from .column import ColumnReport, ColumnScorer
 from .patches import PatchesScorer, describe
+from .surprise import NO_TIP
 
-NO_TIP = 40.0
-"""Score of a trajectory in which no tip is seen when it hangs free."""
-
-_DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 _LEAST_SCALE = 1.0
 
 _TAIL = 0.25
@@ -91,7 +87,7 @@ class EnsembleScorer:
 
     def score(self, sample: TrajectorySample) -> float:
         """``-log p`` of one trajectory, >= 0. Raises :class:`ValueError` if not fitted."""
-        if any(sample.detections.get(kind) is None for kind in _DECISIVE):
+        if sample.lacks_tip:
             return NO_TIP
         return self.report(sample).score
 

@@ -10,7 +10,7 @@ import numpy as np
 from ...vocabulary import KeyframeKind
 from ..column import TipLook, look_at_tip
 from ..crops import remember
-from ..types import Image, TipDetection, TrajectorySample
+from ..types import FREE, Image, TipDetection, TrajectorySample
 
 _PERSPECTIVE = 0.08
 """By how much the length of one tip differs between the frames of a trajectory at most: it
@@ -18,8 +18,6 @@ comes nearer to the camera and goes farther from it. Rendered plates: sd 0.02.""
 
 _SAME = 0.03
 """Lengths this close are the same: looking again would change nothing."""
-
-_FREE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 
 _Key = tuple[TipDetection, str]
 _Taken = tuple[weakref.ref[Image], _Key, dict[float | None, TipLook]]
@@ -77,7 +75,7 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
 
 def _usual_length(lengths: Mapping[KeyframeKind, float]) -> float | None:
     """Length of the tip, px: that of the free frames, if they agree; else what most show."""
-    free = [lengths[kind] for kind in _FREE if kind in lengths]
+    free = [lengths[kind] for kind in FREE if kind in lengths]
     if free and max(free) <= (1 + _PERSPECTIVE) * min(free):
         return float(np.mean(free))
     return float(np.median(list(lengths.values()))) if len(lengths) >= 3 else None

@@ -24,9 +24,8 @@ from ..crops import remember
 from ..models import ModelFile
 from ..tips import pipette_class, tip_for
 from ..types import TrajectorySample
-from .column import NO_TIP
 from .looks import looks
-from .surprise import Tail, fit_tail
+from .surprise import NO_TIP, Tail, fit_tail
 
 ABOVE, BELOW = 8, 16
 """Patches along the tip above the expected meniscus, and below it down to the orifice."""
@@ -39,7 +38,6 @@ _FEATURES = 5
 _ROWS = 8
 _NEIGHBOURS = 3
 _WORST = 3
-_DECISIVE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 
 Array = NDArray[np.float32]
 
@@ -103,7 +101,7 @@ class PatchesScorer:
 
     def score(self, sample: TrajectorySample) -> float:
         """Surprise of one trajectory, nats, >= 0. Raises :class:`ValueError` if not fitted."""
-        if any(sample.detections.get(kind) is None for kind in _DECISIVE):
+        if sample.lacks_tip:
             return NO_TIP
         return self.score_of_seen(sample)
 

@@ -10,6 +10,9 @@ import numpy as np
 MOST = 15.0
 """Surprise of one sign is cut off here, nats: beyond it the tail is an extrapolation."""
 
+NO_TIP = 40.0
+"""Score of a trajectory in which no tip is seen when it hangs free, nats."""
+
 
 @dataclass(frozen=True)
 class Tail:

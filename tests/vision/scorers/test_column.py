@@ -9,7 +9,8 @@ import pytest
 
 from aegis_ot.errors import ModelError
 from aegis_ot.vision.models import ModelFile, load_model, save_model
-from aegis_ot.vision.scorers.column import NO_TIP, ColumnScorer
+from aegis_ot.vision.scorers.column import ColumnScorer
+from aegis_ot.vision.scorers.surprise import NO_TIP
 from aegis_ot.vision.types import TrajectorySample
 from aegis_ot.vocabulary import KeyframeKind
 

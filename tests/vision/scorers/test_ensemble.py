@@ -9,8 +9,8 @@ import pytest
 
 from aegis_ot.errors import ModelError
 from aegis_ot.vision.models import ModelFile, load_model, save_model
-from aegis_ot.vision.scorers.ensemble import NO_TIP, EnsembleScorer
-from aegis_ot.vision.scorers.surprise import MOST, Tail, fit_tail
+from aegis_ot.vision.scorers.ensemble import EnsembleScorer
+from aegis_ot.vision.scorers.surprise import MOST, NO_TIP, Tail, fit_tail
 
 from ..column.drawn import normals, trajectory
 
