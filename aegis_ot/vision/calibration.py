@@ -1,22 +1,22 @@
-"""What a score means in this run: the run's own band, and p-values from earlier runs.
+"""What a score means in this run: the run's own band.
 
 The scale of a score drifts by a factor of two between sessions (paper, "Per-run calibration").
-So each run anchors itself on its first wells, which are assumed normal.
+So each run anchors itself on its first wells, which are assumed normal. How unusual a score is
+among the normals of earlier runs is the world model's to say: see
+:class:`~.scorers.ensemble.EnsembleScorer`, whose docstring states what that assumes, and
+:meth:`.stream.Stream.p_value`, which takes it against this run's own.
 """
 
 from __future__ import annotations
 
-import bisect
-import json
 import math
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from enum import Enum
-from pathlib import Path
 
 import numpy as np
 
-from ..errors import ConfigurationError, ModelError
+from ..errors import ConfigurationError
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,6 @@ class CalibrationSettings:
         score_floor: A score below it means a blank crop (paper: 1e-4).
         least_spread: Smallest spread taken for real, as a fraction of the median: six scores
             can agree by chance, and a band of no width would send every well to the gate.
-        alpha: Rate of false alarms asked of the pooled p-values.
         outlier: Calibration wells farther than this many MADs from the median disagree.
         widest: Largest MAD, as a fraction of the median, at which the first wells agree.
         streaming: Whether accepted wells after the calibration update the band.
@@ -42,7 +41,6 @@ class CalibrationSettings:
     two_sided: bool = False
     score_floor: float = 1e-4
     least_spread: float = 0.02
-    alpha: float = 0.05
     outlier: float = 10.0
     widest: float = 0.8
     streaming: bool = True
@@ -56,7 +54,6 @@ class CalibrationSettings:
                 ("multiplier", self.multiplier > 0),
                 ("score_floor", self.score_floor >= 0),
                 ("least_spread", self.least_spread >= 0),
-                ("alpha", 0 < self.alpha < 1),
                 ("outlier", self.outlier > 0),
                 ("widest", self.widest > 0),
                 ("memory", self.memory >= self.wells),
@@ -78,8 +75,8 @@ normals to the gate. ``default`` is one-sided with m = 5, which sends 4 % (norma
 (lognormal, gamma) there, simulated with six calibration wells; m = 4 would send 6 to 11 %. It
 learns from accepted wells as the run goes on, which halves that again over a plate. It is
 one-sided because an anomaly score below the band says that the well is *more* usual than the
-calibration wells; the one low score that matters, a blank crop, is caught as missing tips. See
-``docs/decisions`` and the tests, which repeat the simulation.
+calibration wells; the one low score that matters, a blank crop, is caught as missing tips. The
+tests repeat the simulation.
 """
 
 
@@ -97,68 +94,11 @@ class Standing:
 
     Attributes:
         z: Distance from the run's median in units of its spread; ``None`` before calibration.
-        band: Lower and upper end of the silent-pass band, in the scorer's unit.
-        p_value: Conformal p-value from earlier runs; ``None`` without a pool.
         inside: Whether the score may pass silently.
     """
 
     z: float | None
-    band: tuple[float, float] | None
-    p_value: float | None
     inside: bool
-
-
-class NormalPool:
-    """Standardised scores of normal wells of earlier runs.
-
-    The conformal p-value of a standardised score z among n pooled ones is
-    ``(1 + #{pooled >= z}) / (n + 1)`` (Vovk et al., 2005). It is valid, that is, p <= alpha for
-    at most a fraction alpha of normal wells, if the standardised scores of this run's normals
-    are exchangeable with the pooled ones: same scorer, same number of calibration wells, and
-    runs that differ in the location and scale of their scores only. With n calibration wells
-    alone no threshold can promise less than 1/(n+1); pooled normals can.
-
-    Args:
-        scores: Standardised scores, as :meth:`RunCalibration.standing` gives them.
-    """
-
-    def __init__(self, scores: Iterable[float] = ()) -> None:
-        self._sorted = sorted(float(score) for score in scores if math.isfinite(score))
-
-    def __len__(self) -> int:
-        return len(self._sorted)
-
-    def add(self, z: float) -> None:
-        if math.isfinite(z):
-            bisect.insort(self._sorted, float(z))
-
-    def p_value(self, z: float) -> float:
-        """Conformal p-value of a standardised score."""
-        above = len(self._sorted) - bisect.bisect_left(self._sorted, z)
-        return (1 + above) / (len(self._sorted) + 1)
-
-    def supports(self, alpha: float) -> bool:
-        """Whether the pool is large enough for any p-value to reach ``alpha``."""
-        return 1 / (len(self._sorted) + 1) <= alpha
-
-    def save(self, path: str | Path) -> None:
-        text = json.dumps({"format": "aegis-ot-pool", "version": 1, "scores": self._sorted})
-        Path(path).write_text(text + "\n", encoding="utf-8")
-
-    @classmethod
-    def load(cls, path: str | Path) -> NormalPool:
-        """Read what :meth:`save` wrote.
-
-        Raises:
-            ModelError: If the file is missing or is no such pool.
-        """
-        try:
-            data = json.loads(Path(path).read_text(encoding="utf-8"))
-            if data["format"] != "aegis-ot-pool" or data["version"] != 1:
-                raise ValueError("another format or version")
-            return cls([float(score) for score in data["scores"]])
-        except (OSError, ValueError, KeyError, TypeError) as error:
-            raise ModelError(f"{path}: no pool of normal scores ({error})") from error
 
 
 class RunCalibration:
@@ -171,7 +111,6 @@ class RunCalibration:
 
     Args:
         settings: See :class:`CalibrationSettings`.
-        pool: Normals of earlier runs, if any.
         least_alarm: Score up to which a well passes however quiet this run is: a scorer that
             learned from many runs what a normal well scores knows that better than six wells
             do. 0: a scorer whose scale is the run's own.
@@ -180,11 +119,9 @@ class RunCalibration:
     def __init__(
         self,
         settings: CalibrationSettings | None = None,
-        pool: NormalPool | None = None,
         least_alarm: float = 0.0,
     ) -> None:
         self.settings = settings or PRESETS["default"]
-        self.pool = pool
         self.least_alarm = least_alarm
         self._first: list[float] = []
         self._recent: list[float] = []
@@ -192,11 +129,6 @@ class RunCalibration:
         self.state = CalibrationState.COLLECTING
         self.reason = ""
         self._volumes: set[float] = set()
-
-    @property
-    def scores(self) -> tuple[float, ...]:
-        """Scores of the calibration wells so far."""
-        return tuple(self._first)
 
     @property
     def normals(self) -> tuple[float, ...]:
@@ -236,12 +168,9 @@ class RunCalibration:
         """Where ``score`` stands; inside nothing while the run is not calibrated."""
         band = self.band
         if band is None or not math.isfinite(score):
-            return Standing(None, band, None, False)
+            return Standing(None, False)
         z = (score - self._median) / self._spread
-        if self.pool is not None and self.pool.supports(self.settings.alpha):
-            p_value = self.pool.p_value(z)
-            return Standing(z, band, p_value, p_value > self.settings.alpha)
-        return Standing(z, band, None, band[0] <= score <= band[1])
+        return Standing(z, band[0] <= score <= band[1])
 
     def accept(self, score: float) -> None:
         """A later well was judged normal: a streaming band learns from it."""
@@ -280,17 +209,3 @@ class RunCalibration:
         else:
             self._median, self._spread = median, spread
             self.state = CalibrationState.READY
-
-
-def preset(name: str, *, multiplier: float | None = None) -> CalibrationSettings:
-    """Named settings, with another multiplier if one is given.
-
-    Raises:
-        ConfigurationError: If there is no such preset.
-    """
-    if name not in PRESETS:
-        raise ConfigurationError(
-            f"there is no calibration preset {name!r}; choose one of {', '.join(PRESETS)}"
-        )
-    chosen = PRESETS[name]
-    return chosen if multiplier is None else replace(chosen, multiplier=multiplier)

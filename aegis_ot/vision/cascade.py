@@ -3,16 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from ..vocabulary import KeyframeKind, Route
-from .calibration import (
-    CalibrationSettings,
-    CalibrationState,
-    NormalPool,
-    RunCalibration,
-    Standing,
-)
+from .calibration import CalibrationSettings, CalibrationState, RunCalibration, Standing
 
 CROP_SCORERS = ("pca", "single_frame_pca", "autoencoder")
 """Scorers to which the score floor applies: a blank crop costs them almost nothing."""
@@ -25,13 +19,11 @@ class Triage:
     Attributes:
         route: See :class:`~aegis_ot.vocabulary.Route`.
         reason: One sentence.
-        standings: Standing of each score by scorer name.
         missing: Keyframes whose missing tip counts in this run.
     """
 
     route: Route
     reason: str
-    standings: Mapping[str, Standing] = field(default_factory=dict)
     missing: tuple[KeyframeKind, ...] = ()
 
     @property
@@ -51,7 +43,6 @@ class Cascade:
     Args:
         scorers: Names of the scores that :meth:`triage` will get; the first is the main one.
         settings: Calibration settings, common to all scorers.
-        pools: Normals of earlier runs by scorer name.
         always_gate: Send every well after calibration to the gate.
         least_alarm: See :class:`~.calibration.RunCalibration`, by scorer name.
     """
@@ -60,18 +51,15 @@ class Cascade:
         self,
         scorers: Collection[str],
         settings: CalibrationSettings | None = None,
-        pools: Mapping[str, NormalPool] | None = None,
         always_gate: bool = False,
         least_alarm: Mapping[str, float] | None = None,
     ) -> None:
         self.settings = settings or CalibrationSettings()
         self.always_gate = always_gate
-        pools, least = pools or {}, least_alarm or {}
+        least = least_alarm or {}
         self.calibrations = {
-            name: RunCalibration(self.settings, pools.get(name), least.get(name, 0.0))
-            for name in scorers
+            name: RunCalibration(self.settings, least.get(name, 0.0)) for name in scorers
         }
-        self._taken = 0
         self._refused = 0
 
     @property
@@ -106,7 +94,7 @@ class Cascade:
             return Triage(
                 Route.CALIBRATION,
                 "One of the first wells, on which the run is calibrated.",
-                missing=self._counted(missing),
+                self._counted(missing),
             )
         standings = {
             name: self.calibrations[name].standing(score)
@@ -121,21 +109,21 @@ class Cascade:
         ]
         if counted:
             where = ", ".join(kind.value for kind in counted)
-            return Triage(Route.BLANK_FLOOR, f"No tip found at {where}.", standings, counted)
+            return Triage(Route.BLANK_FLOOR, f"No tip found at {where}.", counted)
         if low:
-            return Triage(Route.BLANK_FLOOR, "The score is that of a blank crop.", standings)
+            return Triage(Route.BLANK_FLOOR, "The score is that of a blank crop.")
         if self.state is CalibrationState.UNCALIBRATED:
-            return Triage(Route.UNCALIBRATED, f"Run not calibrated: {self.reason}.", standings)
+            return Triage(Route.UNCALIBRATED, f"Run not calibrated: {self.reason}.")
         if self.always_gate:
-            return Triage(Route.ALWAYS_GATE, "Every well goes to the gate, as set.", standings)
+            return Triage(Route.ALWAYS_GATE, "Every well goes to the gate, as set.")
         if contradiction:
-            return Triage(Route.GREY_ZONE, contradiction, standings)
+            return Triage(Route.GREY_ZONE, contradiction)
         if not scores:
-            return Triage(Route.GREY_ZONE, "No image score could be computed.", standings)
+            return Triage(Route.GREY_ZONE, "No image score could be computed.")
         outside = [name for name, standing in standings.items() if not standing.inside]
         if outside:
-            return Triage(Route.GREY_ZONE, _why(outside[0], standings[outside[0]]), standings)
-        return Triage(Route.SILENT_PASS, "Inside this run's band.", standings)
+            return Triage(Route.GREY_ZONE, _why(outside[0], standings[outside[0]]))
+        return Triage(Route.SILENT_PASS, "Inside this run's band.")
 
     def learn(
         self,
@@ -156,7 +144,6 @@ class Cascade:
                 if self._refused >= 2:
                     self.give_up(f"{self._refused} of the first wells failed at the gate")
                 return
-            self._taken += 1
             for name, calibration in self.calibrations.items():
                 if name in scores:
                     calibration.add(scores[name], volume_ul)
@@ -181,8 +168,6 @@ class Cascade:
 
 
 def _why(name: str, standing: Standing) -> str:
-    if standing.p_value is not None:
-        return f"The {name} score is unusual among earlier normals (p = {standing.p_value:.3f})."
     if standing.z is None:
         return f"The {name} score could not be computed."
     side = "above" if standing.z > 0 else "below"

@@ -6,11 +6,11 @@ matches without importing them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from .analyser import Judged, RunAnalyser
-from .calibration import CalibrationSettings, NormalPool
+from .calibration import CalibrationSettings
 from .column_reader import MeasuredColumns
 from .gates import ConfirmingGate, OperatorGate
 from .measuring import ColumnReader
@@ -45,7 +45,6 @@ class RunMonitor:
         gates: Asked in turn; by default the volumetric gate, then the operator. A VLM gate goes
             between them.
         reader: Makes the column reader of a run.
-        pools: Standardised normals of earlier runs by scorer name.
     """
 
     def __init__(
@@ -55,14 +54,12 @@ class RunMonitor:
         settings: MonitorSettings | None = None,
         gates: Sequence[ConfirmingGate] | None = None,
         reader: Callable[[], ColumnReader] = MeasuredColumns,
-        pools: Mapping[str, NormalPool] | None = None,
     ) -> None:
         self.detector = detector
         self.scorer = scorer
         self.settings = settings or MonitorSettings()
         self.gates = tuple(gates) if gates is not None else (VolumetricGate(), OperatorGate())
         self.reader = reader
-        self.pools = pools
 
     def begin(self, run: str, history: Sequence[Judged] = ()) -> RunAnalyser:
         """A run starts, or goes on after the sidecar was restarted.
@@ -82,7 +79,6 @@ class RunMonitor:
             self.scorer,
             self.reader(),
             settings.calibration,
-            self.pools,
             settings.always_gate,
             kin,
         )

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..vocabulary import Keyframe, KeyframeKind, Outcome, Route
-from .calibration import CalibrationSettings, NormalPool
+from .calibration import CalibrationSettings
 from .cascade import Cascade
 from .column_reader import MeasuredColumns
 from .consistency import TipConsistency
@@ -60,7 +60,6 @@ class Stream:
         scorer: World model, or ``None``; see :class:`~.run_scorer.RunScorer`.
         reader: Measures its columns.
         settings: Of the calibration.
-        pools: Standardised normals of earlier runs by scorer name.
         always_gate: Send every well after calibration to the gates.
         kin: A stream of the same pipette, whose reader knows the tip already.
     """
@@ -70,14 +69,13 @@ class Stream:
         scorer: Scorer | None,
         reader: ColumnReader,
         settings: CalibrationSettings,
-        pools: Mapping[str, NormalPool] | None = None,
         always_gate: bool = False,
         kin: Stream | None = None,
     ) -> None:
         self.settings = settings
         self.scorer = RunScorer(scorer, settings.wells)
         least = {self.scorer.name: LEAST_ALARM} if self.scorer.gives_p_values else {}
-        self.cascade = Cascade((self.scorer.name,), settings, pools, always_gate, least)
+        self.cascade = Cascade((self.scorer.name,), settings, always_gate, least)
         self.reader = reader
         self.tip: TipConsistency = kin.tip if kin is not None else TipConsistency()
         if kin is not None and isinstance(reader, MeasuredColumns):

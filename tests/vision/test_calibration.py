@@ -1,20 +1,16 @@
-"""The band of a run, conformal p-values, and runs that cannot be calibrated."""
+"""The band of a run, and runs that cannot be calibrated."""
 
 from __future__ import annotations
-
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from aegis_ot.errors import ConfigurationError, ModelError
+from aegis_ot.errors import ConfigurationError
 from aegis_ot.vision.calibration import (
     PRESETS,
     CalibrationSettings,
     CalibrationState,
-    NormalPool,
     RunCalibration,
-    preset,
 )
 
 FIRST = [10.0, 11.0, 9.0, 10.5, 9.5, 10.2]
@@ -94,47 +90,6 @@ def test_streaming_follows_a_slow_drift() -> None:
     assert moving.standing(16.0).inside
 
 
-def test_pooled_p_values_keep_their_promise() -> None:
-    rng = np.random.default_rng(2)
-    settings = CalibrationSettings(alpha=0.05, streaming=False)
-
-    def standardised(count: int) -> list[float]:
-        run = calibrated(settings, list(rng.normal(10, 1, 6) * (scale := rng.uniform(0.5, 2))))
-        return [run.standing(score * scale).z for score in rng.normal(10, 1, count)]
-
-    pool = NormalPool([z for _ in range(60) for z in standardised(10)])
-    alarms = []
-    for _ in range(300):
-        scale = rng.uniform(0.5, 2)
-        run = RunCalibration(settings, pool)
-        for score in rng.normal(10, 1, 6) * scale:
-            run.add(score)
-        alarms += [not run.standing(score * scale).inside for score in rng.normal(10, 1, 10)]
-    assert np.mean(alarms) <= 0.07
-
-
-def test_a_small_pool_cannot_promise_and_is_not_used() -> None:
-    pool = NormalPool([0.1, 0.2])
-    run = RunCalibration(CalibrationSettings(alpha=0.05), pool)
-    for score in FIRST:
-        run.add(score)
-    assert run.standing(10.0).p_value is None
-
-
-def test_pools_are_kept_as_json(tmp_path: Path) -> None:
-    pool = NormalPool([3.0, 1.0, float("nan")])
-    pool.save(tmp_path / "pool.json")
-    again = NormalPool.load(tmp_path / "pool.json")
-    assert len(again) == 2
-    assert again.p_value(2.0) == pytest.approx(2 / 3)
-    (tmp_path / "pool.json").write_text("[]")
-    with pytest.raises(ModelError, match=r"pool\.json"):
-        NormalPool.load(tmp_path / "pool.json")
-
-
 def test_wrong_settings_are_named() -> None:
     with pytest.raises(ConfigurationError, match="multiplier"):
         CalibrationSettings(multiplier=-1)
-    with pytest.raises(ConfigurationError, match="paper"):
-        preset("nonsense")
-    assert preset("paper", multiplier=3).multiplier == 3
