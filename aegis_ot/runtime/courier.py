@@ -163,7 +163,7 @@ class Courier:
         deadline = time.monotonic() + timeout_s
         self._messages.extend(starmap(self._abandonment, abandoned.items()))
         self._flush_messages(deadline)
-        left = max(0.1, deadline - time.monotonic())
+        left = max(SLICE_S, deadline - time.monotonic())
         self._link.finish(self._run, outcome, detail[:2000], left)
 
     def close(self) -> None:

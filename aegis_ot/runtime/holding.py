@@ -11,8 +11,9 @@ from .courier import Courier
 from .linkloss import LinkLoss
 from .operator import Answer, Operator
 from .runstate import RunState
+from .slices import SLICE_S
 from .steps import Hold
-from .stopping import SLICE_S, Waits
+from .stopping import Waits
 from .summary import WatchSummary
 from .words import tell_verdict
 

@@ -10,7 +10,8 @@ from .courier import Courier
 from .operator import Answer, Operator
 from .summary import WatchSummary
 
-_GLANCE_S = 0.1
+_TRY_S = 0.1
+"""How long one try to reach the sidecar may take while the operator is waited for, s."""
 
 Attempt = Callable[[], None]
 
@@ -73,8 +74,8 @@ class LinkLoss:
             )
 
     def _is_back(self) -> Answer | None:
-        glance = _trouble_of(lambda: self._courier.register(_GLANCE_S))
-        return Answer.RESUME if glance is None else None
+        trouble = _trouble_of(lambda: self._courier.register(_TRY_S))
+        return Answer.RESUME if trouble is None else None
 
 
 def _trouble_of(attempt: Attempt) -> LinkError | None:

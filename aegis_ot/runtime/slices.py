@@ -16,7 +16,7 @@ from collections.abc import Callable
 from typing import Any
 
 SLICE_S = 0.1
-"""Longest single wait, s. The robot's stop button must work within 0.5 s."""
+"""Longest single wait between two looks at the run, s. A stop must end it within 0.5 s."""
 
 CheckStop = Callable[[], None]
 

@@ -5,9 +5,8 @@ from __future__ import annotations
 import time
 
 from .runstate import RunState
+from .slices import SLICE_S
 
-SLICE_S = 0.1
-"""Longest sleep between two looks, s. A stop must end the run within 0.5 s."""
 LAST_WORDS_S = 0.25
 """What a stop leaves for telling the sidecar how the run ended, s."""
 
