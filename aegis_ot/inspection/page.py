@@ -2,52 +2,30 @@
 
 from __future__ import annotations
 
-import base64
 from collections import Counter
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
-from .. import __version__
-from ..vocabulary import KeyframeKind
-from .wells import Inspection, Level, Picture, SeenWell
-
-_TITLES = {
-    KeyframeKind.ASPIRATE: "aspirate",
-    KeyframeKind.TRANSIT: "transit",
-    KeyframeKind.DISPENSE: "dispense",
-    KeyframeKind.POST_DISPENSE: "post-dispense",
-}
+from ..reports.html_page import KEYFRAME_TITLES, data_url, html_page
+from .wells import Inspection, Level, SeenWell
 
 
 def inspection_html(inspection: Inspection) -> str:
     """Render one inspection as an HTML page."""
-    environment = Environment(
-        loader=PackageLoader("aegis_ot.inspection"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["data_url"] = _data_url
-    environment.filters["level"] = _level
     groups: dict[str, list[tuple[int, SeenWell]]] = {}
     for number, well in enumerate(inspection.wells):
         groups.setdefault(well.group, []).append((number, well))
     wells = inspection.wells
-    return environment.get_template("inspect.html").render(
+    return html_page(
+        "aegis_ot.inspection",
+        "inspect.html",
+        {"data_url": lambda picture: data_url(picture.jpeg), "level": _level},
         inspection=inspection,
         groups=groups,
         flagged=sum(well.flagged for well in wells),
         outcomes=Counter(well.outcome or "no verdict" for well in wells),
         agreements=Counter(well.agreement for well in wells if well.agreement),
         unpictured=sum(not well.pictured for well in wells),
-        titles=_TITLES,
-        version=__version__,
+        titles=KEYFRAME_TITLES,
     )
-
-
-def _data_url(picture: Picture) -> str:
-    return "data:image/jpeg;base64," + base64.b64encode(picture.jpeg).decode("ascii")
 
 
 def _level(level: Level) -> str:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
 from ..checking import CheckedProtocol, CheckRun
 from ..vocabulary import Finding
+from .html_page import Filters, html_page
 from .words import (
     by_model,
     listed,
@@ -24,19 +23,16 @@ _CONTEXT = 1
 
 def check_html(run: CheckRun) -> str:
     """Render as HTML."""
-    environment = Environment(
-        loader=PackageLoader("aegis_ot.reports"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["wells"] = lambda finding: listed_wells(finding.wells, 96)
-    environment.filters["listed"] = lambda values: listed([str(v) for v in values], 16)
-    environment.filters["by_model"] = by_model
-    environment.filters["model_line"] = model_line
-    template = environment.get_template("check.html")
-    return template.render(
+    filters: Filters = {
+        "wells": lambda finding: listed_wells(finding.wells, 96),
+        "listed": lambda values: listed([str(v) for v in values], 16),
+        "by_model": by_model,
+        "model_line": model_line,
+    }
+    return html_page(
+        "aegis_ot.reports",
+        "check.html",
+        filters,
         run=run,
         rules={rule.id: rule for rule in run.database.rules},
         summary=summary_line(run),
