@@ -11,7 +11,7 @@ from ..errors import ConfigurationError
 from ..vocabulary import counted
 from .app import app
 from .checks import write_text
-from .datasets import open_dataset
+from .datasets import open_dataset, tip_finder
 from .judging import one_of
 
 if TYPE_CHECKING:
@@ -83,9 +83,8 @@ def _dataset(
 
     one_of("--scorer", scorer, [name.replace("_", "-") for name in SCORERS])
     fitted = None if world_model is None else load_scorer(world_model)
-    found = "default" if boxes == "detector" else boxes
     data = open_dataset(folder)
-    return inspect_dataset(data, scorer.replace("-", "_"), fitted, found, most, shown)
+    return inspect_dataset(data, scorer.replace("-", "_"), fitted, tip_finder(boxes), most, shown)
 
 
 def _run(what: str, run: str | None, most: int, shown: Progress) -> Inspection:

@@ -12,7 +12,7 @@ import typer
 from ..errors import ConfigurationError
 from .app import CLEAN
 from .checks import write_text
-from .datasets import open_dataset, writable_folder
+from .datasets import open_dataset, tip_finder, writable_folder
 from .evaluations import evaluate
 from .judging import one_of, split
 from .models import ModelName, RecordFolder, backend_of
@@ -85,7 +85,7 @@ def layer2(
     data = open_dataset(dataset)
     results, seconds = [], []
     with Shown() as shown:
-        tips = find_tips(data, "default" if boxes == "detector" else boxes, shown)
+        tips = find_tips(data, tip_finder(boxes), shown)
         for name in dict.fromkeys(names):
             begun = time.monotonic()
             result = evaluate_layer2(

@@ -10,7 +10,7 @@ import typer
 
 from ..errors import ConfigurationError
 from .app import app
-from .datasets import open_dataset
+from .datasets import open_dataset, tip_finder
 from .judging import one_of
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def fit(
     found = [folder if is_store(folder) else open_dataset(folder) for folder in recordings]
     begun = time.monotonic()
     with Shown() as shown:
-        model = fit_model(found, out, scorer, "default" if boxes == "detector" else boxes, shown)
+        model = fit_model(found, out, scorer, tip_finder(boxes), shown)
     typer.echo(_describe(out, model))
     typer.echo(f"Written in {time.monotonic() - begun:.1f} s.", err=True)
 
