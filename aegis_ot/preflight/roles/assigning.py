@@ -14,7 +14,7 @@ from ..rules import Common, Family
 from ..trace import Trace
 from .channels import spread_over_channels
 from .clues import Clue, Strength
-from .levels import level_of
+from .levels import levels_of
 from .phrases import fitting_role, role_words, roles_named, says_only_the_side
 from .replicates import spread_over_replicates
 from .roles import Assignment, Roles
@@ -54,7 +54,7 @@ def assign_roles(
                 levels.setdefault(ref, set()).add(level)
             continue
         worth, passing = _worth(clue), says_only_the_side(clue, common)
-        for position, ref in enumerate(clue.wells):
+        for ref, level in zip(clue.wells, levels_of(clue, common), strict=True):
             role = fitting_role(named, roles, sides(ref), clue)
             if role is None or (passing and _is_trough(trace, ref)):
                 continue
@@ -64,7 +64,6 @@ def assign_roles(
                 # The comment says what the step is for; which well holds that is said
                 # elsewhere, and this may be another one by mistake.
                 continue
-            level = level_of(clue, position, common) if clue.wells else None
             candidates.setdefault(ref, []).append((worth, role, clue, level))
     for ref, found in candidates.items():
         assignment = _choose(roles, ref, found)

@@ -10,26 +10,26 @@ from ..text import direction_in, level_in, numbers_in_order
 from .clues import Clue
 
 
-def level_of(clue: Clue, position: int, common: Common) -> float | None:
-    """Level that a clue gives its well number ``position``, or ``None``."""
-    if clue.levels and position < len(clue.levels):
-        return clue.levels[position]
+def levels_of(clue: Clue, common: Common) -> tuple[float | None, ...]:
+    """Level that a clue gives each of its wells, in their order; ``None`` where it gives none."""
     count = len(clue.wells)
-    listed = numbers_in_order(clue.text) if count > 1 else []
-    if count > 1 and len(listed) == count and len(set(listed)) == count:
-        return listed[position]
-    if count > 1 and not clue.whole:
+    beside = clue.levels[:count]
+    return (*beside, *_said(clue, common)[len(beside) :]) if len(beside) < count else beside
+
+
+def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:
+    """The levels that the words of a clue give its wells."""
+    count = len(clue.wells)
+    if count > 1:
+        listed = tuple(numbers_in_order(clue.text))
+        if len(listed) == count and len(set(listed)) == count:
+            return listed
+        if clue.whole:
+            return (None,) * count
         direction = direction_in(clue.text, common)
         if direction:
-            return float(direction * position)
-    if count > 1 and not _one_value(clue):
-        return None
-    return level_in(clue.text, common, plain_numbers=clue.subject)
-
-
-def _one_value(clue: Clue) -> bool:
-    """Whether one level may hold for all wells of the clue: replicates, a column."""
-    return not clue.whole
+            return tuple(float(direction * position) for position in range(count))
+    return (level_in(clue.text, common, plain_numbers=clue.subject),) * count
 
 
 def is_number(value: Any) -> bool:
