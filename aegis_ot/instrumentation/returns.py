@@ -22,10 +22,9 @@ _TOOL_IDS = (4, 3)
 """Those that Python keeps for no kind of tool."""
 
 
-@contextmanager
 def heard_returns(
     functions: Sequence[FunctionType], sources: Callable[[str], str], look: Look
-) -> Iterator[None]:
+) -> AbstractContextManager[None]:
     """Call ``look`` with the frame of each of these functions as it returns, in this thread.
 
     Args:
@@ -33,13 +32,6 @@ def heard_returns(
         sources: The text of a file, by ``co_filename``.
         look: Must not raise.
     """
-    with _way(functions, sources, look):
-        yield
-
-
-def _way(
-    functions: Sequence[FunctionType], sources: Callable[[str], str], look: Look
-) -> AbstractContextManager[None]:
     if sys.version_info >= (3, 12):
         tool = _free_tool()
         if tool is not None:
