@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..errors import ConfigurationError, LinkError, RunAborted
+from ..errors import LinkError, RunAborted
 from ..instrumentation import Event, Operation
 from ..settings import Settings
 from ..vocabulary import Keyframe, KeyframeKind
@@ -188,13 +188,8 @@ class Watcher:
     # The line to the sidecar
 
     def _connect(self) -> _Line:
-        url = self._settings.sidecar
-        if url is None:
-            raise ConfigurationError(
-                "There is no sidecar to watch the run: give its address, as in "
-                '@guard(sidecar="http://192.168.1.20:7645").'
-            )
-        link = SidecarLink(url, self._settings.token, self._waits.check)
+        assert self._settings.sidecar is not None
+        link = SidecarLink(self._settings.sidecar, self._settings.token, self._waits.check)
         courier = Courier(link, self.run_id, self._about, self._waits.rest)
         loss = LinkLoss(courier, self._settings, self._operator, self._simulating, self.result)
         holding = Holding(
