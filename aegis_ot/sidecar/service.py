@@ -50,7 +50,6 @@ class Sidecar:
         self._analyser = analyser
         self._notifier = Notifier(config.notifications.urls)
         self._sessions: dict[str, Session] = {}
-        self._asked: dict[str, float] = {}
         self._opening = threading.Lock()
         self._camera_trouble = ""
         # A camera that is told what to show must not hear of another keyframe in between.
@@ -86,7 +85,7 @@ class Sidecar:
                     self._notifier.send,
                     self.config.operator.timeout_s,
                 )
-            self._asked[run] = time.monotonic()
+            session.asked = time.monotonic()
             return session
 
     def require(self, run: str) -> None:
@@ -176,9 +175,9 @@ class Sidecar:
         for run, session in list(self._sessions.items()):
             row = self.store.run(run)
             finished = row is not None and row["finished"]
-            if session.idle and (finished or self._asked[run] < silent_before):
+            if session.idle and (finished or session.asked < silent_before):
                 session.close()
-                del self._sessions[run], self._asked[run]
+                del self._sessions[run]
 
 
 def _check_frame(frame: Frame, moment: float) -> None:

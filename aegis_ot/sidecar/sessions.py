@@ -35,6 +35,9 @@ class Session:
         grab: Takes a frame.
         tell: Sends a notification.
         operator_timeout: How long an undecided verdict is held back for the operator, s.
+
+    Attributes:
+        asked: When it was last asked for, ``time.monotonic``, s.
     """
 
     def __init__(
@@ -48,6 +51,7 @@ class Session:
         operator_timeout: float = 0.0,
     ) -> None:
         self.run = run
+        self.asked = time.monotonic()
         self._store = store
         self._bell = bell
         self._grab = grab

@@ -9,11 +9,10 @@ from pathlib import Path
 
 from ...errors import CameraError
 from ...vision.camera import Frame
-from ...vocabulary import Keyframe
+from ...vocabulary import Keyframe, KeyframeKind
 from .codec import decode_jpeg, encode_jpeg
 
 SUFFIXES = {".jpg", ".jpeg", ".png"}
-MOMENTS = ("aspirate", "transit", "dispense", "post_dispense")
 
 
 class FolderCamera:
@@ -83,7 +82,7 @@ def _frames(folder: Path) -> list[Path]:
         if manifest.is_file():
             with manifest.open(encoding="utf-8", newline="") as file:
                 rows = list(csv.DictReader(file))
-            return [folder / row[moment] for row in rows for moment in MOMENTS]
+            return [folder / row[kind.value] for row in rows for kind in KeyframeKind]
         return sorted(p for p in folder.iterdir() if p.suffix.lower() in SUFFIXES)
     except (OSError, UnicodeDecodeError) as error:
         raise CameraError(f"Cannot read the folder {folder}: {error}") from error
