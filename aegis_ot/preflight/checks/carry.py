@@ -64,6 +64,8 @@ class Carry(Check):
                 continue
             if self.shared and not is_shared(case, well):
                 continue
+            if self.stock and not case.destinations.get(well):
+                continue  # tips are rinsed in it; nothing is made of it
             for origin, met in carried_liquids(visit):
                 if origin is well or not case.has(origin, carried):
                     continue
@@ -83,6 +85,8 @@ class Carry(Check):
                 return True
         brought = case.meant.get(well, {})
         if self.stock:
+            if met.well is well:
+                return True  # it was in the stock already
             first = brought.get(origin)
             return first is not None and (
                 _on_purpose(case, well, origin, visit) or self._made_of(case, visit, origin)
@@ -115,7 +119,12 @@ class Carry(Check):
         Then nothing made of the well afterwards is given such a liquid in another way.
         """
         well = visit.well
-        if not any(known is origin for known, _, _, _ in delivered(visit)):
+        if not any(
+            known is origin
+            for given in case.trace.deliveries(well)
+            if given.tip is visit.tip and given.index <= visit.index
+            for known, _, _, _ in delivered(given)
+        ):
             return False
         drawn_for = case.destinations.get(well, {})
         later = [dest for dest, index in drawn_for.items() if index > visit.index]

@@ -105,14 +105,9 @@ class Receives(Check):
             for well in case.trace.wells.values()
             if received(case, well, liquid)[0] > 0 or case.has(well, liquid)
         }
-        plates = {
-            well.ref.labware
-            for well in case.trace.wells.values()
-            if received(case, well, liquid)[0] > 0
-        }
-        plates |= {key for plate in plates for key in case.roles.replicates.get(plate, ())}
+        plates = self._plates(case, liquid)
         if not plates and self._stands_unused(case, liquid):
-            plates = {ref.labware for ref in case.roles.by_well}
+            plates = {ref.labware for ref, used in case.usage.items() if used.received}
             judged = [well for well in self._judged(case) if case.has(well, frozenset(self.always))]
         else:
             judged = list(self._judged(case))
@@ -121,15 +116,15 @@ class Receives(Check):
             yield Doubt(f"no well is seen to receive {names}; it may be added by hand")
             return
         reported: set[tuple[str, str]] = set()
-        source_line = next(
-            (
-                (visit.line, source)
-                for visit in case.trace.visits
-                for origin, _, source, _ in delivered(visit)
-                if case.has(origin, liquid)
-            ),
-            None,
-        )
+        given = [
+            (visit.line, source, origin)
+            for visit in case.trace.visits
+            for origin, _, source, _ in delivered(visit)
+            if case.has(origin, liquid)
+        ]
+        # The best evidence for what the liquid is: a comment alone makes no error.
+        given.sort(key=lambda one: case.roles.by_comment_only(one[2].ref))
+        source_line = given[0] if given else None
         title = " or ".join(case.family.roles[role].title for role in self.liquid)
         for well in judged:
             place_key = (well.ref.labware, well.ref.name)
@@ -166,8 +161,26 @@ class Receives(Check):
                 (others, *sites) if others else sites,
                 well,
                 (case.title(well),),
-                (well,),
+                (well, source_line[2]) if source_line else (well,),
             )
+
+    def _plates(self, case: Case, liquid: RoleSet) -> set[str]:
+        """Labware where some well is given the liquid, and their replicates.
+
+        A well that is given what stood in such a well before, liquid and all, is another stage.
+        """
+        wells = frozenset(self.wells)
+        plates = {
+            visit.well.ref.labware
+            for visit in case.trace.visits
+            for origin, volume, source, _ in delivered(visit)
+            if volume > 0
+            and (
+                case.has(source, liquid)
+                or (case.has(origin, liquid) and not case.has(source, wells))
+            )
+        }
+        return plates | {key for plate in plates for key in case.roles.replicates.get(plate, ())}
 
     @staticmethod
     def _stands_unused(case: Case, liquid: RoleSet) -> bool:
