@@ -99,7 +99,7 @@ class RunAnalyser:
         volumetric = VolumetricGate().examine(case)
         speaks = volumetric.outcome is Outcome.FAIL or case.alarming
         against = volumetric.reason if speaks else ""
-        triage = stream.cascade.triage(case.scores, case.missing, against)
+        triage = stream.cascade.triage(case.score, case.missing, against)
         case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
         self._learn(stream, case, seen, decision)
@@ -109,7 +109,7 @@ class RunAnalyser:
             trajectory,
             decision.outcome,
             triage.route,
-            case.scores.get(stream.scorer.name),
+            case.score,
             decision.gate,
             decision.failure,
             decision.reason,
@@ -135,7 +135,8 @@ class RunAnalyser:
             except (KeyError, TypeError, ValueError, AttributeError):
                 continue
             stream = self._stream_of(key)
-            stream.cascade.learn(scores, normal=normal, volume_ul=volume)
+            score = scores.get(stream.scorer.name)
+            stream.cascade.learn(score, normal=normal, volume_ul=volume)
 
     def _case(self, stream: Stream, seen: OpenTrajectory, sample: TrajectorySample) -> Case:
         missing = tuple(
@@ -144,10 +145,10 @@ class RunAnalyser:
             if found is None and kind not in seen.excused
         )
         readings = stream.reader.read(seen.looks, sample.expected_ul)
-        scores = stream.scorer.scores(sample, seen.excused)
-        p_value = stream.p_value(scores)
+        score = stream.scorer.score(sample, seen.excused)
+        p_value = stream.p_value(score)
         return Case(
-            sample, Route.GREY_ZONE, scores, readings, missing, stream.learned > 0, p_value,
+            sample, Route.GREY_ZONE, score, readings, missing, stream.learned > 0, p_value,
             clearly_absent=seen.clearly_absent,
         )  # fmt: skip
 
@@ -226,13 +227,13 @@ class RunAnalyser:
         whole = len(case.sample.frames) == len(KeyframeKind) and not case.missing
         if collecting and normal and whole and not stream.scorer.ready:
             # The run's own model: its first wells are scored once they are all there.
-            for scores, volume in stream.scorer.learn(case.sample):
-                stream.cascade.learn(scores, normal=True, volume_ul=volume)
-        elif case.scores or not normal:
+            for score, volume in stream.scorer.learn(case.sample):
+                stream.cascade.learn(score, normal=True, volume_ul=volume)
+        elif case.score is not None or not normal:
             volume = case.sample.volume_ul
-            stream.cascade.learn(case.scores, normal=normal, volume_ul=volume)
+            stream.cascade.learn(case.score, normal=normal, volume_ul=volume)
         if normal:
-            stream.learn(case.sample, seen.looks, bool(case.scores))
+            stream.learn(case.sample, seen.looks, case.score is not None)
 
     def _sample(self, trajectory: int, seen: OpenTrajectory) -> TrajectorySample:
         last = seen.keyframes[max(seen.keyframes, key=lambda kind: seen.keyframes[kind].sequence)]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from ..vocabulary import KeyframeKind, Route
@@ -41,51 +41,42 @@ class Cascade:
     for tips fall off and do not come back: that is no evidence.
 
     Args:
-        scorers: Names of the scores that :meth:`triage` will get; the first is the main one.
-        settings: Calibration settings, common to all scorers.
+        scorer: Name of the scorer whose scores :meth:`triage` gets.
+        settings: Calibration settings.
         always_gate: Send every well after calibration to the gate.
-        least_alarm: See :class:`~.calibration.RunCalibration`, by scorer name.
+        least_alarm: See :class:`~.calibration.RunCalibration`.
+
+    Attributes:
+        calibration: The run's band.
     """
 
     def __init__(
         self,
-        scorers: Collection[str],
+        scorer: str,
         settings: CalibrationSettings | None = None,
         always_gate: bool = False,
-        least_alarm: Mapping[str, float] | None = None,
+        least_alarm: float = 0.0,
     ) -> None:
-        self.settings = settings or CalibrationSettings()
-        self.always_gate = always_gate
-        least = least_alarm or {}
-        self.calibrations = {
-            name: RunCalibration(self.settings, least.get(name, 0.0)) for name in scorers
-        }
+        self.calibration = RunCalibration(settings, least_alarm)
+        self._scorer = scorer
+        self._always_gate = always_gate
         self._refused = 0
 
     @property
     def state(self) -> CalibrationState:
-        """Uncalibrated if any scorer is; ready when all are."""
-        states = {calibration.state for calibration in self.calibrations.values()}
-        for state in (CalibrationState.UNCALIBRATED, CalibrationState.COLLECTING):
-            if state in states:
-                return state
-        return CalibrationState.READY
-
-    @property
-    def reason(self) -> str:
-        """Why the run is uncalibrated."""
-        return next((c.reason for c in self.calibrations.values() if c.reason), "")
+        """How far the calibration is."""
+        return self.calibration.state
 
     def triage(
         self,
-        scores: Mapping[str, float],
+        score: float | None,
         missing: Collection[KeyframeKind],
         contradiction: str = "",
     ) -> Triage:
         """Route one well. Says nothing to the calibration: see :meth:`learn`.
 
         Args:
-            scores: Anomaly scores by scorer name.
+            score: Anomaly score; ``None`` if none could be computed.
             missing: Keyframes in which no tip was found.
             contradiction: How the measured columns contradict the protocol's volumes, or what
                 else looks alarming: reason enough for the grey zone inside any band.
@@ -96,38 +87,28 @@ class Cascade:
                 "One of the first wells, on which the run is calibrated.",
                 self._counted(missing),
             )
-        standings = {
-            name: self.calibrations[name].standing(score)
-            for name, score in scores.items()
-            if name in self.calibrations
-        }
         counted = self._counted(missing)
-        low = [
-            name
-            for name, score in scores.items()
-            if name in CROP_SCORERS and score < self.settings.score_floor
-        ]
         if counted:
             where = ", ".join(kind.value for kind in counted)
             return Triage(Route.BLANK_FLOOR, f"No tip found at {where}.", counted)
-        if low:
+        if self._blank(score):
             return Triage(Route.BLANK_FLOOR, "The score is that of a blank crop.")
         if self.state is CalibrationState.UNCALIBRATED:
-            return Triage(Route.UNCALIBRATED, f"Run not calibrated: {self.reason}.")
-        if self.always_gate:
+            return Triage(Route.UNCALIBRATED, f"Run not calibrated: {self.calibration.reason}.")
+        if self._always_gate:
             return Triage(Route.ALWAYS_GATE, "Every well goes to the gate, as set.")
         if contradiction:
             return Triage(Route.GREY_ZONE, contradiction)
-        if not scores:
+        if score is None:
             return Triage(Route.GREY_ZONE, "No image score could be computed.")
-        outside = [name for name, standing in standings.items() if not standing.inside]
-        if outside:
-            return Triage(Route.GREY_ZONE, _why(outside[0], standings[outside[0]]))
+        standing = self.calibration.standing(score)
+        if not standing.inside:
+            return Triage(Route.GREY_ZONE, _why(self._scorer, standing))
         return Triage(Route.SILENT_PASS, "Inside this run's band.")
 
     def learn(
         self,
-        scores: Mapping[str, float],
+        score: float | None,
         *,
         normal: bool,
         volume_ul: float | None = None,
@@ -142,20 +123,16 @@ class Cascade:
             if not normal:
                 self._refused += 1
                 if self._refused >= 2:
-                    self.give_up(f"{self._refused} of the first wells failed at the gate")
-                return
-            for name, calibration in self.calibrations.items():
-                if name in scores:
-                    calibration.add(scores[name], volume_ul)
-        elif normal:
-            for name, score in scores.items():
-                if name in self.calibrations:
-                    self.calibrations[name].accept(score)
+                    refused = f"{self._refused} of the first wells failed at the gate"
+                    self.calibration.give_up(refused)
+            elif score is not None:
+                self.calibration.add(score, volume_ul)
+        elif normal and score is not None:
+            self.calibration.accept(score)
 
-    def give_up(self, reason: str) -> None:
-        """Declare the whole run uncalibrated."""
-        for calibration in self.calibrations.values():
-            calibration.give_up(reason)
+    def _blank(self, score: float | None) -> bool:
+        floor = self.calibration.settings.score_floor
+        return self._scorer in CROP_SCORERS and score is not None and score < floor
 
     def _counted(self, missing: Collection[KeyframeKind]) -> tuple[KeyframeKind, ...]:
         """The missing frames at the end of the trajectory, if its last one is missing."""

@@ -22,12 +22,13 @@ def evidence_of(
 ) -> dict[str, Any]:
     """Boxes, scores, band, measured and expected volumes, and what restores the calibration."""
     channels = max(keyframe.channels for keyframe in seen.keyframes.values())
-    band = stream.cascade.calibrations[stream.scorer.name].band
+    band = stream.cascade.calibration.band
+    scores = {} if case.score is None else {stream.scorer.name: case.score}
     found = {kind: tip for kind, tip in seen.detections.items() if tip is not None}
     return {
         "boxes": {kind.value: [tip.x, tip.y, tip.w, tip.h] for kind, tip in found.items()},
         "confidence": {kind.value: tip.confidence for kind, tip in found.items()},
-        "scores": dict(case.scores),
+        "scores": scores,
         "band": None if band is None else list(band),
         "triage": triage.reason,
         "measured_ul": dict(_readings(case.readings)),
@@ -38,7 +39,7 @@ def evidence_of(
         "calibration": {
             "stream": list(key),
             "volume_ul": case.sample.volume_ul,
-            "scores": dict(case.scores),
+            "scores": scores,
             "normal": decision.outcome is Outcome.PASS,
         },
     }

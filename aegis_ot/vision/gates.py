@@ -21,7 +21,7 @@ class Case:
     Attributes:
         sample: Frames, detections and expected volumes.
         route: Why it is asked.
-        scores: Anomaly scores by scorer name.
+        score: Anomaly score; ``None`` if none could be computed.
         readings: Liquid columns by keyframe; a keyframe that could not be read is left out.
         missing: Keyframes in which no tip was found.
         calibrated: Whether readings rest on this run's own normal wells.
@@ -34,7 +34,7 @@ class Case:
 
     sample: TrajectorySample
     route: Route
-    scores: Mapping[str, float] = field(default_factory=dict)
+    score: float | None = None
     readings: Mapping[KeyframeKind, ColumnReading] = field(default_factory=dict)
     missing: tuple[KeyframeKind, ...] = ()
     calibrated: bool = True

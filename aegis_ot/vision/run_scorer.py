@@ -65,24 +65,24 @@ class RunScorer:
         # A blank crop would be scored as an anomaly, and learned as normal.
         return tuple(KeyframeKind)
 
-    def scores(
+    def score(
         self, sample: TrajectorySample, excused: Collection[KeyframeKind] = ()
-    ) -> dict[str, float]:
-        """Scores by scorer name; none before there is a model, or without a tip it needs.
+    ) -> float | None:
+        """Anomaly score; ``None`` before there is a model, or without a tip it needs.
 
         Args:
             sample: The trajectory.
             excused: Keyframes in which the tip is on, though it could not be seen.
         """
         if self._scorer is None:
-            return {}
+            return None
         missing = [kind for kind in self.needed if sample.detections.get(kind) is None]
         if not missing:
-            return {self.name: self._scorer.score(sample)}
+            return self._scorer.score(sample)
         partial = getattr(self._scorer, "score_of_seen", None)
         if partial is None or not set(missing) <= set(excused):
-            return {}
-        return {self.name: partial(sample)}
+            return None
+        return float(partial(sample))
 
     def look_ahead(self, sample: TrajectorySample) -> None:
         """Do what can be done before the last frame, while the robot moves."""
@@ -107,7 +107,7 @@ class RunScorer:
         scorer: object = self._scorer
         return scorer if isinstance(scorer, Calibrating) else None
 
-    def learn(self, sample: TrajectorySample) -> Iterator[tuple[dict[str, float], float]]:
+    def learn(self, sample: TrajectorySample) -> Iterator[tuple[float, float]]:
         """Learn from one of the first wells; the last one yields scores and volumes of all."""
         self._vectors.append(trajectory_vector(sample))
         self._volumes.append(sample.volume_ul)
@@ -117,7 +117,7 @@ class RunScorer:
         own = PcaScorer()
         for left_out in range(len(vectors)):
             own.fit_vectors(np.delete(vectors, left_out, axis=0))
-            yield {self.name: own.score_vector(vectors[left_out])}, self._volumes[left_out]
+            yield own.score_vector(vectors[left_out]), self._volumes[left_out]
         own = PcaScorer()
         own.fit_vectors(vectors)
         self._scorer = own

@@ -74,8 +74,8 @@ class Stream:
     ) -> None:
         self.settings = settings
         self.scorer = RunScorer(scorer, settings.wells)
-        least = {self.scorer.name: LEAST_ALARM} if self.scorer.gives_p_values else {}
-        self.cascade = Cascade((self.scorer.name,), settings, always_gate, least)
+        least = LEAST_ALARM if self.scorer.gives_p_values else 0.0
+        self.cascade = Cascade(self.scorer.name, settings, always_gate, least)
         self.reader = reader
         self.tip: TipConsistency = kin.tip if kin is not None else TipConsistency()
         if kin is not None and isinstance(reader, MeasuredColumns):
@@ -85,15 +85,14 @@ class Stream:
         self.doubt = ""
         self._first: list[tuple[Mapping[KeyframeKind, object], TrajectorySample]] = []
 
-    def p_value(self, scores: Mapping[str, float]) -> float | None:
+    def p_value(self, score: float | None) -> float | None:
         """How often a normal well of this run looks this unusual; ``None``: cannot be told.
 
         All wells of a run may look unusual to a model of other runs. So the score is taken
         against this run's own normal wells: beyond their median it falls off exponentially, as
         it does among the wells of the model, and more slowly if theirs scatter more.
         """
-        known = np.array(self.cascade.calibrations[self.scorer.name].normals)
-        score = scores.get(self.scorer.name)
+        known = np.array(self.cascade.calibration.normals)
         if not self.scorer.gives_p_values or score is None or not len(known):
             return None
         middle = float(np.median(known))
@@ -128,7 +127,7 @@ class Stream:
         for looks, sample in list(self._first):
             others = [(its, other.expected_ul) for its, other in self._first if other is not sample]
             readings = self.reader.read_beside(looks, sample.expected_ul, others)
-            case = Case(sample, Route.CALIBRATION, {}, readings, (), calibrated=False)
+            case = Case(sample, Route.CALIBRATION, None, readings, (), calibrated=False)
             found = VolumetricGate().examine(case)
             if found.outcome is Outcome.FAIL:
                 self._first = [kept for kept in self._first if kept[1] is not sample]

@@ -50,7 +50,7 @@ def case(reagent: str = "red dye", **missing: Any) -> Case:
     sample = TrajectorySample(
         "1", "run", "A7", "p300", 100.0, frames, detections, EXPECTED, reagent=reagent
     )
-    return Case(sample, Route.GREY_ZONE, {"pca": 3.2})
+    return Case(sample, Route.GREY_ZONE, 3.2)
 
 
 def said(*verdicts: str, **changes: Any) -> dict[str, Any]:

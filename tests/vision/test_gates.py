@@ -26,7 +26,7 @@ def case(
 ) -> Case:
     readings = {KeyframeKind.TRANSIT: transit, KeyframeKind.POST_DISPENSE: last}
     present = {kind: reading for kind, reading in readings.items() if reading is not None}
-    return Case(sample(), route, {}, present, missing)
+    return Case(sample(), route, None, present, missing)
 
 
 @pytest.mark.parametrize(

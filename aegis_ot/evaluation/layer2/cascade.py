@@ -95,13 +95,13 @@ class _Plate:
         self._name = held.scorer
         self._p_values = held.gives_p_values
         settings = replace(PRESETS["default"], wells=len(leading))
-        self._cascade = Cascade((self._name,), settings)
+        self._cascade = Cascade(self._name, settings)
         self._reader = MeasuredColumns()
         self._gates = (VolumetricGate(), *asked, OperatorGate())
         self._banded = len(leading) >= BAND_WELLS
         for well in leading:
             self._reader.learn(self._looks(well.sample), well.sample.expected_ul)
-            self._cascade.learn(self._scores(well), normal=True, volume_ul=well.sample.volume_ul)
+            self._cascade.learn(well.score, normal=True, volume_ul=well.sample.volume_ul)
 
     def judge(self, wells: Sequence[ScoredWell]) -> list[JudgedWell]:
         return [self._judge(well) for well in wells]
@@ -119,9 +119,8 @@ class _Plate:
         # On a handful of wells, what the scorer flags and nothing clears stays flagged. A long
         # run has its own band, and asks more of an alarm.
         alarm = RUN_ALARM if self._banded else ALPHA
-        scores = self._scores(well)
         case = Case(
-            sample, Route.GREY_ZONE, scores, readings, missing, p_value=p_value, alarm_p=alarm
+            sample, Route.GREY_ZONE, well.score, readings, missing, p_value=p_value, alarm_p=alarm
         )
         volumes = self._gates[0].examine(case)
         contradiction = volumes.reason if volumes.outcome is Outcome.FAIL or case.alarming else ""
@@ -131,22 +130,19 @@ class _Plate:
         else:
             decision = examine_in_turn(self._gates, replace(case, route=triage.route))
         normal = decision.outcome is Outcome.PASS
-        self._cascade.learn(scores, normal=normal, volume_ul=sample.volume_ul)
+        self._cascade.learn(well.score, normal=normal, volume_ul=sample.volume_ul)
         if normal and KeyframeKind.TRANSIT in looks:
             self._reader.learn(looks, sample.expected_ul)
         return JudgedWell(well, triage, readings, decision)
 
     def _triage(self, well: ScoredWell, case: Case, contradiction: str) -> Triage:
-        triage = self._cascade.triage(case.scores, case.missing, contradiction)
+        triage = self._cascade.triage(case.score, case.missing, contradiction)
         decided = contradiction or triage.route is Route.BLANK_FLOOR
         if self._banded or decided:
             return triage
         if well.standing > 0:
             return Triage(Route.GREY_ZONE, f"The {self._name} score is over the plate's threshold.")
         return Triage(Route.SILENT_PASS, "Under the plate's threshold.")
-
-    def _scores(self, well: ScoredWell) -> dict[str, float]:
-        return {self._name: well.score}
 
     def _looks(self, sample: TrajectorySample) -> dict[KeyframeKind, object]:
         tip, pipette = tip_for(sample.pipette), pipette_class(sample.pipette)
