@@ -24,7 +24,6 @@ from .evidence import (
     mean_dye,
 )
 from .measure import (
-    ColumnMeasurement,
     Reference,
     ceiling,
     dye_at,
@@ -98,26 +97,21 @@ class Signs:
     Attributes:
         retained: Log-likelihood ratio of a column left after the dispense, both frames; 0 where
             they speak against one.
-        retained_top: Where it would end, u.
         gap: Strength of the strongest break in the column, by keyframe.
         misfill: How far the column's end is from where it should be, by keyframe, u; negative
             values mean too much liquid.
         absent: Log-likelihood ratio of no column where there should be one.
-        dye: Colour of the full column, as far as it is known.
-        own_dye: The same from this trajectory alone: TRANSIT against the empty tip above.
+        own_dye: Colour of the full column from this trajectory alone: TRANSIT against the empty tip
+            above.
         spent_dye: TRANSIT against the tip after the dispense: right only for a normal one.
-        measured: The column in each frame.
     """
 
     retained: float | None
-    retained_top: float
     gap: Mapping[KeyframeKind, float]
     misfill: Mapping[KeyframeKind, float]
     absent: float | None
-    dye: Dye | None
     own_dye: Dye | None
     spent_dye: Dye | None
-    measured: Mapping[KeyframeKind, ColumnMeasurement] = field(repr=False)
 
 
 def weigh(
@@ -132,7 +126,6 @@ def weigh(
         model: Tip model of this tip class.
         run: What this run's normal wells taught.
     """
-    measured: dict[KeyframeKind, ColumnMeasurement] = {}
     gap: dict[KeyframeKind, float] = {}
     misfill: dict[KeyframeKind, float] = {}
     own = _own_dye(looks, tip, expected, model, run)
@@ -144,20 +137,14 @@ def weigh(
         # At the ASPIRATE a lit column outshines its own colour.
         known = dye if kind is KeyframeKind.TRANSIT and _coloured(dye) else None
         found = read_column(looks[kind], tip, volume, _reference(model, known))
-        measured[kind] = found
         if found.presence > SEEN:
             misfill[kind] = found.top - place(kind, volume, tip, model, run)
         if found.presence > 0:
             gap[kind] = found.gap.strength if found.gap is not None else 0.0
-    retained, top = _retained(looks, tip, expected, model, run, dye)
-    for kind in DELIVERED:
-        if kind in looks:
-            reference = _reference(model, dye)
-            volume = expected.get(kind, 0.0)
-            measured[kind] = read_column(looks[kind], tip, volume, reference)
+    retained = _retained(looks, tip, expected, model, run, dye)
     absent = _absent(looks, tip, expected, model, run)
     spent = _spent_dye(looks, tip, expected, model, run)
-    return Signs(retained, top, gap, misfill, absent, dye, own, spent, measured)
+    return Signs(retained, gap, misfill, absent, own, spent)
 
 
 def place(
@@ -219,11 +206,11 @@ def _retained(
     model: TipModel,
     run: RunReference,
     dye: Dye | None,
-) -> tuple[float | None, float]:
-    """The column left after the dispense: ratio and upper end."""
+) -> float | None:
+    """Ratio of a column left after the dispense."""
     seen = [kind for kind in DELIVERED if kind in looks]
     if not seen:
-        return None, 1.0
+        return None
     reference = _reference(model, dye)
     colours = [tip_colour_evidence(looks[kind], tip, reference) for kind in seen]
     edges = [edge_evidence(looks[kind]) for kind in seen]
@@ -244,8 +231,7 @@ def _retained(
         where = place(KeyframeKind.TRANSIT, due, tip, model, run)
         usual = float(joint[np.abs(u - where) < NEAR].max(initial=0.0))
         joint = np.where(u < where - NEAR, joint - max(usual, 0.0), IMPOSSIBLE)
-    row = int(np.argmax(joint))
-    return max(float(joint[row]), 0.0), float(u[row])
+    return max(float(joint.max()), 0.0)
 
 
 def _absent(
