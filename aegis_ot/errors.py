@@ -16,8 +16,7 @@
     ├── CameraError              no usable frame
     ├── StoreError               the sidecar could not keep what it received
     ├── ModelError               a vision model file cannot be used
-    ├── DatasetError             a trajectory data set is wrong: row and column
-    └── BackendError             an LLM or VLM gave no usable answer
+    └── DatasetError             a trajectory data set is wrong: row and column
 """
 
 from __future__ import annotations
@@ -89,7 +88,3 @@ class ModelError(AegisError):
 
 class DatasetError(AegisError):
     """A trajectory data set is wrong; the message lists every row and column."""
-
-
-class BackendError(AegisError):
-    """An LLM or VLM gave no usable answer."""
