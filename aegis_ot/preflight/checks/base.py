@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -75,6 +75,7 @@ class Case:
     _meant: dict[Well, dict[Well, int]] | None = None
     _dests: dict[Well, dict[Well, int]] | None = None
     _series: list[Series] | None = None
+    _fillers: Set[Well] | None = None
     _of: dict[WellRef, RoleSet] = field(default_factory=dict)
 
     @property
@@ -130,8 +131,15 @@ class Case:
     def series(self) -> list[Series]:
         """The dilution series of the protocol."""
         if self._series is None:
-            self._series = find_series(self.trace, self.roles, self.usage)
+            self._series = find_series(self.trace, self.roles, self.waste)
         return self._series
+
+    @property
+    def fillers(self) -> Set[Well]:
+        """Wells that fill a whole series, whatever they are called."""
+        if self._fillers is None:
+            self._fillers = {well for series in self.series for well in series.fillers}
+        return self._fillers
 
     def same_liquid(self, one: Well, other: Well) -> bool:
         """Whether two wells hold the same liquid, as far as roles and names say."""

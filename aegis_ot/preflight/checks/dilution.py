@@ -12,6 +12,7 @@ from ...vocabulary import Site
 from ..trace import Transfer, Visit
 from .base import Case, Check, Doubt, Result, Violation, at, place
 from .dilution_steps import NO_SERIES, is_dilution
+from .series_links import is_branched
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,9 @@ class SeriesDirection(Check):
         for series in case.series:
             if not series.directed:
                 yield Doubt("nothing says which end of the series holds the stock")
+            if is_branched(case.trace, series.links):
+                yield Doubt("a well is diluted by several factors, which no line of wells shows")
+                continue
             for step in series.links:
                 jump = series.position[step.well] - series.position[step.source]
                 if jump == 1:

@@ -28,7 +28,11 @@ def diluent_arrivals(case: Case, well: Well) -> list[int]:
         for visit in case.trace.deliveries(well)
         if any(
             source is not None
-            and (case.has(source, diluent) or _is_made_diluent(case, well, source, liquid))
+            and (
+                case.has(source, diluent)
+                or source in case.fillers
+                or _is_made_diluent(case, well, source, liquid)
+            )
             for source, _, liquid, _ in visit.parts
         )
     ]

@@ -7,12 +7,13 @@ order), running away from the well in which the stock stands.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 
 from ...vocabulary import WellRef
-from ..roles import Roles, Usage
+from ..roles import Roles
 from ..trace import Trace, Transfer, Well, chains_of, links_of
+from .series_links import along_series, first_from, is_copying
 from .series_order import best_order
 
 
@@ -27,6 +28,7 @@ class Series:
         links: Those of them between two wells of the series.
         directed: Whether the most concentrated end is known.
         entered: Index at which each well first held stock (-1: before the run).
+        fillers: Wells that all of its wells are filled from, whatever they are called.
     """
 
     wells: list[Well]
@@ -35,10 +37,11 @@ class Series:
     links: list[Transfer]
     directed: bool
     entered: dict[Well, int] = field(default_factory=dict)
+    fillers: frozenset[Well] = frozenset()
 
 
 def find_series(
-    trace: Trace, roles: Roles, usage: Mapping[WellRef, Usage], shortest: int = 2
+    trace: Trace, roles: Roles, waste: Collection[WellRef] = (), shortest: int = 2
 ) -> list[Series]:
     """All series with at least ``shortest`` transfers between their wells."""
     spec = roles.family.series
@@ -49,74 +52,29 @@ def find_series(
         for link in links_of(trace)
         if not roles.has(link.source.ref, diluent)
         and not roles.has(link.well.ref, diluent)
-        and not roles.has(link.source.ref, stock)
+        and (not roles.has(link.source.ref, stock) or _is_diluted(trace, roles, link, diluent))
+        and link.well.ref not in waste
     ]
-    links = _dilutions(trace, roles, links, diluent)
+    links, fillers = along_series(trace, roles, links, diluent)
     groups = [
         group
         for group in chains_of(links)
-        if len({(s.source, s.well) for s in group}) >= shortest and not _is_copying(trace, group)
+        if len({(s.source, s.well) for s in group}) >= shortest and not is_copying(trace, group)
     ]
     linked = {well for group in groups for link in group for well in (link.source, link.well)}
-    return [_series(trace, roles, group, stock, diluent, linked) for group in groups]
-
-
-def _is_copying(trace: Trace, links: Sequence[Transfer]) -> bool:
-    """Whether wells are only shared out to others that hold nothing else and feed none."""
-    sources = {link.source for link in links}
-    return all(
-        link.well not in sources
-        and all(
-            part[0] in (link.source, link.well)
-            for visit in trace.deliveries(link.well)
-            for part in visit.parts
-        )
-        for link in links
-    )
-
-
-def _dilutions(
-    trace: Trace, roles: Roles, links: Sequence[Transfer], diluent: frozenset[str]
-) -> list[Transfer]:
-    """Leave out transfers that copy a dilution elsewhere instead of diluting it further.
-
-    A well that is given nothing but the one transfer, off the line along which the others
-    dilute, is a copy; one that is made as the others are, a row or a column further, is not.
-    """
-    diluted = [
-        link
-        for link in links
-        if any(
-            source is not None and roles.has(source.ref, diluent)
-            for visit in trace.deliveries(link.well)
-            for source, _, _, _ in visit.parts
-        )
-    ]
-    if not diluted:
-        return list(links)
-    sure = {id(link) for link in diluted}
-    along_rows = sum(link.source.order[0] == link.well.order[0] for link in diluted)
-    along_columns = sum(link.source.order[1] == link.well.order[1] for link in diluted)
-    axis = 0 if along_rows >= along_columns else 1
-    lines = {(link.source.ref.labware, link.source.order[axis]) for link in diluted}
-    steps = {_across(link, axis) for link in diluted}
+    alike = _given_alike(trace, roles, groups, diluent)
     return [
-        link
-        for link in links
-        if id(link) in sure
-        or (
-            link.source.order[axis] == link.well.order[axis]
-            and (
-                (link.well.ref.labware, link.well.order[axis]) in lines
-                or _across(link, axis) in steps
-            )
-        )
+        _series(trace, roles, group, stock, diluent, linked, fillers, alike) for group in groups
     ]
 
 
-def _across(link: Transfer, axis: int) -> tuple[str, int, int]:
-    """Where a link begins and ends on its line, whichever of the parallel lines it is."""
-    return (link.well.ref.labware, link.source.order[1 - axis], link.well.order[1 - axis])
+def _is_diluted(trace: Trace, roles: Roles, link: Transfer, diluent: frozenset[str]) -> bool:
+    """Whether a well named as a stock was made in the run by diluting another: a standard."""
+    return not link.source.prefilled and any(
+        source is not None and roles.has(source.ref, diluent)
+        for visit in trace.deliveries(link.source)
+        for source, _, _, _ in visit.parts
+    )
 
 
 def _series(
@@ -126,6 +84,8 @@ def _series(
     stock: frozenset[str],
     diluent: frozenset[str],
     taken: Collection[Well],
+    fillers: frozenset[Well],
+    alike: Set[Well],
 ) -> Series:
     linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
     members = _with_neighbours(trace, roles, linked, diluent | stock, taken)
@@ -136,6 +96,7 @@ def _series(
     member_set = set(members)
     linked_set = set(linked)
     fed = _fed_from_outside(trace, members)
+    special = _for_the_head(roles, fed, links, diluent)
     for well in members:
         last: dict[int, Transfer] = {}
         held_stock = well.prefilled and well in linked_set and not _feeds_last(well, links)
@@ -146,11 +107,13 @@ def _series(
             for source, volume, _, line in visit.parts:
                 if source is None or source is well or volume <= 0 or source in member_set:
                     continue
-                if roles.has(source.ref, diluent):
+                if roles.has(source.ref, diluent) or source in alike:
                     continue
-                if roles.has(source.ref, stock) or (
+                if (
+                    roles.has(source.ref, stock)
+                    or (source in special and not alike.isdisjoint(fed))
                     # Unnamed, but it goes into one well only, and that one feeds the others.
-                    not roles.of(source.ref) and fed[source] == {well} and well in linked_set
+                    or (not roles.of(source.ref) and fed[source] == {well} and well in linked_set)
                 ):
                     last[id(source)] = Transfer(source, well, visit, line, True)
                     entered.setdefault(well, visit.index)
@@ -162,7 +125,8 @@ def _series(
     if entries:
         # Where stock stands in the diluent's place too, only the well that no other feeds tells.
         fed_within = {link.well for link in links}
-        heads = [well for well in entries if well not in fed_within] or entries
+        unfed = [well for well in entries if well not in fed_within]
+        heads = [well for well in unfed if well in linked_set] or unfed or entries
         ends = [position[well] for well in heads]
         middle = sum(ends) / len(ends)
         if middle != (len(order) - 1) / 2:
@@ -178,7 +142,64 @@ def _series(
         if link.source in entered and entered[link.source] < link.visit.index:
             entered.setdefault(link.well, link.visit.index)
     all_steps = sorted([*steps, *links], key=lambda s: s.visit.index)
-    return Series(order, position, all_steps, links, directed, entered)
+    fillers |= {well for well in alike if well in fed and _comes_first(trace, well, links)}
+    return Series(order, position, all_steps, links, directed, entered, fillers)
+
+
+def _given_alike(
+    trace: Trace, roles: Roles, groups: Sequence[Sequence[Transfer]], diluent: frozenset[str]
+) -> set[Well]:
+    """Sources that all wells of a chain are given, where its head alone is given another one.
+
+    That other one is what is diluted. What all get alike is no stock, whatever its name: the
+    protein that a ligand is titrated into, a dye in every well. Where other chains are filled
+    with diluent, what this one is given instead is rather a mistake.
+    """
+    alike: dict[bool, set[Well]] = {}
+    for links in groups:
+        linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
+        fed = _fed_from_outside(trace, linked)
+        found = alike.setdefault(any(roles.has(source.ref, diluent) for source in fed), set())
+        if len(linked) >= _FEWEST_ALIKE and _for_the_head(roles, fed, links, diluent):
+            found.update(source for source, wells in fed.items() if wells.issuperset(linked))
+    return alike.get(True in alike, set())
+
+
+_FEWEST_ALIKE = 3
+"""In a chain of fewer wells it says little that all of them are given the same."""
+
+
+def _for_the_head(
+    roles: Roles,
+    fed: Mapping[Well, set[Well]],
+    links: Sequence[Transfer],
+    diluent: frozenset[str],
+) -> set[Well]:
+    """Sources other than the diluent that go into the head of a chain and into no later well."""
+    later = {link.well for link in links}
+    heads = {link.source for link in links} - later
+    return {
+        source
+        for source, wells in fed.items()
+        if not roles.has(source.ref, diluent)
+        and not wells.isdisjoint(heads)
+        and wells.isdisjoint(later)
+    }
+
+
+def _comes_first(trace: Trace, source: Well, links: Sequence[Transfer]) -> bool:
+    """Whether a source gives to each well of a chain before the chain reaches it."""
+    reached = {link.well for link in links}
+    given = {
+        well
+        for well in reached
+        for visit in trace.deliveries(well)
+        if any(part[0] is source for part in visit.parts)
+    }
+    return given == reached and all(
+        first_from(trace, source, link.well).index < first_from(trace, link.source, link.well).index
+        for link in links
+    )
 
 
 def _fed_from_outside(trace: Trace, members: Sequence[Well]) -> dict[Well, set[Well]]:

@@ -42,13 +42,13 @@ def settle_diluent(roles: Roles, trace: Trace) -> None:
     sources: dict[str, set[WellRef]] = {}
     for source, well, _ in trace.feedings():
         if roles.has(source.ref, otherwise):
-            text = roles.by_well[source.ref].text
+            text = _base(roles.by_well[source.ref].text)
             filled.setdefault(text, set()).add(well.ref)
             sources.setdefault(text, set()).add(source.ref)
     if not filled:  # named, and never used: then something else is used in its place
         for ref, assigned in roles.by_well.items():
             if assigned.role in otherwise:
-                sources.setdefault(assigned.text, set()).add(ref)
+                sources.setdefault(_base(assigned.text), set()).add(ref)
         filled = {text: set() for text in sources} if len(sources) == 1 else {}
     if not filled:
         _settle_by_use(roles, trace, spec.diluent[0])
@@ -58,6 +58,11 @@ def settle_diluent(roles: Roles, trace: Trace) -> None:
         if len(wells) >= 0.3 * total:
             for ref in sources[text]:
                 roles.by_well[ref].role = spec.diluent[0]
+
+
+def _base(text: str) -> str:
+    """A name without the number that tells it from others of its kind."""
+    return text.rstrip("0123456789_ ") or text
 
 
 _FEWEST_FILLED = 3
