@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+from ...instrumentation import OperationKind
 from ...vocabulary import Site, WellRef
 from ..roles import Roles, Usage
 from ..rules import Common, Family
@@ -143,7 +144,7 @@ class Case:
 
     def same_liquid(self, one: Well, other: Well) -> bool:
         """Whether two wells hold the same liquid, as far as roles and names say."""
-        if one is other or one.ref == other.ref:
+        if one is other or one.ref == other.ref or self._laid_out_alike(one, other):
             return True
         if one.liquids and one.liquids == other.liquids and any(map(str.isdigit, one.liquids[0])):
             return True
@@ -157,6 +158,19 @@ class Case:
         return name_without_level(mine.text, self.common) == name_without_level(
             theirs.text, self.common
         )
+
+    def _laid_out_alike(self, one: Well, other: Well) -> bool:
+        """Whether one statement draws from both, which stand at one place of two reservoirs."""
+        if one.ref.name != other.ref.name:
+            return False
+        infos = [self.trace.labware.get(well.ref.labware) for well in (one, other)]
+        if not all(info is not None and info.centers_channels for info in infos):
+            return False
+        lines = [
+            {v.line for v in well.visits if v.kind is OperationKind.ASPIRATE}
+            for well in (one, other)
+        ]
+        return not lines[0].isdisjoint(lines[1])
 
     def title(self, well: Well) -> str:
         """What a well is, in words, for the middle of a sentence."""

@@ -53,7 +53,9 @@ def assign_roles(
             for ref, level in zip(clue.wells, clue.levels, strict=False):
                 levels.setdefault(ref, set()).add(level)
             continue
-        worth, passing = _worth(clue), says_only_the_side(clue, common)
+        side_only = says_only_the_side(clue, common)
+        worth = _worth(clue, side_only)
+        passing = side_only and clue.strength is Strength.LOOSE_NAME
         for ref, level in zip(clue.wells, levels_of(clue, common), strict=True):
             role = fitting_role(named, roles, sides(ref), clue)
             if role is None or (passing and _is_trough(trace, ref)):
@@ -83,8 +85,13 @@ def _is_trough(trace: Trace, ref: WellRef) -> bool:
     return info is not None and info.centers_channels
 
 
-def _worth(clue: Clue) -> tuple[float, ...]:
-    return (float(clue.strength), 0.0 if clue.whole else 1.0, -float(len(set(clue.wells))))
+def _worth(clue: Clue, side_only: bool) -> tuple[float, ...]:
+    return (
+        float(clue.strength),
+        0.0 if clue.whole else 1.0,
+        0.0 if side_only else 1.0,
+        -float(len(set(clue.wells))),
+    )
 
 
 def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:

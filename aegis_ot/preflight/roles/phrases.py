@@ -56,9 +56,7 @@ def _first_words(phrases: tuple[str, ...]) -> frozenset[str]:
 
 
 def says_only_the_side(clue: Clue, common: Common) -> bool:
-    """Whether a passing name is no more than ``src``: it is given to whatever is drawn from."""
-    if clue.strength is not Strength.LOOSE_NAME:
-        return False
+    """Whether a name is no more than ``src``: it is given to whatever is drawn from."""
     return set(tokens(clue.text)) <= _first_words(common.sides)
 
 

@@ -132,12 +132,9 @@ class TipBox:
         """Take the tips off; those put back into a rack keep their history there."""
         for nozzle, home in zip(nozzles, racks, strict=False):
             tip = self._on.pop((pipette, nozzle), None)
-            if tip is not None:
-                tip.layers.clear()
-                tip.unsure = 0.0
-                if home is not None:
-                    self._returned[home] = tip
-                    self._taken.discard(home)
+            if tip is not None and home is not None:
+                self._returned[home] = tip  # with what is in it: tips are parked full, too
+                self._taken.discard(home)
         for key in [key for key in self._on if key[0] == pipette]:
             del self._on[key]
 
