@@ -64,7 +64,7 @@ def inspect_dataset(
         )
         how = f"{scorer}, fitted on the other plates' normals"
     else:
-        held = _unscored(data, tips.samples)
+        held = _unscored(tips.samples)
         how = "none"
         notes.append(
             "One plate alone gives no model of what is normal: there are no scores, and the wells "
@@ -89,7 +89,7 @@ def inspect_dataset(
     return Inspection(data.name, data.source, facts, wells, scorer_name, (*notes, *data.warnings))
 
 
-def _unscored(data: Dataset, samples: Sequence[TrajectorySample]) -> HeldOut:
+def _unscored(samples: Sequence[TrajectorySample]) -> HeldOut:
     first = first_normals(samples)
     wells = [
         ScoredWell(sample, 0.0, 0.0, -1.0, False)

@@ -30,7 +30,7 @@ _SD = (0.004, 0.02)
 still tells anything."""
 
 
-def learn_run(signs: Sequence[Signs], model: TipModel) -> RunReference:
+def learn_run(signs: Sequence[Signs]) -> RunReference:
     """What a run's own normal wells teach, shrunk towards the tip model."""
     seen_dyes = [sign.own_dye if sign.own_dye is not None else sign.spent_dye for sign in signs]
     dyes = tuple(dye for dye in seen_dyes if dye is not None)

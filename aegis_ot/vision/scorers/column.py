@@ -116,7 +116,7 @@ class ColumnScorer:
         if not normals:
             return
         model = self._model(normals[0].pipette)
-        self.run = learn_run([_weigh(sample, model, RunReference()) for sample in normals], model)
+        self.run = learn_run([_weigh(sample, model, RunReference()) for sample in normals])
         seen: dict[str, list[float]] = defaultdict(list)
         for sample in normals:
             for sign, value in _values(_weigh(sample, model, self.run), model).items():
@@ -220,7 +220,7 @@ def _as_in_use(
         for i, sample in enumerate(members):
             if len(members) > 1:
                 other = members[(i + 1) % len(members)]
-                used.append((sample, learn_run([_weigh(other, model, RunReference())], model)))
+                used.append((sample, learn_run([_weigh(other, model, RunReference())])))
     return used or [(sample, RunReference()) for sample in samples]
 
 

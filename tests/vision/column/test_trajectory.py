@@ -65,7 +65,7 @@ def test_more_liquid_than_commanded_is_a_negative_misfill(model: TipModel) -> No
 
 
 def test_a_dye_that_is_not_there_is_missed_once_the_run_has_shown_it(model: TipModel) -> None:
-    run = learn_run([judge(trajectory("first", seed=55), model)], model)
+    run = learn_run([judge(trajectory("first", seed=55), model)])
     there = judge(trajectory("there", seed=56), model, run)
     gone = judge(trajectory("gone", full=1.0, seed=57), model, run)
     assert there.absent is not None
