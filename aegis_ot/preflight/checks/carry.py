@@ -94,17 +94,13 @@ class Carry(Check):
         if self.meant and any(case.same_liquid(origin, other) for other in brought):
             return True
         if self.pooled:
-            later = [
-                dest
-                for dest, index in case.destinations.get(well, {}).items()
-                if index >= visit.index
-            ]
+            # Water and then sample, drawn for one well, spoils no sample for its other uses.
+            clean = self._is_one_liquid(case, origin)
             held = [
                 any(case.same_liquid(origin, other) for other in case.meant.get(dest, {}))
-                for dest in later
+                for dest in _made_after(case, well, visit.index, further=clean)
             ]
-            # Water and then sample, drawn for one well, spoils no sample for its other uses.
-            if any(held) if self._is_one_liquid(case, origin) else held and all(held):
+            if any(held) if clean else held and all(held):
                 return True
         return False
 
@@ -157,6 +153,19 @@ class Carry(Check):
             (visit.line, met.line, what),
             (origin, well),
         )
+
+
+def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
+    """The wells that liquid of ``well`` goes to from now on; ``further``: and on from there."""
+    found: set[Well] = set()
+    open_ = [well]
+    while open_:
+        drawn_for = case.destinations.get(open_.pop(), {})
+        later = {dest for dest, last in drawn_for.items() if last >= index} - found
+        found |= later
+        if further:
+            open_ += later
+    return found
 
 
 def _is_called(case: Case, well: Well, roles: RoleSet) -> bool:

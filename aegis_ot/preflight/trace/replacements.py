@@ -45,6 +45,7 @@ class Replacements:
 
     def __post_init__(self) -> None:
         self._lexicon = lexicon_of({topic: tuple(phrases) for topic, phrases in self.words.items()})
+        self._plates = lexicon_of({"plate": tuple(self.words.get("plate", ()))})
 
     def shakes(self, text: str) -> bool:
         """Whether a text speaks of shaking or mixing a plate."""
@@ -56,7 +57,10 @@ class Replacements:
         """Read a pause message; an empty one says nothing, so anything may have happened."""
         if not text.strip():
             return Intervention(volumes_unsure=True)
-        topics = {match.topic for match in self._lexicon.find(text)}
+        found = self._lexicon.find(text)
+        topics = {match.topic for match in found}
+        if any(m.topic == "replace" and self._plates.find(m.phrase) for m in found):
+            topics.add("plate")  # "clean plate" says both
         shaken = "shake" in topics
         refill = "refill" in topics
         tips_only = "tips" in topics and "plate" not in topics
