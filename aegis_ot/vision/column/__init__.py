@@ -1,29 +1,22 @@
 """The liquid column in a tip, measured along the tip's axis in frame coordinates."""
 
 from .axis import rectify
-from .breaks import Break
 from .contrast import WetAndDry, Wetness
 from .evidence import Dye, EmptyColour, combine, mean_dye
 from .learning import learn_run, learn_tip
 from .measure import (
-    ColumnMeasurement,
     Reference,
     TipLook,
     ceiling,
     expected_top,
     look_at_tip,
     measure_column,
-    read_column,
-    shape_for,
 )
 from .pair import column_left
 from .profile import TipProfile
-from .strip import TipShape
 from .trajectory import RunReference, Signs, TipModel, place, weigh
 
 __all__ = [
-    "Break",
-    "ColumnMeasurement",
     "Dye",
     "EmptyColour",
     "Reference",
@@ -32,7 +25,6 @@ __all__ = [
     "TipLook",
     "TipModel",
     "TipProfile",
-    "TipShape",
     "WetAndDry",
     "Wetness",
     "ceiling",
@@ -45,8 +37,6 @@ __all__ = [
     "mean_dye",
     "measure_column",
     "place",
-    "read_column",
     "rectify",
-    "shape_for",
     "weigh",
 ]
