@@ -41,7 +41,7 @@ class SeriesFilledFirst(Check):
                 if fills and _something_after(case, series, well, fills):
                     yield Doubt("nothing says which liquid of the first well is diluted")
                     continue
-                if not fills and not _anyone_filled(case):
+                if not fills and (not _anyone_filled(case) or _filled_by_hand(case, series)):
                     yield Doubt("no diluent is seen to be added; it may be there already")
                     return
                 message = (
@@ -167,6 +167,14 @@ def first_index(step: Transfer) -> int:
 
 def _anyone_filled(case: Case) -> bool:
     return any(diluent_arrivals(case, well) for series in case.series for well in series.wells)
+
+
+def _filled_by_hand(case: Case, series: Series) -> bool:
+    """Whether most wells of a chain get no diluent, and are drawn from as if they held some."""
+    reached = {link.well for link in series.links}
+    unfilled = {well for well in reached if not diluent_arrivals(case, well)}
+    beyond = {one.well for one in case.trace.imbalances if not one.overfilled}
+    return 2 * len(unfilled) > len(reached) and 2 * len(unfilled & beyond) > len(unfilled)
 
 
 def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:

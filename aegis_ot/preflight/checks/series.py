@@ -52,7 +52,7 @@ def find_series(
         for link in links_of(trace)
         if not roles.has(link.source.ref, diluent)
         and not roles.has(link.well.ref, diluent)
-        and (not roles.has(link.source.ref, stock) or _is_diluted(trace, roles, link, diluent))
+        and (not roles.has(link.source.ref, stock) or _is_made(trace, roles, link.source, diluent))
         and link.well.ref not in waste
     ]
     links, fillers = along_series(trace, roles, links, diluent)
@@ -68,11 +68,13 @@ def find_series(
     ]
 
 
-def _is_diluted(trace: Trace, roles: Roles, link: Transfer, diluent: frozenset[str]) -> bool:
-    """Whether a well named as a stock was made in the run by diluting another: a standard."""
-    return not link.source.prefilled and any(
-        source is not None and roles.has(source.ref, diluent)
-        for visit in trace.deliveries(link.source)
+def _is_made(trace: Trace, roles: Roles, well: Well, diluent: frozenset[str]) -> bool:
+    """Whether a well named as a stock was made in the run from its neighbours: a standard."""
+    return not well.prefilled and any(
+        source is not None
+        and source is not well
+        and (roles.has(source.ref, diluent) or source.ref.labware == well.ref.labware)
+        for visit in trace.deliveries(well)
         for source, _, _, _ in visit.parts
     )
 

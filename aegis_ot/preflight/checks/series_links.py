@@ -120,7 +120,7 @@ def _dilutions(
 
     A well that is given nothing but the one transfer, off the line along which the others
     of its labware dilute, is a copy; one that is made as the others are, a row or a column
-    further, is not.
+    further, is not, nor one from which the chain goes on.
     """
     by_labware: dict[str, list[Transfer]] = {}
     for link in links:
@@ -153,15 +153,27 @@ def _dilutions_on_one(
     axis = 0 if along_rows >= along_columns else 1
     lines = {link.source.order[axis] for link in diluted}
     steps = {_across(link, axis) for link in diluted}
+    sources = {link.source for link in links}
     return [
         link
         for link in links
         if id(link) in sure
         or (
             link.source.order[axis] == link.well.order[axis]
-            and (link.well.order[axis] in lines or _across(link, axis) in steps)
+            and (
+                link.well in sources
+                or link.well.order[axis] in lines
+                or _across(link, axis) in steps
+            )
         )
+        or (link.well in sources and _begins_next_line(link, axis))
     ]
+
+
+def _begins_next_line(link: Transfer, axis: int) -> bool:
+    """Whether a link goes from the end of a line to the head of the next, as one writes."""
+    ahead = link.well.order[axis] - link.source.order[axis]
+    return ahead == 1 and link.well.order[1 - axis] == 0 < link.source.order[1 - axis]
 
 
 def _across(link: Transfer, axis: int) -> tuple[int, int]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from ...instrumentation import OperationKind
 from .trace import Trace
 from .visits import Visit
 from .wells import Well
@@ -47,7 +48,7 @@ def longest_dilution(trace: Trace) -> int:
         steps = {(s.source, s.well): s for s in group if _neighbours(s.source, s.well)}
         filled: dict[Well, int] = {}
         for step in steps.values():
-            for source in _filled_before(trace, step):
+            for source in _filled_before(step):
                 filled[source] = filled.get(source, 0) + 1
         best = max(best, max(filled.values(), default=0))
     return best
@@ -58,10 +59,23 @@ def _neighbours(one: Well, other: Well) -> bool:
     return rows + columns == 1
 
 
-def _filled_before(trace: Trace, step: Transfer) -> set[Well]:
-    """Wells of other labware that gave to the well of a step before the step did."""
+def _filled_before(step: Transfer) -> set[Well]:
+    """Wells of other labware that gave to the well of a step before the step did.
+
+    What was drawn off again before the step, a wash, fills nothing; and a well that is passed
+    through several times is rinsed.
+    """
     found: set[Well] = set()
-    for visit in trace.deliveries(step.well):
+    first = next(v for v in step.well.visits if any(p[0] is step.source for p in v.parts))
+    if any(
+        visit.kind is OperationKind.ASPIRATE and not visit.mixing
+        for visit in step.well.visits
+        if first.index < visit.index < step.visit.index
+    ):
+        return found
+    for visit in step.well.visits:
+        if visit.kind is OperationKind.ASPIRATE and not visit.mixing:
+            found.clear()
         given = {part[0] for part in visit.parts if part[0] is not None}
         if step.source in given:
             break
