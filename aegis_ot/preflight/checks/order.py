@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -49,6 +49,9 @@ class MixedAfter(Check):
             if not came or case.trace.mixed_since(well, came[-1].index, math.inf):
                 continue
             last = came[-1]
+            if _another_is_shaken(case, last.index):
+                yield Doubt("a plate is shaken that the run never fills; it may be the same one")
+                return
             what = " or ".join(case.family.roles[role].title for role in self.liquid)
             yield Violation(
                 f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
@@ -56,6 +59,15 @@ class MixedAfter(Check):
                 well,
                 (last.line, what),
             )
+
+
+def _another_is_shaken(case: Case, index: int) -> bool:
+    """Whether after this a shaker runs with nothing on it that was ever filled."""
+    filled = {well.ref.labware for well in case.trace.wells.values()}
+    return any(
+        index < at and keys is not None and filled.isdisjoint(keys)
+        for at, keys in case.trace.shaken
+    )
 
 
 @dataclass(frozen=True)
@@ -80,6 +92,9 @@ class ReceivedBefore(Check):
             for visit in arrivals(case, well, first):
                 if visit.index <= late[0].index:
                     continue
+                if _another_follows(case, late, visit.index):
+                    yield Doubt(f"{place(well)} is given two reagents, one of them afterwards")
+                    break
                 what = " or ".join(case.family.roles[role].title for role in self.then)
                 source = next(
                     (s for o, _, s, _ in delivered(visit) if case.has(o, first)), visit.well
@@ -95,6 +110,13 @@ class ReceivedBefore(Check):
                     (late[0].line, visit.line),
                 )
                 break
+
+
+def _another_follows(case: Case, late: Sequence[Visit], index: int) -> bool:
+    """Whether a liquid that came too early is one of two, the other of which comes in time."""
+    early = {s for visit in late if visit.index < index for _, _, s, _ in delivered(visit)}
+    in_time = {s for visit in late if visit.index > index for _, _, s, _ in delivered(visit)}
+    return any(all(not case.same_liquid(a, b) for b in early) for a in in_time)
 
 
 @dataclass(frozen=True)
