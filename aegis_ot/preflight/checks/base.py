@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Iterator, Mapping, Set
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -75,6 +75,8 @@ class Case:
     unsure: frozenset[WellRef] = frozenset()
     _meant: dict[Well, dict[Well, int]] | None = None
     _dests: dict[Well, dict[Well, int]] | None = None
+    _straight: dict[tuple[Well, Well], list[Visit]] = field(default_factory=dict)
+    _same: dict[tuple[Well, Well], bool] = field(default_factory=dict)
     _series: list[Series] | None = None
     _fillers: Set[Well] | None = None
     _of: dict[WellRef, RoleSet] = field(default_factory=dict)
@@ -115,6 +117,12 @@ class Case:
         assert self._dests is not None
         return self._dests
 
+    def straight(self, source: Well, well: Well) -> Sequence[Visit]:
+        """The visits that brought liquid straight from one well into another, in order."""
+        if self._dests is None:
+            self._follow()
+        return self._straight.get((source, well), ())
+
     def _follow(self) -> None:
         meant: dict[Well, dict[Well, int]] = {}
         dests: dict[Well, dict[Well, int]] = {}
@@ -126,6 +134,7 @@ class Case:
                 for origin in liquid:
                     into.setdefault(origin, visit.index)
                 dests.setdefault(source, {})[visit.well] = visit.index
+                self._straight.setdefault((source, visit.well), []).append(visit)
         self._meant, self._dests = meant, dests
 
     @property
@@ -144,6 +153,12 @@ class Case:
 
     def same_liquid(self, one: Well, other: Well) -> bool:
         """Whether two wells hold the same liquid, as far as roles and names say."""
+        known = self._same.get((one, other))
+        if known is None:
+            known = self._same[one, other] = self._is_same_liquid(one, other)
+        return known
+
+    def _is_same_liquid(self, one: Well, other: Well) -> bool:
         if one is other or one.ref == other.ref or self._laid_out_alike(one, other):
             return True
         if one.liquids and one.liquids == other.liquids and any(map(str.isdigit, one.liquids[0])):

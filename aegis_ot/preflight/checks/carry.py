@@ -56,6 +56,7 @@ class Carry(Check):
         carried, into = frozenset(self.carried), frozenset(self.into)
         not_into = frozenset(self.not_into)
         seen: set[tuple[int, int, int]] = set()
+        once = not (self.stock or self.pooled)  # later visits are judged as the first
         for visit in case.trace.visits:
             if not visit.below or not visit.carried:
                 continue
@@ -70,10 +71,13 @@ class Carry(Check):
                 if origin is well or not case.has(origin, carried):
                     continue
                 key = (visit.tip.number, id(well), id(origin))
-                if key in seen or self._let_be(case, visit, origin, met):
+                if key in seen:
                     continue
-                seen.add(key)
-                yield self._violation(case, visit, origin, met)
+                let_be = self._let_be(case, visit, origin, met)
+                if not let_be or once:
+                    seen.add(key)
+                if not let_be:
+                    yield self._violation(case, visit, origin, met)
 
     def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
         well = visit.well
@@ -91,7 +95,9 @@ class Carry(Check):
             return first is not None and (
                 _on_purpose(case, well, origin, visit) or self._made_of(case, visit, origin)
             )
-        if self.meant and any(case.same_liquid(origin, other) for other in brought):
+        if self.meant and (
+            origin in brought or any(case.same_liquid(origin, other) for other in brought)
+        ):
             return True
         if self.pooled:
             # Water and then sample, drawn for one well, spoils no sample for its other uses.
@@ -181,19 +187,14 @@ def _was_fed(case: Case, met: Met) -> bool:
 
 def _on_purpose(case: Case, stock: Well, origin: Well, visit: Visit) -> bool:
     """Whether liquid was mixed into a stock earlier, straight from its source, by another tip."""
-    for earlier in case.trace.deliveries(stock):
-        if earlier.index >= visit.index:
-            return False
-        if any(source is origin for _, _, source, _ in delivered(earlier)) and (
-            earlier.tip is not visit.tip
-            or not any(
-                other.well is stock and other.kind is OperationKind.ASPIRATE
-                for other in case.trace.visits
-                if other.tip is visit.tip and other.index < earlier.index
-            )
-        ):
-            return True
-    return False
+    earlier = [given for given in case.straight(origin, stock) if given.index < visit.index]
+    if any(given.tip is not visit.tip for given in earlier):
+        return True
+    return bool(earlier) and not any(
+        other.tip is visit.tip and other.kind is OperationKind.ASPIRATE
+        for other in stock.visits
+        if other.index < earlier[0].index
+    )
 
 
 def is_shared(case: Case, well: Well) -> bool:
