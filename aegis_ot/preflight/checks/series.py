@@ -122,20 +122,23 @@ def _series(
         for step in last.values():
             entries.append(well)
             steps.append(step)
-    position = {well: number for number, well in enumerate(order)}
     directed = False
     if entries:
         # Where stock stands in the diluent's place too, only the well that no other feeds tells.
         fed_within = {link.well for link in links}
         unfed = [well for well in entries if well not in fed_within]
-        heads = [well for well in unfed if well in linked_set] or unfed or entries
-        ends = [position[well] for well in heads]
+        heads = [well for well in unfed if well in linked_set]
+        # Among the wells of the chain, if its head is one; others may stand beside it.
+        along = [well for well in order if well in linked_set] if heads else order
+        place = {well: number for number, well in enumerate(along)}
+        ends = [place[well] for well in heads or unfed or entries]
         middle = sum(ends) / len(ends)
-        if middle != (len(order) - 1) / 2:
+        if middle != (len(along) - 1) / 2:
             directed = True
-        if middle > (len(order) - 1) / 2:
+        if middle > (len(along) - 1) / 2:
             order.reverse()
     elif links:
+        position = {well: number for number, well in enumerate(order)}
         up = sum(1 if position[s.well] > position[s.source] else -1 for s in links)
         if up < 0:
             order.reverse()

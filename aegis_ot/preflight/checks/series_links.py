@@ -12,7 +12,7 @@ _MANY = 3
 """A well that is shared out to as many others is no step of the series they may belong to."""
 
 _SAME = 0.05
-"""Shares that differ by no more of the larger one are one dilution factor."""
+"""Volumes and shares that differ by no more of the larger one are the same."""
 
 
 def along_series(
@@ -91,15 +91,19 @@ def _dilutes_in_parallel(
 
 
 def _factors(trace: Trace, links: Sequence[Transfer]) -> int:
-    """How many dilution factors these links have."""
-    if len(links) < 2:
-        return len(links)
-    shares = sorted(_share(trace, link) for link in links)
-    return 1 + sum(b - a > _SAME * b for a, b in pairwise(shares))
+    """How many dilution factors, or transferred volumes, these links have."""
+    brought = [_brought(trace, link) for link in links]
+    return max(
+        _distinct([volume for volume, _ in brought]), _distinct([share for _, share in brought])
+    )
 
 
-def _share(trace: Trace, link: Transfer) -> float:
-    """Share of a link's source in all that its well has been given when the link is made."""
+def _distinct(values: Sequence[float]) -> int:
+    return 1 + sum(b - a > _SAME * b for a, b in pairwise(sorted(values)))
+
+
+def _brought(trace: Trace, link: Transfer) -> tuple[float, float]:
+    """What a link brings, µL, and its share in all that the well has been given by then."""
     brought = total = 0.0
     for visit in trace.deliveries(link.well):
         if visit.index > link.visit.index:
@@ -110,7 +114,7 @@ def _share(trace: Trace, link: Transfer) -> float:
             total += volume
             if source is link.source:
                 brought += volume
-    return brought / total if total > 0 else 0.0
+    return brought, brought / total if total > 0 else 0.0
 
 
 def _dilutions(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...vocabulary import WellRef
-from ..trace import Trace, chains_of, links_of
+from ..trace import Trace, Well, chains_of, links_of
 from .roles import Roles
 
 
@@ -35,7 +35,12 @@ def settle_diluent(roles: Roles, trace: Trace) -> None:
     rather a mistake than a second diluent.
     """
     spec = roles.family.series
-    if spec is None or not spec.diluent or any(roles.known(role) for role in spec.diluent):
+    if spec is None or not spec.diluent:
+        return
+    if spec.wells:
+        fillings = frozenset(spec.diluent) | frozenset(spec.diluent_else)
+        _rename_filled(roles, trace, fillings, spec.wells[0])
+    if any(roles.known(role) for role in spec.diluent):
         return
     otherwise = frozenset(spec.diluent_else)
     filled: dict[str, set[WellRef]] = {}
@@ -58,6 +63,32 @@ def settle_diluent(roles: Roles, trace: Trace) -> None:
         if len(wells) >= 0.3 * total:
             for ref in sources[text]:
                 roles.by_well[ref].role = spec.diluent[0]
+
+
+_MANY_FED = 3
+"""A well that feeds as many others of its labware holds something for all of them."""
+
+
+def _rename_filled(roles: Roles, trace: Trace, fillings: frozenset[str], series: str) -> None:
+    """Wells called after what they are filled with: ``diluent_destinations`` are a series.
+
+    They get diluent from where it stands, and then stand in a chain with their neighbours.
+    """
+    filled: set[Well] = set()
+    linked: set[Well] = set()
+    fed: dict[Well, set[Well]] = {}
+    for source, well, _ in trace.feedings():
+        if well.ref.labware == source.ref.labware:
+            linked |= {source, well}
+            fed.setdefault(source, set()).add(well)
+        elif roles.has(source.ref, fillings) and not well.prefilled:
+            filled.add(well)
+    for well in filled & linked:
+        assigned = roles.by_well.get(well.ref)
+        if assigned is None or len(fed.get(well, ())) >= _MANY_FED:
+            continue
+        if not fillings.isdisjoint(roles.closure(assigned.role)):
+            assigned.role = series
 
 
 def _base(text: str) -> str:
