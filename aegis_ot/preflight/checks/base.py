@@ -79,7 +79,7 @@ class Case:
     _same: dict[tuple[Well, Well], bool] = field(default_factory=dict)
     _series: list[Series] | None = None
     _fillers: Set[Well] | None = None
-    _of: dict[WellRef, RoleSet] = field(default_factory=dict)
+    _of: dict[Well, RoleSet] = field(default_factory=dict)
 
     @property
     def family(self) -> Family:
@@ -88,9 +88,9 @@ class Case:
 
     def of(self, well: Well) -> RoleSet:
         """All roles of a well."""
-        found = self._of.get(well.ref)
+        found = self._of.get(well)
         if found is None:
-            found = self._of[well.ref] = self.roles.of(well.ref)
+            found = self._of[well] = self.roles.of(well.ref)
         return found
 
     def has(self, well: Well, wanted: RoleSet) -> bool:

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import Met, Visit, Well
+from ..trace import Met, Tip, Visit, Well
 from .base import (
     Case,
     Check,
@@ -55,7 +55,8 @@ class Carry(Check):
         """Look at every contact of a well with a tip that had met something before."""
         carried, into = frozenset(self.carried), frozenset(self.into)
         not_into = frozenset(self.not_into)
-        seen: set[tuple[int, int, int]] = set()
+        carriers = set(case.wells(carried))
+        seen: set[tuple[Tip, Well, Well]] = set()
         once = not (self.stock or self.pooled)  # later visits are judged as the first
         for visit in case.trace.visits:
             if not visit.below or not visit.carried:
@@ -68,10 +69,8 @@ class Carry(Check):
             if self.stock and not case.destinations.get(well):
                 continue  # tips are rinsed in it; nothing is made of it
             for origin, met in carried_liquids(visit):
-                if origin is well or not case.has(origin, carried):
-                    continue
-                key = (visit.tip.number, id(well), id(origin))
-                if key in seen:
+                key = (visit.tip, well, origin)
+                if origin not in carriers or origin is well or key in seen:
                     continue
                 let_be = self._let_be(case, visit, origin, met)
                 if not let_be or once:
@@ -182,7 +181,8 @@ def _is_called(case: Case, well: Well, roles: RoleSet) -> bool:
 
 def _was_fed(case: Case, met: Met) -> bool:
     """Whether a well was a destination when the tip met it: something had been put into it."""
-    return any(index <= met.index for index in case.meant.get(met.well, {}).values())
+    first = next(iter(case.meant.get(met.well, {}).values()), None)
+    return first is not None and first <= met.index
 
 
 def _on_purpose(case: Case, stock: Well, origin: Well, visit: Visit) -> bool:
