@@ -65,6 +65,19 @@ def _is_of_another_stage(case: Case, well: Well, served: set[tuple[str, str]]) -
     return fed_from[True].isdisjoint(fed_from[False])
 
 
+def _is_handed_on(case: Case, well: Well, wells: RoleSet) -> bool:
+    """Whether something unknown fills this well, or nothing but what such wells held before."""
+    sources = [
+        part[0]
+        for visit in case.trace.deliveries(well)
+        for part in visit.parts
+        if part[0] is not None and part[0] is not well
+    ]
+    if any(not case.of(source) for source in sources):
+        return True
+    return bool(sources) and all(case.has(source, wells) for source in sources)
+
+
 def _last_line(case: Case, well: Well) -> int | None:
     """The line that last brought something to the labware of a well that nothing ever enters."""
     lines = [
@@ -141,7 +154,10 @@ class Receives(Check):
             if (
                 case.loose_volumes
                 and not case.has(well, frozenset(self.always))
-                and _is_of_another_stage(case, well, served)
+                and (
+                    _is_of_another_stage(case, well, served)
+                    or _is_handed_on(case, well, frozenset(self.wells))
+                )
             ):
                 yield Doubt(f"{place(well)} is filled from elsewhere, after a clean-up perhaps")
                 continue

@@ -57,6 +57,11 @@ class _Builder:
         self._cycle: dict[str, Step] = {}
 
     def run(self, log: Iterable[Record]) -> Trace:
+        log = list(log)
+        for record in log:
+            # Wherever it stands in the text, it tells what is there before the run.
+            if isinstance(record, Event) and record.kind is EventKind.LIQUID_LOADED:
+                self._liquid(record)
         for record in log:
             self._index += 1
             if isinstance(record, Event):
@@ -73,16 +78,6 @@ class _Builder:
         kind = event.kind
         if kind is EventKind.LABWARE_LOADED:
             self._slots[event.labware] = event.text
-        elif kind is EventKind.LIQUID_LOADED:
-            for ref in event.wells:
-                well = self._plates.well(ref)
-                if event.text and event.text not in well.liquids:
-                    well.liquids.append(event.text)
-                if event.description:
-                    self._trace.descriptions.setdefault(event.text, event.description)
-                well.fill_before_run(event.volume)
-                if not event.text and event.volume == 0:
-                    well.declared = 0.0  # declared to be empty, which "no volume" does not say
         elif kind is EventKind.TIPS_RESET:
             self._box.refill_rack(event.labware)
         elif kind is EventKind.LABWARE_MOVED:
@@ -97,6 +92,17 @@ class _Builder:
                 self._trace.shaken.append((self._index, plates))
         elif kind is EventKind.COMMENT:
             self._trace.comments.append((event.line, event.text))
+
+    def _liquid(self, event: Event) -> None:
+        for ref in event.wells:
+            well = self._plates.well(ref)
+            if event.text and event.text not in well.liquids:
+                well.liquids.append(event.text)
+            if event.description:
+                self._trace.descriptions.setdefault(event.text, event.description)
+            well.fill_before_run(event.volume)
+            if not event.text and event.volume == 0:
+                well.declared = 0.0  # declared to be empty, which "no volume" does not say
 
     def _paused(self, event: Event) -> None:
         self._trace.comments.append((event.line, event.text))
