@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import Any, ClassVar
 
 from ...instrumentation import OperationKind
@@ -206,14 +207,14 @@ def at(line: int | None) -> str:
     return f"at line {line}" if line else "somewhere in the protocol"
 
 
-def carried_liquids(visit: Visit) -> Iterator[tuple[Well, Met]]:
-    """The liquids that the tip had met before this visit, with the first contact."""
-    left = visit.carried
-    for origin, met in visit.tip.origins.items():
-        if left <= 0:
-            return
-        left -= 1
-        yield origin, met
+def carried_liquids(visit: Visit, after: int = 0) -> Iterator[tuple[Well, Met]]:
+    """The liquids that the tip had met before this visit, with the first contact.
+
+    Args:
+        visit: The visit.
+        after: How many to pass over: the tip had met those before an earlier visit.
+    """
+    return islice(visit.tip.origins.items(), after, visit.carried)
 
 
 def delivered(visit: Visit) -> Iterator[tuple[Well, float, Well, int | None]]:

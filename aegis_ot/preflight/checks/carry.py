@@ -56,8 +56,9 @@ class Carry(Check):
         carried, into = frozenset(self.carried), frozenset(self.into)
         not_into = frozenset(self.not_into)
         carriers = set(case.wells(carried))
-        seen: set[tuple[Tip, Well, Well]] = set()
         once = not (self.stock or self.pooled)  # later visits are judged as the first
+        judged: dict[tuple[Tip, Well], int] = {}
+        let_be: dict[tuple[Tip, Well], list[tuple[Well, Met]]] = {}
         for visit in case.trace.visits:
             if not visit.below or not visit.carried:
                 continue
@@ -68,15 +69,16 @@ class Carry(Check):
                 continue
             if self.stock and not case.destinations.get(well):
                 continue  # tips are rinsed in it; nothing is made of it
-            for origin, met in carried_liquids(visit):
-                key = (visit.tip, well, origin)
-                if origin not in carriers or origin is well or key in seen:
+            key = (visit.tip, well)
+            again = let_be.pop(key, [])
+            for origin, met in (*again, *carried_liquids(visit, judged.get(key, 0))):
+                if origin not in carriers or origin is well:
                     continue
-                let_be = self._let_be(case, visit, origin, met)
-                if not let_be or once:
-                    seen.add(key)
-                if not let_be:
+                if not self._let_be(case, visit, origin, met):
                     yield self._violation(case, visit, origin, met)
+                elif not once:
+                    let_be.setdefault(key, []).append((origin, met))
+            judged[key] = visit.carried
 
     def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
         well = visit.well
