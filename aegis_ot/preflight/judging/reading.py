@@ -167,5 +167,11 @@ def _prefilled_by_words(clues: Iterable[Clue], common: Common) -> set[WellRef]:
 
 
 def _waste(clues: Iterable[Clue], common: Common) -> frozenset[WellRef]:
+    """Wells that are called waste; "to waste" beside a transfer means where it goes."""
     lexicon = lexicon_of({"waste": common.waste})
-    return frozenset(ref for clue in clues if lexicon.find(clue.text) for ref in clue.wells)
+    return frozenset(
+        ref
+        for clue in clues
+        if clue.step != "source" and lexicon.find(clue.text)
+        for ref in clue.wells
+    )

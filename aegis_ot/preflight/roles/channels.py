@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...vocabulary import WellRef
 from ..trace import Trace
 from .roles import Roles
 
@@ -11,6 +12,7 @@ def spread_over_channels(roles: Roles, trace: Trace) -> None:
 
     Only where the named well is never used alone, and the others have no better evidence.
     """
+    fed = _fed_by(roles, trace)
     for first, group in trace.groups.items():
         assigned = roles.by_well.get(first)
         if assigned is None or first in trace.singles:
@@ -18,6 +20,9 @@ def spread_over_channels(roles: Roles, trace: Trace) -> None:
         for ref in group:
             if ref == first or ref in trace.singles:
                 continue
+            one, own = fed.get(first, set()), fed.get(ref, set())
+            if one - own and own - one:
+                continue  # water in the first channel, samples in the others
             other = roles.by_well.get(ref)
             if other is not None and other.role == assigned.role:
                 if other.level is None:
@@ -30,3 +35,13 @@ def spread_over_channels(roles: Roles, trace: Trace) -> None:
                 and not assigned.by_label
             ):
                 roles.by_well[ref] = assigned.copied("same channel group")
+
+
+def _fed_by(roles: Roles, trace: Trace) -> dict[WellRef, set[str]]:
+    """The named roles of all that each well is filled from."""
+    found: dict[WellRef, set[str]] = {}
+    for source, well, _ in trace.feedings():
+        assigned = roles.by_well.get(source.ref)
+        if assigned is not None:
+            found.setdefault(well.ref, set()).add(assigned.role)
+    return found

@@ -35,6 +35,7 @@ class Clue:
         levels: Concentrations or doses beside the wells, if any.
         subject: Whether only the last word names the thing, as in ``sample_buffer``.
         step: For a comment beside a transfer: ``source`` or ``destination`` of the transfer.
+        lone: Whether it speaks of its wells only if it names a single role.
     """
 
     strength: Strength
@@ -47,6 +48,7 @@ class Clue:
     levels: tuple[float | None, ...] = ()
     subject: bool = True
     step: str = ""
+    lone: bool = False
 
 
 def shortened(text: str) -> str:

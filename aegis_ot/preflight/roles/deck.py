@@ -19,9 +19,12 @@ class Deck:
         for well in trace.wells.values():
             self.refs.setdefault((well.ref.labware, well.ref.name), well.ref)
         self.by_name: dict[str, set[str]] = {}
+        self.of_wells: dict[str, set[str]] = {}
         for binding in names:
             if binding.labware and not binding.wells:
                 self.by_name.setdefault(binding.name, set()).update(binding.labware)
+            for ref in binding.wells:
+                self.of_wells.setdefault(binding.name, set()).add(ref.labware)
         self.received = {
             (well.ref.labware, well.ref.name)
             for well in trace.wells.values()

@@ -11,6 +11,7 @@ from ..text import SourceFacts
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
+from .labels import labels
 from .loop_levels import loop_levels
 from .names import call_arguments, named_wells
 from .places import indexing_names
@@ -41,14 +42,14 @@ def gather(
         *_given(deck, given),
         *_liquids(trace, facts),
         *named_wells(deck, names, facts, common),
-        *_labels(deck),
-        *indexing_names(deck, facts),
+        *labels(deck),
+        *indexing_names(deck, facts, common),
         *plate_maps(deck, facts, common),
         *spotted_names(deck, names, facts, common),
         *tabled_wells(deck, names, facts, common),
         *written_wells(deck, facts, common),
         *step_comments(trace, facts, common),
-        *call_arguments(trace, facts),
+        *call_arguments(trace, facts, common),
         *loop_levels(trace, names, facts, common),
     ]
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
@@ -84,17 +85,4 @@ def _liquids(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
                 None,
                 f"liquid '{liquid}', described as '{shortened(description)}'",
                 subject=False,
-            )
-
-
-def _labels(deck: Deck) -> Iterator[Clue]:
-    for info in deck.trace.labware.values():
-        if info.label and not info.is_tip_rack and not info.is_trash:
-            yield Clue(
-                Strength.NAME,
-                info.label,
-                deck.used_wells((info.key,)),
-                None,
-                f"label '{info.label}'",
-                whole=True,
             )

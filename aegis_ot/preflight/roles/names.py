@@ -14,6 +14,7 @@ from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .levels import is_number
+from .well_names import WELL_SPEC
 
 
 def named_wells(
@@ -56,7 +57,7 @@ def named_wells(
                 levels=(amounts_named[binding.name],) * len(wells),
             )
         note = facts.notes.get(base)
-        if note and not loose and binding.name == base:
+        if note and not loose and binding.name == base and _of_all(note, wells, common):
             yield Clue(
                 Strength.COMMENT,
                 note,
@@ -65,11 +66,24 @@ def named_wells(
                 f"comment '{shortened(note)}' at line {line}",
                 whole=whole,
                 subject=False,
+                lone=len(wells) > 1,
             )
 
 
-def call_arguments(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
+def _of_all(note: str, wells: Sequence[WellRef], common: Common) -> bool:
+    """Whether a comment speaks of all the wells of the name that it stands beside.
+
+    Not "H1 NTC", which :mod:`.remarks` reads, and not "the last one is the NTC".
+    """
+    if len(set(wells)) < 2:
+        return True
+    some = lexicon_of({"some": (*common.partly, *common.negations)})
+    return not WELL_SPEC.search(note) and not some.find(note)
+
+
+def call_arguments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """Names of what calls draw from and give to: every value that a loop variable took."""
+    positions = {word for phrase in common.positions for word in tokens(phrase)}
     used: dict[tuple[str, str], dict[WellRef, None]] = {}
     at_line: dict[str, int] = {}
     for visit in trace.visits:
@@ -77,8 +91,8 @@ def call_arguments(trace: Trace, facts: SourceFacts) -> Iterator[Clue]:
             continue
         side = "source" if visit.kind is OperationKind.ASPIRATE else "destination"
         for wanted, argument in facts.arguments[visit.line]:
-            if wanted != side or _counts(facts, argument):
-                continue
+            if wanted != side or _counts(facts, argument) or positions >= set(tokens(argument)):
+                continue  # `pos` says where it stands, not what it holds
             for name in (argument, *_looped_over(facts, argument, visit.line)):
                 used.setdefault((side, name), {})[visit.well.ref] = None
                 at_line.setdefault(name, visit.line)

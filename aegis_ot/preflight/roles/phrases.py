@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from ..rules import Common, Family
 from ..text import Lexicon, lexicon_of, tokens
@@ -35,6 +35,8 @@ def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
     for match in lexicon.find(clue.text):
         places.setdefault(match.start, []).append(match.topic)
     words = lexicon.words(clue.text)
+    if clue.step == "source":
+        places = _drawn(places, words, common)
     joints = [at for at, word in enumerate(words) if word in _first_words(common.joints)]
     if joints and any(at < joints[0] for at in places):
         # "drug in medium" is a drug.
@@ -50,7 +52,27 @@ def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
     return [topic for group in ordered for topic in group if not topic.startswith("!")]
 
 
-@functools.lru_cache(maxsize=8)
+def _drawn(
+    places: Mapping[int, list[str]], words: Sequence[str], common: Common
+) -> dict[int, list[str]]:
+    """What a comment beside a transfer says of what is drawn: nothing in "last 100 to waste".
+
+    What follows "to", an article apart, is where the liquid goes, not what it is.
+    """
+    toward, articles = _first_words(common.toward), _first_words(common.articles)
+    end = len(words)
+    for at, word in enumerate(words):
+        if word in toward:
+            then = at + 1
+            while then < end and words[then] in articles:
+                then += 1
+            if then in places:
+                end = at
+                break
+    return {at: topics for at, topics in places.items() if at < end}
+
+
+@functools.lru_cache(maxsize=16)
 def _first_words(phrases: tuple[str, ...]) -> frozenset[str]:
     return frozenset(tokens(phrase)[0] for phrase in phrases)
 
@@ -67,10 +89,15 @@ def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:
     """
     if clue.subject and not _BOTH & set(tokens(clue.text)):
         return False
+    return _unlike(fitting, roles)
+
+
+def _unlike(named: Sequence[str], roles: Roles) -> bool:
+    """Whether two of these are neither the same nor one a kind of the other."""
     return any(
         one not in roles.closure(other) and other not in roles.closure(one)
-        for one in fitting
-        for other in fitting
+        for one in named
+        for other in named
     )
 
 
@@ -83,7 +110,7 @@ def fitting_role(
         return named[0]
     specs = roles.family.roles
     side, passes_on = sides
-    if clue.step == "destination" and len(named) > 1:
+    if clue.lone and _unlike(named, roles):
         return None
     if clue.step and clue.step != side:
         return None

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ...vocabulary import WellRef
-from ..text import Place, SourceFacts
+from ..rules import Common
+from ..text import Place, SourceFacts, tokens
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
 
 
-def indexing_names(deck: Deck, facts: SourceFacts) -> Iterator[Clue]:
+def indexing_names(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """What labware was indexed with."""
+    positions = {word for phrase in common.positions for word in tokens(phrase)}
     for place in facts.places:
         keys = deck.by_name.get(place.labware, set())
         if len(keys) != 1:
@@ -20,6 +22,8 @@ def indexing_names(deck: Deck, facts: SourceFacts) -> Iterator[Clue]:
         key = next(iter(keys))
         wells = tuple(_indexed(deck, key, place))
         for name in place.names:
+            if positions >= set(tokens(name)):
+                continue
             if wells and ("<comprehension>", name) not in facts.loose:
                 yield Clue(
                     Strength.NAME,

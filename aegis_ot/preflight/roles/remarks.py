@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, lexicon_of, tokens
 from ..trace import Trace
+from .clauses import Part, parts_of
 from .clues import Clue, Strength, shortened
 from .deck import Deck
-from .well_names import WELL_SPEC, wells_meant
+from .labware_nouns import LabwareNouns
+from .well_names import wells_meant
 
 
 def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
@@ -20,52 +21,40 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     texts = list(facts.docstrings)
     texts += list(facts.comments.items())
     texts += [(1, text) for text in facts.metadata.values()]
+    nouns = LabwareNouns(deck, common)
+    noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
     for line, text in texts:
-        heading = ""
+        heading: frozenset[str] = frozenset()
         for number, written in enumerate(text.splitlines() or [text]):
-            of_line = _labware_named(deck, written, common)
+            of_line = nouns.named(written) or nouns.heading(written)
             if of_line and written.rstrip().endswith(":"):
                 heading = of_line
             elif not written.strip():
-                heading = ""
-            for clause in re.split(
-                r"[;|]|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))", written
-            ):
-                found = list(WELL_SPEC.finditer(clause))
-                if not found or len(clause) > 160:
+                heading = frozenset()
+            for part in parts_of(written):
+                if not part.wells or len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
                     continue
-                rest = WELL_SPEC.sub(" ", clause)
-                if not tokens(rest):
-                    continue
-                named = _labware_named(deck, clause, common) or of_line or heading
-                yield from _spoken(deck, clause, rest, found, line + number, named)
+                keys = (
+                    nouns.named(part.text)
+                    or nouns.before(part)
+                    or noted.get(written)
+                    or of_line
+                    or heading
+                )
+                yield from _spoken(deck, part, line + number, keys)
 
 
-def _labware_named(deck: Deck, text: str, common: Common) -> str:
-    """The one labware that a text calls by its label or by the name of its variable."""
-    words = f" {' '.join(tokens(text))} "
-    named = {
-        info.key
-        for info in deck.plates()
-        if info.label and f" {' '.join(tokens(info.label))} " in words
-    }
-    if not named:
-        dull = {word for phrase in common.pauses.get("plate", ()) for word in tokens(phrase)}
-        for name, keys in deck.by_name.items():
-            telling = set(tokens(name)) - dull
-            if len(keys) == 1 and telling and f" {' '.join(tokens(name))} " in words:
-                named |= keys
-    return next(iter(named)) if len(named) == 1 else ""
+_LONGEST_CLAUSE = 160
 
 
-def _spoken(
-    deck: Deck, clause: str, rest: str, found: Sequence[re.Match[str]], line: int, named: str
-) -> Iterator[Clue]:
+def _spoken(deck: Deck, part: Part, line: int, keys: frozenset[str]) -> Iterator[Clue]:
     meant: dict[str, list[WellRef]] = {}
-    for info in [deck.trace.labware[named]] if named else deck.plates():
+    for info in deck.plates():
+        if keys and info.key not in keys:
+            continue
         wells = [
             deck.ref(info.key, name)
-            for match in found
+            for match in part.wells
             for name in wells_meant(match, info)
             if (info.key, name) in deck.refs
         ]
@@ -83,10 +72,10 @@ def _spoken(
     for wells in meant.values():
         yield Clue(
             Strength.COMMENT,
-            rest,
+            part.words,
             tuple(wells),
             line,
-            f"'{shortened(clause)}' at line {line}",
+            f"'{shortened(part.text)}' at line {line}",
             subject=False,
         )
 
@@ -128,7 +117,16 @@ def step_comments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[
             yield Clue(Strength.COMMENT, text, sources, line, said, subject=False, step="source")
         into = tuple(given.get(text, ()))
         if into and count <= _LONGEST_STEP_COMMENT // 2 and len(into) <= 8:
-            yield Clue(Strength.COMMENT, text, into, line, said, subject=False, step="destination")
+            yield Clue(
+                Strength.COMMENT,
+                text,
+                into,
+                line,
+                said,
+                subject=False,
+                step="destination",
+                lone=True,
+            )
 
 
 def _comment_of_line(facts: SourceFacts) -> dict[int, str]:

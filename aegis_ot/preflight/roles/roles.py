@@ -32,7 +32,7 @@ class Assignment:
     @property
     def by_label(self) -> bool:
         """Whether nothing but the name of a whole labware says so."""
-        return all("label" in said for said in self.evidence)
+        return all(said.startswith("label") for said in self.evidence)
 
     def copied(self, why: str) -> Assignment:
         """The same for a well that shares this one's part, which the evidence then says."""

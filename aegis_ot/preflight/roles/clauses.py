@@ -1,0 +1,73 @@
+"""Cuts what is written into parts that each speak of wells of their own.
+
+"A1-G1 samples, H1 NTC" has two parts, and so has "soil DNA in columns 1-3 (A1 = water)".
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+from ..text import tokens
+from .well_names import WELL_SPEC
+
+_BREAKS = re.compile(r"[;|]|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))")
+_BRACKETS = re.compile(r"[(\[]([^()\[\]]*)[)\]]")
+_LISTED = re.compile(r"[\s,/&+]*(?:(?:and|und|et|y|e|or)\b[\s,]*)?")
+"""What stands between the wells of one list: "A1, B1 and C1"."""
+
+
+class Part(NamedTuple):
+    """A part of a text: as written, without its well names, and the matches of these."""
+
+    text: str
+    words: str
+    wells: tuple[re.Match[str], ...]
+
+
+def parts_of(text: str) -> Iterator[Part]:
+    """The parts of one line, in order; a part that names no wells has an empty ``wells``."""
+    for clause in _clauses(text):
+        groups = _groups(clause)
+        for piece in _shares(clause, groups) if len(groups) > 1 else [clause]:
+            words = WELL_SPEC.sub(" ", piece)
+            yield Part(piece.strip(), words, tuple(WELL_SPEC.finditer(piece)))
+
+
+def _clauses(text: str) -> Iterator[str]:
+    """What commas and the like divide; a bracket that says something of wells stands alone."""
+    apart = [
+        inner
+        for inner in _BRACKETS.findall(text)
+        if WELL_SPEC.search(inner) and tokens(WELL_SPEC.sub(" ", inner))
+    ]
+    for inner in apart:
+        text = text.replace(f"({inner})", " ").replace(f"[{inner}]", " ")
+    for whole in (text, *apart):
+        yield from (clause for clause in _BREAKS.split(whole) if clause.strip())
+
+
+def _groups(clause: str) -> list[tuple[int, int]]:
+    """Start and end of each list of wells in a clause."""
+    found: list[tuple[int, int]] = []
+    for match in WELL_SPEC.finditer(clause):
+        if found and _LISTED.fullmatch(clause, found[-1][1], match.start()):
+            found[-1] = (found[-1][0], match.end())
+        else:
+            found.append(match.span())
+    return found
+
+
+def _shares(clause: str, groups: Sequence[tuple[int, int]]) -> list[str]:
+    """One piece for each list of wells, where it is plain which words go with which."""
+    before, after = tokens(clause[: groups[0][0]]), tokens(clause[groups[-1][1] :])
+    if after and not before:  # "A1 standards B1 blanks"
+        cuts = [start for start, _ in groups[1:]]
+    elif before and not after:  # "standards A1 blanks B1"
+        cuts = [end for _, end in groups[:-1]]
+    else:
+        return [clause]
+    bounds = [0, *cuts, len(clause)]
+    return [clause[one:other] for one, other in pairwise(bounds)]
