@@ -176,17 +176,22 @@ class Case:
         )
 
     def _laid_out_alike(self, one: Well, other: Well) -> bool:
-        """Whether one statement draws from both, which stand at one place of two reservoirs."""
-        if one.ref.name != other.ref.name:
+        """Whether one statement draws from both, which stand at one place of two reservoirs.
+
+        Not where their names or labels tell them apart.
+        """
+        if one.ref.name != other.ref.name or self.level(one) != self.level(other):
             return False
-        infos = [self.trace.labware.get(well.ref.labware) for well in (one, other)]
-        if not all(info is not None and info.centers_channels for info in infos):
+        mine, theirs = self.roles.by_well.get(one.ref), self.roles.by_well.get(other.ref)
+        if mine and theirs and mine.role == theirs.role and mine.text != theirs.text:
             return False
-        lines = [
-            {v.line for v in well.visits if v.kind is OperationKind.ASPIRATE}
-            for well in (one, other)
-        ]
-        return not lines[0].isdisjoint(lines[1])
+        info, their_info = (self.trace.labware.get(well.ref.labware) for well in (one, other))
+        if info is None or their_info is None or info.label != their_info.label:
+            return False
+        if not (info.centers_channels and their_info.centers_channels):
+            return False
+        lines = {v.line for v in one.visits if v.kind is OperationKind.ASPIRATE}
+        return any(v.line in lines for v in other.visits if v.kind is OperationKind.ASPIRATE)
 
     def title(self, well: Well) -> str:
         """What a well is, in words, for the middle of a sentence."""
