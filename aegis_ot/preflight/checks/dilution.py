@@ -12,7 +12,7 @@ from ...vocabulary import Site
 from ..trace import Transfer, Visit
 from .base import Case, Check, Doubt, Result, Violation, at, place
 from .dilution_steps import NO_SERIES, is_dilution
-from .series_links import is_branched
+from .series_links import branching
 
 
 @dataclass(frozen=True)
@@ -74,12 +74,18 @@ class SeriesDirection(Check):
         for series in case.series:
             if not series.directed:
                 yield Doubt("nothing says which end of the series holds the stock")
-            if is_branched(case.trace, series.links):
-                yield Doubt("a well is diluted by several factors, which no line of wells shows")
-                continue
-            for step in series.links:
-                jump = series.position[step.well] - series.position[step.source]
+            branches = branching(case.trace, series.links)
+            jumps = [
+                series.position[step.well] - series.position[step.source] for step in series.links
+            ]
+            backwards = 2 * sum(jump == -1 for jump in jumps) > len(jumps)
+            for step, jump in zip(series.links, jumps, strict=True):
                 if jump == 1:
+                    continue
+                if step.source in branches or (branches and jump < 0 and not backwards):
+                    yield Doubt(
+                        "a well is diluted by several factors, which no line of wells shows"
+                    )
                     continue
                 if jump < 0:
                     what = "towards the more concentrated end"

@@ -52,9 +52,9 @@ def is_copying(trace: Trace, links: Sequence[Transfer]) -> bool:
     )
 
 
-def is_branched(trace: Trace, links: Iterable[Transfer]) -> bool:
-    """Whether some well is diluted by different factors into others: no line, but a tree."""
-    return any(_factors(trace, given) > 1 for given in _by_source(links).values())
+def branching(trace: Trace, links: Iterable[Transfer]) -> set[Well]:
+    """Wells that are diluted by different factors into others: no line, but a tree."""
+    return {well for well, given in _by_source(links).items() if _factors(trace, given) > 1}
 
 
 def _by_source(links: Iterable[Transfer]) -> dict[Well, list[Transfer]]:
