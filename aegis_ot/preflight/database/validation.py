@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from ...errors import RuleError
 from ..checks import make_check
 from ..rules import Family, RoleSpec, RuleSpec
+from ..trace import SHAPES
 
 
 def check_family(family: Family, file: str) -> None:
@@ -21,6 +22,16 @@ def check_family(family: Family, file: str) -> None:
     """
     for name, role in family.roles.items():
         _check_role(family, name, role, file)
+    for signal in family.shapes:
+        for shape in (signal.shape, *signal.unless):
+            if shape not in SHAPES:
+                raise RuleError(
+                    f"{file}: shapes: there is no shape {shape!r}; known are {', '.join(SHAPES)}"
+                )
+    for together in family.known_by:
+        for alternatives in together.roles:
+            for name in alternatives.split("|"):
+                _known(family, name, f"{file}: known_by")
     for rule in family.rules:
         _check_rule(family, rule, f"{file}: rule {rule.id}")
 

@@ -87,8 +87,8 @@ def read_recording(recording: Recording, database: Database, options: Options) -
     replacements = Replacements(common.pauses)
     trace = build_trace(recording.log, recording.labware, replacements)
     clues = gather(trace, recording.names, facts, options.roles, common)
-    families = infer_families(database, facts, clues, trace, options.assay)
     usage = usage_of(trace)
+    families = infer_families(database, facts, clues, trace, usage, options.assay)
     roles = [
         assign_roles(database.family(inference.family), common, clues, usage, trace)
         for inference in families

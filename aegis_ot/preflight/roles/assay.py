@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from ...vocabulary import WellRef
 from ..rules import Common, Database, Family
 from ..text import SourceFacts, lexicon_of, tokens
-from ..trace import Trace, longest_chain, longest_dilution
+from ..trace import Trace, shapes_of
+from .assigning import assign_roles
 from .clues import Clue, Strength
+from .roles import Roles
+from .usage import Usage
 
 PLACES = {"metadata": 3.0, "liquid": 2.0, "name": 1.5, "text": 1.0, "string": 0.7}
 """How much a word counts by where it stands: a title says more than a stray comment."""
@@ -53,6 +57,7 @@ def infer_families(
     facts: SourceFacts,
     clues: Sequence[Clue],
     trace: Trace,
+    usage: Mapping[WellRef, Usage],
     given: Sequence[str] = (),
 ) -> list[Inference]:
     """All families, the likeliest first.
@@ -61,25 +66,31 @@ def infer_families(
         database: The rule database.
         facts: What the text says.
         clues: Names, liquids and labels.
-        trace: For the shape: a chain of transfers speaks for a serial dilution.
+        trace: For the shapes: a chain of transfers speaks for a serial dilution.
+        usage: How the run uses each well.
         given: Families given by hand; they apply, and no other does.
     """
     texts = list(_texts(facts, clues, trace))
-    chain, dilution = longest_chain(trace), longest_dilution(trace)
+    shapes = shapes_of(trace)
     scored = []
     for family in database.families:
         found = _found(family, texts, database.common)
-        if family.chain_weight and chain >= 2:
-            # Wells filled from one place that then feed each other are a series without a word.
-            weight = family.chain_weight * (2 if dilution >= 3 else 1)
-            said = f"a chain of {chain} transfers from well to well"
-            found.append(_Found(weight * min(chain, 6) / 3, said, LONE, True))
+        found += _seen(family, shapes, bool(found))
+        if family.known_by and not (_score(found) >= SURE and _defines(found)):
+            roles = assign_roles(family, database.common, clues, usage, trace)
+            found += _named(family, roles, _score(found))
         found.sort(key=lambda one: -one.worth)
-        scored.append((max(sum(one.worth for one in found), 0.0), family, found))
+        scored.append((max(_score(found), 0.0), family, found))
     scored.sort(key=lambda item: -item[0])
     total = sum(score for score, _, _ in scored) or 1.0
     known = [score for score, _, found in scored if score >= SURE and _defines(found)]
     best = max(known, default=0.0)
+    # Where wells are given what a family's own are, its words outweigh "source" and "transfer";
+    # and nothing is told twice, as the one family's fault and as the other's.
+    outdone = any(
+        not family.default and score >= max(SURE, ALSO * best) and _defines(found) and _shown(found)
+        for score, family, found in scored
+    )
     inferences = []
     for score, family, found in scored:
         reasons = [one.said for one in found if one.worth > 0]
@@ -90,7 +101,7 @@ def infer_families(
             applies = (
                 sure
                 and (score == best or score >= ALSO * best)
-                and not (family.default and score < best)
+                and not (family.default and (score < best or outdone))
             )
             if family.default and not known:
                 sure = _nothing_against(found)
@@ -147,12 +158,20 @@ def _texts(facts: SourceFacts, clues: Iterable[Clue], trace: Trace) -> Iterable[
 
 
 class _Found(NamedTuple):
-    """One signal that was found: what it adds here, the words, its weight, if it defines."""
+    """One signal that was found: what it adds here, the words, its weight, if it defines.
+
+    ``shape``: whether the run shows it rather than words.
+    """
 
     worth: float
     said: str
     weight: float
     defining: bool
+    shape: bool = False
+
+
+def _score(found: Sequence[_Found]) -> float:
+    return sum(one.worth for one in found)
 
 
 def _defines(found: Sequence[_Found]) -> bool:
@@ -161,10 +180,39 @@ def _defines(found: Sequence[_Found]) -> bool:
     return any(one.defining and (one.weight >= LONE or company) for one in found)
 
 
+def _shown(found: Sequence[_Found]) -> bool:
+    """Whether the run has a shape that speaks for the family."""
+    return any(one.shape and one.worth > 0 for one in found)
+
+
 def _nothing_against(found: Sequence[_Found]) -> bool:
     """Whether no more than one word speaks against the family that is left over."""
     against = [one.worth for one in found if one.worth < 0]
-    return len(against) <= 1 or sum(one.worth for one in found) >= SURE
+    return len(against) <= 1 or _score(found) >= SURE
+
+
+def _seen(
+    family: Family, shapes: Mapping[str, tuple[float, str]], spoken: bool
+) -> Iterable[_Found]:
+    """What the shapes of the run say of a family; most of them only beside words."""
+    for signal in family.shapes:
+        if not (spoken or signal.defining):
+            continue
+        if signal.shape in shapes and shapes.keys().isdisjoint(signal.unless):
+            clear, said = shapes[signal.shape]
+            defining = signal.defining and clear >= 1
+            yield _Found(signal.weight * clear, said, LONE if defining else 0.0, defining, True)
+
+
+def _named(family: Family, roles: Roles, score: float) -> Iterable[_Found]:
+    """What the roles that wells are named for say of a family, beyond what their words said."""
+    named = {a.role for a in roles.by_well.values() if a.strength > Strength.COMMENT}
+    for signal in family.known_by:
+        if all(named & set(either.split("|")) for either in signal.roles):
+            titles = [family.roles[either.split("|")[0]].title for either in signal.roles]
+            said = f"wells are named {', '.join(titles[:-1])} and {titles[-1]}"
+            yield _Found(max(signal.weight - score, 0.0), said, LONE, True)
+            return
 
 
 def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> list[_Found]:

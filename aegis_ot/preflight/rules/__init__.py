@@ -12,9 +12,11 @@ from .specs import (
     Example,
     Examples,
     Family,
+    RoleSignal,
     RoleSpec,
     RuleSpec,
     SeriesSpec,
+    ShapeSignal,
     Signal,
 )
 
@@ -25,9 +27,11 @@ __all__ = [
     "Example",
     "Examples",
     "Family",
+    "RoleSignal",
     "RoleSpec",
     "RuleSpec",
     "SeriesSpec",
+    "ShapeSignal",
     "Signal",
     "json_schema",
     "read_dataclass",

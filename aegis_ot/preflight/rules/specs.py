@@ -34,6 +34,37 @@ class Signal:
 
 
 @dataclass(frozen=True)
+class ShapeSignal:
+    """A shape of the liquid's ways that speaks for a family, or against it.
+
+    Attributes:
+        shape: ``chain``, ``pooling``, ``reactions`` or ``copying``.
+        weight: How much it counts for three wells; twice as much from six on. A chain counts
+            twice where its wells were filled from one place before.
+        unless: Shapes beside which it says nothing.
+        defining: Whether it can make the family known.
+    """
+
+    shape: str
+    weight: float
+    unless: tuple[str, ...] = ()
+    defining: bool = False
+
+
+@dataclass(frozen=True)
+class RoleSignal:
+    """Roles that make a family known together, where wells are named for all of them.
+
+    Attributes:
+        roles: Roles of the family; ``"a|b"`` for either.
+        weight: The score that the family has at least then: what its words have added counts.
+    """
+
+    roles: tuple[str, ...]
+    weight: float = 4.0
+
+
+@dataclass(frozen=True)
 class RoleSpec:
     """What a well may be for, and which words say so.
 
@@ -159,7 +190,8 @@ class Family:
     rules: tuple[RuleSpec, ...]
     schema: int = SCHEMA_VERSION
     series: SeriesSpec | None = None
-    chain_weight: float = 0.0
+    shapes: tuple[ShapeSignal, ...] = ()
+    known_by: tuple[RoleSignal, ...] = ()
     default: bool = False
     path: str = field(default="", compare=False, metadata={"internal": True})
 

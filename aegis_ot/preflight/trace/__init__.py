@@ -4,9 +4,10 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 """
 
 from .building import build_trace
-from .chains import Transfer, chains_of, links_of, longest_chain, longest_dilution
+from .chains import Transfer, chains_of, links_of
 from .plates import Plates
 from .replacements import Intervention, Replacements
+from .shapes import SHAPES, shapes_of
 from .table import places, trace_table
 from .tips import Layer, Met, Tip, TipBox
 from .trace import PlaceKey, Trace
@@ -14,6 +15,7 @@ from .visits import Imbalance, Visit
 from .wells import Composition, Well, row_column
 
 __all__ = [
+    "SHAPES",
     "Composition",
     "Imbalance",
     "Intervention",
@@ -31,9 +33,8 @@ __all__ = [
     "build_trace",
     "chains_of",
     "links_of",
-    "longest_chain",
-    "longest_dilution",
     "places",
     "row_column",
+    "shapes_of",
     "trace_table",
 ]
