@@ -114,7 +114,7 @@ class _Builder:
         for key in said.replaced:
             self._replace(key)
         if said.volumes_unsure:
-            self._plates.forget_volumes(reckon=not said.refilled)
+            self._plates.forget_volumes(said.touched, reckon=not said.refilled)
 
     def _replace(self, key: str) -> None:
         info = self._trace.labware.get(key)

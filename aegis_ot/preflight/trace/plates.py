@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 
 from ...instrumentation import LabwareInfo
 from ...vocabulary import WellRef
@@ -55,9 +55,16 @@ class Plates:
         for ref in [ref for ref in self._current if ref.labware == key]:
             del self._current[ref]
 
-    def forget_volumes(self, reckon: bool) -> None:
-        """Someone may have filled or emptied wells by hand; ``reckon`` if nothing says so."""
+    def forget_volumes(self, touched: Set[str] | None, reckon: bool) -> None:
+        """Someone may have filled or emptied wells by hand.
+
+        Args:
+            touched: Keys of their labware; ``None`` if it may be any.
+            reckon: Whether nothing says so.
+        """
         for well in self._current.values():
+            if touched is not None and well.ref.labware not in touched:
+                continue
             if well.visits or well.prefilled:
                 well.forget_volume(reckon)
 

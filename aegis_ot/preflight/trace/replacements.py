@@ -23,6 +23,8 @@ class Intervention:
         shaken: Whether plates were mixed by hand or on a shaker.
         volumes_unsure: Whether wells may have been filled or emptied by hand.
         refilled: Whether the message says so.
+        touched: Keys of the labware whose wells these are, where the message names them;
+            ``None`` if any may be meant.
     """
 
     replaced: frozenset[str] = frozenset()
@@ -30,6 +32,7 @@ class Intervention:
     shaken: bool = False
     volumes_unsure: bool = False
     refilled: bool = False
+    touched: frozenset[str] | None = None
 
 
 @dataclass
@@ -38,14 +41,17 @@ class Replacements:
 
     Args:
         words: Phrases by topic: ``replace``, ``plate``, ``tips``, ``refill``,
-            ``shake``, ``away``, ``spin``.
+            ``shake``, ``away``, ``spin``, ``trough``.
     """
 
     words: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        self._lexicon = lexicon_of({topic: tuple(phrases) for topic, phrases in self.words.items()})
+        self._lexicon = lexicon_of(
+            {topic: tuple(words) for topic, words in self.words.items() if topic != "trough"}
+        )
         self._plates = lexicon_of({"plate": tuple(self.words.get("plate", ()))})
+        self._troughs = lexicon_of({"trough": tuple(self.words.get("trough", ()))})
 
     def shakes(self, text: str) -> bool:
         """Whether a text speaks of shaking or mixing a plate."""
@@ -66,9 +72,20 @@ class Replacements:
         tips_only = "tips" in topics and "plate" not in topics
         if "replace" in topics and tips_only:
             return Intervention(all_tips=True, shaken=shaken)
+        named = self._named(text, labware, slots)
+        if refill:
+            named = named or self._troughs_meant(text, labware)
+            if named and all(labware[key].centers_channels for key in named):
+                # "Refill the trough with fresh buffer" brings no fresh plate.
+                return Intervention(
+                    all_tips="replace" in topics and "tips" in topics,
+                    shaken=shaken,
+                    volumes_unsure=True,
+                    refilled=True,
+                    touched=frozenset(named),
+                )
         away = "replace" in topics or "away" in topics
         if away and ("spin" not in topics or "replace" in topics):
-            named = self._named(text, labware, slots)
             plates = named or {
                 key
                 for key, info in labware.items()
@@ -79,7 +96,14 @@ class Replacements:
             }
             return Intervention(frozenset(plates), "tips" in topics, shaken, refill, refill)
         unsure = refill or not topics
-        return Intervention(frozenset(), "tips" in topics, shaken, unsure, refill)
+        touched = frozenset(named) or None
+        return Intervention(frozenset(), "tips" in topics, shaken, unsure, refill, touched)
+
+    def _troughs_meant(self, text: str, labware: Mapping[str, LabwareInfo]) -> set[str]:
+        """All reservoirs, where the message speaks of one without saying where it stands."""
+        if not self._troughs.find(text):
+            return set()
+        return {key for key, info in labware.items() if info.centers_channels and not info.is_trash}
 
     @staticmethod
     def _named(text: str, labware: Mapping[str, LabwareInfo], slots: Mapping[str, str]) -> set[str]:
