@@ -27,6 +27,8 @@ class SeriesTip(Check):
         if not case.series:
             yield Doubt(NO_SERIES)
         for series in case.series:
+            if not series.entered:
+                yield Doubt("nothing says which end of the series holds the stock")
             yield from self._along(case, series)
 
     def _along(self, case: Case, series: Series) -> Iterator[Result]:
