@@ -110,7 +110,9 @@ def fitting_role(
         return named[0]
     specs = roles.family.roles
     side, passes_on = sides
-    if clue.lone and _unlike(named, roles):
+    # "BSA" is the standard and the well that it goes into: one thing, on whichever side.
+    things = [role for role in named if not set(specs[role].receives) & set(named)]
+    if clue.lone and _unlike(things, roles):
         return None
     if clue.step and clue.step != side:
         return None
