@@ -92,6 +92,8 @@ class Carry(Check):
         if self.stock:
             if met.well is well:
                 return True  # it was in the stock already
+            if _serves_its_well_alone(case, well, origin):
+                return True
             first = brought.get(origin)
             return first is not None and (
                 _on_purpose(case, well, origin, visit) or self._made_of(case, visit, origin)
@@ -185,6 +187,12 @@ def _was_fed(case: Case, met: Met) -> bool:
     """Whether a well was a destination when the tip met it: something had been put into it."""
     first = next(iter(case.meant.get(met.well, {}).values()), None)
     return first is not None and first <= met.index
+
+
+def _serves_its_well_alone(case: Case, stock: Well, origin: Well) -> bool:
+    """Whether all that is drawn from a stock goes to one well, which holds that liquid as well."""
+    drawn_for = case.destinations.get(stock, {})
+    return len(drawn_for) == 1 and all(origin in case.meant.get(dest, {}) for dest in drawn_for)
 
 
 def _on_purpose(case: Case, stock: Well, origin: Well, visit: Visit) -> bool:
