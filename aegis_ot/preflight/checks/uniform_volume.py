@@ -11,14 +11,19 @@ from ..trace import Well
 from .base import Case, Check, Result, RoleSet, Violation, at, place, role_field
 from .receiving import filled, received
 
+Member = tuple[Well, float, float]
+"""A well, the µL of the liquid that it received, and those that it received in all."""
+
 
 @dataclass(frozen=True)
 class UniformVolume(Check):
     """All wells of ``wells`` that received the same ``liquid`` received as much of it, and end
     at the same volume.
 
-    Wells that received different sources of ``liquid`` are different assays and are compared
-    apart; end volumes are compared only where the run brings everything.
+    Wells that received different liquids of ``liquid`` are different assays and are compared
+    apart. Where it comes out of several tubes, each of which gives as much to all its wells, and
+    no declared liquid says that they hold the same, each tube may be an assay of its own.
+    End volumes are compared only where the run brings everything.
 
     Attributes:
         tolerance: Share of the usual volume by which a well may differ.
@@ -32,7 +37,7 @@ class UniformVolume(Check):
     def find(self, case: Case) -> Iterator[Result]:
         """Compare each well with what most wells of its assay get."""
         liquid = frozenset(self.liquid)
-        groups: dict[tuple[str, ...], list[tuple[Well, float, float]]] = {}
+        groups: dict[tuple[str, ...], list[Member]] = {}
         for well in case.wells(frozenset(self.wells)):
             usage = case.usage.get(well.ref)
             if well.prefilled or (usage is not None and usage.first_drawn):
@@ -42,7 +47,31 @@ class UniformVolume(Check):
                 total, _ = filled(case, well)
                 groups.setdefault(self._assay(case, well, liquid), []).append((well, got, total))
         for members in groups.values():
-            yield from self._compare(case, members)
+            by_tube = self._by_tube(case, members, liquid)
+            several = len(by_tube) > 1 and all(
+                len(served) > 1 and not any(self._differs(one[1], served[0][1]) for one in served)
+                for served in by_tube.values()
+            )
+            for alike in by_tube.values() if several else [members]:
+                yield from self._compare(case, alike)
+
+    @staticmethod
+    def _by_tube(
+        case: Case, members: list[Member], liquid: RoleSet
+    ) -> dict[frozenset[Well], list[Member]]:
+        """Members by the wells that their ``liquid`` stood in; one group if it is declared."""
+        found: dict[frozenset[Well], list[Member]] = {}
+        for member in members:
+            tubes = frozenset(
+                origin for origin in case.meant.get(member[0], {}) if case.has(origin, liquid)
+            )
+            if any(tube.liquids for tube in tubes):
+                return {frozenset(): members}
+            found.setdefault(tubes, []).append(member)
+        return found
+
+    def _differs(self, volume: float, usual: float) -> bool:
+        return abs(volume - usual) > max(self.tolerance * usual, 0.01)
 
     def _assay(self, case: Case, well: Well, liquid: RoleSet) -> tuple[str, ...]:
         names = set()
@@ -53,7 +82,7 @@ class UniformVolume(Check):
                 names.add(f"{kind or origin.ref.address}")
         return (well.ref.labware, str(well.generation), *sorted(names))
 
-    def _compare(self, case: Case, members: list[tuple[Well, float, float]]) -> Iterator[Result]:
+    def _compare(self, case: Case, members: list[Member]) -> Iterator[Result]:
         if len(members) < 2:
             return
         title = " or ".join(case.family.roles[role].title for role in self.liquid)
@@ -61,19 +90,14 @@ class UniformVolume(Check):
         usual_total = _usual([total for _, _, total in members])
         # Where a good part of the wells ends elsewhere, several kinds of reactions are meant.
         few = (
-            3
-            * sum(
-                abs(total - usual_total) > max(self.tolerance * usual_total, 0.01)
-                for _, _, total in members
-            )
-            <= len(members)
+            3 * sum(self._differs(total, usual_total) for _, _, total in members) <= len(members)
             or len(members) < 6
         )
         for well, got, total in members:
-            if abs(got - usual_got) > max(self.tolerance * usual_got, 0.01):
+            if self._differs(got, usual_got):
                 what = f"receives {got:.4g} µL of {title}; the others receive {usual_got:.4g} µL"
                 line = received(case, well, frozenset(self.liquid))[1]
-            elif abs(total - usual_total) > max(self.tolerance * usual_total, 0.01) and few:
+            elif self._differs(total, usual_total) and few:
                 what = f"ends at {total:.4g} µL; the others end at {usual_total:.4g} µL"
                 line = filled(case, well)[1]
             else:

@@ -32,9 +32,10 @@ def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
     a transfer something stands comes last: ``water_src`` is water.
     """
     places: dict[int, list[str]] = {}
-    for match in lexicon.find(clue.text):
+    text = _telling_part(lexicon, clue)
+    for match in lexicon.find(text):
         places.setdefault(match.start, []).append(match.topic)
-    words = lexicon.words(clue.text)
+    words = lexicon.words(text)
     if clue.step == "source":
         places = _drawn(places, words, common)
     joints = [at for at, word in enumerate(words) if word in _first_words(common.joints)]
@@ -75,6 +76,20 @@ def _drawn(
 @functools.lru_cache(maxsize=16)
 def _first_words(phrases: tuple[str, ...]) -> frozenset[str]:
     return frozenset(tokens(phrase)[0] for phrase in phrases)
+
+
+def _telling_part(lexicon: Lexicon, clue: Clue) -> str:
+    """The field of a record, where both names together would say what neither does.
+
+    ``assay.mix_tube`` is a mix and no assay mix; ``primer.mix`` is a primer mix.
+    """
+    record, dot, field = clue.text.rpartition(".")
+    if not dot or clue.strength not in (Strength.NAME, Strength.LOOSE_NAME) or " " in field:
+        return clue.text
+    ends = len(lexicon.words(record))
+    across = {m.topic for m in lexicon.find(clue.text) if m.start < ends < m.end}
+    alone = {m.topic for m in lexicon.find(record)}
+    return field if across and not across & alone and lexicon.find(field) else clue.text
 
 
 def says_only_the_side(clue: Clue, common: Common) -> bool:

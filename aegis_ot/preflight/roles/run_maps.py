@@ -23,6 +23,9 @@ def spotted_names(
         base = binding.name.split("[", 1)[0]
         if not binding.spots or base in facts.constants or base in loose:
             continue
+        record, dot, _ = base.partition(".")
+        if dot and (binding.function, record) in facts.loops:
+            continue  # the field of the last row only; see tabled_wells
         labware = labware_of_map(deck, facts, base, binding.spots, common)
         if labware:
             line = facts.assigned.get(base, binding.line)
@@ -51,11 +54,14 @@ def tabled_wells(
         line = facts.assigned.get(base, binding.line)
         beside: dict[str, dict[WellRef, None]] = {}
         levels: dict[WellRef, float] = {}
+        columns: dict[str, dict[WellRef, None]] = {}
         for row in rows:
             wells = list(row.wells)
             for column, cell in row.cells:
                 if is_spot(cell) and column in labware:
-                    wells += _refs(deck, labware[column], (str(cell),))
+                    spots = list(_refs(deck, labware[column], (str(cell),)))
+                    columns.setdefault(column, {}).update(dict.fromkeys(spots))
+                    wells += spots
             said = [(column, cell, number_in(cell)) for column, cell in row.said]
             for _, cell, number in said:
                 if isinstance(cell, str) and number is None:
@@ -67,6 +73,10 @@ def tabled_wells(
             ]
             if len(found) == 1:
                 levels.update(dict.fromkeys(wells, found[0]))
+        for column, held in columns.items():
+            if not column.isdigit():
+                evidence = f"column `{column}` of `{binding.name}` at line {line}"
+                yield Clue(Strength.NAME, column, tuple(held), line, evidence)
         for text, held in beside.items():
             yield Clue(
                 Strength.NAME,
