@@ -15,7 +15,14 @@ from ..trace import Trace
 from .channels import spread_over_channels
 from .clues import Clue, Strength
 from .levels import levels_of
-from .phrases import fitting_role, role_words, roles_named, says_only_the_side
+from .phrases import (
+    fitting_role,
+    is_outright,
+    names_several,
+    role_words,
+    roles_named,
+    says_only_the_side,
+)
 from .replicates import spread_over_replicates
 from .roles import Assignment, Roles
 from .usage import Sides, Usage
@@ -44,6 +51,7 @@ def assign_roles(
     candidates: dict[WellRef, list[Candidate]] = {}
     sides = Sides(usage)
     named_outright: set[str] = set()
+    doubtful: set[WellRef] = set()
     levels: dict[WellRef, set[float | None]] = {}
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
@@ -53,8 +61,18 @@ def assign_roles(
             for ref, level in zip(clue.wells, clue.levels, strict=False):
                 levels.setdefault(ref, set()).add(level)
             continue
+        if clue.lone and names_several(lexicon, clue, common, roles):
+            continue
         side_only = says_only_the_side(clue, common)
         worth = _worth(clue, side_only)
+        if clue.strength is Strength.LIQUID and names_several(lexicon, clue, common, roles):
+            doubtful.update(clue.wells)
+        elif (
+            clue.strength is Strength.DESCRIPTION
+            and doubtful.issuperset(clue.wells)
+            and is_outright(lexicon, clue.text)
+        ):
+            worth = (float(Strength.LIQUID), 2.0, *worth[2:])
         passing = side_only and clue.strength is Strength.LOOSE_NAME
         for ref, level in zip(clue.wells, levels_of(clue, common), strict=True):
             role = fitting_role(named, roles, sides(ref), clue)

@@ -14,6 +14,7 @@ from .deck import Deck
 from .labels import labels
 from .loop_levels import loop_levels
 from .names import call_arguments, named_wells
+from .numbered_maps import numbered_maps
 from .places import indexing_names
 from .plate_maps import plate_maps
 from .remarks import step_comments, written_wells
@@ -45,6 +46,7 @@ def gather(
         *labels(deck),
         *indexing_names(deck, facts, common),
         *plate_maps(deck, facts, common),
+        *numbered_maps(deck, facts),
         *spotted_names(deck, names, facts, common),
         *tabled_wells(deck, names, facts, common),
         *written_wells(deck, facts, common),

@@ -31,11 +31,27 @@ def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
     ``diluent_plasma`` is a diluent, ``eau_pcr`` is water. A word that only says on which side of
     a transfer something stands comes last: ``water_src`` is water.
     """
+    return [role for group in _named_by_words(lexicon, clue, common) for role in group]
+
+
+def names_several(lexicon: Lexicon, clue: Clue, common: Common, roles: Roles) -> bool:
+    """Whether two words of a clue name different things."""
+    groups = [group for group in _named_by_words(lexicon, clue, common) if group]
+    return any(
+        all(_unlike((role, another), roles) for role in one for another in other)
+        for one in groups
+        for other in groups
+    )
+
+
+def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[str]]:
+    """What each word or phrase of a clue may name, the head of the whole first."""
+    text = _telling_part(lexicon, clue).replace("%", " percent ")
     places: dict[int, list[str]] = {}
-    text = _telling_part(lexicon, clue)
     for match in lexicon.find(text):
         places.setdefault(match.start, []).append(match.topic)
     words = lexicon.words(text)
+    places = _without_additives(places, words, common)
     if clue.step == "source":
         places = _drawn(places, words, common)
     joints = [at for at, word in enumerate(words) if word in _first_words(common.joints)]
@@ -50,7 +66,18 @@ def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
             places, key=lambda at: (words[at] in always, words[at] not in sides, at), reverse=True
         )
     ]
-    return [topic for group in ordered for topic in group if not topic.startswith("!")]
+    return [[topic for topic in group if not topic.startswith("!")] for group in ordered]
+
+
+def _without_additives(
+    places: dict[int, list[str]], words: Sequence[str], common: Common
+) -> dict[int, list[str]]:
+    """What a text names apart from what is only added to it: "TE + 10 ng/µL tRNA" is TE."""
+    if len(places) < 2:
+        return places
+    found = lexicon_of({"additive": common.additives}).find(" ".join(words))
+    added = {at for match in found for at in range(match.start, match.end)}
+    return {at: topics for at, topics in places.items() if at not in added} or places
 
 
 def _drawn(
@@ -97,6 +124,12 @@ def says_only_the_side(clue: Clue, common: Common) -> bool:
     return set(tokens(clue.text)) <= _first_words(common.sides)
 
 
+def is_outright(lexicon: Lexicon, text: str) -> bool:
+    """Whether a text is nothing but the word for a role: "diluent"."""
+    words = lexicon.words(text)
+    return any(match.end - match.start == len(words) for match in lexicon.find(text))
+
+
 def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:
     """A text that joins several different things speaks of none of them in particular.
 
@@ -125,10 +158,6 @@ def fitting_role(
         return named[0]
     specs = roles.family.roles
     side, passes_on = sides
-    # "BSA" is the standard and the well that it goes into: one thing, on whichever side.
-    things = [role for role in named if not set(specs[role].receives) & set(named)]
-    if clue.lone and _unlike(things, roles):
-        return None
     if clue.step and clue.step != side:
         return None
     fitting = [role for role in named if specs[role].side in ("any", side)]

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ...instrumentation import is_spot
+from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, lexicon_of, origins, tokens
 from .clues import Clue, Strength
@@ -24,11 +25,8 @@ def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]
         if not all_names:
             continue
         labware = labware_of_map(deck, facts, name, all_names, common)
-        if not labware:
-            continue
-        info = deck.trace.labware[labware]
         for text, wells, level in entries:
-            refs = tuple(deck.ref(labware, well) for well in wells if well in info.wells)
+            refs = tuple(refs_of(deck, labware, wells))
             yield Clue(
                 Strength.NAME,
                 text,
@@ -41,22 +39,41 @@ def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]
 
 def labware_of_map(
     deck: Deck, facts: SourceFacts, name: str, spots: Sequence[str], common: Common
-) -> str:
-    """The labware that a plate map of this name speaks of; ``""`` where that is not plain."""
-    return (
-        _used_with(deck, facts, name)
-        or _called_alike(deck, name, common)
-        or deck.most_likely(dict.fromkeys(spots))
-    )
+) -> tuple[str, ...]:
+    """The labware that a plate map of this name speaks of: several plates where the run uses it on
+    all alike, none where that is not plain.
+    """
+    used = _used_with(deck, facts, name)
+    if len(used) > 1:
+        used = _alike(deck, used, spots)
+    one = () if used else (_called_alike(deck, name, common) or deck.most_likely(spots),)
+    return used or tuple(key for key in one if key)
 
 
-def _used_with(deck: Deck, facts: SourceFacts, name: str) -> str:
+def refs_of(deck: Deck, labware: Sequence[str], spots: Iterable[str]) -> Iterator[WellRef]:
+    """The wells of these names in each of these labware."""
+    names = [spot[0] + str(int(spot[1:])) for spot in spots]  # "A01" is A1
+    for key in labware:
+        info = deck.trace.labware.get(key)
+        for name in names:
+            if info is not None and name in info.wells:
+                yield deck.ref(key, name)
+
+
+def _used_with(deck: Deck, facts: SourceFacts, name: str) -> tuple[str, ...]:
     """The labware that is indexed by this constant, straight or in a comprehension."""
     keys: set[str] = set()
     for place in facts.places:
         if name in origins(facts, place.names, (place.line,)):
             keys |= deck.by_name.get(place.labware, set())
-    return next(iter(keys)) if len(keys) == 1 else ""
+    return tuple(sorted(keys))
+
+
+def _alike(deck: Deck, keys: Sequence[str], spots: Sequence[str]) -> tuple[str, ...]:
+    """Those in which all these wells are filled, if they are all of one kind."""
+    filled = tuple(key for key in keys if all((key, spot) in deck.received for spot in spots))
+    kinds = {deck.trace.labware[key].load_name for key in filled}
+    return filled if len(kinds) == 1 else ()
 
 
 def _called_alike(deck: Deck, name: str, common: Common) -> str:

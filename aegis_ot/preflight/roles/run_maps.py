@@ -11,7 +11,7 @@ from ..text import SourceFacts, lexicon_of
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import number_in
-from .plate_maps import labware_of_map
+from .plate_maps import labware_of_map, refs_of
 
 
 def spotted_names(
@@ -32,7 +32,7 @@ def spotted_names(
             yield Clue(
                 Strength.NAME,
                 binding.name,
-                tuple(_refs(deck, labware, binding.spots)),
+                tuple(refs_of(deck, labware, binding.spots)),
                 line,
                 f"plate map `{binding.name}` at line {line}",
             )
@@ -59,7 +59,7 @@ def tabled_wells(
             wells = list(row.wells)
             for column, cell in row.cells:
                 if is_spot(cell) and column in labware:
-                    spots = list(_refs(deck, labware[column], (str(cell),)))
+                    spots = list(refs_of(deck, (labware[column],), (str(cell),)))
                     columns.setdefault(column, {}).update(dict.fromkeys(spots))
                     wells += spots
             said = [(column, cell, number_in(cell)) for column, cell in row.said]
@@ -144,11 +144,3 @@ def _labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Row]) -> 
         if len(using) == 1:
             found[column] = using[0]
     return found
-
-
-def _refs(deck: Deck, labware: str, spots: Sequence[str]) -> Iterator[WellRef]:
-    info = deck.trace.labware.get(labware)
-    for spot in spots:
-        name = spot[0] + str(int(spot[1:]))
-        if info is not None and name in info.wells:
-            yield deck.ref(labware, name)

@@ -211,6 +211,7 @@ class Common:
     waste: tuple[str, ...] = ()
     negations: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
+    additives: tuple[str, ...] = ()
     toward: tuple[str, ...] = ()
     articles: tuple[str, ...] = ()
     partly: tuple[str, ...] = ()

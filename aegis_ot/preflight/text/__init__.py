@@ -1,6 +1,6 @@
 """What the text of a protocol says: its comments, its constants, the words in its names."""
 
-from .facts import Loop, Place, SourceFacts, Values
+from .facts import Loop, Numbered, Place, SourceFacts, Values
 from .flow import origins
 from .levels import direction_in, level_in, name_without_level, numbers_in_order
 from .lines import source_lines
@@ -11,6 +11,7 @@ __all__ = [
     "Lexicon",
     "Loop",
     "Match",
+    "Numbered",
     "Place",
     "SourceFacts",
     "Values",

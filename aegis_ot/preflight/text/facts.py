@@ -65,6 +65,27 @@ class Loop:
     last: int
 
 
+@dataclass(frozen=True)
+class Numbered:
+    """A name that counts columns or names rows: ``c`` in ``plate[f"A{c}"]``.
+
+    Attributes:
+        labware: The name of the labware.
+        axis: ``column`` or ``row``.
+        name: The name.
+        first: Its value for the first column or row, where it is a number.
+        rows: For a column, the letter of its row, or the names that this comes from.
+        line: Where it stands.
+    """
+
+    labware: str
+    axis: str
+    name: str
+    first: int
+    rows: str
+    line: int
+
+
 @dataclass
 class SourceFacts:
     """The facts of one protocol text.
@@ -76,6 +97,7 @@ class SourceFacts:
         metadata: Values of the ``metadata`` dict.
         constants: Names bound to literals, by name.
         places: Subscripts of labware by names or constants.
+        numbered: Names that count columns or name rows of a labware.
         loose: Names that are loop variables or parameters, as ``(function, name)``.
         loops: Those of them that are loop variables.
         notes: Comment beside or right above the assignment of a name, by that name.
@@ -98,6 +120,7 @@ class SourceFacts:
     metadata: dict[str, str] = field(default_factory=dict)
     constants: dict[str, Any] = field(default_factory=dict)
     places: list[Place] = field(default_factory=list)
+    numbered: list[Numbered] = field(default_factory=list)
     loose: set[tuple[str, str]] = field(default_factory=set)
     loops: set[tuple[str, str]] = field(default_factory=set)
     notes: dict[str, str] = field(default_factory=dict)

@@ -7,6 +7,7 @@ import ast
 from .comments import read_blocks, read_comments
 from .facts import SourceFacts
 from .flow import read_flow
+from .numbered import read_numbered
 from .syntax import SyntaxReader
 
 
@@ -20,5 +21,6 @@ def read_source(text: str) -> SourceFacts:
         return facts
     SyntaxReader(facts).visit_module(tree)
     read_flow(tree, facts)
+    read_numbered(tree, facts)
     read_blocks(text, tree, facts)
     return facts

@@ -1,0 +1,112 @@
+"""Where a protocol makes the place of a well out of a number or a letter.
+
+``plate[f"A{column}"]``, ``plate.columns()[column - 1]`` and ``plate.rows_by_name()[row]`` tell that
+``column`` counts columns and ``row`` names rows, and so do the constants that these come from.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+
+from .facts import Numbered, SourceFacts
+from .literals import last_name, names_in, plain_text
+
+_INDEXED = {
+    "columns": ("column", 0),
+    "rows": ("row", 0),
+    "columns_by_name": ("column", 1),
+    "rows_by_name": ("row", 1),
+}
+"""What each method of a labware lists, and the number of the first one."""
+
+
+def read_numbered(tree: ast.Module, facts: SourceFacts) -> None:
+    """Note every such place."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Subscript):
+            facts.numbered.extend(_found(node.value, node.slice, node.lineno))
+        elif (
+            isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Attribute)
+            and node.func.attr in ("well", "wells")
+            and len(node.args) == 1
+        ):
+            facts.numbered.extend(_found(node.func.value, node.args[0], node.lineno))
+
+
+def _found(base: ast.expr, index: ast.expr, line: int) -> Iterator[Numbered]:
+    if isinstance(base, ast.Call) and isinstance(base.func, ast.Attribute):
+        if base.func.attr in _INDEXED and not base.args:
+            axis, first = _INDEXED[base.func.attr]
+            name, added = _counted(index)
+            if name:
+                yield Numbered(last_name(base.func.value), axis, name, first - added, "", line)
+            return
+        if base.func.attr != "wells_by_name" or base.args:
+            return
+        base = base.func.value
+    parts = _pieces(index)
+    if len(parts) != 2:
+        return
+    row, column = parts
+    name, added = _counted(column) if isinstance(column, ast.expr) else ("", 0)
+    if name:
+        rows = row if isinstance(row, str) else " ".join(names_in(row))
+        yield Numbered(last_name(base), "column", name, 1 - added, rows, line)
+    if isinstance(row, ast.Name):
+        yield Numbered(last_name(base), "row", row.id, 0, "", line)
+
+
+def _counted(node: ast.expr) -> tuple[str, int]:
+    """The name in ``c``, ``str(c)``, ``c - 1`` or ``c + 1``, and what is added to it."""
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "str":
+        node = node.args[0] if node.args else node
+    if isinstance(node, ast.Name):
+        return node.id, 0
+    if not isinstance(node, ast.BinOp) or not isinstance(node.left, ast.Name):
+        return "", 0
+    added = node.right.value if isinstance(node.right, ast.Constant) else None
+    if isinstance(added, int) and isinstance(node.op, (ast.Add, ast.Sub)):
+        return node.left.id, added if isinstance(node.op, ast.Add) else -added
+    return "", 0
+
+
+def _pieces(node: ast.expr) -> list[str | ast.expr]:
+    """What a text is put together of: ``f"A{c}"``, ``"A" + str(c)``, ``"A%d" % c``, ``r + "1"``."""
+    if isinstance(node, ast.JoinedStr):
+        return [
+            part.value if isinstance(part, ast.FormattedValue) else str(part.value)
+            for part in node.values
+            if isinstance(part, (ast.FormattedValue, ast.Constant))
+        ]
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
+        return [*_piece(node.left), *_piece(node.right)]
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Mod):
+        return _filled(plain_text(node.left), ("%d", "%s", "%i"), _arguments(node.right))
+    if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
+        return []
+    if node.func.attr == "format":
+        return _filled(plain_text(node.func.value), ("{}",), node.args)
+    return []
+
+
+def _piece(node: ast.expr) -> list[str | ast.expr]:
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return [node.value]
+    return [node]
+
+
+def _arguments(node: ast.expr) -> list[ast.expr]:
+    return list(node.elts) if isinstance(node, ast.Tuple) else [node]
+
+
+def _filled(text: str, marks: tuple[str, ...], values: list[ast.expr]) -> list[str | ast.expr]:
+    """A row's letter and a value, or two values, where a text has as many marks."""
+    for mark in marks:
+        text = text.replace(mark, "\0")
+    if text == "\0\0" and len(values) == 2:
+        return list(values)
+    if len(text) == 2 and text[1] == "\0" and len(values) == 1:
+        return [text[0], values[0]]
+    return []
