@@ -52,7 +52,10 @@ def find_series(
         for link in links_of(trace)
         if not roles.has(link.source.ref, diluent)
         and not roles.has(link.well.ref, diluent)
-        and (not roles.has(link.source.ref, stock) or _is_made(trace, roles, link.source, diluent))
+        and (
+            not roles.has(link.source.ref, stock)
+            or _is_made(trace, roles, link.source, diluent | stock)
+        )
         and link.well.ref not in waste
     ]
     links, fillers = along_series(trace, roles, links, diluent)
@@ -68,12 +71,12 @@ def find_series(
     ]
 
 
-def _is_made(trace: Trace, roles: Roles, well: Well, diluent: frozenset[str]) -> bool:
-    """Whether a well named as a stock was made in the run from its neighbours: a standard."""
+def _is_made(trace: Trace, roles: Roles, well: Well, made_of: frozenset[str]) -> bool:
+    """Whether a well named as a stock was filled in the run: a standard, or the undiluted head."""
     return not well.prefilled and any(
         source is not None
         and source is not well
-        and (roles.has(source.ref, diluent) or source.ref.labware == well.ref.labware)
+        and (roles.has(source.ref, made_of) or source.ref.labware == well.ref.labware)
         for visit in trace.deliveries(well)
         for source, _, _, _ in visit.parts
     )
