@@ -11,7 +11,9 @@ from ..text import SourceFacts
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
+from .grids import drawn_maps
 from .labels import labels
+from .legend_clues import explained
 from .loop_levels import loop_levels
 from .names import call_arguments, named_wells
 from .numbered_maps import numbered_maps
@@ -46,6 +48,7 @@ def gather(
         *labels(deck),
         *indexing_names(deck, facts, common),
         *plate_maps(deck, facts, common),
+        *drawn_maps(deck, facts, common),
         *numbered_maps(deck, facts),
         *spotted_names(deck, names, facts, common),
         *tabled_wells(deck, names, facts, common),
@@ -54,6 +57,7 @@ def gather(
         *call_arguments(trace, facts, common),
         *loop_levels(trace, names, facts, common),
     ]
+    clues += explained(clues, facts)
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
 
 

@@ -43,10 +43,10 @@ def labware_of_map(
     """The labware that a plate map of this name speaks of: several plates where the run uses it on
     all alike, none where that is not plain.
     """
-    used = _used_with(deck, facts, name)
+    used = used_with(deck, facts, name)
     if len(used) > 1:
         used = _alike(deck, used, spots)
-    one = () if used else (_called_alike(deck, name, common) or deck.most_likely(spots),)
+    one = () if used else (called_alike(deck, name, common) or deck.most_likely(spots),)
     return used or tuple(key for key in one if key)
 
 
@@ -60,7 +60,7 @@ def refs_of(deck: Deck, labware: Sequence[str], spots: Iterable[str]) -> Iterato
                 yield deck.ref(key, name)
 
 
-def _used_with(deck: Deck, facts: SourceFacts, name: str) -> tuple[str, ...]:
+def used_with(deck: Deck, facts: SourceFacts, name: str) -> tuple[str, ...]:
     """The labware that is indexed by this constant, straight or in a comprehension."""
     keys: set[str] = set()
     for place in facts.places:
@@ -76,7 +76,7 @@ def _alike(deck: Deck, keys: Sequence[str], spots: Sequence[str]) -> tuple[str, 
     return filled if len(kinds) == 1 else ()
 
 
-def _called_alike(deck: Deck, name: str, common: Common) -> str:
+def called_alike(deck: Deck, name: str, common: Common) -> str:
     """The one labware whose label shares a telling word with this constant's name."""
     dull = {word for phrase in common.noise for word in tokens(phrase)}
     words = set(tokens(name)) - dull

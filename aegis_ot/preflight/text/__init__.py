@@ -2,6 +2,7 @@
 
 from .facts import Loop, Numbered, Place, SourceFacts, Values
 from .flow import origins
+from .legends import legend_of
 from .levels import direction_in, level_in, name_without_level, numbers_in_order
 from .lines import source_lines
 from .reading import read_source
@@ -16,6 +17,7 @@ __all__ = [
     "SourceFacts",
     "Values",
     "direction_in",
+    "legend_of",
     "level_in",
     "lexicon_of",
     "name_without_level",

@@ -1,0 +1,83 @@
+"""Plate maps drawn as a grid: one code for each well, row by row, in a text or nested lists."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from ...instrumentation import LabwareInfo
+from ..rules import Common
+from ..text import SourceFacts
+from ..trace import row_column
+from .clues import Clue, Strength
+from .deck import Deck
+from .plate_maps import called_alike, used_with
+
+_SMALLEST = 6
+"""The wells of the smallest plate that anyone draws."""
+
+Grid = Sequence[Sequence[str]]
+
+
+def drawn_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
+    """What each code of a grid stands beside."""
+    for name, value in facts.constants.items():
+        grid = _grid(value)
+        if not grid or len(grid) * len(grid[0]) < _SMALLEST:
+            continue
+        plates = _plates_drawn(deck, facts, name, grid, common)
+        line = facts.assigned.get(name)
+        for code in dict.fromkeys(cell for row in grid for cell in row):
+            if re.search(r"[^\W\d]", code):
+                wells = tuple(
+                    deck.ref(info.key, well)
+                    for info in plates
+                    for well in info.wells
+                    if grid[row_column(well)[0]][row_column(well)[1]] == code
+                )
+                yield Clue(
+                    Strength.NAME, code, wells, line, f"`{code}` in the map `{name}` at line {line}"
+                )
+
+
+def _plates_drawn(
+    deck: Deck, facts: SourceFacts, name: str, grid: Grid, common: Common
+) -> list[LabwareInfo]:
+    """The plates of a grid's shape that the run uses it on, or else those that the run fills, if it
+    fills all of their kind and of no other kind.
+    """
+    plates = [info for info in deck.plates() if _shape(info) == (len(grid), len(grid[0]))]
+    meant = used_with(deck, facts, name) or (called_alike(deck, name, common),)
+    found = [info for info in plates if info.key in meant]
+    if found:
+        return found
+    received = {key for key, _ in deck.received}
+    kinds = {info.load_name for info in plates if info.key in received}
+    alike = [info for info in plates if info.load_name in kinds]
+    return alike if len(kinds) == 1 and all(info.key in received for info in alike) else []
+
+
+def _shape(info: LabwareInfo) -> tuple[int, int]:
+    places = [row_column(well) for well in info.wells]
+    return max(row for row, _ in places) + 1, max(column for _, column in places) + 1
+
+
+def _grid(value: Any) -> Grid:
+    """The rows of a grid, without a line of column numbers and without the letters of rows."""
+    if isinstance(value, str):
+        rows = [line.split() for line in re.sub(r"[,;|\t]", " ", value).strip().splitlines()]
+        if rows and all(len(row) == 1 for row in rows):
+            rows = [list(row[0]) for row in rows]
+    elif isinstance(value, (list, tuple)) and all(isinstance(r, (list, tuple, str)) for r in value):
+        rows = [r.split() if isinstance(r, str) and " " in r else list(r) for r in value]
+    else:
+        return ()
+    rows = [row for row in rows if row and all(isinstance(cell, str) for cell in row)]
+    if len(rows) > 1 and all(cell.isdigit() for cell in rows[0]):
+        rows = rows[1:]
+    letters = [row[0].rstrip(":") for row in rows]
+    if letters == [chr(ord("A") + at) for at in range(len(rows))] and len(rows) > 1:
+        rows = [row[1:] for row in rows]
+    even = len(rows) > 1 and len(rows[0]) > 1 and all(len(row) == len(rows[0]) for row in rows)
+    return rows if even else ()

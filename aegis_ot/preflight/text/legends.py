@@ -1,0 +1,78 @@
+"""Legends: short codes and what they stand for.
+
+"V: vehicle, U: untreated, d1..d8: alpelisib" in a comment or docstring, ``{"V": "vehicle"}`` in
+a dict.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from .facts import SourceFacts
+
+_CODE = r"[A-Za-z+*.#-]|[A-Za-z+-][A-Za-z0-9+-]{0,3}"
+_MEANS = r"\s*(?:=>|->|→|[:=])\s*|\s+[-–]\s+"
+_ENTRY = re.compile(
+    rf"(?:(?<=[\s,;(|/])|^)['\"]?(?P<code>{_CODE})['\"]?"
+    rf"(?:\s*(?:\.\.+|…|-|–|to)\s*['\"]?(?P<last>{_CODE})['\"]?)?"
+    rf"(?:{_MEANS})(?P<said>[^,;|\n=:]{{2,60}}?)"
+    rf"(?=\s*(?:[,;|\n]|$)|\s+['\"]?(?:{_CODE})['\"]?(?:{_MEANS}))",
+    re.MULTILINE,
+)
+_COLUMN = re.compile(rf"^\s*(?P<code>{_CODE})\s{{2,}}(?P<said>\S[^\n=:|]{{1,60}})$", re.MULTILINE)
+"""Codes in a column of their own, what they stand for in the next."""
+_FEWEST = 2
+"""A single "x = y" in prose may be anything."""
+_SPOT = re.compile(r"[A-P](?:0?[1-9]|1\d|2[0-4])")
+_LONGEST_CODE = 4
+
+
+def legend_of(facts: SourceFacts) -> dict[str, str]:
+    """What each code stands for; codes that are explained in two ways are left out."""
+    found: dict[str, set[str]] = {}
+    for codes in (*_written(facts), *_in_dicts(facts.constants)):
+        for code, said in codes.items():
+            found.setdefault(code, set()).add(said)
+    return {code: next(iter(said)) for code, said in found.items() if len(said) == 1}
+
+
+def _written(facts: SourceFacts) -> Iterable[dict[str, str]]:
+    texts = [text for _, text in facts.docstrings]
+    block: list[str] = []
+    for line in sorted(facts.comments):
+        if line not in facts.own_line or line - 1 not in facts.own_line:
+            texts.append("\n".join(block))
+            block = []
+        block.append(facts.comments[line])
+    texts.append("\n".join(block))
+    for text in texts:
+        codes: dict[str, str] = {}
+        for match in _ENTRY.finditer(text):
+            for code in _run_of(match["code"], match["last"]):
+                codes.setdefault(code, match["said"].strip())
+        for match in _COLUMN.finditer(text):
+            codes.setdefault(match["code"], match["said"].strip())
+        if len(codes) >= _FEWEST:
+            yield codes
+
+
+def _run_of(first: str, last: str | None) -> list[str]:
+    """``d1`` to ``d8``, or the one code; names of wells are none."""
+    if _SPOT.fullmatch(first):
+        return []
+    one, other = re.fullmatch(r"(\D+)(\d+)", first), re.fullmatch(r"(\D+)(\d+)", last or "")
+    if last is None or one is None or other is None or one[1] != other[1]:
+        return [first]
+    return [f"{one[1]}{number}" for number in range(int(one[2]), int(other[2]) + 1)]
+
+
+def _in_dicts(constants: Mapping[str, Any]) -> Iterable[dict[str, str]]:
+    for name, value in constants.items():
+        if isinstance(value, dict) and len(value) >= _FEWEST and name != "metadata":
+            texts = all(isinstance(item, str) for pair in value.items() for item in pair)
+            if texts and all(len(key) <= _LONGEST_CODE for key in value):
+                spots = any(_SPOT.fullmatch(item) for pair in value.items() for item in pair)
+                if not spots:
+                    yield dict(value)
