@@ -31,6 +31,7 @@ class Violation:
         rests_on: Wells without whose roles nothing would be wrong. Where a comment alone says
             what one of them is for, the finding is a warning at most.
         on_comment: That comment, in words; filled in by the judge.
+        sure: Whether it happened surely: no tip may after all have stayed clear of a liquid.
     """
 
     message: str
@@ -39,6 +40,7 @@ class Violation:
     cause: tuple[Any, ...]
     rests_on: tuple[Well, ...] = ()
     on_comment: str = ""
+    sure: bool = False
 
 
 @dataclass(frozen=True)

@@ -108,6 +108,8 @@ class Carry(Check):
             held = [
                 any(case.same_liquid(origin, other) for other in case.meant.get(dest, {}))
                 for dest in _made_after(case, well, visit.index, further=clean)
+                # What is washed is kept; what is drawn off to the waste is not.
+                if visit.kind is OperationKind.ASPIRATE or dest.ref not in case.waste
             ]
             if any(held) if clean else held and all(held):
                 return True
@@ -162,6 +164,8 @@ class Carry(Check):
             well,
             (visit.line, met.line, what),
             (origin, well),
+            # A liquid that stands in all wells may be meant to come along.
+            sure=met.sure and not self._is_one_liquid(case, origin),
         )
 
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 from ...vocabulary import Remark, Severity, Undecided
 from ..checks import Case, Doubt, Violation, make_check
 from ..rehearsal import Recording
-from ..roles import Roles
+from ..roles import Roles, Strength
 from ..rules import Database, Family, RuleSpec
 from ..text import source_lines
 from .findings import Broken, findings_of
@@ -76,7 +76,7 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
         for result in make_check(check, rule.id).find(case):
             if isinstance(result, Doubt):
                 doubts.append(result.reason)
-            elif not sure and not _declared(result, case.roles):
+            elif not sure and not _plain(result, case.roles):
                 doubts.append(_UNKNOWN_ASSAY)
             else:
                 comment = _comment_alone(result, case.roles)
@@ -87,9 +87,17 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
     return violations, doubts[0] if doubts and not violations else ""
 
 
-def _declared(violation: Violation, roles: Roles) -> bool:
-    """Whether loaded liquids and the run alone say what the wells are for that it rests on."""
-    return all(well.liquids or well.ref not in roles.by_well for well in violation.rests_on)
+def _plain(violation: Violation, roles: Roles) -> bool:
+    """Whether it holds whatever the assay is.
+
+    Loaded liquids and the run alone say what the wells are for that it rests on; or names and
+    labels do, and nothing is open in what happened.
+    """
+    least = Strength.NAME if violation.sure else Strength.LIQUID
+    return all(
+        well.liquids or well.ref not in roles.by_well or roles.by_well[well.ref].strength >= least
+        for well in violation.rests_on
+    )
 
 
 def _comment_alone(violation: Violation, roles: Roles) -> str:

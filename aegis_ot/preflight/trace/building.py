@@ -237,7 +237,8 @@ class _Builder:
         clear = well.clear_of_liquid(step.from_bottom, step.from_liquid)
         if visit.below and not visit.empty_before and not clear:
             visit.touch = True
-            tip.touch(well, step.line, self._index)
+            sure = not well.clear_of_liquid(step.from_bottom, step.from_liquid, at_least=True)
+            tip.touch(well, step.line, self._index, sure)
         self._note_mix(tip, visit)
 
     def _note_mix(self, tip: Tip, visit: Visit) -> None:

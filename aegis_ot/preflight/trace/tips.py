@@ -12,14 +12,18 @@ Layer = tuple[Well | None, float, Composition, int | None]
 
 
 class Met:
-    """First contact of a tip with one liquid or one well."""
+    """First contact of a tip with one liquid or one well.
 
-    __slots__ = ("index", "line", "well")
+    ``sure``: whether the tip met it surely, and not only as far as anyone knows.
+    """
 
-    def __init__(self, well: Well, line: int | None, index: int) -> None:
+    __slots__ = ("index", "line", "sure", "well")
+
+    def __init__(self, well: Well, line: int | None, index: int, sure: bool) -> None:
         self.well = well
         self.line = line
         self.index = index
+        self.sure = sure
 
 
 class Tip:
@@ -48,16 +52,24 @@ class Tip:
         self.origins: dict[Well, Met] = {}
         self.touched: dict[Well, Met] = {}
 
-    def touch(self, well: Well, line: int | None, index: int) -> None:
+    def touch(self, well: Well, line: int | None, index: int, sure: bool = True) -> None:
         """The tip's outside met ``well``: it now carries all that the well holds."""
         met = self.touched.get(well)
         if met is None:
-            met = self.touched[well] = Met(well, line, index)
-        elif len(well.contents) <= 1 and next(iter(well.contents), None) in self.origins:
+            met = self.touched[well] = Met(well, line, index, sure)
+        elif (
+            met.sure >= sure
+            and len(well.contents) <= 1
+            and next(iter(well.contents), None) in self.origins
+        ):
             return
+        met.sure |= sure
         for origin in well.contents:
-            if origin not in self.origins:
-                self.origins[origin] = Met(well, line, index)
+            known = self.origins.get(origin)
+            if known is None:
+                self.origins[origin] = Met(well, line, index, sure)
+            elif known.well is well:
+                known.sure |= sure
 
     def push(
         self, source: Well | None, volume: float, liquid: Composition, line: int | None

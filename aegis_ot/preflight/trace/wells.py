@@ -174,18 +174,27 @@ class Well:
         for origin, share in liquid.items():
             contents[origin] = contents.get(origin, 0.0) + volume * share
 
-    def clear_of_liquid(self, from_bottom: float | None, from_liquid: float | None = None) -> bool:
+    def clear_of_liquid(
+        self, from_bottom: float | None, from_liquid: float | None = None, at_least: bool = False
+    ) -> bool:
         """Whether a tip end at this height (mm) is known not to touch the liquid.
 
         Unknown volume is not clear; but a well that was emptied in part stands no higher than a
         full one less what was taken.
+
+        Args:
+            from_bottom: Height of the tip's end over the well's bottom, mm.
+            from_liquid: The same over the liquid, mm.
+            at_least: Ask for the liquid that is surely there, instead of all that there may be.
         """
         if from_liquid is not None:
             return from_liquid >= CLEARANCE_MM
         if from_bottom is None or self.slope is None:
             return False
         volume = self.volume if self.known else self.reckoned
-        if volume is None:
+        if at_least:
+            volume = self.least
+        elif volume is None:
             volume = self.most
         level = min(volume * self.slope, self.depth)
         return from_bottom >= level + CLEARANCE_MM
