@@ -21,6 +21,7 @@ from .phrases import (
     names_several,
     role_words,
     roles_named,
+    says_only_a_place,
     says_only_the_side,
 )
 from .replicates import spread_over_replicates
@@ -64,7 +65,7 @@ def assign_roles(
         if clue.lone and names_several(lexicon, clue, common, roles):
             continue
         side_only = says_only_the_side(clue, common)
-        worth = _worth(clue, side_only)
+        worth = _worth(clue, side_only, clue.whole or says_only_a_place(clue, common))
         if clue.strength is Strength.LIQUID and names_several(lexicon, clue, common, roles):
             doubtful.update(clue.wells)
         elif (
@@ -103,10 +104,10 @@ def _is_trough(trace: Trace, ref: WellRef) -> bool:
     return info is not None and info.centers_channels
 
 
-def _worth(clue: Clue, side_only: bool) -> tuple[float, ...]:
+def _worth(clue: Clue, side_only: bool, of_the_labware: bool) -> tuple[float, ...]:
     return (
         float(clue.strength),
-        0.0 if clue.whole else 1.0,
+        0.0 if of_the_labware else 1.0,
         0.0 if side_only else 1.0,
         -float(len(set(clue.wells))),
     )

@@ -130,6 +130,11 @@ def is_outright(lexicon: Lexicon, text: str) -> bool:
     return any(match.end - match.start == len(words) for match in lexicon.find(text))
 
 
+def says_only_a_place(clue: Clue, common: Common) -> bool:
+    """Whether a name is no more than ``wells``, which says nothing of what is in them."""
+    return set(tokens(clue.text)) <= _first_words(common.places)
+
+
 def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:
     """A text that joins several different things speaks of none of them in particular.
 
@@ -162,8 +167,13 @@ def fitting_role(
         return None
     fitting = [role for role in named if specs[role].side in ("any", side)]
     if passes_on and any(specs[role].side == "source" for role in named):
-        # A plate of doses that is made here and given on is no plate of treated cells.
-        fitting = [role for role in fitting if not specs[role].implies_contents]
+        # A plate of doses that is made here and given on is no plate of treated cells; a plate
+        # of samples that is given on was one of samples before, and only gets buffer here.
+        fitting = [
+            role
+            for role in fitting
+            if not specs[role].implies_contents or (clue.whole and role in specs[role].filled_by)
+        ]
     if not fitting and passes_on and not clue.whole and clue.strength is not Strength.COMMENT:
         fitting = [role for role in named if specs[role].side == "source"]
     if not fitting or _ambiguous(fitting, roles, clue):

@@ -220,6 +220,7 @@ class Common:
     heads: tuple[str, ...] = ()
     endings: tuple[str, ...] = ()
     sides: tuple[str, ...] = ()
+    places: tuple[str, ...] = ()
     aliases: Mapping[str, str] = field(default_factory=dict)
     noise: tuple[str, ...] = ()
     distinct: tuple[str, ...] = ()
