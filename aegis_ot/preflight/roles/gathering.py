@@ -21,6 +21,7 @@ from .places import indexing_names
 from .plate_maps import plate_maps
 from .remarks import step_comments, written_wells
 from .run_maps import spotted_names, tabled_wells
+from .trough_legends import trough_legends
 from .well_names import spec_wells
 
 
@@ -50,6 +51,7 @@ def gather(
         *plate_maps(deck, facts, common),
         *drawn_maps(deck, facts, common),
         *numbered_maps(deck, facts),
+        *trough_legends(deck, facts, common),
         *spotted_names(deck, names, facts, common),
         *tabled_wells(deck, names, facts, common),
         *written_wells(deck, facts, common),

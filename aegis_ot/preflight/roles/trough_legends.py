@@ -1,0 +1,73 @@
+"""Legends of reservoirs by number: "1 sample buffer, 2 TMB substrate, 5 wash"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+
+from ...instrumentation import LabwareInfo
+from ..rules import Common
+from ..text import SourceFacts, tokens
+from .clues import Clue, Strength, shortened
+from .deck import Deck
+
+_ENTRY = re.compile(
+    r"(?:^|[,;/|])\s*(?:col(?:umn)?s?\.?\s*|#)?(\d{1,2})\s*(?:[:=.)]|->|[-–](?=\s))?\s*"
+    r"([^\W\d][^,;/|]{2,40}?)(?=\s*(?:[,;/|]|$))"
+)
+_FEWEST = 3
+"""So many numbers in order are a legend; fewer may be amounts."""
+
+
+def trough_legends(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
+    """What a comment or docstring that speaks of a reservoir says of its troughs in turn.
+
+    It is as exact as a plate map, and so as strong; it beats a name that holds several troughs.
+    """
+    troughs = [
+        info for info in deck.plates() if info.centers_channels and 1 < len(info.wells) <= 24
+    ]
+    if len(troughs) != 1:
+        return
+    words = {word for phrase in common.labware.get("reservoir", ()) for word in tokens(phrase)}
+    words |= set(tokens(troughs[0].label)) & set(tokens(troughs[0].load_name))
+    for line, text in _blocks(facts):
+        if not words.isdisjoint(tokens(text)):
+            yield from _legend(deck, troughs[0], line, text)
+
+
+def _blocks(facts: SourceFacts) -> Iterator[tuple[int, str]]:
+    """Docstrings by paragraph, and comments together with those right above."""
+    for line, text in facts.docstrings:
+        for part in re.split(r"\n\s*\n", text):
+            yield line, part
+    block: list[str] = []
+    for line in sorted(facts.comments):
+        if block and not {line, line - 1} <= facts.own_line:
+            yield line - 1, "\n".join(block)
+            block = []
+        block.append(facts.comments[line])
+    if block:
+        yield max(facts.comments), "\n".join(block)
+
+
+def _legend(deck: Deck, trough: LabwareInfo, line: int, text: str) -> Iterator[Clue]:
+    entries: list[tuple[int, str]] = []
+    for written in text.splitlines():
+        # After a heading: "Reservoir: 1 buffer, 2 substrate".
+        said = re.sub(r"^[^\d,;]*:\s*(?=\d)", "", written)
+        entries += [(int(number), words) for number, words in _ENTRY.findall(said)]
+    numbers = [number for number, _ in entries]
+    rising = all(one < other for one, other in pairwise(numbers))
+    if len(entries) < _FEWEST or not rising or numbers[-1] > len(trough.wells):
+        return
+    names = list(trough.wells)
+    for number, words in entries:
+        yield Clue(
+            Strength.NAME,
+            words,
+            (deck.ref(trough.key, names[number - 1]),),
+            line,
+            f"'{number} {shortened(words)}' in the legend at line {line}",
+        )
