@@ -162,7 +162,9 @@ class Case:
         return known
 
     def _is_same_liquid(self, one: Well, other: Well) -> bool:
-        if one is other or one.ref == other.ref or self._laid_out_alike(one, other):
+        if one is other or one.ref == other.ref:
+            return True
+        if self._laid_out_alike(one, other) or self._rolls_over(one, other):
             return True
         if one.liquids and one.liquids == other.liquids and any(map(str.isdigit, one.liquids[0])):
             return True
@@ -192,8 +194,29 @@ class Case:
             return False
         if not (info.centers_channels and their_info.centers_channels):
             return False
-        lines = {v.line for v in one.visits if v.kind is OperationKind.ASPIRATE}
-        return any(v.line in lines for v in other.visits if v.kind is OperationKind.ASPIRATE)
+        return _by_one_statement(one, other)
+
+    def _rolls_over(self, one: Well, other: Well) -> bool:
+        """Whether one channel of a reservoir goes on where another one ran out.
+
+        One statement draws from both, under one name, each for several wells of its own, and
+        most of what the first channel can hold is drawn from it.
+        """
+        info = self.trace.labware.get(one.ref.labware)
+        if info is None or not info.centers_channels or one.ref.labware != other.ref.labware:
+            return False
+        mine, theirs = self.roles.by_well.get(one.ref), self.roles.by_well.get(other.ref)
+        if (mine and mine.text) != (theirs and theirs.text):
+            return False
+        served, also = (set(self.destinations.get(well, ())) for well in (one, other))
+        first = min(one, other, key=lambda well: well.visits[0].index)
+        drawn = sum(v.volume for v in first.visits if v.kind is OperationKind.ASPIRATE)
+        return (
+            min(len(served), len(also)) > 1
+            and 2 * drawn > first.capacity
+            and len(served & also) <= 1
+            and _by_one_statement(one, other)
+        )
 
     def title(self, well: Well) -> str:
         """What a well is, in words, for the middle of a sentence."""
@@ -202,6 +225,12 @@ class Case:
     def level(self, well: Well) -> float | None:
         """Concentration or dose of a well, if known."""
         return self.roles.level(well.ref)
+
+
+def _by_one_statement(one: Well, other: Well) -> bool:
+    """Whether some line of the protocol draws from both."""
+    lines = {v.line for v in one.visits if v.kind is OperationKind.ASPIRATE}
+    return any(v.line in lines for v in other.visits if v.kind is OperationKind.ASPIRATE)
 
 
 def place(well: Well) -> str:
