@@ -78,7 +78,7 @@ def infer_families(
         found += _seen(family, shapes, bool(found))
         if family.known_by and not (_score(found) >= SURE and _defines(found)):
             roles = assign_roles(family, database.common, clues, usage, trace)
-            found += _named(family, roles, _score(found))
+            found += _named(family, roles, sum(one.worth for one in found if one.worth > 0))
         found.sort(key=lambda one: -one.worth)
         scored.append((max(_score(found), 0.0), family, found))
     scored.sort(key=lambda item: -item[0])
@@ -204,14 +204,14 @@ def _seen(
             yield _Found(signal.weight * clear, said, LONE if defining else 0.0, defining, True)
 
 
-def _named(family: Family, roles: Roles, score: float) -> Iterable[_Found]:
+def _named(family: Family, roles: Roles, said_by_words: float) -> Iterable[_Found]:
     """What the roles that wells are named for say of a family, beyond what their words said."""
     named = {a.role for a in roles.by_well.values() if a.strength > Strength.COMMENT}
     for signal in family.known_by:
         if all(named & set(either.split("|")) for either in signal.roles):
             titles = [family.roles[either.split("|")[0]].title for either in signal.roles]
             said = f"wells are named {', '.join(titles[:-1])} and {titles[-1]}"
-            yield _Found(max(signal.weight - score, 0.0), said, LONE, True)
+            yield _Found(max(signal.weight - said_by_words, 0.0), said, LONE, True)
             return
 
 

@@ -73,7 +73,9 @@ class Replacements:
         if "replace" in topics and tips_only:
             return Intervention(all_tips=True, shaken=shaken)
         named = self._named(text, labware, slots)
-        if refill:
+        if refill and not any(
+            m.topic == "plate" and not self._troughs.find(m.phrase) for m in found
+        ):
             named = named or self._troughs_meant(text, labware)
             if named and all(labware[key].centers_channels for key in named):
                 # "Refill the trough with fresh buffer" brings no fresh plate.
