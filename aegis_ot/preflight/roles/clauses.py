@@ -13,7 +13,7 @@ from typing import NamedTuple
 from ..text import tokens
 from .well_names import WELL_SPEC
 
-_BREAKS = re.compile(r"[;|]|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))")
+_BREAKS = re.compile(r"[;|]|\.\s+(?=[A-Z])|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))")
 _BRACKETS = re.compile(r"[(\[]([^()\[\]]*)[)\]]")
 _LISTED = re.compile(r"[\s,/&+]*(?:(?:and|und|et|y|e|or)\b[\s,]*)?")
 """What stands between the wells of one list: "A1, B1 and C1"."""
@@ -46,7 +46,20 @@ def _clauses(text: str) -> Iterator[str]:
     for inner in apart:
         text = text.replace(f"({inner})", " ").replace(f"[{inner}]", " ")
     for whole in (text, *apart):
-        yield from (clause for clause in _BREAKS.split(whole) if clause.strip())
+        start = 0
+        for at in [match.span() for match in _BREAKS.finditer(whole)] + [(len(whole), len(whole))]:
+            clause = whole[start : at[0]]
+            if _is_list(clause) and at[0] < len(whole):
+                continue  # "A1, B1 and C1: standards" is one clause
+            if clause.strip():
+                yield clause
+            start = at[1]
+
+
+def _is_list(clause: str) -> bool:
+    """Whether a clause names wells and nothing else."""
+    groups = _groups(clause)
+    return len(groups) == 1 and not tokens(clause[: groups[0][0]] + clause[groups[0][1] :])
 
 
 def _groups(clause: str) -> list[tuple[int, int]]:

@@ -8,12 +8,21 @@ from ...instrumentation import LabwareInfo
 from ..trace import row_column
 
 _WELL = r"[A-P](?:0?[1-9]|1\d|2[0-4])"
+_TO = r"\s*(?:-|–|to|bis)\s*"
+_AND = r"\s*(?:,|/|&|\+|and|und|et|y)\s*"
+_COLUMNS = rf"(?:1\d|2[0-4]|[1-9])(?!\d)(?:{_TO}\d+)?"
+_ROWS = rf"[A-P](?![A-Za-z0-9])(?:{_TO}[A-P](?![A-Za-z0-9]))?"
 
 WELL_SPEC = re.compile(
     rf"\b(?:(?P<first>{_WELL})(?:\s*(?:-|–|—|to|through|\.\.+|:)\s*(?P<last>{_WELL}))?"
-    r"|col(?:umn)?s?\.?\s*(?P<column>1\d|2[0-4]|[1-9])(?:\s*(?:-|–|to)\s*(?P<column2>\d+))?"
-    r"|rows?\s+(?P<row>[A-P])(?:\s*(?:-|–|to)\s*(?P<row2>[A-P]))?)\b"
+    rf"|(?i:cols|columns|spalten|colonnes|columnas)\.?\s*(?P<columns>{_COLUMNS}(?:{_AND}{_COLUMNS})*)"
+    rf"|(?i:col|column|spalte|colonne|columna)\.?\s*(?P<column>{_COLUMNS})"
+    rf"|(?i:rows|zeilen|reihen|lignes|filas)\s+(?P<rows>{_ROWS}(?:{_AND}{_ROWS})*)"
+    rf"|(?i:row|zeile|reihe|ligne|fila)\s+(?P<row>{_ROWS}))\b"
 )
+"""A well, a range of them, or columns and rows; only a plural lists several: "columns 1 and 2"."""
+
+_RANGE = re.compile(rf"(\w+)(?:{_TO}(\w+))?")
 
 
 def spec_wells(spec: str, info: LabwareInfo) -> list[str]:
@@ -42,13 +51,18 @@ def wells_meant(match: re.Match[str], info: LabwareInfo) -> list[str]:
             if rows[0] <= row_column(name)[0] <= rows[1]
             and columns[0] <= row_column(name)[1] <= columns[1]
         ]
-    if parts["column"]:
-        low = int(parts["column"])
-        high = int(parts["column2"] or low)
-        return [name for name in names if low <= row_column(name)[1] + 1 <= high]
-    low_row = row_column(parts["row"] + "1")[0]
-    high_row = row_column((parts["row2"] or parts["row"]) + "1")[0]
-    return [name for name in names if low_row <= row_column(name)[0] <= high_row]
+    listed = parts["columns"] or parts["column"]
+    axis = 1 if listed else 0
+    wanted: set[int] = set()
+    for text in re.split(_AND, listed or parts["rows"] or parts["row"]):
+        low, high = _RANGE.findall(text)[0]
+        wanted.update(range(_number(low), _number(high or low) + 1))
+    return [name for name in names if row_column(name)[axis] in wanted]
+
+
+def _number(text: str) -> int:
+    """Place of a column ``"12"`` or of a row ``"H"``, counted from 0."""
+    return int(text) - 1 if text.isdigit() else row_column(text + "1")[0]
 
 
 def _plain(name: str) -> str:
