@@ -10,6 +10,7 @@ from types import SimpleNamespace
 from typing import Any, TypeAlias
 
 from ..vocabulary import WellRef
+from .objects import attributes, is_enum, is_member, members, value_of, word_of
 from .wells import WellResolver
 
 DEEPEST = 3
@@ -59,7 +60,7 @@ class Row:
 
 def is_spot(value: Any) -> bool:
     """Whether this is the name of a well, as ``"A1"`` or ``"H12"``."""
-    return isinstance(value, str) and _SPOT.fullmatch(value) is not None
+    return issubclass(type(value), str) and _SPOT.fullmatch(value) is not None
 
 
 class Reader:
@@ -104,7 +105,7 @@ class Reader:
 
     def values(self, value: Any) -> tuple[str | float, ...]:
         """Words and numbers in a plain list of at least two."""
-        found = items(value)
+        found = [word_of(item) if is_member(item) else item for item in items(value)]
         plain = tuple(item for item in found if _is_plain(item))
         return plain if len(plain) == len(found) > 1 else ()
 
@@ -115,7 +116,10 @@ class Reader:
         return plain if len(plain) == len(entries(value)) > 1 else ()
 
     def rows(self, value: Any) -> tuple[Row, ...]:
-        """A plate map: ``{"A1": "NTC"}``, or rows (of a CSV file, say) that each name a well."""
+        """A plate map: ``{"A1": "NTC"}``, or rows (of a CSV file, say) that each name a well.
+
+        A map from well to well tells of transfers and not of roles, unless its columns do.
+        """
         named = entries(value) or self.fields(value)
         if named and all(self._is_place(key) for key, _ in named):
             found = [(*self._cells(key), *self._cells(item)) for key, item in named]
@@ -124,8 +128,10 @@ class Reader:
         else:
             found = list(self._table(items(value)))
         return tuple(
-            row for row in map(Row, found) if row.said and (row.wells or row.spots)
-        )  # a map from well to well tells of transfers, not of roles
+            row
+            for row in map(Row, found)
+            if (row.wells or row.spots) and (row.said or any(column for column, _ in row.cells))
+        )
 
     def _table(self, lines: tuple[Any, ...]) -> Iterator[tuple[tuple[str, Cell], ...]]:
         columns: tuple[str, ...] = ()
@@ -143,22 +149,39 @@ class Reader:
     def _is_place(self, value: Any) -> bool:
         return is_spot(value) or issubclass(type(value), self._well_type)
 
-    def _cells(self, value: Any) -> tuple[tuple[str, Cell], ...]:
+    def _cells(self, value: Any, column: str = "") -> tuple[tuple[str, Cell], ...]:
+        """What stands in one row; an object in it (``source.name``) is opened, one level deep."""
         named = entries(value) or self.fields(value)
         pairs = named or [("", item) for item in items(value)] or [("", value)]
         cells: list[tuple[str, Cell]] = []
         for name, item in pairs:
-            column = name if isinstance(name, str) else ""
+            beside = word_of(name) if is_member(name) else name if isinstance(name, str) else ""
+            if column:
+                beside = f"{column}.{beside}"
+            if is_member(item):
+                cells.append((beside, word_of(item)))
+                item = value_of(item)
+                if not is_spot(item):
+                    continue
             if _is_plain(item):
-                cells.append((column, item))
+                cells.append((beside, item))
+            elif not column and item is not value and self.fields(item):
+                cells += self._cells(item, beside or "item")
             else:
-                cells += [(column, ref) for ref in self.wells(item, DEEPEST - 1)]
-                cells += [(column, spot) for spot in self.spots(item, DEEPEST - 1)]
+                cells += [(beside, ref) for ref in self.wells(item, DEEPEST - 1)]
+                cells += [(beside, spot) for spot in self.spots(item, DEEPEST - 1)]
         return tuple(cells)
 
     def fields(self, value: Any) -> list[tuple[str, Any]]:
-        """The attributes of a named tuple, or of an object or class of the protocol's making."""
+        """The attributes of a named tuple, or of an object or class of the protocol's making.
+
+        Members of an Enum are words (:func:`word_of`) and have none; the Enum itself has them.
+        """
         kind = type(value)
+        if is_member(value):
+            return []
+        if is_enum(value):
+            return members(value)
         if issubclass(kind, tuple):
             names = getattr(kind, "_fields", ())
             return list(zip(names, tuple.__iter__(value), strict=False))
@@ -166,11 +189,7 @@ class Reader:
         is_own = made.__module__ in self.modules and made.__flags__ & _MADE_IN_PYTHON
         if not is_own and kind is not SimpleNamespace:
             return []
-        try:
-            own = object.__getattribute__(value, "__dict__")
-        except AttributeError:  # it has slots
-            return []
-        return [(name, item) for name, item in list(own.items()) if not name.startswith("__")]
+        return attributes(value)
 
     @staticmethod
     def notes(well: Any) -> list[tuple[str, str | float]]:
@@ -198,15 +217,16 @@ def entries(value: Any) -> list[tuple[Any, Any]]:
 
 
 def _is_word(value: Any) -> bool:
-    return isinstance(value, str) and value != "" and not is_spot(value)
+    return issubclass(type(value), str) and value != "" and not is_spot(value)
 
 
 def _is_plain(value: Any) -> bool:
     """Words or a number; not a flag."""
-    if isinstance(value, str):
+    if issubclass(type(value), str):  # isinstance would ask an object for its __class__
         return 0 < len(value) <= _LONGEST_TEXT
     return _is_number(value)
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    kind = type(value)
+    return issubclass(kind, (int, float)) and not issubclass(kind, bool)

@@ -17,6 +17,7 @@ from typing import Any
 
 from ..vocabulary import WellRef
 from .held import DEEPEST, Reader, Row, entries, items
+from .objects import is_member, word_of
 from .own_functions import helper_modules, own_functions
 from .returns import heard_returns
 from .wells import WellResolver
@@ -107,8 +108,9 @@ class NameCollector:
         read = self._reader
         if depth < DEEPEST:
             for key, item in entries(value):
-                if isinstance(key, (str, int, float)):
-                    self._take(f"{name}[{key!r}]", item, function, line, depth + 1)
+                said = word_of(key) if is_member(key) else key
+                if isinstance(said, (str, int, float)):
+                    self._take(f"{name}[{said!r}]", item, function, line, depth + 1)
             for key, item in read.fields(value):
                 self._take(f"{name}.{key}", item, function, line, depth + 1)
         binding = NameBinding(

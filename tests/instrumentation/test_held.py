@@ -109,3 +109,64 @@ def test_an_object_with_several_wells_is_one_row():
     (spots, wells, said), (more, none, _) = told(found["jobs"])
     assert (wells, said) == (("A1", "B1"), (("name", "NTC"),))
     assert (spots, more, none) == ((), ("A2", "B2"), ())
+
+
+def test_members_of_an_enum_are_words_beside_wells():
+    before = (
+        "from enum import Enum, auto\n"
+        "class Role(Enum):\n    NTC = 'water'\n    VEHICLE = 'vehicle control'\n"
+        "    BLANK = auto()\n"
+        "class Tube(str, Enum):\n    MIX = 'D6'\n"
+    )
+    found = names(
+        "layout = {'A1': Role.NTC, plate['A2']: Role.VEHICLE, 'A3': Role.BLANK}\n"
+        "groups = {Role.NTC: plate.columns()[0][:2]}\n",
+        before,
+    )
+    assert [said for _, _, said in told(found["layout"])] == [
+        (("", "NTC water"),),
+        (("", "vehicle control"),),
+        (("", "BLANK"),),
+    ]
+    assert [ref.name for ref in found["groups['NTC water']"].wells] == ["A1", "B1"]
+    assert found["Tube.MIX"].spots == ("D6",)
+
+
+def test_objects_within_objects_and_in_slots_are_read_and_no_code_of_theirs_runs():
+    before = """
+class Reagent:
+    __slots__ = ("name", "tube", "empty")
+    def __init__(self, name, tube):
+        self.name, self.tube = name, tube
+    def __getattribute__(self, name):
+        raise RuntimeError(name)
+class Arm:
+    def __init__(self, reagent, wells):
+        self.reagent, self.wells = reagent, wells
+    @property
+    def source(self):
+        raise RuntimeError
+"""
+    found = names(
+        "arms = [Arm(Reagent('DMSO', plate['H1']), plate.rows()[0][:2]),"
+        " Arm(Reagent('drug', plate['H2']), [])]\n",
+        before,
+    )
+    first, second = found["arms"].rows
+    assert first.said == (("reagent.name", "DMSO"),)
+    assert [(column, ref.name) for column, ref in first.cells if ref in first.wells] == [
+        ("reagent.tube", "H1"),
+        ("wells", "A1"),
+        ("wells", "A2"),
+    ]
+    assert [ref.name for ref in second.wells] == ["H2"]
+
+
+def test_rows_with_wells_alone_are_told_where_their_fields_have_names():
+    found = names(
+        "jobs = [{'vehicle': plate['A1'], 'well': plate['B1']}]\n"
+        "pairs = [(plate['A1'], plate['B1'])]\n"
+    )
+    ((_, wells, said),) = told(found["jobs"])
+    assert (wells, said) == (("A1", "B1"), ())
+    assert found["pairs"].rows == ()

@@ -86,7 +86,10 @@ class SeriesFilledFrom(Check):
                 if not known and (not case.has(source, stock) or _added_by_hand(series, source)):
                     yield Doubt("nothing says which reservoir holds the diluent")
                     return
-                if not case.of(source) and not _as_much_as_diluent(case, series, step, source):
+                if not case.of(source) and (
+                    _fills_a_series_alone(case, series, source)
+                    or not _as_much_as_diluent(case, series, step, source)
+                ):
                     yield Doubt(f"nothing says what {place(source)} holds")
                     continue
                 what = (
@@ -135,6 +138,24 @@ def _added_by_hand(series: Series, source: Well) -> bool:
     heads = linked - {link.well for link in series.links}
     return all(_given(well, source) > 0 for well in linked) and all(
         not well.known and not well.prefilled for well in heads
+    )
+
+
+def _fills_a_series_alone(case: Case, series: Series, source: Well) -> bool:
+    """Whether one series is filled from this and another from a diluent in the same labware.
+
+    Each may have a diluent of its own; wells of one series that differ are a mistake.
+    """
+    if any(diluent_arrivals(case, well) for well in series.wells):
+        return False
+    diluent = diluent_roles(case)
+    return any(
+        other is not None and other.ref.labware == source.ref.labware and case.has(other, diluent)
+        for beside in case.series
+        if beside is not series
+        for well in beside.wells
+        for visit in case.trace.deliveries(well)
+        for other, _, _, _ in visit.parts
     )
 
 

@@ -11,6 +11,7 @@ from ..text import SourceFacts
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
+from .fields import named_fields
 from .grids import drawn_maps
 from .labels import labels
 from .legend_clues import explained
@@ -46,6 +47,7 @@ def gather(
         *_given(deck, given),
         *_liquids(trace, facts),
         *named_wells(deck, names, facts, common),
+        *named_fields(names, facts),
         *labels(deck),
         *indexing_names(deck, facts, common),
         *plate_maps(deck, facts, common),

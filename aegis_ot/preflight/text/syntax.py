@@ -148,9 +148,12 @@ class SyntaxReader:
         given = [(sides.get(n), a) for n, a in enumerate(node.args)]
         given += [(sides.get(k.arg), k.value) for k in node.keywords if k.arg]
         for side, value in given:
-            name = _root(value.slice if isinstance(value, ast.Subscript) else value)
-            if side and name:
-                self._facts.arguments.setdefault(node.lineno, []).append((side, name))
+            if not side:
+                continue
+            said = value.slice if isinstance(value, ast.Subscript) else value
+            names = (_root(said), _field(said))
+            listed = self._facts.arguments.setdefault(node.lineno, [])
+            listed += [(side, name) for name in names if name]
 
     def _liquid(self, node: ast.Call) -> None:
         values = dict(
@@ -176,6 +179,15 @@ class SyntaxReader:
                     tuple(keys_in(index)),
                 )
             )
+
+
+def _field(value: ast.expr) -> str:
+    """``lad.diluent`` in ``lad.diluent`` and ``lad.diluent.bottom(2)``, else ``""``."""
+    if isinstance(value, ast.Call):
+        value = value.func.value if isinstance(value.func, ast.Attribute) else value
+    if isinstance(value, ast.Attribute) and isinstance(value.value, ast.Name):
+        return f"{value.value.id}.{value.attr}"
+    return ""
 
 
 def _root(value: ast.expr) -> str:
