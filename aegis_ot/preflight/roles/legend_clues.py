@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from ..text import SourceFacts, legend_of
-from .clues import Clue, shortened
+from .clues import Clue, Strength, shortened
 
 _KEY = re.compile(r"\[(['\"])(.+)\1\]$")
 
@@ -18,8 +18,11 @@ def explained(clues: Iterable[Clue], facts: SourceFacts) -> Iterator[Clue]:
     if not legend:
         return
     for clue in clues:
+        if clue.strength not in (Strength.NAME, Strength.LOOSE_NAME) or clue.whole:
+            continue
         key = _KEY.search(clue.text)
-        code = key[2] if key else clue.text.rpartition(" ")[2]
+        in_map = clue.said.startswith("plate map")  # `LAYOUT V` there is the map and its key
+        code = key[2] if key else clue.text.rpartition(" ")[2] if in_map else clue.text
         said = legend.get(code)
         if said and said != clue.text:
             yield replace(
