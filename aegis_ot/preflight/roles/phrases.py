@@ -172,7 +172,8 @@ def fitting_role(
         fitting = [
             role
             for role in fitting
-            if not specs[role].implies_contents or (clue.whole and role in specs[role].filled_by)
+            if not specs[role].implies_contents
+            or (specs[role].side == side and role in specs[role].filled_by)
         ]
     if not fitting and passes_on and not clue.whole and clue.strength is not Strength.COMMENT:
         fitting = [role for role in named if specs[role].side == "source"]
