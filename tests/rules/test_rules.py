@@ -66,6 +66,8 @@ def test_a_sixth_family_needs_no_code() -> None:
         (lambda d: d["rules"][0]["checks"][0].update(wells=["nobody"]), "no role 'nobody'"),
         (lambda d: d["rules"][0]["checks"][0].update(wlls=["x"]), "unknown field 'wlls'"),
         (lambda d: d["roles"]["stop"].update(words="stop"), "roles.stop: words: expected a list"),
+        (lambda d: d.update(shapes=[{"shape": "star", "weight": 1}]), "no shape 'star'"),
+        (lambda d: d.update(known_by=[{"roles": ["stop|nobody"]}]), "no role 'nobody'"),
         (lambda d: d.update(schema=9), "schema: expected 1, found 9"),
     ],
 )
