@@ -42,9 +42,12 @@ class DoseOrder(Check):
         """Follow each tip through the dosed wells."""
         liquid, wanted = frozenset(self.liquid), frozenset(self.wells)
         doses = self._doses(case, liquid)
+        collected = self._collected(case, liquid, wanted)
         seen: set[tuple[int, int]] = set()
         for visit in case.trace.visits:
             if not visit.below or not visit.carried or not case.has(visit.well, wanted):
+                continue
+            if visit.well in collected:
                 continue
             here = doses.get(visit.well, {})
             key = (visit.tip.number, id(visit.well))
@@ -64,6 +67,18 @@ class DoseOrder(Check):
                 if worse is not None:
                     seen.add(key)
                     yield worse
+
+    @staticmethod
+    def _collected(case: Case, liquid: frozenset[str], wanted: frozenset[str]) -> set[Well]:
+        """Wells that are filled with what stood in dosed ones, as with supernatants."""
+        alike = wanted.union(*(case.roles.closure(role) for role in wanted))
+        dosing: dict[Well, bool] = {}
+        for visit in case.trace.visits:
+            for origin, _, source, _ in delivered(visit):
+                if case.has(origin, liquid):
+                    collects = source is not origin and case.has(source, alike)
+                    dosing[visit.well] = dosing.get(visit.well, True) and collects
+        return {well for well, collects in dosing.items() if collects}
 
     def _doses(self, case: Case, liquid: frozenset[str]) -> dict[Well, dict[Well, float]]:
         """For each well the µL of each dosed liquid that it is given in the whole run."""

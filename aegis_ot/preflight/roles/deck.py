@@ -43,6 +43,10 @@ class Deck:
         """The wells of these labware that the run uses."""
         return tuple(ref for (key, _), ref in self.refs.items() if key in labware)
 
+    def used_at(self, line: int) -> set[WellRef]:
+        """The wells that the statement at a line uses, itself or through what it calls."""
+        return {visit.well.ref for visit in self.trace.visits if line in visit.lines}
+
     def plates(self) -> list[LabwareInfo]:
         """Labware that holds liquid."""
         return [

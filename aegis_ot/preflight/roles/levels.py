@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from contextlib import suppress
 from typing import Any
 
@@ -45,3 +46,14 @@ def number_in(value: Any) -> float | None:
         with suppress(ValueError):
             return float(value)
     return None
+
+
+_FEWEST_AMOUNTS = 3
+
+_FAR = 10
+"""Numbers as large as so many times their count are amounts."""
+
+
+def far_apart(numbers: Collection[float]) -> bool:
+    """Whether these are amounts of one thing: so many, and too far apart to count something."""
+    return len(numbers) >= _FEWEST_AMOUNTS and max(numbers) >= _FAR * len(numbers)

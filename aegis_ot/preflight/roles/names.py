@@ -13,7 +13,7 @@ from ..text import SourceFacts, lexicon_of, tokens
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
-from .levels import is_number
+from .levels import far_apart, is_number
 from .well_names import WELL_SPEC
 
 
@@ -135,9 +135,6 @@ def _numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
     return found
 
 
-_FEWEST_AMOUNTS = 3
-
-
 def _amounts_in_names(names: Sequence[NameBinding]) -> dict[str, float]:
     """Level of names like ``s_2000``, ``s_500``, ``s_0``: alike but for numbers too far apart to
     count something. So many amounts of one thing are its standards.
@@ -150,13 +147,9 @@ def _amounts_in_names(names: Sequence[NameBinding]) -> dict[str, float]:
     return {
         name: value
         for group in groups.values()
-        if len(group) >= _FEWEST_AMOUNTS and max(group.values()) >= _FAR * len(group)
+        if far_apart(group.values())
         for name, value in group.items()
     }
-
-
-_FAR = 10
-"""Numbers as large as so many times their count are amounts."""
 
 
 def _keyed_amounts(

@@ -1,16 +1,21 @@
-"""Plate maps by column or row: ``{"drug": [2, 3], "vehicle": [6]}``, ``NTC_ROWS = "GH"``."""
+"""Plate maps by column or row: ``{"drug": [2, 3], "vehicle": [6]}``, ``NTC_ROWS = "GH"``.
+
+Where a place names both, as ``plate[f"{row}{column}"]`` does, the crossing is meant.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
+from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
-from ..text import Numbered, SourceFacts, origins
+from ..rules import Common
+from ..text import Numbered, SourceFacts, lexicon_of, origins
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
-from .levels import is_number
+from .levels import far_apart, is_number
 
 Entry: TypeAlias = "tuple[str, tuple[int | str, ...], float | None]"
 """What is said, of which columns or rows, and their level."""
@@ -19,20 +24,25 @@ _COUNTING = frozenset({"range", "len", "enumerate"})
 _LETTERS = "ABCDEFGHIJKLMNOP"
 
 
-def numbered_maps(deck: Deck, facts: SourceFacts) -> Iterator[Clue]:
+def numbered_maps(
+    deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
+) -> Iterator[Clue]:
     """Constants whose numbers or letters the run turns into columns or rows of its labware."""
-    for name, value in facts.constants.items():
-        entries = list(_entries(name, value))
+    counts = lexicon_of({"count": common.countings})
+    maps = _maps(names, facts)
+    for name, value in maps.items():
+        entries = list(_entries(name, value, bool(counts.find(name))))
         if not entries:
             continue
         places = [place for place in facts.numbered if _comes_from(facts, place, name, value)]
         if not places:
             continue
         line = facts.assigned.get(name)
+        amounts = far_apart([level for _, _, level in entries if level is not None])
         for text, numbers, level in entries:
             wells = tuple(
                 dict.fromkeys(
-                    ref for place in places for ref in _wells(deck, facts, place, numbers)
+                    ref for place in places for ref in _wells(deck, facts, maps, place, numbers)
                 )
             )
             yield Clue(
@@ -43,19 +53,48 @@ def numbered_maps(deck: Deck, facts: SourceFacts) -> Iterator[Clue]:
                 f"plate map `{text}` at line {line}",
                 levels=() if level is None else (level,) * len(wells),
             )
+            drawn = tuple(ref for ref in wells if (ref.labware, ref.name) not in deck.received)
+            if amounts and level is not None and drawn:
+                yield Clue(
+                    Strength.LOOSE_NAME,
+                    "standard",
+                    drawn,
+                    line,
+                    f"one of several amounts in `{name}` at line {line}",
+                    levels=(level,) * len(drawn),
+                )
 
 
-def _entries(name: str, value: Any) -> Iterator[Entry]:
+def _maps(names: Sequence[NameBinding], facts: SourceFacts) -> dict[str, Any]:
+    """What may be a map, by name: written down, or made in the run of other constants."""
+    made = {
+        binding.name: dict(binding.numbers) or binding.values
+        for binding in names
+        if binding.name in facts.assigned and (binding.numbers or binding.values)
+    }
+    return {**made, **facts.constants}
+
+
+def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
+    """What a map says of its columns or rows; where it ``counts``, its numbers are no levels."""
     if isinstance(value, Mapping):
         for key, item in value.items():
-            if isinstance(key, str) and _places_in(item):
+            if isinstance(key, (int, str)) and _places_in(key) and _is_said(item):
+                if isinstance(item, str):
+                    yield item, _places_in(key), None
+                elif isinstance(key, str) and not counts:
+                    yield name, _places_in(key), float(item)
+            elif isinstance(key, str) and _places_in(item):
                 yield f"{name} {key}", _places_in(item), None
             elif is_number(key) and isinstance(item, (list, tuple)) and _places_in(item):
                 yield name, _places_in(item), float(key)
-            elif isinstance(key, int) and isinstance(item, str):
-                yield item, (key,), None
     elif _places_in(value):
         yield name, _places_in(value), None
+
+
+def _is_said(item: Any) -> bool:
+    """Whether this stands beside a column or a row and says what is there, or how much."""
+    return is_number(item) or (isinstance(item, str) and not _places_in(item))
 
 
 def _places_in(value: Any) -> tuple[int | str, ...]:
@@ -75,39 +114,60 @@ def _comes_from(facts: SourceFacts, place: Numbered, name: str, value: Any) -> b
         return True
     if isinstance(value, int):
         return False  # a number further away rather counts the turns than the columns
-    from_names = origins(facts, (place.name,), (place.line,))
-    return name in from_names and _COUNTING.isdisjoint(from_names)
+    from_names = origins(facts, (place.name,), place.lines)
+    if name not in from_names:
+        return False
+    own = {other for other, _, _ in facts.comes_from.get(name, ())}  # range(10, 12) says columns
+    return (_COUNTING & from_names) <= own
 
 
 def _wells(
-    deck: Deck, facts: SourceFacts, place: Numbered, numbers: tuple[int | str, ...]
+    deck: Deck,
+    facts: SourceFacts,
+    maps: Mapping[str, Any],
+    place: Numbered,
+    numbers: tuple[int | str, ...],
 ) -> Iterator[WellRef]:
     """The wells that the run fills in these columns or rows, or else those that it uses."""
-    wanted = {
-        number - place.first if isinstance(number, int) else _LETTERS.index(number)
-        for number in numbers
-        if isinstance(number, int) or place.axis == "row"
-    }
-    rows = _rows(facts, place)
+    wanted = set(_indices(numbers, place.first if place.axis == "column" else None))
     at = 1 if place.axis == "column" else 0
+    across = _across(facts, maps, place)
     for key in sorted(deck.by_name.get(place.labware, ())):
         used = [
             ref
             for ref in deck.used_wells((key,))
-            if row_column(ref.name)[at] in wanted and (not rows or ref.name[0] in rows)
+            if row_column(ref.name)[at] in wanted
+            and (not across or row_column(ref.name)[1 - at] in across)
         ]
+        if place.axis == "row" and not across:
+            # The row may hold other things in columns of which this place does not speak.
+            here = deck.used_at(place.lines[0])
+            used = [ref for ref in used if ref in here] or used
         filled = [ref for ref in used if (key, ref.name) in deck.received]
         yield from filled or used
 
 
-def _rows(facts: SourceFacts, place: Numbered) -> frozenset[str]:
-    """Letters of the rows that a column's wells stand in; empty where that is not plain."""
-    if len(place.rows) <= 1:
-        return frozenset(place.rows)
-    names = origins(facts, place.rows.split(), (place.line,))
-    listed = [facts.constants[name] for name in names if name in facts.constants]
+def _indices(places: Iterable[int | str], first: int | None) -> Iterator[int]:
+    """Counted from 0; columns whose numbers begin with ``first``, or letters of rows."""
+    for place in places:
+        if isinstance(place, str):
+            yield _LETTERS.index(place)
+        elif first is not None:
+            yield place - first
+
+
+def _across(facts: SourceFacts, maps: Mapping[str, Any], place: Numbered) -> frozenset[int]:
+    """The rows of a column's wells, or the columns of a row's; empty where that is not plain."""
+    if place.fixed is not None:
+        return frozenset({place.fixed})
+    names = origins(facts, (place.across,), place.lines) if place.across else frozenset()
+    if not _COUNTING.isdisjoint(names):
+        return frozenset()
+    listed = [maps[name] for name in names if name in maps]
     for loop in facts.runs:
-        if loop.first <= place.line <= loop.last:
+        if any(loop.first <= line <= loop.last for line in place.lines):
             listed += [v.column for v in loop.values if v.name in names and v.column is not None]
-    letters = [_places_in(value) for value in listed]
-    return frozenset(str(x) for found in letters for x in found if isinstance(x, str))
+    listed += [part for value in listed if isinstance(value, Mapping) for part in value.values()]
+    listed += [tuple(value) for value in listed if isinstance(value, Mapping)]
+    first = place.across_first if place.axis == "row" else None
+    return frozenset(i for value in listed for i in _indices(_places_in(value), first))

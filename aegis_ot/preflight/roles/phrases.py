@@ -154,6 +154,14 @@ def _unlike(named: Sequence[str], roles: Roles) -> bool:
     )
 
 
+_A_PLATE = 6
+
+
+def _is_plate_of(clue: Clue) -> bool:
+    """Whether a liquid stood in so many wells before the run that it was in a plate, not tubes."""
+    return clue.strength is Strength.LIQUID and len(set(clue.wells)) >= _A_PLATE
+
+
 def fitting_role(
     named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: Clue
 ) -> str | None:
@@ -166,7 +174,11 @@ def fitting_role(
     if clue.step and clue.step != side:
         return None
     fitting = [role for role in named if specs[role].side in ("any", side)]
-    if passes_on and any(specs[role].side == "source" for role in named):
+    if (
+        passes_on
+        and not _is_plate_of(clue)
+        and any(specs[role].side == "source" for role in named)
+    ):
         # A plate of doses that is made here and given on is no plate of treated cells; a plate
         # of samples that is given on was one of samples before, and only gets buffer here.
         fitting = [

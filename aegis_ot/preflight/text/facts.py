@@ -74,16 +74,20 @@ class Numbered:
         axis: ``column`` or ``row``.
         name: The name.
         first: Its value for the first column or row, where it is a number.
-        rows: For a column, the letter of its row, or the names that this comes from.
-        line: Where it stands.
+        lines: The line where it stands, and those that call the helper in which it stands.
+        fixed: Index of the row of a column's wells, or of the column of a row's, if one is given.
+        across: The name that gives it otherwise, or ``""``.
+        across_first: What ``first`` is for that name.
     """
 
     labware: str
     axis: str
     name: str
     first: int
-    rows: str
-    line: int
+    lines: tuple[int, ...]
+    fixed: int | None = None
+    across: str = ""
+    across_first: int = 0
 
 
 @dataclass

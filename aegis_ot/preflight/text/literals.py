@@ -37,6 +37,27 @@ def index_value(node: ast.expr, constants: Mapping[str, Any]) -> Any:
     return None
 
 
+_LONGEST_RANGE = 400
+
+
+def counted(node: ast.expr) -> list[int] | None:
+    """The numbers of ``range(2, 12)`` or ``list(range(2, 12))``, where they are written down."""
+    if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name) or node.keywords:
+        return None
+    if node.func.id in ("list", "tuple") and len(node.args) == 1:
+        return counted(node.args[0])
+    bounds = [index_value(argument, {}) for argument in node.args]
+    if node.func.id != "range" or not 1 <= len(bounds) <= 3:
+        return None
+    if not all(type(bound) is int for bound in bounds):
+        return None
+    try:
+        numbers = range(*bounds)
+    except ValueError:  # a step of 0, which Python will refuse as well
+        return None
+    return list(numbers) if 0 < len(numbers) <= _LONGEST_RANGE else None
+
+
 def rows_of(value: ast.expr) -> Iterator[tuple[Any, ...]]:
     """The constants that stand in each row of a list of tuples, dicts or calls, or of a dict.
 

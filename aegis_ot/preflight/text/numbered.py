@@ -10,7 +10,7 @@ import ast
 from collections.abc import Iterator
 
 from .facts import Numbered, SourceFacts
-from .literals import last_name, names_in, plain_text
+from .literals import last_name, plain_text
 
 _INDEXED = {
     "columns": ("column", 0),
@@ -23,25 +23,44 @@ _INDEXED = {
 
 def read_numbered(tree: ast.Module, facts: SourceFacts) -> None:
     """Note every such place."""
+    called = _called_at(tree)
     for node in ast.walk(tree):
         if isinstance(node, ast.Subscript):
-            facts.numbered.extend(_found(node.value, node.slice, node.lineno))
+            base, index = node.value, node.slice
         elif (
             isinstance(node, ast.Call)
             and isinstance(node.func, ast.Attribute)
             and node.func.attr in ("well", "wells")
             and len(node.args) == 1
         ):
-            facts.numbered.extend(_found(node.func.value, node.args[0], node.lineno))
+            base, index = node.func.value, node.args[0]
+        else:
+            continue
+        lines = (node.lineno, *called.get(node.lineno, ()))
+        facts.numbered.extend(_found(base, index, lines))
 
 
-def _found(base: ast.expr, index: ast.expr, line: int) -> Iterator[Numbered]:
+def _called_at(tree: ast.Module) -> dict[int, tuple[int, ...]]:
+    """For each line of a helper the lines that call it."""
+    calls: dict[str, list[int]] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            calls.setdefault(node.func.id, []).append(node.lineno)
+    return {
+        line: tuple(calls[node.name])
+        for node in ast.walk(tree)
+        if isinstance(node, ast.FunctionDef) and node.name in calls
+        for line in range(node.lineno, (node.end_lineno or node.lineno) + 1)
+    }
+
+
+def _found(base: ast.expr, index: ast.expr, lines: tuple[int, ...]) -> Iterator[Numbered]:
     if isinstance(base, ast.Call) and isinstance(base.func, ast.Attribute):
         if base.func.attr in _INDEXED and not base.args:
             axis, first = _INDEXED[base.func.attr]
             name, added = _counted(index)
             if name:
-                yield Numbered(last_name(base.func.value), axis, name, first - added, "", line)
+                yield Numbered(last_name(base.func.value), axis, name, first - added, lines)
             return
         if base.func.attr != "wells_by_name" or base.args:
             return
@@ -50,12 +69,18 @@ def _found(base: ast.expr, index: ast.expr, line: int) -> Iterator[Numbered]:
     if len(parts) != 2:
         return
     row, column = parts
-    name, added = _counted(column) if isinstance(column, ast.expr) else ("", 0)
-    if name:
-        rows = row if isinstance(row, str) else " ".join(names_in(row))
-        yield Numbered(last_name(base), "column", name, 1 - added, rows, line)
-    if isinstance(row, ast.Name):
-        yield Numbered(last_name(base), "row", row.id, 0, "", line)
+    labware = last_name(base)
+    letter = row.id if isinstance(row, ast.Name) else ""
+    number, added = _counted(column) if isinstance(column, ast.expr) else ("", 0)
+    if number:
+        fixed = _LETTERS.find(row) if isinstance(row, str) and row in _LETTERS else None
+        yield Numbered(labware, "column", number, 1 - added, lines, fixed, letter)
+    if letter:
+        fixed = int(column) - 1 if isinstance(column, str) and column.isdigit() else None
+        yield Numbered(labware, "row", letter, 0, lines, fixed, number, 1 - added)
+
+
+_LETTERS = "ABCDEFGHIJKLMNOP"
 
 
 def _counted(node: ast.expr) -> tuple[str, int]:

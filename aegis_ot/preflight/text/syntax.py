@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 
 from .facts import Place, SourceFacts
-from .literals import index_value, keys_in, last_name, names_in, plain_text, rows_of
+from .literals import counted, index_value, keys_in, last_name, names_in, plain_text, rows_of
 
 _SIDES: dict[str, dict[int | str, str]] = {
     "aspirate": {1: "source", "location": "source"},
@@ -94,8 +94,9 @@ class SyntaxReader:
         try:
             literal = ast.literal_eval(value)
         except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
-            return
-        facts.constants.setdefault(name, literal)
+            literal = counted(value)
+        if literal is not None:
+            facts.constants.setdefault(name, literal)
 
     def _functions(self, node: ast.AST, function: str) -> None:
         for child in ast.iter_child_nodes(node):
