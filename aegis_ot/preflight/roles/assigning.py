@@ -14,6 +14,7 @@ from ..rules import Common, Family
 from ..trace import Trace
 from .channels import spread_over_channels
 from .clues import Clue, Strength
+from .helpers import unsay_controls
 from .levels import levels_of
 from .phrases import (
     fitting_role,
@@ -93,6 +94,7 @@ def assign_roles(
             told = levels.get(ref, set())
             if assignment.level is None and len(told) == 1:
                 assignment.level = told.pop()
+    unsay_controls(roles, trace)
     spread_over_channels(roles, trace)
     spread_over_replicates(roles, trace)
     return roles

@@ -13,6 +13,7 @@ from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .fields import named_fields
 from .grids import drawn_maps
+from .helpers import helper_names
 from .labels import labels
 from .legend_clues import explained
 from .loop_levels import loop_levels
@@ -59,6 +60,7 @@ def gather(
         *written_wells(deck, facts, common),
         *step_comments(trace, facts, common),
         *call_arguments(trace, facts, common),
+        *helper_names(trace, facts, common),
         *loop_levels(trace, names, facts, common),
     ]
     clues += explained(clues, facts)

@@ -20,7 +20,8 @@ def role_words(family: Family, common: Common) -> Lexicon:
     return lexicon_of(phrases, common.aliases, common.endings)
 
 
-_BOTH = frozenset({"and", "plus", "all", "und", "et", "y"})
+BOTH = frozenset({"and", "plus", "all", "und", "et", "y"})
+"""Words that join several things."""
 
 
 def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
@@ -54,12 +55,12 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
     places = _without_additives(places, words, common)
     if clue.step == "source":
         places = _drawn(places, words, common)
-    joints = [at for at, word in enumerate(words) if word in _first_words(common.joints)]
+    joints = [at for at, word in enumerate(words) if word in first_words(common.joints)]
     if joints and any(at < joints[0] for at in places):
         # "drug in medium" is a drug.
         places = {at: topics for at, topics in places.items() if at < joints[0]}
-    always = _first_words(common.heads) if clue.subject else frozenset()
-    sides = _first_words(common.sides)
+    always = first_words(common.heads) if clue.subject else frozenset()
+    sides = first_words(common.sides)
     ordered = [
         places[at]
         for at in sorted(
@@ -87,7 +88,7 @@ def _drawn(
 
     What follows "to", an article apart, is where the liquid goes, not what it is.
     """
-    toward, articles = _first_words(common.toward), _first_words(common.articles)
+    toward, articles = first_words(common.toward), first_words(common.articles)
     end = len(words)
     for at, word in enumerate(words):
         if word in toward:
@@ -101,7 +102,8 @@ def _drawn(
 
 
 @functools.lru_cache(maxsize=16)
-def _first_words(phrases: tuple[str, ...]) -> frozenset[str]:
+def first_words(phrases: tuple[str, ...]) -> frozenset[str]:
+    """The first word of each phrase of a list."""
     return frozenset(tokens(phrase)[0] for phrase in phrases)
 
 
@@ -121,7 +123,7 @@ def _telling_part(lexicon: Lexicon, clue: Clue) -> str:
 
 def says_only_the_side(clue: Clue, common: Common) -> bool:
     """Whether a name is no more than ``src``: it is given to whatever is drawn from."""
-    return set(tokens(clue.text)) <= _first_words(common.sides)
+    return set(tokens(clue.text)) <= first_words(common.sides)
 
 
 def is_outright(lexicon: Lexicon, text: str) -> bool:
@@ -132,7 +134,7 @@ def is_outright(lexicon: Lexicon, text: str) -> bool:
 
 def says_only_a_place(clue: Clue, common: Common) -> bool:
     """Whether a name is no more than ``wells``, which says nothing of what is in them."""
-    return set(tokens(clue.text)) <= _first_words(common.places)
+    return set(tokens(clue.text)) <= first_words(common.places)
 
 
 def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:
@@ -140,7 +142,7 @@ def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:
 
     In a name the last word is the head, unless the name joins several with "and".
     """
-    if clue.subject and not _BOTH & set(tokens(clue.text)):
+    if clue.subject and not BOTH & set(tokens(clue.text)):
         return False
     return _unlike(fitting, roles)
 

@@ -114,6 +114,7 @@ class SourceFacts:
             last line on which that holds.
         runs: Loops over literals and over names.
         draws: By line, all names in what a call draws from.
+        within: By line, the function that it belongs to, with the function's first line.
         names: Every identifier of the text, once.
         strings: Every other string of the text, with its line.
     """
@@ -136,5 +137,6 @@ class SourceFacts:
     comes_from: dict[str, set[tuple[str, int, int]]] = field(default_factory=dict)
     runs: list[Loop] = field(default_factory=list)
     draws: dict[int, set[str]] = field(default_factory=dict)
+    within: dict[int, tuple[str, int]] = field(default_factory=dict)
     names: set[str] = field(default_factory=set)
     strings: list[tuple[int, str]] = field(default_factory=list)

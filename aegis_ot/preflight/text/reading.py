@@ -7,6 +7,7 @@ import ast
 from .comments import read_blocks, read_comments
 from .facts import SourceFacts
 from .flow import read_flow
+from .functions import read_functions
 from .numbered import read_numbered
 from .syntax import SyntaxReader
 
@@ -23,4 +24,5 @@ def read_source(text: str) -> SourceFacts:
     read_flow(tree, facts)
     read_numbered(tree, facts)
     read_blocks(text, tree, facts)
+    read_functions(tree, facts)
     return facts

@@ -1,0 +1,104 @@
+"""What helper functions are called: ``add_water(tube, target)`` says what it draws.
+
+A name speaks of what is drawn while the function is at work, if it says what is done and with
+one thing. Where several functions around a draw say something, each is heard; the one that
+draws from fewer wells knows better (see :mod:`.assigning`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from ...instrumentation import OperationKind
+from ...vocabulary import WellRef
+from ..rules import Common
+from ..text import SourceFacts, tokens
+from ..trace import Trace
+from .clues import Clue, Strength
+from .phrases import BOTH, first_words
+from .roles import Roles
+
+_SAID = "function"
+
+
+def helper_names(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[Clue]:
+    """For each function that says what it gives, the wells that are drawn from within it."""
+    things = {
+        function: thing
+        for function in set(facts.within.values())
+        if (thing := thing_given(function[0], common))
+    }
+    drawn: dict[tuple[str, int], dict[WellRef, None]] = {}
+    for visit in trace.visits if things else ():
+        if visit.mixing or visit.kind is not OperationKind.ASPIRATE:
+            continue
+        for line in visit.lines:
+            function = facts.within.get(line)
+            if function in things:
+                drawn.setdefault(function, {})[visit.well.ref] = None
+    for (name, line), wells in drawn.items():
+        yield Clue(
+            Strength.LOOSE_NAME,
+            things[name, line],
+            tuple(wells),
+            line,
+            f"{_SAID} `{name}` at line {line}",
+            step="source",
+        )
+
+
+def thing_given(name: str, common: Common) -> str:
+    """What a function of this name gives: "water" for ``add_water_to_wells``; ``""`` if unsaid."""
+    words = list(tokens(name))
+    giving, filling = first_words(common.giving), first_words(common.filling)
+    at = next((at for at, word in enumerate(words) if word in giving | filling), None)
+    if at is None:
+        return ""
+    before, after = words[:at], words[at + 1 :]
+    if words[at] in filling:  # its object is what is filled, unless it stands alone
+        filled_with = [n for n, word in enumerate(after) if word in first_words(common.joints)]
+        return " ".join(after[filled_with[0] + 1 :]) if filled_with else ""
+    said = _one_thing(after, giving | filling | first_words(common.handling), common)
+    return " ".join(said if after else before)
+
+
+def _one_thing(words: list[str], verbs: Collection[str], common: Common) -> list[str]:
+    """The words up to where it goes; further deeds are left out, further things make it none."""
+    while len(words) > 1 and words[0] in BOTH and words[1] in verbs:
+        words = words[2:]  # dispense_and_mix_sample
+    toward = first_words(common.toward)
+    for at, word in enumerate(words):
+        if word in toward:
+            return words[:at]
+        if word in BOTH:
+            return words[:at] if at + 1 < len(words) and words[at + 1] in verbs else []
+    return words
+
+
+def unsay_controls(roles: Roles, trace: Trace) -> None:
+    """Forget what only a function's name says of a source that goes into controls alone.
+
+    ``add_template(tube, ntc)`` gives the control what stands in the template's place.
+    """
+    only = {
+        ref
+        for ref, assigned in roles.by_well.items()
+        if all(said.startswith(_SAID) for said in assigned.evidence)
+        and not roles.family.roles[assigned.role].one_liquid
+    }
+    fed: dict[WellRef, set[WellRef]] = {}
+    for source, well, _ in trace.feedings() if only else ():
+        if source.ref in only:
+            fed.setdefault(source.ref, set()).add(well.ref)
+    for ref, wells in fed.items():
+        if all(_is_set_apart(roles, well) for well in wells):
+            del roles.by_well[ref]
+
+
+def _is_set_apart(roles: Roles, ref: WellRef) -> bool:
+    """Whether a well is called something that does not follow from what it receives."""
+    assigned = roles.by_well.get(ref)
+    if assigned is None:
+        return False
+    spec = roles.family.roles[assigned.role]
+    return bool(spec.parents) and not spec.receives
