@@ -76,7 +76,7 @@ def infer_families(
     for family in database.families:
         found = _found(family, texts, database.common)
         found += _seen(family, shapes, bool(found))
-        if family.known_by and not (_score(found) >= SURE and _defines(found)):
+        if family.known_by and found and not (_score(found) >= SURE and _defines(found)):
             roles = assign_roles(family, database.common, clues, usage, trace)
             found += _named(family, roles, sum(one.worth for one in found if one.worth > 0))
         found.sort(key=lambda one: -one.worth)
