@@ -13,6 +13,10 @@ _HEADING = re.compile(r"\W*((?:[^\W\d]\w*[ -]?){1,4})\s*:")
 """A line that begins with what it speaks of: "tubes: A1 lowest ... B2 highest"."""
 
 
+_NEAR = 5
+"""A noun so many words after a well still says where that is."""
+
+
 class LabwareNouns:
     """Finds the labware that words stand for; an empty set where they stand for none."""
 
@@ -23,6 +27,10 @@ class LabwareNouns:
             {word for phrase in words for word in tokens(phrase)}
             for words in common.labware.values()
         ]
+        self._origins = {word for phrase in common.origins for word in tokens(phrase)}
+        self._joints = {
+            word for phrase in (*common.joints, *common.belonging) for word in tokens(phrase)
+        }
         self._labels = [
             (f" {' '.join(tokens(info.label))} ", info.key) for info in deck.plates() if info.label
         ]
@@ -51,7 +59,15 @@ class LabwareNouns:
     def before(self, part: Part) -> frozenset[str]:
         """What stands right before the first well: "strip columns 1 and 2", "tube A1"."""
         start = part.text.find(part.wells[0].group())
-        return self._called(tokens(part.text[:start])[-1:])
+        return self._called(tokens(part.text[:start])[-2:]) or self._after(part)
+
+    def _after(self, part: Part) -> frozenset[str]:
+        """What stands after the last well: "columns 2 and 3 of the source plate"."""
+        words = tokens(part.text.rpartition(part.wells[-1].group())[2])
+        if not words or words[0] not in self._joints:
+            return frozenset()
+        ends = [at for at, word in enumerate(words[:_NEAR]) if any(word in k for k in self._kinds)]
+        return self._called(words[1 : ends[0] + 1]) if ends else frozenset()
 
     def _called(self, words: tuple[str, ...]) -> frozenset[str]:
         """The labware of this kind, the one of this very name if there is one."""
@@ -63,8 +79,11 @@ class LabwareNouns:
         for name in (*self._deck.by_name, *self._deck.of_wells):
             if tokens(name) == words and self.of_name(name):
                 return self.of_name(name)
-        return frozenset(
+        found = {
             info.key
             for info in self._deck.plates()
             if any(kind & set(tokens(info.load_name)) for kind in kinds)
-        )
+        }
+        if self._origins & set(words):
+            found -= {key for key, _ in self._deck.received}
+        return frozenset(found)

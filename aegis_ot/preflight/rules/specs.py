@@ -216,6 +216,8 @@ class Common:
     giving: tuple[str, ...] = ()
     filling: tuple[str, ...] = ()
     handling: tuple[str, ...] = ()
+    belonging: tuple[str, ...] = ()
+    origins: tuple[str, ...] = ()
     articles: tuple[str, ...] = ()
     partly: tuple[str, ...] = ()
     positions: tuple[str, ...] = ()
