@@ -14,6 +14,7 @@ from ..rules import Common, Family
 from ..trace import Trace
 from .channels import spread_over_channels
 from .clues import Clue, Strength
+from .given_on import unsay_contents
 from .helpers import unsay_controls
 from .levels import levels_of
 from .phrases import (
@@ -95,9 +96,23 @@ def assign_roles(
             if assignment.level is None and len(told) == 1:
                 assignment.level = told.pop()
     unsay_controls(roles, trace)
+    unsay_contents(roles, trace, _holding(roles, candidates))
     spread_over_channels(roles, trace)
     spread_over_replicates(roles, trace)
     return roles
+
+
+def _holding(roles: Roles, candidates: Mapping[WellRef, Sequence[Candidate]]) -> set[str]:
+    """Labware that its label, its name or a liquid says to have held something before the run."""
+    return {
+        ref.labware
+        for ref, found in candidates.items()
+        if any(
+            roles.family.roles[role].implies_contents
+            and (clue.whole or clue.strength is Strength.LIQUID)
+            for _, role, clue, _ in found
+        )
+    }
 
 
 def _is_trough(trace: Trace, ref: WellRef) -> bool:
@@ -115,8 +130,30 @@ def _worth(clue: Clue, side_only: bool, of_the_labware: bool) -> tuple[float, ..
     )
 
 
+def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:
+    """Of two lists that have a well in common by mistake, the one of controls says what it is.
+
+    The other one says what is given to it. A list within the other says more exactly.
+    """
+    specs = roles.family.roles
+    worth, role, clue, _ = found[0]
+    if not specs[role].receives or clue.strength < Strength.NAME:
+        return
+    for at, (other_worth, other, hint, _) in enumerate(found[1:], 1):
+        mine, theirs = set(clue.wells), set(hint.wells)
+        if (
+            other_worth[:-1] == worth[:-1]
+            and specs[other].parents
+            and not specs[other].receives
+            and not (mine <= theirs or theirs <= mine)
+        ):
+            found.insert(0, found.pop(at))
+            return
+
+
 def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
     found.sort(key=lambda candidate: candidate[0], reverse=True)
+    _put_declared_first(roles, found)
     worth, role, clue, _ = found[0]
     decisive = clue
     for _, other, hint, _ in found[1:]:
