@@ -16,7 +16,7 @@ from .channels import spread_over_channels
 from .clues import Clue, Strength
 from .given_on import unsay_contents
 from .helpers import unsay_controls
-from .levels import levels_of
+from .levels import levels_beside, levels_of
 from .phrases import (
     fitting_role,
     is_outright,
@@ -55,14 +55,15 @@ def assign_roles(
     sides = Sides(usage)
     named_outright: set[str] = set()
     doubtful: set[WellRef] = set()
-    levels: dict[WellRef, set[float | None]] = {}
+    levels: dict[WellRef, set[float]] = {}
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
         if not named:
             if clue.strength is Strength.LIQUID:
                 roles.unnamed.update(clue.wells)
-            for ref, level in zip(clue.wells, clue.levels, strict=False):
-                levels.setdefault(ref, set()).add(level)
+            for ref, level in zip(clue.wells, levels_beside(clue, common), strict=False):
+                if level is not None:
+                    levels.setdefault(ref, set()).add(level)
             continue
         if clue.lone and names_several(lexicon, clue, common, roles):
             continue
@@ -87,6 +88,10 @@ def assign_roles(
                 # The comment says what the step is for; which well holds that is said
                 # elsewhere, and this may be another one by mistake.
                 continue
+            if level is not None and any(
+                family.roles[other].level == level for other in named if other != role
+            ):
+                level = family.roles[role].level  # that of the blank, not of all standards
             candidates.setdefault(ref, []).append((worth, role, clue, level))
     for ref, found in candidates.items():
         assignment = _choose(roles, ref, found)

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..rules import Common
 from ..text import direction_in, level_in, numbers_in_order
-from .clues import Clue
+from .clues import Clue, Strength
 
 
 def levels_of(clue: Clue, common: Common) -> tuple[float | None, ...]:
@@ -16,6 +16,14 @@ def levels_of(clue: Clue, common: Common) -> tuple[float | None, ...]:
     count = len(clue.wells)
     beside = clue.levels[:count]
     return (*beside, *_said(clue, common)[len(beside) :]) if len(beside) < count else beside
+
+
+def levels_beside(clue: Clue, common: Common) -> tuple[float | None, ...]:
+    """Levels that a clue gives its wells without a word for what they hold: ``"2 mg/ml"``."""
+    if clue.levels or clue.whole or clue.strength is not Strength.NAME:
+        return clue.levels
+    level = level_in(clue.text, common, plain_numbers=False)
+    return () if level is None else (level,) * len(clue.wells)
 
 
 def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:

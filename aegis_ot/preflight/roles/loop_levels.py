@@ -25,11 +25,10 @@ def loop_levels(
     """
     if not facts.runs:
         return
-    for line, (turns, lines) in _turns(trace, facts).items():
+    for line, drawn in _draws(trace, facts).items():
         for loop in facts.runs:
-            if not any(loop.first <= at <= loop.last for at in lines):
-                continue
-            if loop.names.isdisjoint(origins(facts, facts.draws[line], lines)):
+            turns, lines = _turns_within(drawn, loop)
+            if not turns or loop.names.isdisjoint(origins(facts, facts.draws[line], lines)):
                 continue
             levels = _levels(loop, len(turns), names, common)
             if levels:
@@ -45,21 +44,32 @@ def loop_levels(
                 )
 
 
-def _turns(trace: Trace, facts: SourceFacts) -> dict[int, tuple[list[Turn], set[int]]]:
-    """For each line that draws: the wells it draws from, in order, and the lines that call it."""
-    steps: dict[int, dict[int, list[WellRef]]] = {}
-    callers: dict[int, set[int]] = {}
+Drawn = dict[int, tuple[list[WellRef], tuple[int, ...]]]
+"""By index in the run: the wells that a step draws from, and the lines that call it."""
+
+
+def _draws(trace: Trace, facts: SourceFacts) -> dict[int, Drawn]:
+    """For each line that draws, what it draws in the run."""
+    steps: dict[int, Drawn] = {}
     for visit in trace.visits:
         if visit.mixing or visit.kind is not OperationKind.ASPIRATE:
             continue
         for line in visit.lines:
             if line in facts.draws:
-                steps.setdefault(line, {}).setdefault(visit.index, []).append(visit.well.ref)
-                callers.setdefault(line, set()).update(visit.lines)
-    return {
-        line: (list(dict.fromkeys(map(tuple, by_index.values()))), callers[line])
-        for line, by_index in steps.items()
-    }
+                drawn = steps.setdefault(line, {})
+                drawn.setdefault(visit.index, ([], visit.lines))[0].append(visit.well.ref)
+    return steps
+
+
+def _turns_within(drawn: Drawn, loop: Loop) -> tuple[list[Turn], set[int]]:
+    """The different steps that are made in a loop, in order, and the lines that call them."""
+    inside = [
+        (tuple(refs), lines)
+        for refs, lines in drawn.values()
+        if any(loop.first <= line <= loop.last for line in lines)
+    ]
+    turns = list(dict.fromkeys(refs for refs, _ in inside))
+    return turns, {line for _, lines in inside for line in lines}
 
 
 def _levels(

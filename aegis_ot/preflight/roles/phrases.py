@@ -175,12 +175,10 @@ def fitting_role(
     side, passes_on = sides
     if clue.step and clue.step != side:
         return None
+    if clue.apart and any(specs[role].side == "source" for role in named):
+        return None
     fitting = [role for role in named if specs[role].side in ("any", side)]
-    if (
-        passes_on
-        and not _is_plate_of(clue)
-        and any(specs[role].side == "source" for role in named)
-    ):
+    if passes_on and not _is_plate_of(clue) and any(specs[role].side == "source" for role in named):
         # A plate of doses that is made here and given on is no plate of treated cells; a plate
         # of samples that is given on was one of samples before, and only gets buffer here.
         fitting = [
@@ -193,4 +191,21 @@ def fitting_role(
         fitting = [role for role in named if specs[role].side == "source"]
     if not fitting or _ambiguous(fitting, roles, clue):
         return None
-    return fitting[0]
+    return _general(fitting, roles) if _is_of_a_series(clue) else fitting[0]
+
+
+_A_SERIES = 3
+
+
+def _is_of_a_series(clue: Clue) -> bool:
+    """Whether a comment speaks of so many wells that they are not all its one blank."""
+    return clue.strength is Strength.COMMENT and len(set(clue.wells)) >= _A_SERIES
+
+
+def _general(fitting: Sequence[str], roles: Roles) -> str:
+    """The role that all of a series have: "standards, H1 = blank" are standards."""
+    first = fitting[0]
+    if roles.family.roles[first].level is None:
+        return first
+    above = [role for role in fitting[1:] if role in roles.closure(first) - {first}]
+    return above[0] if above else first

@@ -19,7 +19,7 @@ def spread_over_replicates(roles: Roles, trace: Trace) -> None:
         ref: assigned
         for ref, assigned in roles.by_well.items()
         if assigned.role in replicated
-        and assigned.strength >= Strength.NAME
+        and assigned.strength >= Strength.COMMENT
         and not assigned.by_label
     }
     if not named:
