@@ -23,6 +23,7 @@ from .places import indexing_names
 from .plate_maps import plate_maps
 from .remarks import step_comments, written_wells
 from .run_maps import spotted_names, tabled_wells
+from .spoken import said_in_the_run
 from .trough_legends import trough_legends
 from .well_names import spec_wells
 
@@ -59,6 +60,7 @@ def gather(
         *tabled_wells(deck, names, facts, common),
         *written_wells(deck, facts, common),
         *step_comments(trace, facts, common),
+        *said_in_the_run(trace, common),
         *call_arguments(trace, facts, common),
         *helper_names(trace, facts, common),
         *loop_levels(trace, names, facts, common),

@@ -216,6 +216,7 @@ class Common:
     giving: tuple[str, ...] = ()
     filling: tuple[str, ...] = ()
     handling: tuple[str, ...] = ()
+    afterwards: tuple[str, ...] = ()
     belonging: tuple[str, ...] = ()
     origins: tuple[str, ...] = ()
     articles: tuple[str, ...] = ()

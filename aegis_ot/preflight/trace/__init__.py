@@ -10,7 +10,7 @@ from .replacements import Intervention, Replacements
 from .shapes import SHAPES, shapes_of
 from .table import places, trace_table
 from .tips import Layer, Met, Tip, TipBox
-from .trace import PlaceKey, Trace
+from .trace import PlaceKey, Said, Trace
 from .visits import Imbalance, Visit
 from .wells import Composition, Well, row_column
 
@@ -24,6 +24,7 @@ __all__ = [
     "PlaceKey",
     "Plates",
     "Replacements",
+    "Said",
     "Tip",
     "TipBox",
     "Trace",

@@ -14,7 +14,7 @@ from ..rehearsal import Record, Step
 from .plates import Plates
 from .replacements import Replacements
 from .tips import Layer, Tip, TipBox
-from .trace import Trace
+from .trace import Said, Trace
 from .visits import Imbalance, Visit
 from .wells import Well
 
@@ -91,7 +91,7 @@ class _Builder:
                 plates = frozenset({event.labware}) if event.labware else None
                 self._trace.shaken.append((self._index, plates))
         elif kind is EventKind.COMMENT:
-            self._trace.comments.append((event.line, event.text))
+            self._trace.comments.append(Said(self._index, event.line, event.text, False))
 
     def _liquid(self, event: Event) -> None:
         for ref in event.wells:
@@ -105,7 +105,7 @@ class _Builder:
                 well.declared = 0.0  # declared to be empty, which "no volume" does not say
 
     def _paused(self, event: Event) -> None:
-        self._trace.comments.append((event.line, event.text))
+        self._trace.comments.append(Said(self._index, event.line, event.text, True))
         said = self._replacements.read(event.text, self._trace.labware, self._slots)
         if said.shaken:
             self._trace.shaken.append((self._index, None))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from ...instrumentation import LabwareInfo
 from ...vocabulary import WellRef
@@ -13,6 +14,15 @@ from .wells import Well
 
 PlaceKey = tuple[str, int, str]
 """Labware key, generation of the plate, well name."""
+
+
+class Said(NamedTuple):
+    """A comment or pause of the run: when (an index), from which line, and what it said."""
+
+    at: int
+    line: int | None
+    text: str
+    paused: bool
 
 
 @dataclass
@@ -27,7 +37,7 @@ class Trace:
         imbalances: Volumes that do not add up.
         shaken: Index, labware keys (``None``: any) of each time a plate was shaken.
         descriptions: What the run says of a liquid, by the liquid's name.
-        comments: What the run said or asked, with its line.
+        comments: What the run said or asked, in order.
         steps: Number of recorded operations.
     """
 
@@ -38,7 +48,7 @@ class Trace:
     imbalances: list[Imbalance] = field(default_factory=list)
     shaken: list[tuple[int, frozenset[str] | None]] = field(default_factory=list)
     descriptions: dict[str, str] = field(default_factory=dict)
-    comments: list[tuple[int | None, str]] = field(default_factory=list)
+    comments: list[Said] = field(default_factory=list)
     groups: dict[WellRef, tuple[WellRef, ...]] = field(default_factory=dict)
     singles: set[WellRef] = field(default_factory=set)
     steps: int = 0
