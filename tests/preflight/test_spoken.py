@@ -69,3 +69,10 @@ def test_a_comment_holds_until_the_next_comment_or_pause(database: Database) -> 
     for end in ('protocol.comment("go on")', 'protocol.pause("go on")'):
         second = f'{end}\n    p20.transfer(5, rack["A1"], plate["A1"])'
         assert roles(database, "water", second) == {"D1": "water"}
+
+
+def test_a_comment_at_the_end_of_a_turn_is_not_about_the_next_one(database: Database) -> None:
+    second = """for what, tube, well in (("DNA", "A1", "A1"), ("water", "D2", "H2")):
+        p20.transfer(5, rack[tube], plate[well])
+        protocol.comment(what)"""
+    assert roles(database, "go", second) == {}

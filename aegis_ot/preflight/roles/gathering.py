@@ -60,7 +60,7 @@ def gather(
         *tabled_wells(deck, names, facts, common),
         *written_wells(deck, facts, common),
         *step_comments(trace, facts, common),
-        *said_in_the_run(trace, common),
+        *said_in_the_run(trace, facts, common),
         *call_arguments(trace, facts, common),
         *helper_names(trace, facts, common),
         *loop_levels(trace, names, facts, common),

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import direction_in, lexicon_of, tokens
+from ..text import SourceFacts, direction_in, lexicon_of, tokens
 from ..trace import Said, Trace, Visit
 from .clues import Clue, Strength, shortened
 from .phrases import first_words
@@ -40,17 +40,17 @@ class _Meant:
     several: bool = False
 
 
-def said_in_the_run(trace: Trace, common: Common) -> Iterator[Clue]:
+def said_in_the_run(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """Comments of the run, with the wells that are drawn from and given to under each."""
     silent = lexicon_of({"silent": (*common.negations, *common.afterwards)})
     meant: dict[str, _Meant] = {}
     for said, visits in _spans(trace):
         if said.paused or len(tokens(said.text)) > _LONGEST or silent.find(said.text):
             continue
-        found = meant.setdefault(said.text, _Meant(said.line))
         drawn = [visit for visit in visits if visit.kind is OperationKind.ASPIRATE]
         given = [visit for visit in visits if visit.parts]
-        if _is_one_deed(drawn):
+        if _is_one_deed(drawn) and not _said_after(said, drawn, facts):
+            found = meant.setdefault(said.text, _Meant(said.line))
             found.several |= _turns(drawn) > 1
             found.drawn.update(dict.fromkeys(visit.well.ref for visit in drawn))
             found.given.update(dict.fromkeys(visit.well.ref for visit in given))
@@ -71,6 +71,18 @@ def _spans(trace: Trace) -> Iterator[tuple[Said, list[Visit]]]:
 
 def _is_one_deed(drawn: Sequence[Visit]) -> bool:
     return len({visit.lines for visit in drawn}) == 1 or _turns(drawn) == 1
+
+
+def _said_after(said: Said, drawn: Sequence[Visit], facts: SourceFacts) -> bool:
+    """Whether a loop went back to the deeds above the comment, which spoke of those before it."""
+    if said.line is None:
+        return False
+    here = facts.within.get(said.line)
+    return any(
+        line < said.line and facts.within.get(line) == here
+        for visit in drawn
+        for line in visit.lines
+    )
 
 
 def _turns(drawn: Sequence[Visit]) -> int:
