@@ -34,3 +34,10 @@ def test_a_compound_with_a_meaning_of_its_own_stays_whole() -> None:
 
 def test_without_endings_no_word_is_cut() -> None:
     assert not Lexicon({"body": ["body"]}).find("antibody")
+
+
+def test_a_capital_inside_a_listed_word_does_not_cut_it() -> None:
+    lexicon = Lexicon({"cells": ["hela"], "drug": ["sirna"], "template": ["dna"]})
+    assert [m.topic for m in lexicon.find("HeLa")] == ["cells"]
+    assert [m.topic for m in lexicon.find("siRNA for heLa")] == ["drug", "cells"]
+    assert [m.topic for m in lexicon.find("gDNA, halfEmpty")] == ["template"]

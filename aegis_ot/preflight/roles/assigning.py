@@ -19,6 +19,7 @@ from .helpers import unsay_controls
 from .levels import levels_beside, levels_of
 from .phrases import (
     fitting_role,
+    is_for_controls,
     is_outright,
     names_several,
     role_words,
@@ -55,6 +56,7 @@ def assign_roles(
     sides = Sides(usage)
     named_outright: set[str] = set()
     doubtful: set[WellRef] = set()
+    for_controls: set[WellRef] = set()
     levels: dict[WellRef, set[float]] = {}
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
@@ -80,6 +82,8 @@ def assign_roles(
         passing = side_only and clue.strength is Strength.LOOSE_NAME
         for ref, level in zip(clue.wells, levels_of(clue, common), strict=True):
             role = fitting_role(named, roles, sides(ref), clue)
+            if role is None and not clue.whole and is_for_controls(named, sides(ref), roles):
+                for_controls.add(ref)
             if role is None or (passing and _is_trough(trace, ref)):
                 continue
             if not clue.step and clue.strength >= Strength.DESCRIPTION and not clue.whole:
@@ -95,7 +99,7 @@ def assign_roles(
             candidates.setdefault(ref, []).append((worth, role, clue, level))
     for ref, found in candidates.items():
         assignment = _choose(roles, ref, found)
-        if assignment is not None:
+        if assignment is not None and not (ref in for_controls and assignment.by_label):
             roles.by_well[ref] = assignment
             told = levels.get(ref, set())
             if assignment.level is None and len(told) == 1:

@@ -191,7 +191,20 @@ def fitting_role(
         fitting = [role for role in named if specs[role].side == "source"]
     if not fitting or _ambiguous(fitting, roles, clue):
         return None
+    if clue.subject and is_for_controls(named, sides, roles) and _treats(fitting[0], roles):
+        return None
     return _general(fitting, roles) if _is_of_a_series(clue) else fitting[0]
+
+
+def is_for_controls(named: Sequence[str], sides: tuple[str, bool], roles: Roles) -> bool:
+    """Whether a source is named as what controls are given: a control siRNA is no treatment."""
+    specs = roles.family.roles
+    return sides[0] == "source" and specs[named[0]].replicated and not specs[named[0]].receives
+
+
+def _treats(role: str, roles: Roles) -> bool:
+    """Whether wells that receive this are called after that."""
+    return any(role in spec.receives for spec in roles.family.roles.values() if spec.replicated)
 
 
 _A_SERIES = 3

@@ -16,6 +16,8 @@ from typing import NamedTuple
 
 _PIECES = re.compile(r"#|[A-Z]{2,}s(?![a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+(?:\.\d+)?|[^\W\d_]+")
 
+_MIXED = re.compile(r"[A-Za-z]*[a-z][A-Z][A-Za-z]*")
+"""A word with a capital inside."""
 
 _SHORTEST_PART = 3
 
@@ -107,7 +109,14 @@ class Lexicon:
 
     def words(self, text: str) -> tuple[str, ...]:
         """The words of a text that matches count: abbreviations spelled out, compounds cut."""
-        return self._cut(self._full(tokens(text)))
+        return self._cut(self._full(tokens(_MIXED.sub(self._joined, text))))
+
+    def _joined(self, written: re.Match[str]) -> str:
+        """One word of "HeLa" or "siRNA", where the lists have that and none of its parts."""
+        word = written.group().lower()
+        if any(part in self._by_first for part in tokens(written.group())):
+            return written.group()
+        return word if tokens(word)[0] in self._by_first else written.group()
 
     def _cut(self, words: tuple[str, ...]) -> tuple[str, ...]:
         """Compound words cut before their last part, the longest one that fits."""
