@@ -195,4 +195,5 @@ def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | 
         clue.text,
         level,
         conflict,
+        whole=all(c[2].whole for c in agreeing),
     )

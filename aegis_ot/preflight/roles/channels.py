@@ -31,8 +31,8 @@ def spread_over_channels(roles: Roles, trace: Trace) -> None:
                 other.strength <= assigned.strength
                 and assigned.role != other.role
                 and assigned.role not in roles.closure(other.role)
-                and other.by_label
-                and not assigned.by_label
+                and other.whole
+                and not assigned.whole
             ):
                 roles.by_well[ref] = assigned.copied("same channel group")
 

@@ -11,6 +11,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from ..text import tokens
+from .ellipses import spelled_out
 from .well_names import WELL_SPEC
 
 _BREAKS = re.compile(r"[;|]|\.\s+(?=[A-Z])|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))")
@@ -29,7 +30,7 @@ class Part(NamedTuple):
 
 def parts_of(text: str) -> Iterator[Part]:
     """The parts of one line, in order; a part that names no wells has an empty ``wells``."""
-    for clause in _clauses(text):
+    for clause in _clauses(spelled_out(text)):
         groups = _groups(clause)
         for piece in _shares(clause, groups) if len(groups) > 1 else [clause]:
             words = WELL_SPEC.sub(" ", piece)

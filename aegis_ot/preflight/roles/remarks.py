@@ -46,20 +46,21 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
 
 _LONGEST_CLAUSE = 160
 
+_LEFT_OUT = 2
+"""As many wells of those that prose names may have been left out by mistake."""
+
 
 def _spoken(deck: Deck, part: Part, line: int, keys: frozenset[str]) -> Iterator[Clue]:
     meant: dict[str, list[WellRef]] = {}
     for info in deck.plates():
         if keys and info.key not in keys:
             continue
-        wells = [
-            deck.ref(info.key, name)
-            for match in part.wells
-            for name in wells_meant(match, info)
-            if (info.key, name) in deck.refs
-        ]
-        if wells:
-            meant[info.key] = wells
+        named = [name for match in part.wells for name in wells_meant(match, info)]
+        used = [name for name in named if (info.key, name) in deck.refs]
+        if 0 < len(named) - len(used) <= min(_LEFT_OUT, len(used) // 3):
+            used = named  # more than a few are wells for which there is nothing this time
+        if used:
+            meant[info.key] = [deck.ref(info.key, name) for name in used]
     if len(meant) > 1:
         # Of several labware that have such wells it speaks of the one that is filled in the run.
         meant = {

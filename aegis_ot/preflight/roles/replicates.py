@@ -20,7 +20,7 @@ def spread_over_replicates(roles: Roles, trace: Trace) -> None:
         for ref, assigned in roles.by_well.items()
         if assigned.role in replicated
         and assigned.strength >= Strength.COMMENT
-        and not assigned.by_label
+        and not assigned.whole
     }
     if not named:
         return

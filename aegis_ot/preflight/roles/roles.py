@@ -20,6 +20,7 @@ class Assignment:
         text: The words that named it.
         level: Concentration or dose, if known, on a scale within the family.
         conflict: What contradicts it, in words; empty if nothing.
+        whole: Whether nothing but the name or the label of a whole labware says so.
     """
 
     role: str
@@ -28,11 +29,7 @@ class Assignment:
     text: str
     level: float | None = None
     conflict: str = ""
-
-    @property
-    def by_label(self) -> bool:
-        """Whether nothing but the name of a whole labware says so."""
-        return all(said.startswith("label") for said in self.evidence)
+    whole: bool = False
 
     def copied(self, why: str) -> Assignment:
         """The same for a well that shares this one's part, which the evidence then says."""
