@@ -99,7 +99,7 @@ def assign_roles(
             candidates.setdefault(ref, []).append((worth, role, clue, level))
     for ref, found in candidates.items():
         assignment = _choose(roles, ref, found)
-        if assignment is not None and not (ref in for_controls and assignment.by_label):
+        if assignment is not None and not (ref in for_controls and assignment.whole):
             roles.by_well[ref] = assignment
             told = levels.get(ref, set())
             if assignment.level is None and len(told) == 1:
