@@ -121,7 +121,7 @@ class Reader:
         A map from well to well tells of transfers and not of roles, unless its columns do.
         """
         named = entries(value) or self.fields(value)
-        if named and all(self._is_place(key) for key, _ in named):
+        if named and (all(self._is_place(key) for key, _ in named) or self._are_rows(value)):
             found = [(*self._cells(key), *self._cells(item)) for key, item in named]
         elif named:
             found = [self._cells(value)]
@@ -145,6 +145,11 @@ class Reader:
                 yield self._cells(dict(zip(columns, listed, strict=True)))
             else:
                 yield self._cells(line)
+
+    def _are_rows(self, value: Any) -> bool:
+        """Whether a dict holds rows by name or number: ``{"s1": {"well": ..., "conc": ...}}``."""
+        listed = [item for _, item in entries(value)]
+        return len(listed) > 1 and all(entries(item) or self.fields(item) for item in listed)
 
     def _is_place(self, value: Any) -> bool:
         return is_spot(value) or issubclass(type(value), self._well_type)

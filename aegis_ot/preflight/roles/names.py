@@ -35,9 +35,10 @@ def named_wells(
             continue  # its last value only; see call_arguments
         whole = not binding.wells
         wells = binding.wells or deck.used_wells(binding.labware)
+        counted = binding.name in keyed and keyed[binding.name] is None
         yield Clue(
             Strength.LOOSE_NAME if loose else Strength.NAME,
-            binding.name,
+            _NUMBERED.sub(r"\1\3", binding.name) if counted else binding.name,
             wells,
             line,
             f"name `{binding.name}` at line {line}",
@@ -117,13 +118,16 @@ def _counts(facts: SourceFacts, name: str) -> bool:
     return any(other in ("range", "len") for other, _, _ in facts.comes_from.get(name, ()))
 
 
+_NUMBERED = re.compile(r"([^\[\]]*)\[(-?\d+(?:\.\d+)?)\]([^\[\]]*)")
+
+
 def _numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
     """Level of each name like ``standards[125]``; ``None`` where the keys only count."""
     groups: dict[str, dict[str, float]] = {}
     for binding in names:
-        match = re.fullmatch(r"(.*)\[(-?\d+(?:\.\d+)?)\]", binding.name)
+        match = _NUMBERED.fullmatch(binding.name)
         if match:
-            groups.setdefault(match[1], {})[binding.name] = float(match[2])
+            groups.setdefault(match[1] + match[3], {})[binding.name] = float(match[2])
     found: dict[str, float | None] = {}
     for group in groups.values():
         values = sorted(group.values())

@@ -24,10 +24,11 @@ from .well_names import WELL_SPEC
 _LONGEST = 14
 _LONGEST_LABEL = 7
 _MOST_WELLS = 24
-"""A comment names the wells that liquid goes to if they are few: a control, not a plate."""
+"""A comment names the wells that one liquid goes to if they are few: a control, not a plate."""
 
 _ARROW = re.compile(r"\s*(?:->|=>|-->|>>|\u2192|\u27f6)\s*")
 _BRACKETS = re.compile(r"[(\[{]([^()\[\]{}]*)[)\]}]")
+_LISTS = re.compile(r"[;|+&]|,\s")
 
 
 @dataclass
@@ -111,7 +112,7 @@ def _clues(text: str, found: _Meant, common: Common) -> Iterator[Clue]:
             step="source",
         )
     into = tuple(found.given)
-    if not 0 < len(into) <= _MOST_WELLS:
+    if found.several or not 0 < len(into) <= _MOST_WELLS:
         return
     for label in _labels(what, where, common):
         yield Clue(
@@ -138,5 +139,5 @@ def _labels(what: str, where: str, common: Common) -> Iterator[str]:
         yield " ".join(words[toward[0] + 1 :])
     elif first_words(common.giving).isdisjoint(words):
         for label in (_BRACKETS.sub(" ", what), *_BRACKETS.findall(what)):
-            if 0 < len(tokens(label)) <= _LONGEST_LABEL:
+            if 0 < len(tokens(label)) <= _LONGEST_LABEL and not _LISTS.search(label):
                 yield label
