@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ...vocabulary import WellRef
 from ..trace import Trace, Well, chains_of, links_of
+from .clues import Strength
 from .roles import Roles
 
 
@@ -12,19 +13,43 @@ def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
 
     Not those that are given in the run what such a well is made of, or something unknown.
     """
+    specs = roles.family.roles
     found = {
-        ref: frozenset(roles.family.roles[assigned.role].filled_by)
+        ref: frozenset(specs[assigned.role].filled_by)
         for ref, assigned in roles.by_well.items()
-        if roles.family.roles[assigned.role].implies_contents
+        if specs[assigned.role].implies_contents
     }
-    if not found:
-        return set()
-    for source, well, _ in trace.feedings():
+    for source, well, _ in trace.feedings() if found else ():
         if well.ref in found:
             theirs = roles.of(source.ref)
             if not theirs or not found[well.ref].isdisjoint(theirs):
                 del found[well.ref]
-    return set(found)
+    return set(found) | _only_topped_up(roles, trace)
+
+
+def _only_topped_up(roles: Roles, trace: Trace) -> set[WellRef]:
+    """Wells named as sources that get nothing but a buffer and are given on: they held their own.
+
+    A protein that is diluted where it stands, a dried compound that is dissolved.
+    """
+    specs = roles.family.roles
+    named = {
+        ref
+        for ref, assigned in roles.by_well.items()
+        if specs[assigned.role].side == "source"
+        and not specs[assigned.role].one_liquid
+        and assigned.strength >= Strength.NAME
+    }
+    topped_up: set[WellRef] = set()
+    given_on: set[WellRef] = set()
+    for source, well, _ in trace.feedings() if named else ():
+        if source.ref.labware != well.ref.labware:
+            given_on.add(source.ref)
+        topped_up.add(well.ref)
+        assigned = roles.by_well.get(source.ref)
+        if assigned is None or not specs[assigned.role].one_liquid:
+            named.discard(well.ref)
+    return named & topped_up & given_on
 
 
 def settle_diluent(roles: Roles, trace: Trace) -> None:
