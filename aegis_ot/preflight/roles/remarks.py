@@ -110,7 +110,7 @@ def step_comments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[
             break
     for text, line in at_line.items():
         count = len(tokens(text))
-        if count > _LONGEST_STEP_COMMENT or unsaid.find(text):
+        if count > _LONGEST_STEP_COMMENT or unsaid.find(text) or _is_layout(text):
             continue
         said = f"comment '{shortened(text)}' at line {line}"
         sources = tuple(ref for ref in drawn.get(text, ()) if ref not in given.get(text, ()))
@@ -128,6 +128,11 @@ def step_comments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[
                 step="destination",
                 lone=True,
             )
+
+
+def _is_layout(text: str) -> bool:
+    """Whether a comment lists wells of several kinds rather than say what is done next."""
+    return sum(bool(part.wells) for part in parts_of(text)) > 1
 
 
 def _comment_of_line(facts: SourceFacts) -> dict[int, str]:
