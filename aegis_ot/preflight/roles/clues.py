@@ -36,7 +36,6 @@ class Clue:
         subject: Whether only the last word names the thing, as in ``sample_buffer``.
         step: For a comment beside a transfer: ``source`` or ``destination`` of the transfer.
         lone: Whether it speaks of its wells only if it names a single role.
-        apart: Whether it says nothing of where liquid goes if it may name what is drawn.
     """
 
     strength: Strength
@@ -50,7 +49,6 @@ class Clue:
     subject: bool = True
     step: str = ""
     lone: bool = False
-    apart: bool = False
 
 
 def shortened(text: str) -> str:

@@ -175,8 +175,6 @@ def fitting_role(
     side, passes_on = sides
     if clue.step and clue.step != side:
         return None
-    if clue.apart and any(specs[role].side == "source" for role in named):
-        return None
     fitting = [role for role in named if specs[role].side in ("any", side)]
     if passes_on and not _is_plate_of(clue) and any(specs[role].side == "source" for role in named):
         # A plate of doses that is made here and given on is no plate of treated cells; a plate

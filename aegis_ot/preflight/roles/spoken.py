@@ -124,20 +124,30 @@ def _clues(text: str, found: _Meant, common: Common) -> Iterator[Clue]:
             subject=False,
             step="destination",
             lone=True,
-            apart=True,
         )
 
 
 def _labels(what: str, where: str, common: Common) -> Iterator[str]:
-    """What a comment may say of where liquid goes: "NTC", "water to the NTC", "x (control)"."""
+    """What a comment says of where liquid goes: "NTC", "water to the NTC", "x (control)".
+
+    Only what is called a control: "DMSO" and "sample 3" are what is drawn.
+    """
+    controls = lexicon_of({"control": common.controls}, common.aliases, common.endings)
     if where and tokens(WELL_SPEC.sub(" ", where)):
-        yield where
-        return
-    words = tokens(what)
-    toward = [at for at, word in enumerate(words) if word in first_words(common.toward)]
-    if toward:
-        yield " ".join(words[toward[0] + 1 :])
-    elif first_words(common.giving).isdisjoint(words):
-        for label in (_BRACKETS.sub(" ", what), *_BRACKETS.findall(what)):
-            if 0 < len(tokens(label)) <= _LONGEST_LABEL and not _LISTS.search(label):
-                yield label
+        labels = [where]
+    else:
+        words = tokens(what)
+        toward = [at for at, word in enumerate(words) if word in first_words(common.toward)]
+        if toward:
+            labels = [" ".join(words[toward[0] + 1 :])]
+        elif first_words(common.giving).isdisjoint(words):
+            labels = [_BRACKETS.sub(" ", what), *_BRACKETS.findall(what)]
+        else:
+            labels = []
+    for label in labels:
+        if (
+            controls.find(label)
+            and len(tokens(label)) <= _LONGEST_LABEL
+            and not _LISTS.search(label)
+        ):
+            yield label

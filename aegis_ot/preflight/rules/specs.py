@@ -217,6 +217,7 @@ class Common:
     filling: tuple[str, ...] = ()
     handling: tuple[str, ...] = ()
     afterwards: tuple[str, ...] = ()
+    controls: tuple[str, ...] = ()
     belonging: tuple[str, ...] = ()
     origins: tuple[str, ...] = ()
     articles: tuple[str, ...] = ()
