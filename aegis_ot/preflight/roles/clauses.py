@@ -50,11 +50,16 @@ def _clauses(text: str) -> Iterator[str]:
         start = 0
         for at in [match.span() for match in _BREAKS.finditer(whole)] + [(len(whole), len(whole))]:
             clause = whole[start : at[0]]
-            if _is_list(clause) and at[0] < len(whole):
-                continue  # "A1, B1 and C1: standards" is one clause
+            if (_is_list(clause) or _is_open(clause)) and at[0] < len(whole):
+                continue  # "A1, B1 and C1: standards" is one, and "columns 1+2 (blank, standards)"
             if clause.strip():
                 yield clause
             start = at[1]
+
+
+def _is_open(clause: str) -> bool:
+    """Whether a bracket is still open at the end of a clause."""
+    return sum(clause.count(mark) for mark in "([") > sum(clause.count(mark) for mark in ")]")
 
 
 def _is_list(clause: str) -> bool:
