@@ -19,12 +19,34 @@ def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
         for ref, assigned in roles.by_well.items()
         if specs[assigned.role].implies_contents
     }
+    own = _own_stocks(roles, trace) if found else frozenset()
     for source, well, _ in trace.feedings() if found else ():
         if well.ref in found:
             theirs = roles.of(source.ref)
-            if not theirs or not found[well.ref].isdisjoint(theirs):
+            if not theirs or source.ref in own or not found[well.ref].isdisjoint(theirs):
                 del found[well.ref]
     return set(found) | _only_topped_up(roles, trace)
+
+
+_FEWEST_OWN = 3
+"""As many wells of one labware that each serve one well of their own hold each its own thing."""
+
+
+def _own_stocks(roles: Roles, trace: Trace) -> frozenset[WellRef]:
+    """Wells that only their labware's name calls stock, and that each serve one well: "DNA stocks"
+    are samples.
+    """
+    served: dict[WellRef, set[WellRef]] = {}
+    for source, well, _ in trace.feedings():
+        served.setdefault(source.ref, set()).add(well.ref)
+    by_labware: dict[str, set[WellRef]] = {}
+    for ref, wells in served.items():
+        assigned = roles.by_well.get(ref)
+        if len(wells) == 1 and assigned is not None and assigned.whole:
+            by_labware.setdefault(ref.labware, set()).add(ref)
+    return frozenset(
+        ref for refs in by_labware.values() if len(refs) >= _FEWEST_OWN for ref in refs
+    )
 
 
 def _only_topped_up(roles: Roles, trace: Trace) -> set[WellRef]:
