@@ -34,7 +34,7 @@ def numbered_maps(
         entries = list(_entries(name, value, bool(counts.find(name))))
         if not entries:
             continue
-        places = [place for place in facts.numbered if _comes_from(facts, place, name, value)]
+        places = [place for place in facts.numbered if _comes_from(facts, maps, place, name)]
         if not places:
             continue
         line = facts.assigned.get(name)
@@ -82,7 +82,7 @@ def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
             if isinstance(key, (int, str)) and _places_in(key) and _is_said(item):
                 if isinstance(item, str):
                     yield item, _places_in(key), None
-                elif isinstance(key, str) and not counts:
+                elif not counts and (isinstance(key, str) or _are_amounts(value)):
                     yield name, _places_in(key), float(item)
             elif isinstance(key, str) and _places_in(item):
                 yield f"{name} {key}", _places_in(item), None
@@ -90,6 +90,11 @@ def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
                 yield name, _places_in(item), float(key)
     elif _places_in(value):
         yield name, _places_in(value), None
+
+
+def _are_amounts(value: Mapping[Any, Any]) -> bool:
+    """Whether the numbers in a map from column to number are no columns themselves."""
+    return far_apart([item for item in value.values() if is_number(item)])
 
 
 def _is_said(item: Any) -> bool:
@@ -100,8 +105,9 @@ def _is_said(item: Any) -> bool:
 def _places_in(value: Any) -> tuple[int | str, ...]:
     """The numbers of columns, or the letters of rows, that a value is or lists."""
     listed = value if isinstance(value, (list, tuple)) else [value]
-    if isinstance(value, str) and len(value) > 1:
+    if isinstance(value, str) and len(value) > 1 and not value.isdigit():
         listed = list(value)
+    listed = [int(item) if isinstance(item, str) and item.isdigit() else item for item in listed]
     if listed and all(isinstance(item, int) and not isinstance(item, bool) for item in listed):
         return tuple(listed)
     if listed and all(isinstance(i, str) and len(i) == 1 and i in _LETTERS for i in listed):
@@ -109,16 +115,19 @@ def _places_in(value: Any) -> tuple[int | str, ...]:
     return ()
 
 
-def _comes_from(facts: SourceFacts, place: Numbered, name: str, value: Any) -> bool:
+def _comes_from(facts: SourceFacts, maps: Mapping[str, Any], place: Numbered, name: str) -> bool:
     if place.name == name:
         return True
-    if isinstance(value, int):
+    if isinstance(maps[name], int):
         return False  # a number further away rather counts the turns than the columns
     from_names = origins(facts, (place.name,), place.lines)
     if name not in from_names:
         return False
-    own = {other for other, _, _ in facts.comes_from.get(name, ())}  # range(10, 12) says columns
-    return (_COUNTING & from_names) <= own
+    # Counting to make a map says columns: range(10, 12). Counting beside it does not.
+    within = {
+        other for made in from_names & maps.keys() for other, _, _ in facts.comes_from.get(made, ())
+    }
+    return (_COUNTING & from_names) <= within
 
 
 def _wells(

@@ -74,7 +74,7 @@ class Numbered:
         axis: ``column`` or ``row``.
         name: The name.
         first: Its value for the first column or row, where it is a number.
-        lines: The line where it stands, and those that call the helper in which it stands.
+        lines: The line where it stands, and the one that calls the helper in which it stands.
         fixed: Index of the row of a column's wells, or of the column of a row's, if one is given.
         across: The name that gives it otherwise, or ``""``.
         across_first: What ``first`` is for that name.

@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from .facts import Numbered, SourceFacts
 from .literals import last_name, plain_text
@@ -22,45 +22,76 @@ _INDEXED = {
 
 
 def read_numbered(tree: ast.Module, facts: SourceFacts) -> None:
-    """Note every such place."""
-    called = _called_at(tree)
+    """Note every such place; one in a helper, for each call of it, with what the call passes on."""
+    calls: dict[str, list[ast.Call]] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            calls.setdefault(node.func.id, []).append(node)
+    helpers = [
+        node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name in calls
+    ]
+    for place in _places(tree):
+        around = [h for h in helpers if h.lineno <= place.lines[0] <= (h.end_lineno or h.lineno)]
+        if around:
+            helper = around[-1]  # the innermost: the walk goes from the outside in
+            for call in calls[helper.name]:
+                facts.numbered.extend(_passed(place, _arguments_of(helper, call), call.lineno))
+        else:
+            facts.numbered.append(place)
+
+
+def _places(tree: ast.Module) -> Iterator[Numbered]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Subscript):
-            base, index = node.value, node.slice
+            yield from _found(node.value, node.slice, node.lineno)
         elif (
             isinstance(node, ast.Call)
             and isinstance(node.func, ast.Attribute)
             and node.func.attr in ("well", "wells")
             and len(node.args) == 1
         ):
-            base, index = node.func.value, node.args[0]
-        else:
-            continue
-        lines = (node.lineno, *called.get(node.lineno, ()))
-        facts.numbered.extend(_found(base, index, lines))
+            yield from _found(node.func.value, node.args[0], node.lineno)
 
 
-def _called_at(tree: ast.Module) -> dict[int, tuple[int, ...]]:
-    """For each line of a helper the lines that call it."""
-    calls: dict[str, list[int]] = {}
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
-            calls.setdefault(node.func.id, []).append(node.lineno)
-    return {
-        line: tuple(calls[node.name])
-        for node in ast.walk(tree)
-        if isinstance(node, ast.FunctionDef) and node.name in calls
-        for line in range(node.lineno, (node.end_lineno or node.lineno) + 1)
-    }
+def _arguments_of(helper: ast.FunctionDef, call: ast.Call) -> dict[str, ast.expr]:
+    """What a call gives to each parameter of a helper."""
+    given = dict(zip((a.arg for a in helper.args.args), call.args, strict=False))
+    given.update({k.arg: k.value for k in call.keywords if k.arg})
+    return given
 
 
-def _found(base: ast.expr, index: ast.expr, lines: tuple[int, ...]) -> Iterator[Numbered]:
+def _passed(place: Numbered, given: Mapping[str, ast.expr], line: int) -> Iterator[Numbered]:
+    """A helper's place as one of its calls makes it."""
+    name, added = _counted(given[place.name]) if place.name in given else (place.name, 0)
+    if not name:
+        return
+    fixed, across, across_first = place.fixed, place.across, place.across_first
+    if across in given:
+        across, more = _counted(given[across])
+        across_first -= more
+        row = plain_text(given[place.across])
+        if place.axis == "column" and len(row) == 1 and row in _LETTERS:
+            fixed = _LETTERS.index(row)
+    labware = last_name(given[place.labware]) if place.labware in given else place.labware
+    yield Numbered(
+        labware or place.labware,
+        place.axis,
+        name,
+        place.first - added,
+        (*place.lines, line),
+        fixed,
+        across,
+        across_first,
+    )
+
+
+def _found(base: ast.expr, index: ast.expr, line: int) -> Iterator[Numbered]:
     if isinstance(base, ast.Call) and isinstance(base.func, ast.Attribute):
         if base.func.attr in _INDEXED and not base.args:
             axis, first = _INDEXED[base.func.attr]
             name, added = _counted(index)
             if name:
-                yield Numbered(last_name(base.func.value), axis, name, first - added, lines)
+                yield Numbered(last_name(base.func.value), axis, name, first - added, (line,))
             return
         if base.func.attr != "wells_by_name" or base.args:
             return
@@ -74,10 +105,10 @@ def _found(base: ast.expr, index: ast.expr, lines: tuple[int, ...]) -> Iterator[
     number, added = _counted(column) if isinstance(column, ast.expr) else ("", 0)
     if number:
         fixed = _LETTERS.find(row) if isinstance(row, str) and row in _LETTERS else None
-        yield Numbered(labware, "column", number, 1 - added, lines, fixed, letter)
+        yield Numbered(labware, "column", number, 1 - added, (line,), fixed, letter)
     if letter:
         fixed = int(column) - 1 if isinstance(column, str) and column.isdigit() else None
-        yield Numbered(labware, "row", letter, 0, lines, fixed, number, 1 - added)
+        yield Numbered(labware, "row", letter, 0, (line,), fixed, number, 1 - added)
 
 
 _LETTERS = "ABCDEFGHIJKLMNOP"

@@ -71,6 +71,10 @@ class SyntaxReader:
             for element in target.elts:
                 if isinstance(element, ast.Name):
                     facts.assigned.setdefault(element.id, line)
+            if isinstance(value, ast.Tuple) and len(value.elts) == len(target.elts):
+                for element, given in zip(target.elts, value.elts, strict=True):
+                    if isinstance(element, ast.Name) and isinstance(given, ast.Constant):
+                        facts.constants.setdefault(element.id, given.value)
             return
         name = last_name(target)
         if not name:
