@@ -105,6 +105,8 @@ class NameCollector:
         return True
 
     def _take(self, name: str, value: Any, function: str, line: int, depth: int) -> None:
+        if depth and not self._is_new(function, name, value):
+            return  # what an object holds is looked at again and again, by all of its methods
         read = self._reader
         if depth < DEEPEST:
             for key, item in entries(value):

@@ -16,7 +16,7 @@ _LONGEST_VALUE = 100
 def attributes(value: Any) -> list[tuple[str, Any]]:
     """The attributes of an object, those in slots included, without those of its class."""
     found: dict[str, Any] = {}
-    for made in reversed(type.__getattribute__(type(value), "__mro__")):
+    for made in reversed(type.__getattribute__(type(value), "__mro__")[:-1]):  # all but object
         for name, slot in dict(type.__getattribute__(made, "__dict__")).items():
             if type(slot) is MemberDescriptorType:
                 try:

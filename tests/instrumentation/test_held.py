@@ -170,3 +170,25 @@ def test_rows_with_wells_alone_are_told_where_their_fields_have_names():
     ((_, wells, said),) = told(found["jobs"])
     assert (wells, said) == (("A1", "B1"), ())
     assert found["pairs"].rows == ()
+
+
+def test_what_an_objects_rows_hold_in_the_end_is_told():
+    before = """
+class Job:
+    def __init__(self):
+        self.well = None
+class Plan:
+    def __init__(self):
+        self.jobs = [Job(), Job()]
+    def place(self, plate):
+        for job, name in zip(self.jobs, ("A1", "B1")):
+            job.well = plate[name]
+"""
+    body = "plan = Plan()\nplan.place(plate)\nplan.place(plate)\n"
+    _, rehearsal = run(before + ot2(body))
+    told_wells = [
+        tuple(ref.name for row in binding.rows for ref in row.wells)
+        for binding in rehearsal.names
+        if binding.name in ("plan.jobs", "self.jobs") and binding.rows
+    ]
+    assert ("A1", "B1") in told_wells
