@@ -104,9 +104,9 @@ def assign_roles(
             told = levels.get(ref, set())
             if assignment.level is None and len(told) == 1:
                 assignment.level = told.pop()
-    unsay_controls(roles, trace)
     unsay_contents(roles, trace, _holding(roles, candidates))
     spread_over_channels(roles, trace)
+    unsay_controls(roles, trace)
     spread_over_replicates(roles, trace)
     return roles
 

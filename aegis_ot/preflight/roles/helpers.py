@@ -78,12 +78,16 @@ def _one_thing(words: list[str], verbs: Collection[str], common: Common) -> list
 def unsay_controls(roles: Roles, trace: Trace) -> None:
     """Forget what only a function's name says of a source that goes into controls alone.
 
-    ``add_template(tube, ntc)`` gives the control what stands in the template's place.
+    ``add_template(tube, ntc)`` gives the control what stands in the template's place. So does a
+    tube in a rack of "drugs": the vehicle stands beside them.
     """
     only = {
         ref
         for ref, assigned in roles.by_well.items()
-        if all(said.startswith(_SAID) for said in assigned.evidence)
+        if (
+            all(said.startswith(_SAID) for said in assigned.evidence)
+            or (assigned.whole and _is_of_tubes(trace, ref))
+        )
         and not roles.family.roles[assigned.role].one_liquid
     }
     fed: dict[WellRef, set[WellRef]] = {}
@@ -93,6 +97,15 @@ def unsay_controls(roles: Roles, trace: Trace) -> None:
     for ref, wells in fed.items():
         if all(_is_set_apart(roles, well) for well in wells):
             del roles.by_well[ref]
+
+
+_MOST_TUBES = 24
+
+
+def _is_of_tubes(trace: Trace, ref: WellRef) -> bool:
+    """Whether a well is one of few, in a rack or a reservoir, which hold various things."""
+    info = trace.labware.get(ref.labware)
+    return info is not None and (info.centers_channels or len(info.wells) <= _MOST_TUBES)
 
 
 def _is_set_apart(roles: Roles, ref: WellRef) -> bool:

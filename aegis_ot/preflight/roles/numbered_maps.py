@@ -84,12 +84,21 @@ def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
                     yield item, _places_in(key), None
                 elif not counts and (isinstance(key, str) or _are_amounts(value)):
                     yield name, _places_in(key), float(item)
+            elif isinstance(item, Mapping):
+                yield from _entries(f"{name} {key}", item, counts)
             elif isinstance(key, str) and _places_in(item):
                 yield f"{name} {key}", _places_in(item), None
             elif is_number(key) and isinstance(item, (list, tuple)) and _places_in(item):
                 yield name, _places_in(item), float(key)
     elif _places_in(value):
         yield name, _places_in(value), None
+    elif isinstance(value, (list, tuple)):
+        for row in value:
+            cells = row if isinstance(row, (list, tuple)) else ()
+            columns = [cell for cell in cells if type(cell) is int]
+            said = [cell for cell in cells if isinstance(cell, str)]
+            if len(columns) == len(said) == 1 and len(cells) == 2:
+                yield said[0], (columns[0],), None
 
 
 def _are_amounts(value: Mapping[Any, Any]) -> bool:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 from .facts import Numbered, SourceFacts
 from .literals import last_name, plain_text
@@ -19,6 +20,8 @@ _INDEXED = {
     "rows_by_name": ("row", 1),
 }
 """What each method of a labware lists, and the number of the first one."""
+
+_LETTERS = "ABCDEFGHIJKLMNOP"
 
 
 def read_numbered(tree: ast.Module, facts: SourceFacts) -> None:
@@ -41,16 +44,17 @@ def read_numbered(tree: ast.Module, facts: SourceFacts) -> None:
 
 
 def _places(tree: ast.Module) -> Iterator[Numbered]:
+    named = _names_of_lists(tree)
     for node in ast.walk(tree):
         if isinstance(node, ast.Subscript):
-            yield from _found(node.value, node.slice, node.lineno)
+            yield from _found(node.value, node.slice, node.lineno, named)
         elif (
             isinstance(node, ast.Call)
             and isinstance(node.func, ast.Attribute)
             and node.func.attr in ("well", "wells")
             and len(node.args) == 1
         ):
-            yield from _found(node.func.value, node.args[0], node.lineno)
+            yield from _found(node.func.value, node.args[0], node.lineno, named)
 
 
 def _arguments_of(helper: ast.FunctionDef, call: ast.Call) -> dict[str, ast.expr]:
@@ -85,14 +89,71 @@ def _passed(place: Numbered, given: Mapping[str, ast.expr], line: int) -> Iterat
     )
 
 
-def _found(base: ast.expr, index: ast.expr, line: int) -> Iterator[Numbered]:
+class _Listed(NamedTuple):
+    """Columns or rows of a labware, or wells of one row by their columns."""
+
+    labware: str
+    axis: str
+    first: int
+    fixed: int | None = None
+
+
+def _listed(node: ast.expr, named: Mapping[str, _Listed]) -> _Listed | None:
+    """What ``plate.columns()``, ``plate.rows()[0]`` or ``[c[0] for c in plate.columns()]`` list."""
+    if isinstance(node, ast.Name):
+        return named.get(node.id)
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+        if node.func.attr in _INDEXED and not node.args:
+            return _Listed(last_name(node.func.value), *_INDEXED[node.func.attr])
+        return None
+    if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant):
+        lines, at = _listed(node.value, named), node.slice.value
+        if lines is None or lines.axis != "row" or lines.fixed is not None:
+            return None
+        if isinstance(at, str) and len(at) == 1 and at in _LETTERS:
+            at = _LETTERS.index(at)
+        return _Listed(lines.labware, "column", 0, at) if isinstance(at, int) else None
+    if isinstance(node, ast.ListComp) and len(node.generators) == 1:
+        made, each = node.generators[0], node.elt
+        lines = _listed(made.iter, named)
+        if (
+            lines is not None
+            and lines.axis == "column"
+            and not made.ifs
+            and isinstance(each, ast.Subscript)
+            and isinstance(each.slice, ast.Constant)
+            and isinstance(each.slice.value, int)
+        ):
+            return lines._replace(fixed=each.slice.value)
+    return None
+
+
+def _names_of_lists(tree: ast.Module) -> dict[str, _Listed]:
+    """Names that hold such a list, and nothing else anywhere."""
+    named: dict[str, _Listed] = {}
+    others: set[str] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and len(node.targets) == 1:
+            name, listed = last_name(node.targets[0]), _listed(node.value, named)
+            if listed is None or named.get(name, listed) != listed:
+                others.add(name)
+            else:
+                named[name] = listed
+    return {name: listed for name, listed in named.items() if name not in others}
+
+
+def _found(
+    base: ast.expr, index: ast.expr, line: int, named: Mapping[str, _Listed]
+) -> Iterator[Numbered]:
+    listed = _listed(base, named)
+    if listed is not None:
+        name, added = _counted(index)
+        if name:
+            yield Numbered(
+                listed.labware, listed.axis, name, listed.first - added, (line,), listed.fixed
+            )
+        return
     if isinstance(base, ast.Call) and isinstance(base.func, ast.Attribute):
-        if base.func.attr in _INDEXED and not base.args:
-            axis, first = _INDEXED[base.func.attr]
-            name, added = _counted(index)
-            if name:
-                yield Numbered(last_name(base.func.value), axis, name, first - added, (line,))
-            return
         if base.func.attr != "wells_by_name" or base.args:
             return
         base = base.func.value
@@ -109,9 +170,6 @@ def _found(base: ast.expr, index: ast.expr, line: int) -> Iterator[Numbered]:
     if letter:
         fixed = int(column) - 1 if isinstance(column, str) and column.isdigit() else None
         yield Numbered(labware, "row", letter, 0, (line,), fixed, number, 1 - added)
-
-
-_LETTERS = "ABCDEFGHIJKLMNOP"
 
 
 def _counted(node: ast.expr) -> tuple[str, int]:
