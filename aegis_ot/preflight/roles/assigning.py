@@ -97,6 +97,9 @@ def assign_roles(
             ):
                 level = family.roles[role].level  # that of the blank, not of all standards
             candidates.setdefault(ref, []).append((worth, role, clue, level))
+    for first, group in trace.groups.items():
+        if first in for_controls and first not in trace.singles:
+            for_controls.update(group)
     for ref, found in candidates.items():
         assignment = _choose(roles, ref, found)
         if assignment is not None and not (ref in for_controls and assignment.whole):
