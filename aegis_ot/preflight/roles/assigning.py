@@ -163,9 +163,26 @@ def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:
             return
 
 
+def _put_agreed_first(roles: Roles, found: list[Candidate]) -> bool:
+    """Of names that are worth the same, the one that weaker evidence agrees with counts, if any.
+
+    A helper's ``diluent`` was the stock once, by mistake: the deck's list says what stands there.
+    """
+    tied = [candidate for candidate in found if candidate[0] == found[0][0]]
+    if len({role for _, role, _, _ in tied}) < 2:
+        return False
+    for _, role, clue, _ in found[len(tied) :]:
+        agreed = [c for c in tied if c[1] in roles.closure(role) or role in roles.closure(c[1])]
+        if agreed and not clue.whole and clue.strength < tied[0][2].strength:
+            found[: len(tied)] = agreed + [c for c in tied if c not in agreed]
+            return True
+    return False
+
+
 def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
     found.sort(key=lambda candidate: candidate[0], reverse=True)
     _put_declared_first(roles, found)
+    settled = _put_agreed_first(roles, found)
     worth, role, clue, _ = found[0]
     decisive = clue
     for _, other, hint, _ in found[1:]:
@@ -187,7 +204,7 @@ def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | 
     if rivals:
         conflict = f"{clue.said} against {rivals[0][2].said}"
         roles.conflicts.setdefault(conflict, []).append(ref)
-        if clue.strength <= Strength.LOOSE_NAME:
+        if clue.strength <= Strength.LOOSE_NAME and not settled:
             return None
     agreeing = [c for c in found if role in roles.closure(c[1]) or c[1] in roles.closure(role)]
     level = next((c[3] for c in agreeing if c[3] is not None), None)

@@ -14,7 +14,10 @@ from ..text import tokens
 from .ellipses import spelled_out
 from .well_names import WELL_SPEC
 
-_BREAKS = re.compile(r"[;|]|\.\s+(?=[A-Z])|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))")
+_BREAKS = re.compile(
+    r"[;|]|\.\s+(?=[A-Z])|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
+    r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))"
+)
 _BRACKETS = re.compile(r"[(\[]([^()\[\]]*)[)\]]")
 _LISTED = re.compile(r"[\s,/&+]*(?:(?:and|und|et|y|e|or)\b[\s,]*)?")
 """What stands between the wells of one list: "A1, B1 and C1"."""

@@ -13,6 +13,8 @@ _HEADING = re.compile(r"\W*((?:[^\W\d]\w*[ -]?){1,4})\s*:")
 """A line that begins with what it speaks of: "tubes: A1 lowest ... B2 highest"."""
 
 
+_SLOT = re.compile(r"(?i:\bslot\s+)([A-Da-d][1-4]|1[01]|[1-9])\b")
+
 _NEAR = 5
 """A noun so many words after a well still says where that is."""
 
@@ -37,6 +39,9 @@ class LabwareNouns:
 
     def named(self, text: str) -> frozenset[str]:
         """The one labware that a text calls by its label or by the telling name of a variable."""
+        slots = {slot.lower() for slot in _SLOT.findall(text)}
+        if len(slots) == 1:
+            return frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
         words = f" {' '.join(tokens(text))} "
         found = {key for label, key in self._labels if label in words}
         if not found:

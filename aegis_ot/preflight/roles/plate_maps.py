@@ -12,12 +12,13 @@ from ..text import SourceFacts, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import is_number
+from .work_lists import is_work_list
 
 
 def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """Constants that hold well names: ``NTC_WELLS = ["H11", "H12"]``, ``{"A1": "NTC"}``."""
     for name, value in facts.constants.items():
-        if name == "metadata":
+        if name == "metadata" or is_work_list(deck, value):
             continue
         line = facts.assigned.get(name)
         entries = list(_Reader(common).entries(name, value))

@@ -19,29 +19,55 @@ from .well_names import wells_meant
 def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """Well names in comments and docstrings: "A1-A8: samples", "NTC in H12"."""
     texts = list(facts.docstrings)
-    texts += list(facts.comments.items())
+    texts += _blocks(facts)
     texts += [(1, text) for text in facts.metadata.values()]
     nouns = LabwareNouns(deck, common)
     noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
     for line, text in texts:
         heading: frozenset[str] = frozenset()
+        last: frozenset[str] = frozenset()
         for number, written in enumerate(text.splitlines() or [text]):
             of_line = nouns.named(written) or nouns.heading(written)
-            if of_line and written.rstrip().endswith(":"):
+            if of_line and _heads(written):
                 heading = of_line
             elif not written.strip():
-                heading = frozenset()
+                heading = last = frozenset()
             for part in parts_of(written):
                 if not part.wells or len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
                     continue
+                last = nouns.before(part) or last
                 keys = (
                     nouns.named(part.text)
                     or nouns.before(part)
                     or noted.get(written)
                     or of_line
                     or heading
+                    or last
                 )
                 yield from _spoken(deck, part, line + number, keys)
+
+
+def _blocks(facts: SourceFacts) -> list[tuple[int, str]]:
+    """Comments by their first line; those that stand below each other are one text."""
+    blocks: dict[int, list[str]] = {}
+    first = 0
+    for line, text in sorted(facts.comments.items()):
+        if line in facts.own_line and line - 1 in facts.own_line:
+            blocks[first].append(text)
+        else:
+            first = line
+            blocks[first] = [text]
+    return [(line, "\n".join(texts)) for line, texts in blocks.items()]
+
+
+_LONGEST_HEADING = 6
+
+
+def _heads(line: str) -> bool:
+    """Whether a line says which labware the next ones speak of: "rack in slot 5"."""
+    if line.rstrip().endswith(":"):
+        return True
+    return len(tokens(line)) <= _LONGEST_HEADING and not any(p.wells for p in parts_of(line))
 
 
 _LONGEST_CLAUSE = 160
@@ -52,21 +78,27 @@ _LEFT_OUT = 2
 
 def _spoken(deck: Deck, part: Part, line: int, keys: frozenset[str]) -> Iterator[Clue]:
     meant: dict[str, list[WellRef]] = {}
-    for info in deck.plates():
-        if keys and info.key not in keys:
-            continue
-        named = [name for match in part.wells for name in wells_meant(match, info)]
-        used = [name for name in named if (info.key, name) in deck.refs]
+    having = {
+        info.key: named
+        for info in deck.plates()
+        if (named := [name for match in part.wells for name in wells_meant(match, info)])
+    }
+    if not keys.isdisjoint(having):  # else it names that labware in passing
+        having = {key: named for key, named in having.items() if key in keys}
+    for key, named in having.items():
+        used = [name for name in named if (key, name) in deck.refs]
         if 0 < len(named) - len(used) <= min(_LEFT_OUT, len(used) // 3):
             used = named  # more than a few are wells for which there is nothing this time
         if used:
-            meant[info.key] = [deck.ref(info.key, name) for name in used]
+            meant[key] = [deck.ref(key, name) for name in used]
     if len(meant) > 1:
         # Of several labware that have such wells it speaks of the one that is filled in the run.
         meant = {
             key: wells
             for key, wells in meant.items()
-            if all((key, ref.name) in deck.received for ref in wells)
+            if all(
+                (key, ref.name) in deck.received for ref in wells if (key, ref.name) in deck.refs
+            )
         }
     if len(meant) != 1:
         return

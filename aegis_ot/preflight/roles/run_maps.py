@@ -12,6 +12,7 @@ from .clues import Clue, Strength
 from .deck import Deck
 from .levels import number_in
 from .plate_maps import labware_of_map, refs_of
+from .work_lists import is_work_list, labware_in
 
 
 def spotted_names(
@@ -46,7 +47,8 @@ def tabled_wells(
     counts = lexicon_of({"count": common.countings})
     for binding in names:
         base = binding.name.split("[", 1)[0]
-        if len(binding.rows) < 2 or base in facts.constants:
+        written = facts.constants.get(base)
+        if len(binding.rows) < 2 or (written is not None and not is_work_list(deck, written)):
             continue
         titles = _titles(facts, base)
         rows = [_titled(row, titles) for row in binding.rows]
@@ -57,9 +59,13 @@ def tabled_wells(
         columns: dict[str, dict[WellRef, None]] = {}
         for row in rows:
             wells = list(row.wells)
+            named = ""
             for column, cell in row.cells:
-                if is_spot(cell) and column in labware:
-                    spots = list(refs_of(deck, (labware[column],), (str(cell),)))
+                named = labware_in(deck, cell) or named
+                where = named or labware.get(column, "")
+                if is_spot(cell) and where:
+                    named = ""
+                    spots = list(refs_of(deck, (where,), (str(cell),)))
                     columns.setdefault(column, {}).update(dict.fromkeys(spots))
                     wells += spots
             said = [(column, cell, number_in(cell)) for column, cell in row.said]

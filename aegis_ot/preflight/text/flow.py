@@ -109,8 +109,9 @@ def _loop(
         rows = _sequence(iterable, facts.constants)
         beside = " ".join(names_in(iterable))
         if rows is not None:
+            places = dict(_unread(part))
             for name, column in _columns(part, rows):
-                values.append(Values(name, beside, column))
+                values.append(Values(name, beside, column, places.get(name)))
                 values += [Values(n, n, c) for n, c in _looked_up(column, facts.constants)]
         elif isinstance(iterable, ast.Name):
             values += [Values(name, beside, None, at) for name, at in _unread(part)]

@@ -25,8 +25,8 @@ def run(protocol):
     patients = []
     for i in range(4):
         liq = protocol.define_liquid(f"Patient RNA {i + 1}", "", "#ff0000")
-        tubes.wells()[4 + i].load_liquid(liq, 50)
-        patients.append(tubes.wells()[4 + i])
+        tubes.wells()[8 + i].load_liquid(liq, 50)
+        patients.append(tubes.wells()[8 + i])
 
     def put(pipette, vol, frm, targets):
         pipette.pick_up_tip()
