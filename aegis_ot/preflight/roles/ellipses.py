@@ -13,12 +13,20 @@ _NEXT = re.compile(
 _ENDS = re.compile(r"(\d+|[A-P])$")
 
 
+_NUMBERED = re.compile(
+    r"(?:^|[:,;(])\s*(?P<of>(?P<low>\d{1,2})(?:\s*(?:-|–|to|bis)\s*(?P<high>\d{1,2}))?)"
+    r"(?=\s*[:=]?\s+[^\W\d_]{3,})"
+)
+_FEWEST_NUMBERED = 3
+
+
 def spelled_out(text: str) -> str:
     """The text with "column" or "row" before each number or letter that goes on where the last
     one ended.
 
     Only there: in "columns 1-3 standards, 8 samples" the eight are samples.
     """
+    text = _numbered(text)
     at = 0
     while match := WELL_SPEC.search(text, at):
         at = match.end()
@@ -31,6 +39,47 @@ def spelled_out(text: str) -> str:
         if ends and follower and _follows(ends[1], follower["low"]):
             start = follower.start("of")
             text = f"{text[:start]}{kind} {text[start:]}"
+    return _crossed(text)
+
+
+_OF_COLUMN = re.compile(
+    r"[^:]{0,40}?\b(?i:col|column|spalte|colonne|columna)\.?\s*\(?(\d{1,2})\b[^:\d]{0,20}:"
+)
+_OF_ROW = re.compile(r"[^:]{0,40}?\b(?i:row|zeile|reihe|ligne|fila)\s*\(?([A-P])\b[^:\d]{0,20}:")
+_ROWS = re.compile(
+    r"\b(?i:rows?|zeilen?|reihen?|lignes?|filas?)\s+([A-P])(?:\s*(?:-|–|to|bis)\s*([A-P]))?\b"
+)
+_COLUMNS = re.compile(
+    r"\b(?i:cols?|columns?|spalten?|colonnes?|columnas?)\.?\s*(\d{1,2})"
+    r"(?:\s*(?:-|–|to|bis)\s*(\d{1,2}))?\b"
+)
+
+
+def _crossed(text: str) -> str:
+    """What a line that speaks of one column says of its rows: "column 6: rows A-D ..."."""
+    if head := _OF_COLUMN.match(text):
+        rest, number = text[head.end() :], head[1]
+        wells, found = _ROWS.subn(lambda m: f"{m[1]}{number}-{m[2] or m[1]}{number}", rest)
+    elif head := _OF_ROW.match(text):
+        rest, letter = text[head.end() :], head[1]
+        wells, found = _COLUMNS.subn(lambda m: f"{letter}{m[1]}-{letter}{m[2] or m[1]}", rest)
+    else:
+        return text
+    return wells if found else text
+
+
+def _numbered(text: str) -> str:
+    """Bare numbers that count on from 1 are columns: "1-3 samples, 4 standard, 5 blank"."""
+    found: list[re.Match[str]] = []
+    for match in _NUMBERED.finditer(text):
+        last = (found[-1]["high"] or found[-1]["low"]) if found else "0"
+        if not _follows(last, match["low"]):
+            return text
+        found.append(match)
+    if len(found) < _FEWEST_NUMBERED or WELL_SPEC.search(text):
+        return text
+    for match in reversed(found):
+        text = f"{text[: match.start('of')]}column {text[match.start('of') :]}"
     return text
 
 

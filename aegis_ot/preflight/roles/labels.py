@@ -30,6 +30,7 @@ def labels(deck: Deck) -> Iterator[Clue]:
                 None,
                 f"label '{info.label}'",
                 whole=True,
+                lone="," in text or ";" in text,
             )
 
 

@@ -1,0 +1,38 @@
+"""Layouts in one line say more than they write: the words left out are put back, no others."""
+
+from __future__ import annotations
+
+import pytest
+
+from aegis_ot.preflight.roles.ellipses import spelled_out
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        (
+            "columns 3-10 drug, 11 vehicle, 12 untreated",
+            "columns 3-10 drug, column 11 vehicle, column 12 untreated",
+        ),
+        ("row A blank, B to G samples, H NTC", "row A blank, row B to G samples, row H NTC"),
+        ("1-3 tumour, 4 control, 5 NTC", "column 1-3 tumour, column 4 control, column 5 NTC"),
+        ("Control column (6): rows A-D RNA, rows E-H water", " A6-D6 RNA, E6-H6 water"),
+        ("Row H: columns 1-3 NTC, 4-6 control", " H1-H3 NTC, H4-H6 control"),
+    ],
+)
+def test_what_is_left_out_is_put_back(written: str, meant: str) -> None:
+    assert spelled_out(written) == meant
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "columns 1-3 standards, 8 samples",
+        "columns 1-6 samples, 7 uL each",
+        "Row A: standards",
+        "add 5 uL, then 10 uL",
+        "1 plate, 2 racks",
+    ],
+)
+def test_other_numbers_are_left_alone(written: str) -> None:
+    assert spelled_out(written) == written
