@@ -13,6 +13,7 @@ from .clauses import Part, parts_of
 from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .labware_nouns import LabwareNouns
+from .replicates import called_alike
 from .well_names import wells_meant
 
 
@@ -100,7 +101,8 @@ def _spoken(deck: Deck, part: Part, line: int, keys: frozenset[str]) -> Iterator
                 (key, ref.name) in deck.received for ref in wells if (key, ref.name) in deck.refs
             )
         }
-    if len(meant) != 1:
+    plates = [deck.trace.labware[key] for key in meant]
+    if not all(plate.label and called_alike(plate, plates[0]) for plate in plates[1:]):
         return
     for wells in meant.values():
         yield Clue(

@@ -46,12 +46,17 @@ def _replicates(trace: Trace) -> Iterator[tuple[LabwareInfo, LabwareInfo]]:
     plates = [info for key, info in trace.labware.items() if key in given and info.label]
     for one in plates:
         for other in plates:
-            if one is other or one.load_name != other.load_name or _called(one) != _called(other):
+            if one is other or not called_alike(one, other):
                 continue
             shared = given[one.key].keys() & given[other.key].keys()
             alike = sum(not given[one.key][n].isdisjoint(given[other.key][n]) for n in shared)
             if alike * 2 > max(len(given[one.key]), len(given[other.key])):
                 yield one, other
+
+
+def called_alike(one: LabwareInfo, other: LabwareInfo) -> bool:
+    """Whether two labware are of one kind and have one name but for a number."""
+    return one.load_name == other.load_name and _called(one) == _called(other)
 
 
 def _called(info: LabwareInfo) -> tuple[str, ...]:
