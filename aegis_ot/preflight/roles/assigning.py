@@ -54,6 +54,12 @@ def assign_roles(
     lexicon = role_words(family, common)
     candidates: dict[WellRef, list[Candidate]] = {}
     sides = Sides(usage)
+    first_of = {
+        ref: first
+        for first, group in trace.groups.items()
+        for ref in group
+        if ref != first and not {ref, first} & trace.singles
+    }
     named_outright: set[str] = set()
     doubtful: set[WellRef] = set()
     for_controls: set[WellRef] = set()
@@ -92,6 +98,8 @@ def assign_roles(
                 # The comment says what the step is for; which well holds that is said
                 # elsewhere, and this may be another one by mistake.
                 continue
+            if clue.step and _is_beside_named(first_of.get(ref), candidates):
+                continue  # its column is named by its first well
             if level is not None and any(
                 family.roles[other].level == level for other in named if other != role
             ):
@@ -112,6 +120,17 @@ def assign_roles(
     unsay_controls(roles, trace)
     spread_over_replicates(roles, trace)
     return roles
+
+
+def _is_beside_named(
+    first: WellRef | None, candidates: Mapping[WellRef, Sequence[Candidate]]
+) -> bool:
+    """Whether the first well of a channel group has a name of its own."""
+    named = candidates.get(first, ()) if first is not None else ()
+    return any(
+        not clue.whole and not clue.step and clue.strength >= Strength.LOOSE_NAME
+        for _, _, clue, _ in named
+    )
 
 
 def _holding(roles: Roles, candidates: Mapping[WellRef, Sequence[Candidate]]) -> set[str]:

@@ -25,7 +25,7 @@ def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
             theirs = roles.of(source.ref)
             if not theirs or source.ref in own or not found[well.ref].isdisjoint(theirs):
                 del found[well.ref]
-    return set(found) | _only_topped_up(roles, trace)
+    return set(found) | (_only_topped_up(roles, trace) if roles.family.default else set())
 
 
 _FEWEST_OWN = 3
