@@ -18,6 +18,9 @@ from aegis_ot.preflight.roles.ellipses import spelled_out
         ("1-3 tumour, 4 control, 5 NTC", "column 1-3 tumour, column 4 control, column 5 NTC"),
         ("Control column (6): rows A-D RNA, rows E-H water", " A6-D6 RNA, E6-H6 water"),
         ("Row H: columns 1-3 NTC, 4-6 control", " H1-H3 NTC, H4-H6 control"),
+        ("row B, col 1-6 vehicle", "B1-B6 vehicle"),
+        ("rows A-C, columns 7 and 8: 5 uM", "A7-C7 and A8-C8: 5 uM"),
+        ("columns 1-6 of row H: blank", "H1-H6: blank"),
     ],
 )
 def test_what_is_left_out_is_put_back(written: str, meant: str) -> None:

@@ -46,17 +46,32 @@ _OF_COLUMN = re.compile(
     r"[^:]{0,40}?\b(?i:col|column|spalte|colonne|columna)\.?\s*\(?(\d{1,2})\b[^:\d]{0,20}:"
 )
 _OF_ROW = re.compile(r"[^:]{0,40}?\b(?i:row|zeile|reihe|ligne|fila)\s*\(?([A-P])\b[^:\d]{0,20}:")
-_ROWS = re.compile(
-    r"\b(?i:rows?|zeilen?|reihen?|lignes?|filas?)\s+([A-P])(?:\s*(?:-|–|to|bis)\s*([A-P]))?\b"
+_TO = r"\s*(?:-|–|to|bis)\s*"
+_ROW_WORD = r"(?i:rows?|zeilen?|reihen?|lignes?|filas?)\s+"
+_COLUMN_WORD = r"(?i:cols?|columns?|spalten?|colonnes?|columnas?)\.?\s*"
+_ROWS = re.compile(rf"\b{_ROW_WORD}([A-P])(?:{_TO}([A-P]))?\b")
+_COLUMNS = re.compile(rf"\b{_COLUMN_WORD}(\d{{1,2}})(?:{_TO}(\d{{1,2}}))?\b")
+_LETTERS = rf"(?P<row>[A-P])(?![A-Za-z0-9])(?:{_TO}(?P<row2>[A-P])(?![A-Za-z0-9]))?"
+_SPAN = rf"\d{{1,2}}(?:{_TO}\d{{1,2}})?"
+_NUMBERS = rf"(?P<columns>{_SPAN}(?:\s*(?:,|/|&|and|und|et|y)\s*{_SPAN})*)"
+_BETWEEN = r"\s*(?:[,/x×;]|and|of|in|und|von|de)?\s*(?:the\s+)?"
+_BOTH = (
+    re.compile(rf"\b{_ROW_WORD}{_LETTERS}{_BETWEEN}{_COLUMN_WORD}{_NUMBERS}\b"),
+    re.compile(rf"\b{_COLUMN_WORD}{_NUMBERS}{_BETWEEN}{_ROW_WORD}{_LETTERS}"),
 )
-_COLUMNS = re.compile(
-    r"\b(?i:cols?|columns?|spalten?|colonnes?|columnas?)\.?\s*(\d{1,2})"
-    r"(?:\s*(?:-|–|to|bis)\s*(\d{1,2}))?\b"
-)
+
+
+def _met(match: re.Match[str]) -> str:
+    """The wells where rows and columns meet: "row B, col 1-6" is B1-B6."""
+    first, last = match["row"], match["row2"] or match["row"]
+    spans = re.findall(rf"(\d+)(?:{_TO}(\d+))?", match["columns"])
+    return " and ".join(f"{first}{low}-{last}{high or low}" for low, high in spans)
 
 
 def _crossed(text: str) -> str:
-    """What a line that speaks of one column says of its rows: "column 6: rows A-D ..."."""
+    """Rows and columns that stand together, or one under the other: "column 6: rows A-D ..."."""
+    for both in _BOTH:
+        text = both.sub(_met, text)
     if head := _OF_COLUMN.match(text):
         rest, number = text[head.end() :], head[1]
         wells, found = _ROWS.subn(lambda m: f"{m[1]}{number}-{m[2] or m[1]}{number}", rest)
