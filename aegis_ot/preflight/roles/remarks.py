@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from ...instrumentation import OperationKind
@@ -73,12 +74,17 @@ def _heads(line: str) -> bool:
 
 _LONGEST_CLAUSE = 160
 
+_ALL = re.compile(r"\ball\s+\d", re.IGNORECASE)
+
 _LEFT_OUT = 2
 """As many wells of those that prose names may have been left out by mistake."""
 
 
 def _spoken(deck: Deck, part: Part, line: int, keys: frozenset[str]) -> Iterator[Clue]:
     meant: dict[str, list[WellRef]] = {}
+    # "Column 2 = vehicle" may leave out the rows at the edge; "A2-H2" and "all 8" do not.
+    written = [match["last"] or match["first"] for match in part.wells]
+    outright = _ALL.search(part.words) or all(written) or any(m["last"] for m in part.wells)
     having = {
         info.key: named
         for info in deck.plates()
@@ -88,7 +94,7 @@ def _spoken(deck: Deck, part: Part, line: int, keys: frozenset[str]) -> Iterator
         having = {key: named for key, named in having.items() if key in keys}
     for key, named in having.items():
         used = [name for name in named if (key, name) in deck.refs]
-        if 0 < len(named) - len(used) <= min(_LEFT_OUT, len(used) // 3):
+        if outright and 0 < len(named) - len(used) <= min(_LEFT_OUT, len(used) // 3):
             used = named  # more than a few are wells for which there is nothing this time
         if used:
             meant[key] = [deck.ref(key, name) for name in used]
