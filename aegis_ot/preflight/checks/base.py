@@ -8,12 +8,11 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any, ClassVar
 
-from ...instrumentation import OperationKind
 from ...vocabulary import Site, WellRef
 from ..roles import Roles, Usage
 from ..rules import Common, Family
-from ..text import name_without_level
 from ..trace import Met, Trace, Visit, Well
+from .same_liquid import is_same_liquid
 from .series import Series, find_series
 
 RoleSet = frozenset[str]
@@ -158,65 +157,8 @@ class Case:
         """Whether two wells hold the same liquid, as far as roles and names say."""
         known = self._same.get((one, other))
         if known is None:
-            known = self._same[one, other] = self._is_same_liquid(one, other)
+            known = self._same[one, other] = is_same_liquid(self, one, other)
         return known
-
-    def _is_same_liquid(self, one: Well, other: Well) -> bool:
-        if one is other or one.ref == other.ref:
-            return True
-        if self._laid_out_alike(one, other) or self._rolls_over(one, other):
-            return True
-        if one.liquids and one.liquids == other.liquids and any(map(str.isdigit, one.liquids[0])):
-            return True
-        mine, theirs = self.roles.by_well.get(one.ref), self.roles.by_well.get(other.ref)
-        if {one.ref, other.ref} <= self.roles.unnamed and one.liquids == other.liquids:
-            return one.ref not in self.roles.apart
-        if mine is None or theirs is None or mine.role != theirs.role:
-            return False
-        if not self.family.roles[mine.role].one_liquid:
-            return False
-        return name_without_level(mine.text, self.common) == name_without_level(
-            theirs.text, self.common
-        )
-
-    def _laid_out_alike(self, one: Well, other: Well) -> bool:
-        """Whether one statement draws from both, which stand at one place of two reservoirs.
-
-        Not where their names or labels tell them apart.
-        """
-        if one.ref.name != other.ref.name or self.level(one) != self.level(other):
-            return False
-        mine, theirs = self.roles.by_well.get(one.ref), self.roles.by_well.get(other.ref)
-        if mine and theirs and mine.role == theirs.role and mine.text != theirs.text:
-            return False
-        info, their_info = (self.trace.labware.get(well.ref.labware) for well in (one, other))
-        if info is None or their_info is None or info.label != their_info.label:
-            return False
-        if not (info.centers_channels and their_info.centers_channels):
-            return False
-        return _by_one_statement(one, other)
-
-    def _rolls_over(self, one: Well, other: Well) -> bool:
-        """Whether one channel of a reservoir goes on where another one ran out.
-
-        One statement draws from both, under one name, each for several wells of its own, and
-        most of what the first channel can hold is drawn from it.
-        """
-        info = self.trace.labware.get(one.ref.labware)
-        if info is None or not info.centers_channels or one.ref.labware != other.ref.labware:
-            return False
-        mine, theirs = self.roles.by_well.get(one.ref), self.roles.by_well.get(other.ref)
-        if (mine and mine.text) != (theirs and theirs.text):
-            return False
-        served, also = (set(self.destinations.get(well, ())) for well in (one, other))
-        first = min(one, other, key=lambda well: well.visits[0].index)
-        drawn = sum(v.volume for v in first.visits if v.kind is OperationKind.ASPIRATE)
-        return (
-            min(len(served), len(also)) > 1
-            and 2 * drawn > first.capacity
-            and len(served & also) <= 1
-            and _by_one_statement(one, other)
-        )
 
     def title(self, well: Well) -> str:
         """What a well is, in words, for the middle of a sentence."""
@@ -225,12 +167,6 @@ class Case:
     def level(self, well: Well) -> float | None:
         """Concentration or dose of a well, if known."""
         return self.roles.level(well.ref)
-
-
-def _by_one_statement(one: Well, other: Well) -> bool:
-    """Whether some line of the protocol draws from both."""
-    lines = {v.line for v in one.visits if v.kind is OperationKind.ASPIRATE}
-    return any(v.line in lines for v in other.visits if v.kind is OperationKind.ASPIRATE)
 
 
 def place(well: Well) -> str:

@@ -21,7 +21,7 @@ from ..roles import (
     settle_diluent,
     usage_of,
 )
-from ..rules import Common, Database, RuleSpec
+from ..rules import Common, Database, Family, RuleSpec
 from ..text import SourceFacts, lexicon_of, read_source
 from ..trace import Replacements, Trace, build_trace
 from .options import Options
@@ -88,12 +88,15 @@ def read_recording(recording: Recording, database: Database, options: Options) -
     trace = build_trace(recording.log, recording.labware, replacements)
     clues = gather(trace, recording.names, facts, options.roles, common)
     usage = usage_of(trace)
-    families = infer_families(database, facts, clues, trace, usage, options.assay)
-    roles = [
-        assign_roles(database.family(inference.family), common, clues, usage, trace)
-        for inference in families
-        if inference.applies
-    ]
+    assigned: dict[str, Roles] = {}
+
+    def roles_of(family: Family) -> Roles:
+        if family.family not in assigned:
+            assigned[family.family] = assign_roles(family, common, clues, usage, trace)
+        return assigned[family.family]
+
+    families = infer_families(database, facts, clues, trace, roles_of, options.assay)
+    roles = [roles_of(database.family(found.family)) for found in families if found.applies]
     prefilled: set[WellRef] = set()
     for one in roles:
         prefilled |= implied_contents(one, trace)

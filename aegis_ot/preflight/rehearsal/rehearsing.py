@@ -39,14 +39,10 @@ class Rehearsal:
     Attributes:
         names: Names that held wells.
         labware: Every labware of the run, by key.
-        robot_type: ``"OT-2 Standard"`` or ``"OT-3 Standard"``.
-        api_level: ``"2.15"``.
     """
 
     names: tuple[NameBinding, ...]
     labware: Mapping[str, LabwareInfo]
-    robot_type: str
-    api_level: str
 
 
 def rehearse(
@@ -89,12 +85,7 @@ def rehearse(
 
             namespace = {"__builtins__": hasty_builtins()}
             names.look(_perform(protocol, context, watched, limit, namespace), "<module>", 1)
-            return Rehearsal(
-                names.bindings,
-                dict(tap.wells.labware),
-                protocol.robot_type,
-                str(protocol.api_level),
-            )
+            return Rehearsal(names.bindings, dict(tap.wells.labware))
     finally:
         _REHEARSING.reset(token)
 

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from ...vocabulary import WellRef
 from ..rules import Common, Database, Family
 from ..text import SourceFacts, lexicon_of, tokens
 from ..trace import Trace, shapes_of
-from .assigning import assign_roles
 from .clues import Clue, Strength
 from .roles import Roles
-from .usage import Usage
 
 PLACES = {"metadata": 3.0, "liquid": 2.0, "name": 1.5, "text": 1.0, "string": 0.7}
 """How much a word counts by where it stands: a title says more than a stray comment."""
@@ -57,7 +54,7 @@ def infer_families(
     facts: SourceFacts,
     clues: Sequence[Clue],
     trace: Trace,
-    usage: Mapping[WellRef, Usage],
+    roles_of: Callable[[Family], Roles],
     given: Sequence[str] = (),
 ) -> list[Inference]:
     """All families, the likeliest first.
@@ -67,7 +64,7 @@ def infer_families(
         facts: What the text says.
         clues: Names, liquids and labels.
         trace: For the shapes: a chain of transfers speaks for a serial dilution.
-        usage: How the run uses each well.
+        roles_of: What the wells are in the eyes of a family.
         given: Families given by hand; they apply, and no other does.
     """
     texts = list(_texts(facts, clues, trace))
@@ -77,8 +74,9 @@ def infer_families(
         found = _found(family, texts, database.common)
         found += _seen(family, shapes, bool(found))
         if family.known_by and found and not (_score(found) >= SURE and _defines(found)):
-            roles = assign_roles(family, database.common, clues, usage, trace)
-            found += _named(family, roles, sum(one.worth for one in found if one.worth > 0))
+            found += _named(
+                family, roles_of(family), sum(one.worth for one in found if one.worth > 0)
+            )
         found.sort(key=lambda one: -one.worth)
         scored.append((max(_score(found), 0.0), family, found))
     scored.sort(key=lambda item: -item[0])

@@ -36,11 +36,8 @@ def _own_stocks(roles: Roles, trace: Trace) -> frozenset[WellRef]:
     """Wells that only their labware's name calls stock, and that each serve one well: "DNA stocks"
     are samples.
     """
-    served: dict[WellRef, set[WellRef]] = {}
-    for source, well, _ in trace.feedings():
-        served.setdefault(source.ref, set()).add(well.ref)
     by_labware: dict[str, set[WellRef]] = {}
-    for ref, wells in served.items():
+    for ref, wells in trace.served().items():
         assigned = roles.by_well.get(ref)
         if len(wells) == 1 and assigned is not None and assigned.whole:
             by_labware.setdefault(ref.labware, set()).add(ref)

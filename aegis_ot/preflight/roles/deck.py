@@ -25,6 +25,10 @@ class Deck:
                 self.by_name.setdefault(binding.name, set()).update(binding.labware)
             for ref in binding.wells:
                 self.of_wells.setdefault(binding.name, set()).add(ref.labware)
+        self.by_label: dict[str, set[str]] = {}
+        for info in self.plates():
+            if info.label:
+                self.by_label.setdefault(info.label, set()).add(info.key)
         self.received = {
             (well.ref.labware, well.ref.name)
             for well in trace.wells.values()

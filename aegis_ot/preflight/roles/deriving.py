@@ -33,11 +33,7 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """A source without a name that goes into named wells of ``spec.feeds``, mostly."""
     wanted = frozenset(spec.feeds)
-    fed: dict[WellRef, set[WellRef]] = {}
-    for source, well, _ in trace.feedings():
-        if source.prefilled:
-            fed.setdefault(source.ref, set()).add(well.ref)
-    for ref, wells in fed.items():
+    for ref, wells in trace.served(prefilled=True).items():
         if roles.of(ref):
             continue
         right = sum(roles.has(well, wanted) for well in wells)
@@ -53,11 +49,11 @@ def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
     """Unnamed sources that each go into wells of their own, beside a liquid common to all."""
     common = frozenset(spec.single_with)
     likes = frozenset({name})
-    served: dict[WellRef, set[WellRef]] = {}
+    served = trace.served()
     sources: dict[WellRef, set[WellRef]] = {}
-    for source, well, _ in trace.feedings():
-        served.setdefault(source.ref, set()).add(well.ref)
-        sources.setdefault(well.ref, set()).add(source.ref)
+    for ref, wells in served.items():
+        for well in wells:
+            sources.setdefault(well, set()).add(ref)
     fed = {ref for refs in served.values() for ref in refs}
     own = {
         ref: wells
@@ -89,11 +85,8 @@ _SHARED = 3
 
 def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
     """A loaded liquid has a use even if its name is none of the known words."""
-    served: dict[WellRef, set[WellRef]] = {}
-    topped_up: set[WellRef] = set()
-    for source, well, _ in trace.feedings():
-        topped_up.add(well.ref)
-        served.setdefault(source.ref, set()).add(well.ref)
+    served = trace.served()
+    topped_up = {well for wells in served.values() for well in wells}
     # In the order of the trace: a set's own order differs from process to process.
     for ref in [well.ref for well in trace.wells.values() if well.ref in roles.unnamed]:
         if not roles.of(ref) <= roles.closure(name):
@@ -116,10 +109,7 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
 
     A liquid that stands in several wells (a strip of master mix) serves several wells each.
     """
-    served: dict[WellRef, set[WellRef]] = {}
-    for source, well, _ in trace.feedings():
-        if source.prefilled:
-            served.setdefault(source.ref, set()).add(well.ref)
+    served = trace.served(prefilled=True)
     plates: dict[str, list[WellRef]] = {}
     for ref in served:
         info = trace.labware.get(ref.labware)

@@ -37,10 +37,11 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
             for part in parts_of(written):
                 if not part.wells or len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
                     continue
-                last = nouns.before(part) or last
+                before = nouns.before(part)
+                last = before or last
                 keys = (
                     nouns.named(part.text)
-                    or nouns.before(part)
+                    or before
                     or noted.get(written)
                     or of_line
                     or heading
@@ -83,8 +84,8 @@ _LEFT_OUT = 2
 def _spoken(deck: Deck, part: Part, line: int, keys: frozenset[str]) -> Iterator[Clue]:
     meant: dict[str, list[WellRef]] = {}
     # "Column 2 = vehicle" may leave out the rows at the edge; "A2-H2" and "all 8" do not.
-    written = [match["last"] or match["first"] for match in part.wells]
-    outright = _ALL.search(part.words) or all(written) or any(m["last"] for m in part.wells)
+    ranges = any(match["last"] for match in part.wells)
+    outright = ranges or _ALL.search(part.words) or all(match["first"] for match in part.wells)
     having = {
         info.key: named
         for info in deck.plates()

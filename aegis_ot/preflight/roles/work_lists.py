@@ -28,5 +28,5 @@ def labware_in(deck: Deck, cell: Any) -> str:
     """The labware that a cell calls by its label: the next well of the row stands in it."""
     if not isinstance(cell, str) or is_spot(cell):
         return ""
-    called = [info.key for info in deck.plates() if info.label and info.label == cell.strip()]
-    return called[0] if len(called) == 1 else ""
+    called = deck.by_label.get(cell.strip(), set())
+    return next(iter(called)) if len(called) == 1 else ""

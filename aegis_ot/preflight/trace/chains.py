@@ -30,21 +30,18 @@ class Transfer:
     from_stock: bool
 
 
-def longest_chain(trace: Trace) -> int:
+def longest_chain(chains: Iterable[Sequence[Transfer]]) -> int:
     """Number of transfers in the longest chain of wells that each feed the next."""
-    best = 0
-    for group in chains_of(list(links_of(trace))):
-        best = max(best, len({(s.source, s.well) for s in group}))
-    return best
+    return max((len({(s.source, s.well) for s in group}) for group in chains), default=0)
 
 
-def longest_dilution(trace: Trace) -> int:
+def longest_dilution(chains: Iterable[Sequence[Transfer]]) -> int:
     """Number of transfers in the longest chain from neighbour to neighbour that dilutes.
 
     Most of its wells were filled from one and the same place before the chain reached them.
     """
     best = 0
-    for group in chains_of(list(links_of(trace))):
+    for group in chains:
         steps = {(s.source, s.well): s for s in group if _neighbours(s.source, s.well)}
         filled: dict[Well, int] = {}
         for step in steps.values():

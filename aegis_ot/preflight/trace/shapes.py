@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Mapping
 
 from ...vocabulary import WellRef
-from .chains import longest_chain, longest_dilution
+from .chains import chains_of, links_of, longest_chain, longest_dilution
 from .trace import Trace
 
 SHAPES = ("chain", "pooling", "reactions", "copying")
@@ -27,10 +27,11 @@ def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
     """The shapes that a run shows: how clearly (1 for three wells, 2 for six) and in words."""
     fed, feeds = _ways(trace)
     found: dict[str, tuple[float, str]] = {}
-    chain = longest_chain(trace)
+    chains = chains_of(list(links_of(trace)))
+    chain = longest_chain(chains)
     if chain >= 2:
         # Wells filled from one place that then feed each other are a series without a word.
-        twice = 2 if longest_dilution(trace) >= _FEWEST_ALIKE else 1
+        twice = 2 if longest_dilution(chains) >= _FEWEST_ALIKE else 1
         found["chain"] = (
             twice * _clearness(chain),
             f"a chain of {chain} transfers from well to well",

@@ -67,6 +67,18 @@ class Trace:
                     if source is not None and source is not well:
                         yield source, well, visit
 
+    def served(self, prefilled: bool = False) -> dict[WellRef, set[WellRef]]:
+        """For each well the wells that liquid drawn from it came into.
+
+        Args:
+            prefilled: Only of wells that held liquid before the run.
+        """
+        found: dict[WellRef, set[WellRef]] = {}
+        for source, well, _ in self.feedings():
+            if source.prefilled or not prefilled:
+                found.setdefault(source.ref, set()).add(well.ref)
+        return found
+
     def mixed_since(self, well: Well, index: int, before: float) -> bool:
         """Whether ``well`` was mixed or shaken after ``index`` and before ``before``."""
         if any(index < last and first < before for first, last, _ in well.mixes):
