@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import re
 
-from .well_names import WELL_SPEC
+from .well_names import COLUMN, COLUMNS, ROW, ROWS, TO, WELL_SPEC
 
 _NEXT = re.compile(
     r"[^,;]*[,;]\s*(?:and\s+|und\s+|et\s+|y\s+)?(?P<of>(?P<low>\d{1,2}|[A-P])"
-    r"(?:\s*(?:-|–|to|bis)\s*(?P<high>\d{1,2}|[A-P]))?)(?=\s*[:=]?\s+[^\W\d_]{3,})"
+    rf"(?:{TO}(?P<high>\d{{1,2}}|[A-P]))?)(?=\s*[:=]?\s+[^\W\d_]{{3,}})"
 )
 _ENDS = re.compile(r"(\d+|[A-P])$")
 
 
 _NUMBERED = re.compile(
-    r"(?:^|[:,;(])\s*(?P<of>(?P<low>\d{1,2})(?:\s*(?:-|–|to|bis)\s*(?P<high>\d{1,2}))?)"
+    rf"(?:^|[:,;(])\s*(?P<of>(?P<low>\d{{1,2}})(?:{TO}(?P<high>\d{{1,2}}))?)"
     r"(?=\s*[:=]?\s+[^\W\d_]{3,})"
 )
 _FEWEST_NUMBERED = 3
@@ -42,17 +42,14 @@ def spelled_out(text: str) -> str:
     return _crossed(text)
 
 
-_OF_COLUMN = re.compile(
-    r"[^:]{0,40}?\b(?i:col|column|spalte|colonne|columna)\.?\s*\(?(\d{1,2})\b[^:\d]{0,20}:"
-)
-_OF_ROW = re.compile(r"[^:]{0,40}?\b(?i:row|zeile|reihe|ligne|fila)\s*\(?([A-P])\b[^:\d]{0,20}:")
-_TO = r"\s*(?:-|–|to|bis)\s*"
-_ROW_WORD = r"(?i:rows?|zeilen?|reihen?|lignes?|filas?)\s+"
-_COLUMN_WORD = r"(?i:cols?|columns?|spalten?|colonnes?|columnas?)\.?\s*"
-_ROWS = re.compile(rf"\b{_ROW_WORD}([A-P])(?:{_TO}([A-P]))?\b")
-_COLUMNS = re.compile(rf"\b{_COLUMN_WORD}(\d{{1,2}})(?:{_TO}(\d{{1,2}}))?\b")
-_LETTERS = rf"(?P<row>[A-P])(?![A-Za-z0-9])(?:{_TO}(?P<row2>[A-P])(?![A-Za-z0-9]))?"
-_SPAN = rf"\d{{1,2}}(?:{_TO}\d{{1,2}})?"
+_OF_COLUMN = re.compile(rf"[^:]{{0,40}}?\b(?i:{COLUMN})\.?\s*\(?(\d{{1,2}})\b[^:\d]{{0,20}}:")
+_OF_ROW = re.compile(rf"[^:]{{0,40}}?\b(?i:{ROW})\s*\(?([A-P])\b[^:\d]{{0,20}}:")
+_ROW_WORD = rf"(?i:{ROWS}|{ROW})\s+"
+_COLUMN_WORD = rf"(?i:{COLUMNS}|{COLUMN})\.?\s*"
+_ROWS = re.compile(rf"\b{_ROW_WORD}([A-P])(?:{TO}([A-P]))?\b")
+_COLUMNS = re.compile(rf"\b{_COLUMN_WORD}(\d{{1,2}})(?:{TO}(\d{{1,2}}))?\b")
+_LETTERS = rf"(?P<row>[A-P])(?![A-Za-z0-9])(?:{TO}(?P<row2>[A-P])(?![A-Za-z0-9]))?"
+_SPAN = rf"\d{{1,2}}(?:{TO}\d{{1,2}})?"
 _NUMBERS = rf"(?P<columns>{_SPAN}(?:\s*(?:,|/|&|and|und|et|y)\s*{_SPAN})*)"
 _BETWEEN = r"\s*(?:[,/x×;]|and|of|in|und|von|de)?\s*(?:the\s+)?"
 _BOTH = (
@@ -64,7 +61,7 @@ _BOTH = (
 def _met(match: re.Match[str]) -> str:
     """The wells where rows and columns meet: "row B, col 1-6" is B1-B6."""
     first, last = match["row"], match["row2"] or match["row"]
-    spans = re.findall(rf"(\d+)(?:{_TO}(\d+))?", match["columns"])
+    spans = re.findall(rf"(\d+)(?:{TO}(\d+))?", match["columns"])
     return " and ".join(f"{first}{low}-{last}{high or low}" for low, high in spans)
 
 

@@ -8,21 +8,25 @@ from ...instrumentation import LabwareInfo
 from ..trace import row_column
 
 _WELL = r"[A-P](?:0?[1-9]|1\d|2[0-4])"
-_TO = r"\s*(?:-|–|to|bis)\s*"
+COLUMN, COLUMNS = "col|column|spalte|colonne|columna", "cols|columns|spalten|colonnes|columnas"
+ROW, ROWS = "row|zeile|reihe|ligne|fila", "rows|zeilen|reihen|lignes|filas"
+"""What people call them; for patterns."""
+
+TO = r"\s*(?:-|–|to|bis)\s*"
 _AND = r"\s*(?:,|/|&|\+|and|und|et|y)\s*"
-_COLUMNS = rf"(?:1\d|2[0-4]|[1-9])(?!\d)(?:{_TO}\d+)?"
-_ROWS = rf"[A-P](?![A-Za-z0-9])(?:{_TO}[A-P](?![A-Za-z0-9]))?"
+_NUMBERS = rf"(?:1\d|2[0-4]|[1-9])(?!\d)(?:{TO}\d+)?"
+_LETTERS = rf"[A-P](?![A-Za-z0-9])(?:{TO}[A-P](?![A-Za-z0-9]))?"
 
 WELL_SPEC = re.compile(
     rf"\b(?:(?P<first>{_WELL})(?:\s*(?:-|–|—|to|through|\.\.+|:)\s*(?P<last>{_WELL}))?"
-    rf"|(?i:cols|columns|spalten|colonnes|columnas)\.?\s*(?P<columns>{_COLUMNS}(?:{_AND}{_COLUMNS})*)"
-    rf"|(?i:col|column|spalte|colonne|columna)\.?\s*(?P<column>{_COLUMNS})"
-    rf"|(?i:rows|zeilen|reihen|lignes|filas)\s+(?P<rows>{_ROWS}(?:{_AND}{_ROWS})*)"
-    rf"|(?i:row|zeile|reihe|ligne|fila)\s+(?P<row>{_ROWS}))\b"
+    rf"|(?i:{COLUMNS})\.?\s*(?P<columns>{_NUMBERS}(?:{_AND}{_NUMBERS})*)"
+    rf"|(?i:{COLUMN})\.?\s*(?P<column>{_NUMBERS})"
+    rf"|(?i:{ROWS})\s+(?P<rows>{_LETTERS}(?:{_AND}{_LETTERS})*)"
+    rf"|(?i:{ROW})\s+(?P<row>{_LETTERS}))\b"
 )
 """A well, a range of them, or columns and rows; only a plural lists several: "columns 1 and 2"."""
 
-_RANGE = re.compile(rf"(\w+)(?:{_TO}(\w+))?")
+_RANGE = re.compile(rf"(\w+)(?:{TO}(\w+))?")
 
 
 def spec_wells(spec: str, info: LabwareInfo) -> list[str]:
