@@ -6,7 +6,7 @@ import os
 import queue
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
@@ -15,6 +15,10 @@ from typing import TypeVar
 from .rehearser import Rehearser
 
 T = TypeVar("T")
+
+_LISTEN_S = 0.2
+"""How often the main thread wakes to hear Ctrl-C: a wait without end hears it only if the system
+hands the signal to that very thread, and on Windows never."""
 
 
 def processors() -> int:
@@ -28,13 +32,16 @@ class LazyRehearser:
 
     Args:
         rules: Paths of further rules, loaded ahead.
+
+    Attributes:
+        cancelled: Set once it does nothing more.
     """
 
     def __init__(self, rules: tuple[str, ...]) -> None:
         self._rules = rules
         self._lock = threading.Lock()
         self._rehearser: Rehearser | None = None
-        self._cancelled = False
+        self.cancelled = threading.Event()
 
     def __enter__(self) -> LazyRehearser:
         return self
@@ -53,14 +60,14 @@ class LazyRehearser:
         with self._lock:
             if self._rehearser is None:
                 self._rehearser = Rehearser(self._rules)
-                if self._cancelled:
+                if self.cancelled.is_set():
                     self._rehearser.cancel()
             return self._rehearser
 
     def cancel(self) -> None:
         """End what it does now, and all that it is asked from now on."""
         with self._lock:
-            self._cancelled = True
+            self.cancelled.set()
             if self._rehearser is not None:
                 self._rehearser.cancel()
 
@@ -106,12 +113,14 @@ def check_each(
         pool = ThreadPoolExecutor(jobs, "aegis-ot-check")
         try:
             for future in [pool.submit(work, file) for file in files]:
+                while not future.done():
+                    wait([future], _LISTEN_S)
                 results.append(future.result())
                 done(results[-1])
         except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
             for rehearser in rehearsers:
-                rehearser.cancel()
+                rehearser.cancel()  # first: an impatient second Ctrl-C may end this block
+            pool.shutdown(wait=False, cancel_futures=True)
             raise
         finally:
             pool.shutdown()

@@ -76,6 +76,23 @@ def test_two_jobs_give_what_one_gives(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.skipif(not hasattr(signal, "pthread_kill"), reason="signals of threads")
+def test_an_interruption_is_heard_whichever_thread_the_system_gives_it_to() -> None:
+    heard: list[bool] = []
+    all_are_asked_for = threading.Event()
+
+    def check(file: Path, rehearser: LazyRehearser) -> None:
+        if file.name == "second":
+            assert all_are_asked_for.wait(30)
+            signal.pthread_kill(threading.get_ident(), signal.SIGINT)
+            heard.append(rehearser.cancelled.wait(60))
+
+    with pytest.raises(KeyboardInterrupt):
+        files = [Path("first"), Path("second")]
+        check_each(files, 2, (), check, lambda _: all_are_asked_for.set())
+    assert heard == [True]
+
+
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="looks for processes in /proc")
 def test_an_interruption_ends_every_rehearsal_and_is_told_in_one_line(tmp_path: Path) -> None:
     marks = [tmp_path / f"started{n}" for n in range(2)]
