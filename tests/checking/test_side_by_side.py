@@ -87,8 +87,8 @@ def test_an_interruption_is_heard_whichever_thread_the_system_gives_it_to() -> N
             signal.pthread_kill(threading.get_ident(), signal.SIGINT)
             heard.append(rehearser.cancelled.wait(60))
 
+    files = [Path("first"), Path("second")]
     with pytest.raises(KeyboardInterrupt):
-        files = [Path("first"), Path("second")]
         check_each(files, 2, (), check, lambda _: all_are_asked_for.set())
     assert heard == [True]
 
