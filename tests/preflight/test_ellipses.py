@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from aegis_ot.preflight import load_database
 from aegis_ot.preflight.roles.ellipses import spelled_out
+
+COMMON = load_database().common
 
 
 @pytest.mark.parametrize(
@@ -19,12 +22,14 @@ from aegis_ot.preflight.roles.ellipses import spelled_out
         ("Control column (6): rows A-D RNA, rows E-H water", " A6-D6 RNA, E6-H6 water"),
         ("Row H: columns 1-3 NTC, 4-6 control", " H1-H3 NTC, H4-H6 control"),
         ("row B, col 1-6 vehicle", "B1-B6 vehicle"),
-        ("rows A-C, columns 7 and 8: 5 uM", "A7-C7 and A8-C8: 5 uM"),
+        ("rows A-C, columns 7 and 8: 5 uM", "A7-C7, A8-C8: 5 uM"),
         ("columns 1-6 of row H: blank", "H1-H6: blank"),
+        ("riga A, colonne 1-3: bianco", "A1-A3: bianco"),
+        ("colonnes 1 à 3 témoin, 4 à 6 dilué", "colonnes 1 à 3 témoin, column 4 à 6 dilué"),
     ],
 )
 def test_what_is_left_out_is_put_back(written: str, meant: str) -> None:
-    assert spelled_out(written) == meant
+    assert spelled_out(written, COMMON) == meant
 
 
 @pytest.mark.parametrize(
@@ -38,4 +43,4 @@ def test_what_is_left_out_is_put_back(written: str, meant: str) -> None:
     ],
 )
 def test_other_numbers_are_left_alone(written: str) -> None:
-    assert spelled_out(written) == written
+    assert spelled_out(written, COMMON) == written

@@ -10,17 +10,16 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
+from ..rules import Common
 from ..text import tokens
 from .ellipses import spelled_out
-from .well_names import WELL_SPEC
+from .well_names import WellNames, well_names
 
 _BREAKS = re.compile(
     r"[;|]|\.\s+(?=[A-Z])|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
     r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))"
 )
 _BRACKETS = re.compile(r"[(\[]([^()\[\]]*)[)\]]")
-_LISTED = re.compile(r"[\s,/&+]*(?:(?:and|und|et|y|e|or)\b[\s,]*)?")
-"""What stands between the wells of one list: "A1, B1 and C1"."""
 
 
 class Part(NamedTuple):
@@ -31,21 +30,22 @@ class Part(NamedTuple):
     wells: tuple[re.Match[str], ...]
 
 
-def parts_of(text: str) -> Iterator[Part]:
+def parts_of(text: str, common: Common) -> Iterator[Part]:
     """The parts of one line, in order; a part that names no wells has an empty ``wells``."""
-    for clause in _clauses(spelled_out(text)):
-        groups = _groups(clause)
+    names = well_names(common)
+    for clause in _clauses(spelled_out(text, common), names):
+        groups = _groups(clause, names)
         for piece in _shares(clause, groups) if len(groups) > 1 else [clause]:
-            words = WELL_SPEC.sub(" ", piece)
-            yield Part(piece.strip(), words, tuple(WELL_SPEC.finditer(piece)))
+            words = names.spec.sub(" ", piece)
+            yield Part(piece.strip(), words, tuple(names.spec.finditer(piece)))
 
 
-def _clauses(text: str) -> Iterator[str]:
+def _clauses(text: str, names: WellNames) -> Iterator[str]:
     """What commas and the like divide; a bracket that says something of wells stands alone."""
     apart = [
         inner
         for inner in _BRACKETS.findall(text)
-        if WELL_SPEC.search(inner) and tokens(WELL_SPEC.sub(" ", inner))
+        if names.spec.search(inner) and tokens(names.spec.sub(" ", inner))
     ]
     for inner in apart:
         text = text.replace(f"({inner})", " ").replace(f"[{inner}]", " ")
@@ -53,7 +53,7 @@ def _clauses(text: str) -> Iterator[str]:
         start = 0
         for at in [match.span() for match in _BREAKS.finditer(whole)] + [(len(whole), len(whole))]:
             clause = whole[start : at[0]]
-            if (_is_list(clause) or _is_open(clause)) and at[0] < len(whole):
+            if (_is_list(clause, names) or _is_open(clause)) and at[0] < len(whole):
                 continue  # "A1, B1 and C1: standards" is one, and "columns 1+2 (blank, standards)"
             if clause.strip():
                 yield clause
@@ -65,17 +65,17 @@ def _is_open(clause: str) -> bool:
     return sum(clause.count(mark) for mark in "([") > sum(clause.count(mark) for mark in ")]")
 
 
-def _is_list(clause: str) -> bool:
+def _is_list(clause: str, names: WellNames) -> bool:
     """Whether a clause names wells and nothing else."""
-    groups = _groups(clause)
+    groups = _groups(clause, names)
     return len(groups) == 1 and not tokens(clause[: groups[0][0]] + clause[groups[0][1] :])
 
 
-def _groups(clause: str) -> list[tuple[int, int]]:
-    """Start and end of each list of wells in a clause."""
+def _groups(clause: str, names: WellNames) -> list[tuple[int, int]]:
+    """Start and end of each list of wells in a clause: of "A1, B1 and C1"."""
     found: list[tuple[int, int]] = []
-    for match in WELL_SPEC.finditer(clause):
-        if found and _LISTED.fullmatch(clause, found[-1][1], match.start()):
+    for match in names.spec.finditer(clause):
+        if found and names.between.fullmatch(clause, found[-1][1], match.start()):
             found[-1] = (found[-1][0], match.end())
         else:
             found.append(match.span())

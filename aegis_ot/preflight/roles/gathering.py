@@ -25,7 +25,7 @@ from .remarks import step_comments, written_wells
 from .run_maps import spotted_names, tabled_wells
 from .spoken import said_in_the_run
 from .trough_legends import trough_legends
-from .well_names import spec_wells
+from .well_names import well_names
 
 
 def gather(
@@ -46,11 +46,11 @@ def gather(
     """
     deck = Deck(trace, names)
     clues = [
-        *_given(deck, given),
+        *_given(deck, given, common),
         *_liquids(trace, facts),
         *named_wells(deck, names, facts, common),
         *named_fields(names, facts),
-        *labels(deck),
+        *labels(deck, common),
         *indexing_names(deck, facts, common),
         *plate_maps(deck, facts, common),
         *drawn_maps(deck, facts, common),
@@ -69,14 +69,15 @@ def gather(
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
 
 
-def _given(deck: Deck, given: Mapping[str, Sequence[str]]) -> Iterator[Clue]:
+def _given(deck: Deck, given: Mapping[str, Sequence[str]], common: Common) -> Iterator[Clue]:
+    read = well_names(common)
     for role, places in given.items():
         wells: list[WellRef] = []
         for place in places:
             labware, _, spec = str(place).rpartition(":")
             for key in deck.labware_called(labware):
                 wells.extend(
-                    deck.ref(key, name) for name in spec_wells(spec, deck.trace.labware[key])
+                    deck.ref(key, name) for name in read.wells(spec, deck.trace.labware[key])
                 )
         yield Clue(
             Strength.GIVEN, role, tuple(wells), None, f"given to the guard as {role}", role=role

@@ -14,7 +14,7 @@ from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .levels import far_apart, is_number
-from .well_names import WELL_SPEC
+from .well_names import well_names
 
 
 def named_wells(
@@ -79,7 +79,7 @@ def _of_all(note: str, wells: Sequence[WellRef], common: Common) -> bool:
     if len(set(wells)) < 2:
         return True
     some = lexicon_of({"some": (*common.partly, *common.negations)})
-    return not WELL_SPEC.search(note) and not some.find(note)
+    return not well_names(common).spec.search(note) and not some.find(note)
 
 
 def call_arguments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[Clue]:

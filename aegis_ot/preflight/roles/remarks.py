@@ -15,7 +15,7 @@ from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .labware_nouns import LabwareNouns
 from .replicates import called_alike
-from .well_names import wells_meant
+from .well_names import WellNames, well_names
 
 
 def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
@@ -24,17 +24,18 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     texts += _blocks(facts)
     texts += [(1, text) for text in facts.metadata.values()]
     nouns = LabwareNouns(deck, common)
+    names = well_names(common)
     noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
     for line, text in texts:
         heading: frozenset[str] = frozenset()
         last: frozenset[str] = frozenset()
         for number, written in enumerate(text.splitlines() or [text]):
             of_line = nouns.named(written) or nouns.heading(written)
-            if of_line and _heads(written):
+            if of_line and _heads(written, common):
                 heading = of_line
             elif not written.strip():
                 heading = last = frozenset()
-            for part in parts_of(written):
+            for part in parts_of(written, common):
                 if not part.wells or len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
                     continue
                 before = nouns.before(part)
@@ -47,7 +48,7 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
                     or heading
                     or last
                 )
-                yield from _spoken(deck, part, line + number, keys)
+                yield from _spoken(deck, part, line + number, keys, names)
 
 
 def _blocks(facts: SourceFacts) -> list[tuple[int, str]]:
@@ -66,11 +67,13 @@ def _blocks(facts: SourceFacts) -> list[tuple[int, str]]:
 _LONGEST_HEADING = 6
 
 
-def _heads(line: str) -> bool:
+def _heads(line: str, common: Common) -> bool:
     """Whether a line says which labware the next ones speak of: "rack in slot 5"."""
     if line.rstrip().endswith(":"):
         return True
-    return len(tokens(line)) <= _LONGEST_HEADING and not any(p.wells for p in parts_of(line))
+    return len(tokens(line)) <= _LONGEST_HEADING and not any(
+        p.wells for p in parts_of(line, common)
+    )
 
 
 _LONGEST_CLAUSE = 160
@@ -81,7 +84,9 @@ _LEFT_OUT = 2
 """As many wells of those that prose names may have been left out by mistake."""
 
 
-def _spoken(deck: Deck, part: Part, line: int, keys: frozenset[str]) -> Iterator[Clue]:
+def _spoken(
+    deck: Deck, part: Part, line: int, keys: frozenset[str], names: WellNames
+) -> Iterator[Clue]:
     meant: dict[str, list[WellRef]] = {}
     # "Column 2 = vehicle" may leave out the rows at the edge; "A2-H2" and "all 8" do not.
     ranges = any(match["last"] for match in part.wells)
@@ -89,7 +94,7 @@ def _spoken(deck: Deck, part: Part, line: int, keys: frozenset[str]) -> Iterator
     having = {
         info.key: named
         for info in deck.plates()
-        if (named := [name for match in part.wells for name in wells_meant(match, info)])
+        if (named := [name for match in part.wells for name in names.meant(match, info)])
     }
     if not keys.isdisjoint(having):  # else it names that labware in passing
         having = {key: named for key, named in having.items() if key in keys}
@@ -151,7 +156,7 @@ def step_comments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[
             break
     for text, line in at_line.items():
         count = len(tokens(text))
-        if count > _LONGEST_STEP_COMMENT or unsaid.find(text) or _is_layout(text):
+        if count > _LONGEST_STEP_COMMENT or unsaid.find(text) or _is_layout(text, common):
             continue
         said = f"comment '{shortened(text)}' at line {line}"
         sources = tuple(ref for ref in drawn.get(text, ()) if ref not in given.get(text, ()))
@@ -171,9 +176,9 @@ def step_comments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[
             )
 
 
-def _is_layout(text: str) -> bool:
+def _is_layout(text: str, common: Common) -> bool:
     """Whether a comment lists wells of several kinds rather than say what is done next."""
-    return sum(bool(part.wells) for part in parts_of(text)) > 1
+    return sum(bool(part.wells) for part in parts_of(text, common)) > 1
 
 
 def _comment_of_line(facts: SourceFacts) -> dict[int, str]:

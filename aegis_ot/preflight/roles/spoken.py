@@ -19,7 +19,7 @@ from ..text import SourceFacts, direction_in, lexicon_of, tokens
 from ..trace import Said, Trace, Visit
 from .clues import Clue, Strength, shortened
 from .phrases import first_words
-from .well_names import WELL_SPEC
+from .well_names import well_names
 
 _LONGEST = 14
 _LONGEST_LABEL = 7
@@ -133,7 +133,7 @@ def _labels(what: str, where: str, common: Common) -> Iterator[str]:
     Only what is called a control: "DMSO" and "sample 3" are what is drawn.
     """
     controls = lexicon_of({"control": common.controls}, common.aliases, common.endings)
-    if where and tokens(WELL_SPEC.sub(" ", where)):
+    if where and tokens(well_names(common).spec.sub(" ", where)):
         labels = [where]
     else:
         words = tokens(what)

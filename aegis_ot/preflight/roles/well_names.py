@@ -2,66 +2,98 @@
 
 from __future__ import annotations
 
+import functools
 import re
+from collections.abc import Sequence
 
 from ...instrumentation import LabwareInfo
+from ..rules import Common
 from ..trace import row_column
 
 _WELL = r"[A-P](?:0?[1-9]|1\d|2[0-4])"
-COLUMN, COLUMNS = "col|column|spalte|colonne|columna", "cols|columns|spalten|colonnes|columnas"
-ROW, ROWS = "row|zeile|reihe|ligne|fila", "rows|zeilen|reihen|lignes|filas"
-"""What people call them; for patterns."""
-
-TO = r"\s*(?:-|–|to|bis)\s*"
-_AND = r"\s*(?:,|/|&|\+|and|und|et|y)\s*"
-_NUMBERS = rf"(?:1\d|2[0-4]|[1-9])(?!\d)(?:{TO}\d+)?"
-_LETTERS = rf"[A-P](?![A-Za-z0-9])(?:{TO}[A-P](?![A-Za-z0-9]))?"
-
-WELL_SPEC = re.compile(
-    rf"\b(?:(?P<first>{_WELL})(?:\s*(?:-|–|—|to|through|\.\.+|:)\s*(?P<last>{_WELL}))?"
-    rf"|(?i:{COLUMNS})\.?\s*(?P<columns>{_NUMBERS}(?:{_AND}{_NUMBERS})*)"
-    rf"|(?i:{COLUMN})\.?\s*(?P<column>{_NUMBERS})"
-    rf"|(?i:{ROWS})\s+(?P<rows>{_LETTERS}(?:{_AND}{_LETTERS})*)"
-    rf"|(?i:{ROW})\s+(?P<row>{_LETTERS}))\b"
-)
-"""A well, a range of them, or columns and rows; only a plural lists several: "columns 1 and 2"."""
-
-_RANGE = re.compile(rf"(\w+)(?:{TO}(\w+))?")
 
 
-def spec_wells(spec: str, info: LabwareInfo) -> list[str]:
-    """Well names of ``"A1"``, ``"A1-B3"``, ``"A1, A2"``, ``"column 12"``, ``"row A"``, ``"*"``."""
-    if spec.strip() in ("", "*"):
-        return list(info.wells)
-    names: list[str] = []
-    for match in WELL_SPEC.finditer(spec):
-        names.extend(name for name in wells_meant(match, info) if name not in names)
-    return names
+class WellNames:
+    """Finds well names in a text, with the words that ``layout`` lists in ``common.json``.
+
+    Its parts of patterns are for those who read more of a layout than names.
+
+    Attributes:
+        column, columns, row, rows: What people call one or several, in any case.
+        to, conjunction: What stands between the ends of a range, and between members of a list.
+        between: What may stand between two wells of one list.
+        of: What joins rows to columns: "columns 1-6 of row H".
+        spec: A well, a range of them, or columns and rows; only a plural lists several:
+            "columns 1 and 2".
+    """
+
+    def __init__(self, layout: dict[str, tuple[str, ...]]) -> None:
+        self.column, self.columns, self.row, self.rows = (
+            f"(?i:{_any(layout.get(kind, ()))})" for kind in ("column", "columns", "row", "rows")
+        )
+        self.to = rf"\s*(?:-|–|—|\b(?:{_any(layout.get('to', ()))})\b)\s*"
+        self.conjunction = rf"\s*(?:,|/|&|\+|\b(?:{_any(layout.get('and', ()))})\b)\s*"
+        self.of = _any(layout.get("of", ()))
+        self.first_word_of = {kind: words[0] for kind, words in layout.items() if words}
+        numbers = rf"(?:1\d|2[0-4]|[1-9])(?!\d)(?:{self.to}\d+)?"
+        letters = rf"[A-P](?![A-Za-z0-9])(?:{self.to}[A-P](?![A-Za-z0-9]))?"
+        self.spec = re.compile(
+            rf"\b(?:(?P<first>{_WELL})(?:(?:{self.to}|\s*(?:\.\.+|:)\s*)(?P<last>{_WELL}))?"
+            rf"|{self.columns}\.?\s*(?P<columns>{numbers}(?:{self.conjunction}{numbers})*)"
+            rf"|{self.column}\.?\s*(?P<column>{numbers})"
+            rf"|{self.rows}\s+(?P<rows>{letters}(?:{self.conjunction}{letters})*)"
+            rf"|{self.row}\s+(?P<row>{letters}))\b"
+        )
+        self.between = re.compile(rf"[\s,/&+]*(?:\b(?:{_any(layout.get('and', ()))})\b[\s,]*)?")
+        self._conjunction = re.compile(self.conjunction)
+        self._range = re.compile(rf"(\d+|[A-P])(?:{self.to}(\d+|[A-P]))?")
+
+    def wells(self, spec: str, info: LabwareInfo) -> list[str]:
+        """Names of ``"A1"``, ``"A1-B3"``, ``"A1, A2"``, ``"column 12"``, ``"row A"``, ``"*"``."""
+        if spec.strip() in ("", "*"):
+            return list(info.wells)
+        names: list[str] = []
+        for match in self.spec.finditer(spec):
+            names.extend(name for name in self.meant(match, info) if name not in names)
+        return names
+
+    def meant(self, match: re.Match[str], info: LabwareInfo) -> list[str]:
+        """The wells of this labware that a match of :attr:`spec` stands for."""
+        parts = match.groupdict()
+        if parts["first"]:
+            first = _plain(parts["first"])
+            if not parts["last"]:
+                return [first] if first in info.wells else []
+            (r1, c1), (r2, c2) = row_column(first), row_column(_plain(parts["last"]))
+            rows, columns = sorted((r1, r2)), sorted((c1, c2))
+            return [
+                name
+                for name in info.wells
+                if rows[0] <= row_column(name)[0] <= rows[1]
+                and columns[0] <= row_column(name)[1] <= columns[1]
+            ]
+        listed = parts["columns"] or parts["column"]
+        axis = 1 if listed else 0
+        wanted: set[int] = set()
+        for text in self._conjunction.split(listed or parts["rows"] or parts["row"]):
+            low, high = self._range.findall(text)[0]
+            wanted.update(range(_number(low), _number(high or low) + 1))
+        return [name for name in info.wells if row_column(name)[axis] in wanted]
 
 
-def wells_meant(match: re.Match[str], info: LabwareInfo) -> list[str]:
-    """The wells of this labware that a match of :data:`WELL_SPEC` stands for."""
-    parts = match.groupdict()
-    names = list(info.wells)
-    if parts["first"]:
-        first = _plain(parts["first"])
-        if not parts["last"]:
-            return [first] if first in info.wells else []
-        (r1, c1), (r2, c2) = row_column(first), row_column(_plain(parts["last"]))
-        rows, columns = sorted((r1, r2)), sorted((c1, c2))
-        return [
-            name
-            for name in names
-            if rows[0] <= row_column(name)[0] <= rows[1]
-            and columns[0] <= row_column(name)[1] <= columns[1]
-        ]
-    listed = parts["columns"] or parts["column"]
-    axis = 1 if listed else 0
-    wanted: set[int] = set()
-    for text in re.split(_AND, listed or parts["rows"] or parts["row"]):
-        low, high = _RANGE.findall(text)[0]
-        wanted.update(range(_number(low), _number(high or low) + 1))
-    return [name for name in names if row_column(name)[axis] in wanted]
+def well_names(common: Common) -> WellNames:
+    """Well names in the words of the rule files, made once for equal lists."""
+    return _made(tuple((kind, tuple(words)) for kind, words in common.layout.items()))
+
+
+@functools.lru_cache(maxsize=8)
+def _made(layout: tuple[tuple[str, tuple[str, ...]], ...]) -> WellNames:
+    return WellNames(dict(layout))
+
+
+def _any(words: Sequence[str]) -> str:
+    """A pattern for one of these words; for nothing at all if there are none."""
+    return "|".join(map(re.escape, words)) or "(?!)"
 
 
 def _number(text: str) -> int:

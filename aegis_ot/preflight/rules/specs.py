@@ -232,6 +232,7 @@ class Common:
     noise: tuple[str, ...] = ()
     distinct: tuple[str, ...] = ()
     dosed: tuple[str, ...] = ()
+    layout: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     schema: int = SCHEMA_VERSION
 
 
