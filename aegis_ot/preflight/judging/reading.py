@@ -84,7 +84,7 @@ def read_recording(recording: Recording, database: Database, options: Options) -
     """Read a recording with the eyes of every family that applies."""
     common = database.common
     facts = read_source(recording.text)
-    replacements = Replacements(common.pauses)
+    replacements = Replacements(common.pauses, common.layout.get("and", ()))
     trace = build_trace(recording.log, recording.labware, replacements)
     clues = gather(trace, recording.names, facts, options.roles, common)
     usage = usage_of(trace)

@@ -6,11 +6,14 @@ rule files (``rules/common.json``), so that other languages can be added there.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ...instrumentation import LabwareInfo
 from ..text import lexicon_of, tokens
+
+_SLOT = re.compile(r"\b(?:[A-Da-d][1-4]|\d{1,2})\b")
 
 
 @dataclass(frozen=True)
@@ -42,11 +45,17 @@ class Replacements:
     Args:
         words: Phrases by topic: ``replace``, ``plate``, ``tips``, ``refill``,
             ``shake``, ``away``, ``spin``, ``trough``.
+        joining: Words for "and".
     """
 
     words: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    joining: Sequence[str] = ()
 
     def __post_init__(self) -> None:
+        joint = "|".join([r"\s*[,/&+]", *(rf"\s+{re.escape(word)}\b" for word in self.joining)])
+        self._slots = re.compile(
+            rf"(?i:\bslots?\W{{0,3}}{_SLOT.pattern}(?:(?:{joint})+\s*{_SLOT.pattern})*)"
+        )
         self._lexicon = lexicon_of(
             {topic: tuple(words) for topic, words in self.words.items() if topic != "trough"}
         )
@@ -107,19 +116,22 @@ class Replacements:
             return set()
         return {key for key, info in labware.items() if info.centers_channels and not info.is_trash}
 
-    @staticmethod
-    def _named(text: str, labware: Mapping[str, LabwareInfo], slots: Mapping[str, str]) -> set[str]:
+    def _named(
+        self, text: str, labware: Mapping[str, LabwareInfo], slots: Mapping[str, str]
+    ) -> set[str]:
         """Labware that the message names, by label or by slot."""
-        said = tokens(text)
-        joined = f" {' '.join(said)} "
+        joined = f" {' '.join(tokens(text))} "
+        listed = {
+            slot.lower()
+            for several in self._slots.findall(text)
+            for slot in _SLOT.findall(several)
+        }
         found: set[str] = set()
         for key, info in labware.items():
             if info.is_trash:
                 continue
             slot = slots.get(key, "").lower()
             label = " ".join(tokens(info.label))
-            if (slot and f" slot {' '.join(tokens(slot))} " in joined) or (
-                label and f" {label} " in joined
-            ):
+            if slot in listed or (label and f" {label} " in joined):
                 found.add(key)
         return found
