@@ -41,9 +41,7 @@ def make_dossier(
         parameters: Values of runtime parameters, by variable name.
     """
     options = options or Options()
-    replacements = Replacements(
-        database.common.pauses, database.common.layout.get("and", ())
-    )
+    replacements = Replacements(database.common.pauses, database.common.layout.get("and", ()))
     trace = build_trace(recording.log, recording.labware, replacements)
     prefilled = _implied_contents(report, database, trace)
     if prefilled:

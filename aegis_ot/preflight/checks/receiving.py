@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
 from ..roles import Strength
+from ..text import lexicon_of, tokens
 from ..trace import Well
 from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
 
@@ -88,6 +90,10 @@ def _last_line(case: Case, well: Well) -> int | None:
     return lines[-1] if lines else None
 
 
+_AS_FULL = 0.05
+"""Volumes that differ by no more than this share are alike."""
+
+
 @dataclass(frozen=True)
 class Receives(Check):
     """Every well of ``wells`` receives a liquid of ``liquid``.
@@ -101,14 +107,16 @@ class Receives(Check):
             have a role of ``always``.
         liquid: Roles of the liquid.
         always: Roles whose wells are judged even if the run never touches them.
-        contents: Whether wells that held that liquid before the run count as served.
+        perhaps: Words that also name wells which are filled with a buffer in the liquid's place:
+            a well that is called so and nothing else, and ends as full as the others without
+            the liquid, is no violation but cannot be judged.
     """
 
     name: ClassVar[str] = "receives"
     wells: tuple[str, ...] = role_field()
     liquid: tuple[str, ...] = role_field()
     always: tuple[str, ...] = role_field(())
-    destinations_only: bool = True
+    perhaps: tuple[str, ...] = ()
 
     def find(self, case: Case) -> Iterator[Result]:
         """Look at each well that should receive it."""
@@ -161,8 +169,11 @@ class Receives(Check):
             ):
                 yield Doubt(f"{place(well)} is filled from elsewhere, after a clean-up perhaps")
                 continue
-            reported.add(place_key)
             total, line = filled(case, well)
+            if self._is_filled_otherwise(case, well, total, served):
+                yield Doubt(f"{place(well)} may be a blank of the instrument: it is filled up")
+                continue
+            reported.add(place_key)
             others = (
                 Site(source_line[0], source_line[1].ref, f"{title} is given to other wells")
                 if source_line
@@ -179,6 +190,25 @@ class Receives(Check):
                 (case.title(well),),
                 (well, source_line[2]) if source_line else (well,),
             )
+
+    def _is_filled_otherwise(
+        self, case: Case, well: Well, total: float, served: set[tuple[str, str]]
+    ) -> bool:
+        """Whether a well is called by a word of ``perhaps`` alone, and as full as the others."""
+        assigned = case.roles.by_well.get(well.ref)
+        if assigned is None or total <= 0:
+            return False
+        words = case.family.roles[assigned.role].words
+        found = lexicon_of({"role": words}, case.common.aliases).find(assigned.text)
+        perhaps = {tokens(word) for word in self.perhaps}
+        if not found or any(tokens(match.phrase) not in perhaps for match in found):
+            return False
+        return any(
+            other.ref.labware == well.ref.labware
+            and (other.ref.labware, other.ref.name) in served
+            and math.isclose(filled(case, other)[0], total, rel_tol=_AS_FULL)
+            for other in case.trace.wells.values()
+        )
 
     def _plates(self, case: Case, liquid: RoleSet) -> set[str]:
         """Labware where some well is given the liquid, and their replicates.

@@ -21,6 +21,7 @@ from .phrases import (
     fitting_role,
     is_for_controls,
     is_outright,
+    joins_others,
     names_several,
     role_words,
     roles_named,
@@ -75,6 +76,10 @@ def assign_roles(
             continue
         if clue.lone and names_several(lexicon, clue, common, roles):
             continue
+        if clue.whole and joins_others(lexicon, clue.text):
+            named = [role for role in named if not family.roles[role].implies_contents]
+            if not named:
+                continue
         side_only = says_only_the_side(clue, common)
         worth = _worth(clue, side_only, clue.whole or says_only_a_place(clue, common))
         if clue.strength is Strength.LIQUID and names_several(lexicon, clue, common, roles):

@@ -45,6 +45,22 @@ def names_several(lexicon: Lexicon, clue: Clue, common: Common, roles: Roles) ->
     )
 
 
+def joins_others(lexicon: Lexicon, text: str) -> bool:
+    """Whether a name joins what it names with something else: "sample and dilution strips"."""
+    words = tokens(text)
+    joints = [at for at, word in enumerate(words) if word in BOTH]
+    if not joints:
+        return False
+    starts, ends = [0, *(at + 1 for at in joints)], [*joints, len(words)]
+    parts = [" ".join(words[a:b]) for a, b in zip(starts, ends, strict=True)]
+    named = [_names_any(lexicon, part) for part in parts]
+    return any(named) and not all(named)
+
+
+def _names_any(lexicon: Lexicon, text: str) -> bool:
+    return any(not match.topic.startswith("!") for match in lexicon.find(text))
+
+
 def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[str]]:
     """What each word or phrase of a clue may name, the head of the whole first."""
     text = _telling_part(lexicon, clue).replace("%", " percent ")

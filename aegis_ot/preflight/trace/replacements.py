@@ -122,9 +122,7 @@ class Replacements:
         """Labware that the message names, by label or by slot."""
         joined = f" {' '.join(tokens(text))} "
         listed = {
-            slot.lower()
-            for several in self._slots.findall(text)
-            for slot in _SLOT.findall(several)
+            slot.lower() for several in self._slots.findall(text) for slot in _SLOT.findall(several)
         }
         found: set[str] = set()
         for key, info in labware.items():
