@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from ...instrumentation import OperationKind
@@ -17,6 +18,8 @@ def is_same_liquid(case: Case, one: Well, other: Well) -> bool:
     if one is other or one.ref == other.ref:
         return True
     if _laid_out_alike(case, one, other) or _rolls_over(case, one, other):
+        return True
+    if _is_one_of_a_recipe(case, one, other):
         return True
     if one.liquids and one.liquids == other.liquids and any(map(str.isdigit, one.liquids[0])):
         return True
@@ -70,6 +73,33 @@ def _rolls_over(case: Case, one: Well, other: Well) -> bool:
         and 2 * drawn > first.capacity
         and len(served & also) <= 1
         and _by_one_statement(one, other)
+    )
+
+
+_NUMBERED = re.compile(r"(.+\[)['\"]?\d+['\"]?\]")
+"""The name of an entry of a table whose keys are numbers: ``reagents['3']``."""
+
+
+def _is_one_of_a_recipe(case: Case, one: Well, other: Well) -> bool:
+    """Whether both are tubes of one numbered reagent, of which each well gets its share.
+
+    They stand under one number of a table, no well is given both, and all wells that are given
+    either are given things under other numbers too.
+    """
+    mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
+    if mine is None or theirs is None or mine.text != theirs.text:
+        return False
+    table = _NUMBERED.fullmatch(mine.text)
+    served, also = (set(case.destinations.get(well, ())) for well in (one, other))
+    if table is None or not served or not also or served & also:
+        return False
+    others = {
+        ref
+        for ref, assigned in case.roles.by_well.items()
+        if assigned.text != mine.text and assigned.text.startswith(table[1])
+    }
+    return all(
+        any(source.ref in others for source in case.meant.get(well, {})) for well in served | also
     )
 
 
