@@ -31,6 +31,7 @@ class Violation:
             what one of them is for, the finding is a warning at most.
         on_comment: That comment, in words; filled in by the judge.
         sure: Whether it happened surely: no tip may after all have stayed clear of a liquid.
+        touched: Whether the tip surely touched what it carries: no unknown volume leaves it open.
     """
 
     message: str
@@ -40,6 +41,7 @@ class Violation:
     rests_on: tuple[Well, ...] = ()
     on_comment: str = ""
     sure: bool = False
+    touched: bool = True
 
 
 @dataclass(frozen=True)

@@ -190,6 +190,7 @@ class Carry(Check):
             (origin, well),
             # A liquid that stands in all wells may be meant to come along.
             sure=met.sure and not self._is_one_liquid(case, origin),
+            touched=met.sure,
         )
 
 

@@ -94,7 +94,7 @@ def _plain(violation: Violation, roles: Roles) -> bool:
     labels do, and nothing is open in what happened.
     """
     least = Strength.NAME if violation.sure else Strength.LIQUID
-    return all(
+    return violation.touched and all(
         well.liquids or well.ref not in roles.by_well or roles.by_well[well.ref].strength >= least
         for well in violation.rests_on
     )

@@ -24,6 +24,7 @@ from .phrases import (
     joins_others,
     names_several,
     role_words,
+    roles_denied,
     roles_named,
     says_only_a_place,
     says_only_the_side,
@@ -70,6 +71,9 @@ def assign_roles(
         if not named:
             if clue.strength is Strength.LIQUID:
                 roles.unnamed.update(clue.wells)
+            if clue.strength >= Strength.DESCRIPTION and not clue.whole:
+                for role in roles_denied(lexicon, clue.text):
+                    roles.denied.setdefault(role, set()).update(clue.wells)
             for ref, level in zip(clue.wells, levels_beside(clue, common), strict=False):
                 if level is not None:
                     levels.setdefault(ref, set()).add(level)

@@ -60,6 +60,7 @@ def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
         for ref, wells in served.items()
         if not roles.of(ref)
         and ref not in fed
+        and ref not in roles.denied.get(name, ())
         and all(
             any(roles.has(source, common) for source in sources[well])
             and not any(roles.has(source, likes) for source in sources[well])

@@ -35,6 +35,11 @@ def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
     return [role for group in _named_by_words(lexicon, clue, common) for role in group]
 
 
+def roles_denied(lexicon: Lexicon, text: str) -> set[str]:
+    """The roles that a text speaks against: a "lysis enzyme" is no template."""
+    return {m.topic[1:] for m in lexicon.find(text) if m.topic.startswith("!")}
+
+
 def names_several(lexicon: Lexicon, clue: Clue, common: Common, roles: Roles) -> bool:
     """Whether two words of a clue name different things."""
     groups = [group for group in _named_by_words(lexicon, clue, common) if group]

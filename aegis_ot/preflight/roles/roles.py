@@ -47,6 +47,7 @@ class Roles:
         conflicts: Evidence that conflicts, in words, with the wells that it concerns.
         derived: Roles that follow from what a well gives and receives.
         unnamed: Wells with a loaded liquid whose name is none of the family's words.
+        denied: For a role, the wells whose names or liquids speak against it.
         replicates: For the key of a labware, those of its replicates.
         apart: Unnamed wells that each serve one well of their own, and so hold different things.
     """
@@ -57,6 +58,7 @@ class Roles:
     derived: dict[WellRef, set[str]] = field(default_factory=dict)
     unnamed: set[WellRef] = field(default_factory=set)
     apart: set[WellRef] = field(default_factory=set)
+    denied: dict[str, set[WellRef]] = field(default_factory=dict)
     replicates: dict[str, set[str]] = field(default_factory=dict)
     _closure: dict[str, frozenset[str]] = field(default_factory=dict)
 
