@@ -116,7 +116,7 @@ class Carry(Check):
             ]
             if any(held) if clean else held and all(held):
                 return True
-            return met.well is not origin and _ends_in(case, well, visit.index, met.well)
+            return _ends_in(case, well, visit.index, met.well)
         return False
 
     @staticmethod

@@ -23,7 +23,8 @@ class UniformVolume(Check):
     Wells that received different liquids of ``liquid`` are different assays and are compared
     apart. Where it comes out of several tubes, each of which gives as much to all its wells, and
     no declared liquid says that they hold the same, each tube may be an assay of its own.
-    End volumes are compared only where the run brings everything.
+    End volumes are compared only where the run brings everything. A well that is shared out to
+    others beside it is left out.
 
     Attributes:
         tolerance: Share of the usual volume by which a well may differ.
@@ -36,11 +37,13 @@ class UniformVolume(Check):
 
     def find(self, case: Case) -> Iterator[Result]:
         """Compare each well with what most wells of its assay get."""
-        liquid = frozenset(self.liquid)
+        wells, liquid = frozenset(self.wells), frozenset(self.liquid)
         groups: dict[tuple[str, ...], list[Member]] = {}
-        for well in case.wells(frozenset(self.wells)):
+        for well in case.wells(wells):
             usage = case.usage.get(well.ref)
             if well.prefilled or (usage is not None and usage.first_drawn):
+                continue
+            if self._is_shared_out(case, well, wells):
                 continue
             got, _ = received(case, well, liquid)
             if got > 0:
@@ -54,6 +57,14 @@ class UniformVolume(Check):
             )
             for alike in by_tube.values() if several else [members]:
                 yield from self._compare(case, alike)
+
+    @staticmethod
+    def _is_shared_out(case: Case, well: Well, wells: RoleSet) -> bool:
+        """Whether it got more on purpose: other such wells beside it are filled from it."""
+        return any(
+            other is not well and other.ref.labware == well.ref.labware and case.has(other, wells)
+            for other in case.destinations.get(well, {})
+        )
 
     @staticmethod
     def _by_tube(
