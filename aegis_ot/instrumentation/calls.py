@@ -118,7 +118,8 @@ class CallReader:
                 disposal = True
             else:
                 target = str(well_core.get_name())
-                wells = self._wells.covered(info, target, nozzles)
+                aside = self._aside(values, location, info, target, well_core)
+                wells = self._wells.covered(info, target, nozzles, aside)
                 from_top = self._height(name, values, location, info, target, well_core)
                 if from_top is not None:
                     from_bottom = from_top + info.wells[target].depth
@@ -154,6 +155,19 @@ class CallReader:
             held = float(self._core.get_current_volume() or 0.0)
             return min(volume, held) if held > 0 else volume
         return volume
+
+    def _aside(
+        self,
+        values: Mapping[str, Any],
+        location: Any,
+        info: LabwareInfo,
+        target: str,
+        well_core: Any,
+    ) -> tuple[float, float]:
+        point = getattr(location, "point", None)
+        if values.get("meniscus_tracking") is not None or not hasattr(point, "x"):
+            return (0.0, 0.0)  # a place by the meniscus is no place on the deck
+        return self._wells.aside(info, target, well_core, point)
 
     def _height(
         self,

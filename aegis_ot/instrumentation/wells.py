@@ -16,6 +16,8 @@ from .labware import LabwareInfo, WellInfo
 _NOZZLE_PITCH_MM = 9.0
 _SLACK_MM = 0.6
 """A nozzle this far outside a well's rim still counts as over it (calibration offsets)."""
+_BESIDE_MM = 2.0
+"""A point so far outside the rim is not meant for that well: walls are touched with less."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,9 +74,9 @@ class WellResolver:
         )
         self._keys: dict[Any, str] = {}
         self._slots: dict[str, str] = {}
-        self._covered: dict[tuple[str, str, Nozzles], tuple[WellRef | None, ...]] = {}
+        self._covered: dict[tuple[Any, ...], tuple[WellRef | None, ...]] = {}
         self._refs: dict[tuple[str, str], WellRef] = {}
-        self._tops: dict[tuple[str, str], float] = {}
+        self._tops: dict[tuple[str, str], Any] = {}
         self.labware: dict[str, LabwareInfo] = {}
 
     def register(self, labware_core: Any) -> LabwareInfo:
@@ -121,13 +123,24 @@ class WellResolver:
         return ref
 
     def covered(
-        self, info: LabwareInfo, target: str, nozzles: Nozzles
+        self,
+        info: LabwareInfo,
+        target: str,
+        nozzles: Nozzles,
+        aside: tuple[float, float] = (0.0, 0.0),
     ) -> tuple[WellRef | None, ...]:
-        """The well at each nozzle when the leading one is aimed at the well ``target``."""
-        cache_key = (info.key, target, nozzles)
+        """The well at each nozzle when the leading one is aimed at the well ``target``.
+
+        Args:
+            info: The labware.
+            target: Name of the well.
+            nozzles: The active ones.
+            aside: How far from the middle of the well the leading one is sent, mm.
+        """
+        cache_key = (info.key, target, nozzles, aside)
         refs = self._covered.get(cache_key)
         if refs is None:
-            names = _wells_under(info, target, nozzles)
+            names = _wells_under(info, target, nozzles, aside)
             refs = tuple(None if name is None else self.ref(info.key, name) for name in names)
             self._covered[cache_key] = refs
         return refs
@@ -140,10 +153,27 @@ class WellResolver:
         return self.labware[self.key_of_id(labware_id)]
 
     def top_of(self, info: LabwareInfo, name: str, well_core: Any) -> float:
-        """Height of a well's top on the deck, mm. Kept, since the engine reckons it anew."""
+        """Height of a well's top on the deck, mm."""
+        return float(self._top(info, name, well_core).z)
+
+    def aside(
+        self, info: LabwareInfo, name: str, well_core: Any, point: Any
+    ) -> tuple[float, float]:
+        """How far beside a well a point lies, x and y, mm; 0 if it is over the well.
+
+        ``well.top().move(Point(y=36))`` takes a pipette with half its tips to another row.
+        """
+        top, well = self._top(info, name, well_core), info.wells[name]
+        x, y = round(float(point.x - top.x), 2), round(float(point.y - top.y), 2)
+        reach_x = (well.diameter or well.x_size or 0.0) / 2 + _BESIDE_MM
+        reach_y = (well.diameter or well.y_size or 0.0) / 2 + _BESIDE_MM
+        return (x, y) if abs(x) > reach_x or abs(y) > reach_y else (0.0, 0.0)
+
+    def _top(self, info: LabwareInfo, name: str, well_core: Any) -> Any:
+        """The middle of a well's top on the deck. Kept, since the engine reckons it anew."""
         top = self._tops.get((info.key, name))
         if top is None:
-            top = self._tops[(info.key, name)] = float(well_core.get_top(z_offset=0).z)
+            top = self._tops[(info.key, name)] = well_core.get_top(z_offset=0)
         return top
 
     def forget_heights(self) -> None:
@@ -210,7 +240,9 @@ def _float_or_none(value: Any) -> float | None:
     return None if value is None else float(value)
 
 
-def _wells_under(info: LabwareInfo, target: str, nozzles: Nozzles) -> tuple[str | None, ...]:
+def _wells_under(
+    info: LabwareInfo, target: str, nozzles: Nozzles, aside: tuple[float, float]
+) -> tuple[str | None, ...]:
     aim = info.wells[target]
     shift_x = shift_y = 0.0
     if info.centers_channels and len(nozzles.offsets) > 1:
@@ -219,8 +251,8 @@ def _wells_under(info: LabwareInfo, target: str, nozzles: Nozzles) -> tuple[str 
         shift_y = sum(y for _, y in nozzles.offsets) / len(nozzles.offsets)
     return tuple(
         target
-        if x == shift_x and y == shift_y
-        else _well_at(info, aim.x + x - shift_x, aim.y + y - shift_y)
+        if (x, y) == (shift_x, shift_y) and not any(aside)
+        else _well_at(info, aim.x + x - shift_x + aside[0], aim.y + y - shift_y + aside[1])
         for x, y in nozzles.offsets
     )
 

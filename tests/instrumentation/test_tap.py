@@ -153,6 +153,28 @@ def test_eight_channels_take_every_second_row_of_384():
     assert addresses(heard.of(K.DISPENSE)[0]) == [f"4:{row}3" for row in "BDFHJLNP"]
 
 
+@pytest.mark.parametrize("level", LEVELS)
+def test_a_point_beside_the_well_is_over_another_well_or_none(level):
+    """Half the tips of eight channels are taken to another row by an offset."""
+    heard, _ = run(
+        ot2(
+            """
+            from opentrons.types import Point
+            multi.pick_up_tip()
+            multi.aspirate(20, reservoir["A1"])
+            multi.dispense(10, plate["A2"].bottom(2).move(Point(y=36)))
+            multi.dispense(10, plate["A2"].bottom(2).move(Point(x=3)))
+            multi.drop_tip()
+            """,
+            level,
+        )
+    )
+    rear, wall = heard.of(K.DISPENSE)
+    assert addresses(rear) == [None] * 4 + [f"1:{row}2" for row in "ABCD"]
+    assert addresses(wall) == [f"1:{row}2" for row in "ABCDEFGH"]
+    assert rear.from_bottom == wall.from_bottom == pytest.approx(2)
+
+
 def test_a_partial_nozzle_layout_touches_its_wells_only():
     heard, _ = run(
         ot2(
