@@ -67,6 +67,7 @@ class Case:
         waste: Wells that are called waste.
         loose_volumes: Whether this kind of protocol starts from wells filled by hand.
         unsure: Wells that may have held liquid before the run, as the labware's name goes.
+        left_over: Whether the family is judged only because no other one fits.
     """
 
     trace: Trace
@@ -77,6 +78,7 @@ class Case:
     waste: frozenset[WellRef] = frozenset()
     loose_volumes: bool = False
     unsure: frozenset[WellRef] = frozenset()
+    left_over: bool = False
     _meant: dict[Well, dict[Well, int]] | None = None
     _dests: dict[Well, dict[Well, int]] | None = None
     _straight: dict[tuple[Well, Well], list[Visit]] = field(default_factory=dict)

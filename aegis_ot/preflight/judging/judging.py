@@ -19,6 +19,7 @@ from .reading import Reading, read_recording
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
+_UNKNOWN_VOLUME = "how high the liquid stands is not known; say it with load_liquid"
 _UNKNOWN_ASSAY = 'the assay is not known; say it with assay="..."'
 
 
@@ -78,6 +79,8 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
                 doubts.append(result.reason)
             elif not sure and not _plain(result, case.roles):
                 doubts.append(_UNKNOWN_ASSAY)
+            elif case.left_over and not result.touched:
+                doubts.append(_UNKNOWN_VOLUME)
             else:
                 comment = _comment_alone(result, case.roles)
                 cause = (number, comment, *result.cause)
@@ -94,7 +97,7 @@ def _plain(violation: Violation, roles: Roles) -> bool:
     labels do, and nothing is open in what happened.
     """
     least = Strength.NAME if violation.sure else Strength.LIQUID
-    return violation.touched and all(
+    return all(
         well.liquids or well.ref not in roles.by_well or roles.by_well[well.ref].strength >= least
         for well in violation.rests_on
     )

@@ -55,9 +55,10 @@ class Reading:
 
     def cases(self) -> Iterator[tuple[RuleSpec, Case]]:
         """Every rule that concerns this protocol, with the case that it is judged on."""
-        sure = {inference.family: inference.sure for inference in self.families}
+        families = {inference.family: inference for inference in self.families}
         for roles in self.roles:
-            case = self._case(roles, sure[roles.family.family])
+            inference = families[roles.family.family]
+            case = self._case(roles, inference.sure, inference.left_over)
             for rule in roles.family.rules:
                 if rule.scope == "family":
                     yield rule, case
@@ -67,7 +68,7 @@ class Reading:
                     known = next((r for r in self.roles if r.family is family), Roles(family))
                     yield rule, self._case(known, True)
 
-    def _case(self, roles: Roles, sure: bool) -> Case:
+    def _case(self, roles: Roles, sure: bool, left_over: bool = False) -> Case:
         return Case(
             self.trace,
             roles,
@@ -77,6 +78,7 @@ class Reading:
             self.waste,
             self.loose_volumes,
             self.unsure,
+            left_over,
         )
 
 

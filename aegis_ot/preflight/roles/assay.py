@@ -39,6 +39,7 @@ class Inference:
         reasons: What speaks for it, strongest first.
         applies: Whether its rules are judged.
         sure: Whether it is more than a guess.
+        left_over: Whether it is judged only because no other family fits.
     """
 
     family: str
@@ -47,6 +48,7 @@ class Inference:
     reasons: tuple[str, ...]
     applies: bool
     sure: bool
+    left_over: bool = False
 
 
 def infer_families(
@@ -130,6 +132,7 @@ def _as_default(inference: Inference) -> Inference:
         (*inference.reasons, "no other family fits"),
         True,
         inference.sure,
+        True,
     )
 
 
