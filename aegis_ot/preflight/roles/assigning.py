@@ -72,8 +72,8 @@ def assign_roles(
             if clue.strength is Strength.LIQUID:
                 roles.unnamed.update(clue.wells)
             if clue.strength >= Strength.DESCRIPTION and not clue.whole:
-                for role in roles_denied(lexicon, clue.text):
-                    roles.denied.setdefault(role, set()).update(clue.wells)
+                for denied in roles_denied(lexicon, clue.text):
+                    roles.denied.setdefault(denied, set()).update(clue.wells)
             for ref, level in zip(clue.wells, levels_beside(clue, common), strict=False):
                 if level is not None:
                     levels.setdefault(ref, set()).add(level)
