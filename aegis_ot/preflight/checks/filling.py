@@ -207,6 +207,9 @@ def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
         return False
     first = next(case.trace.deliveries(well), None)
     stock = stock_roles(case)
+    drawn = [first_index(link) for link in series.links if link.source is well]
+    if drawn and any(index < min(drawn) for index in diluent_arrivals(case, well)):
+        return False
     return (
         first is not None
         and first.empty_before

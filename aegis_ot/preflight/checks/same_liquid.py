@@ -21,7 +21,12 @@ def is_same_liquid(case: Case, one: Well, other: Well) -> bool:
         return True
     if _is_one_of_a_recipe(case, one, other):
         return True
-    if one.liquids and one.liquids == other.liquids and any(map(str.isdigit, one.liquids[0])):
+    if (
+        one.liquids
+        and one.liquids == other.liquids
+        and any(map(str.isdigit, one.liquids[0]))
+        and case.level(one) == case.level(other)
+    ):
         return True
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
     if {one.ref, other.ref} <= case.roles.unnamed and one.liquids == other.liquids:

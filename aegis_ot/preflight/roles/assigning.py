@@ -11,8 +11,10 @@ from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
 from ..rules import Common, Family
+from ..text import concentration_in
 from ..trace import Trace
 from .channels import spread_over_channels
+from .choosing import A_FEW, Candidate, choose
 from .clues import Clue, Strength
 from .given_on import unsay_contents
 from .helpers import unsay_controls
@@ -30,10 +32,8 @@ from .phrases import (
     says_only_the_side,
 )
 from .replicates import spread_over_replicates
-from .roles import Assignment, Roles
+from .roles import Roles
 from .usage import Sides, Usage
-
-Candidate = tuple[tuple[float, ...], str, Clue, "float | None"]
 
 
 def assign_roles(
@@ -66,6 +66,7 @@ def assign_roles(
     doubtful: set[WellRef] = set()
     for_controls: set[WellRef] = set()
     levels: dict[WellRef, set[float]] = {}
+    doses: list[tuple[Clue, float]] = []
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
         if not named:
@@ -74,6 +75,9 @@ def assign_roles(
             if clue.strength >= Strength.DESCRIPTION and not clue.whole:
                 for denied in roles_denied(lexicon, clue.text):
                     roles.denied.setdefault(denied, set()).update(clue.wells)
+            dose = concentration_in(clue.text)
+            if dose is not None and not clue.whole and not clue.step:
+                doses.append((clue, dose))
             for ref, level in zip(clue.wells, levels_beside(clue, common), strict=False):
                 if level is not None:
                     levels.setdefault(ref, set()).add(level)
@@ -109,16 +113,19 @@ def assign_roles(
                 continue
             if clue.step and _is_beside_named(first_of.get(ref), candidates):
                 continue  # its column is named by its first well
+            if clue.step and any(_is_of_a_layout(c[2]) for c in candidates.get(ref, ())):
+                continue  # the step is called after what it is for, by mistake or not
             if level is not None and any(
                 family.roles[other].level == level for other in named if other != role
             ):
                 level = family.roles[role].level  # that of the blank, not of all standards
             candidates.setdefault(ref, []).append((worth, role, clue, level))
+    _add_dosed(roles, candidates, sides, doses)
     for first, group in trace.groups.items():
         if first in for_controls and first not in trace.singles:
             for_controls.update(group)
     for ref, found in candidates.items():
-        assignment = _choose(roles, ref, found)
+        assignment = choose(roles, ref, found)
         if assignment is not None and not (ref in for_controls and assignment.whole):
             roles.by_well[ref] = assignment
             told = levels.get(ref, set())
@@ -129,6 +136,36 @@ def assign_roles(
     unsay_controls(roles, trace)
     spread_over_replicates(roles, trace)
     return roles
+
+
+_FEWEST_DOSES = 2
+
+
+def _add_dosed(
+    roles: Roles,
+    candidates: dict[WellRef, list[Candidate]],
+    sides: Sides,
+    doses: Sequence[tuple[Clue, float]],
+) -> None:
+    """What is called by nothing but its concentration: "stauro 0.3 uM" beside "stauro 1 uM"."""
+    of_labware: dict[str, set[float]] = {}
+    for clue, dose in doses:
+        for ref in clue.wells:
+            if sides(ref)[0] == "source":
+                of_labware.setdefault(ref.labware, set()).add(dose)
+    for name, spec in roles.family.roles.items():
+        for clue, dose in doses if spec.dosed else ():
+            for ref in clue.wells:
+                several = len(of_labware.get(ref.labware, ())) >= _FEWEST_DOSES
+                if several and sides(ref)[0] == "source":
+                    worth = _worth(clue, False, False)
+                    candidates.setdefault(ref, []).append((worth, name, clue, dose))
+
+
+def _is_of_a_layout(clue: Clue) -> bool:
+    """Whether this lists what stands where: "A2: stop solution"."""
+    few = len(set(clue.wells)) <= A_FEW
+    return few and clue.strength is Strength.COMMENT and not clue.whole and not clue.step
 
 
 def _is_beside_named(
@@ -167,81 +204,4 @@ def _worth(clue: Clue, side_only: bool, of_the_labware: bool) -> tuple[float, ..
         0.0 if of_the_labware else 1.0,
         0.0 if side_only else 1.0,
         -float(len(set(clue.wells))),
-    )
-
-
-def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:
-    """Of two lists that have a well in common by mistake, the one of controls says what it is.
-
-    The other one says what is given to it. A list within the other says more exactly.
-    """
-    specs = roles.family.roles
-    worth, role, clue, _ = found[0]
-    if not specs[role].receives or clue.strength < Strength.NAME:
-        return
-    for at, (other_worth, other, hint, _) in enumerate(found[1:], 1):
-        mine, theirs = set(clue.wells), set(hint.wells)
-        if (
-            other_worth[:-1] == worth[:-1]
-            and specs[other].parents
-            and not specs[other].receives
-            and not (mine <= theirs or theirs <= mine)
-        ):
-            found.insert(0, found.pop(at))
-            return
-
-
-def _put_agreed_first(roles: Roles, found: list[Candidate]) -> bool:
-    """Of names that are worth the same, the one that weaker evidence agrees with counts, if any.
-
-    A helper's ``diluent`` was the stock once, by mistake: the deck's list says what stands there.
-    """
-    tied = [candidate for candidate in found if candidate[0] == found[0][0]]
-    if len({role for _, role, _, _ in tied}) < 2:
-        return False
-    for _, role, clue, _ in found[len(tied) :]:
-        agreed = [c for c in tied if c[1] in roles.closure(role) or role in roles.closure(c[1])]
-        if agreed and not clue.whole and clue.strength < tied[0][2].strength:
-            found[: len(tied)] = agreed + [c for c in tied if c not in agreed]
-            return True
-    return False
-
-
-def _choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
-    found.sort(key=lambda candidate: candidate[0], reverse=True)
-    _put_declared_first(roles, found)
-    settled = _put_agreed_first(roles, found)
-    worth, role, clue, _ = found[0]
-    decisive = clue
-    for _, other, hint, _ in found[1:]:
-        # Weaker evidence may say more exactly what the stronger leaves open: the liquid says
-        # "cells", the name says "vehicle_controls".
-        exact = not hint.whole and hint.strength is not Strength.LOOSE_NAME
-        said = exact or hint.strength == clue.strength
-        if said and role != other and role in roles.closure(other):
-            role, decisive = other, hint
-    rivals = [
-        candidate
-        for candidate in found[1:]
-        if candidate[0] == worth
-        and candidate[1] != role
-        and candidate[1] not in roles.closure(role)
-        and role not in roles.closure(candidate[1])
-    ]
-    conflict = ""
-    if rivals:
-        conflict = f"{clue.said} against {rivals[0][2].said}"
-        roles.conflicts.setdefault(conflict, []).append(ref)
-        if clue.strength <= Strength.LOOSE_NAME and not settled:
-            return None
-    agreeing = [c for c in found if role in roles.closure(c[1]) or c[1] in roles.closure(role)]
-    level = next((c[3] for c in agreeing if c[3] is not None), None)
-    return Assignment(
-        role,
-        list(dict.fromkeys([decisive.said, *(c[2].said for c in agreeing)])),
-        decisive.strength,
-        clue.text,
-        level,
-        conflict,
-        whole=all(c[2].whole for c in agreeing),
     )

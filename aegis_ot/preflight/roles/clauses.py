@@ -6,18 +6,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
 from ..rules import Common
 from ..text import tokens
 from .ellipses import spelled_out
+from .phrases import first_words
 from .well_names import WellNames, well_names
 
 _BREAKS = re.compile(
     r"[;|]|\.\s+(?=[A-Z])|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
     r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))"
+    r"|(?<=\S)\s{3,}(?=(?:[a-z]+\s+)?[A-P]\d{1,2}\b)"
 )
 _BRACKETS = re.compile(r"[(\[]([^()\[\]]*)[)\]]")
 
@@ -33,14 +35,32 @@ class Part(NamedTuple):
 def parts_of(text: str, common: Common) -> Iterator[Part]:
     """The parts of one line, in order; a part that names no wells has an empty ``wells``."""
     names = well_names(common)
-    for clause in _clauses(spelled_out(text, common), names):
+    for clause in _clauses(spelled_out(text, common), names, first_words(_nouns(common))):
         groups = _groups(clause, names)
         for piece in _shares(clause, groups) if len(groups) > 1 else [clause]:
             words = names.spec.sub(" ", piece)
-            yield Part(piece.strip(), words, tuple(names.spec.finditer(piece)))
+            yield Part(piece.strip(), words, _innermost(names.spec.finditer(piece)))
 
 
-def _clauses(text: str, names: WellNames) -> Iterator[str]:
+def _nouns(common: Common) -> tuple[str, ...]:
+    """What people call labware: "tube", and "tubes"."""
+    listed = tuple(word for words in common.labware.values() for word in words)
+    return listed + tuple(f"{word}s" for word in listed)
+
+
+def _innermost(matches: Iterable[re.Match[str]]) -> tuple[re.Match[str], ...]:
+    """Without a row that only says where the wells after it stand: "row C  C1-C3 vehicle"."""
+    found = tuple(matches)
+    if not any(match["first"] for match in found):
+        return found
+    return tuple(
+        match
+        for match in found
+        if not (match["row"] and any((o["first"] or "")[:1] == match["row"] for o in found))
+    )
+
+
+def _clauses(text: str, names: WellNames, nouns: frozenset[str]) -> Iterator[str]:
     """What commas and the like divide; a bracket that says something of wells stands alone."""
     apart = [
         inner
@@ -53,8 +73,11 @@ def _clauses(text: str, names: WellNames) -> Iterator[str]:
         start = 0
         for at in [match.span() for match in _BREAKS.finditer(whole)] + [(len(whole), len(whole))]:
             clause = whole[start : at[0]]
-            if (_is_list(clause, names) or _is_open(clause)) and at[0] < len(whole):
+            goes_on = at[0] < len(whole) and whole[at[0]] != "."
+            if goes_on and (_is_list(clause, names, nouns) or _is_open(clause)):
                 continue  # "A1, B1 and C1: standards" is one, and "columns 1+2 (blank, standards)"
+            if goes_on and whole[at[0]].isspace() and not names.spec.search(clause):
+                continue  # "vehicle     A3" is one entry of a layout
             if clause.strip():
                 yield clause
             start = at[1]
@@ -65,10 +88,12 @@ def _is_open(clause: str) -> bool:
     return sum(clause.count(mark) for mark in "([") > sum(clause.count(mark) for mark in ")]")
 
 
-def _is_list(clause: str, names: WellNames) -> bool:
-    """Whether a clause names wells and nothing else."""
+def _is_list(clause: str, names: WellNames, nouns: frozenset[str]) -> bool:
+    """Whether a clause names wells and nothing else, but for what they stand in: "tubes A1-A6"."""
     groups = _groups(clause, names)
-    return len(groups) == 1 and not tokens(clause[: groups[0][0]] + clause[groups[0][1] :])
+    if len(groups) != 1:
+        return False
+    return nouns.issuperset(tokens(clause[: groups[0][0]] + clause[groups[0][1] :]))
 
 
 def _groups(clause: str, names: WellNames) -> list[tuple[int, int]]:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 from ...instrumentation import LabwareInfo, NameBinding
 from ...vocabulary import WellRef
 from ..text import tokens
-from ..trace import Trace
+from ..trace import Trace, row_column
+
+LEFT_OUT = 2
+"""As many wells of those that a layout names may have been left out by mistake."""
 
 
 class Deck:
@@ -46,6 +49,25 @@ class Deck:
     def used_wells(self, labware: Sequence[str]) -> tuple[WellRef, ...]:
         """The wells of these labware that the run uses."""
         return tuple(ref for (key, _), ref in self.refs.items() if key in labware)
+
+    def passed_over(self, labware: str, names: Collection[str], axis: int) -> list[str]:
+        """Wells that the run does not fill, though it fills these places in all other columns.
+
+        A few of these ``names`` at most: of more, or where others are left out as well, the
+        layout speaks of wells for which there is nothing this time.
+
+        Args:
+            labware: Key of the labware.
+            names: All wells of some of its columns, or of some of its rows.
+            axis: 1 for columns, 0 for rows.
+        """
+        filled = {row_column(name) for key, name in self.received if key == labware}
+        missing = [name for name in names if (labware, name) not in self.received]
+        others = {at[axis] for at in filled} - {row_column(name)[axis] for name in names}
+        across = {row_column(name)[1 - axis] for name in missing}
+        places = [(o, a) if axis == 0 else (a, o) for o in others for a in across]
+        few = len(missing) <= min(LEFT_OUT, (len(names) - len(missing)) // 3)
+        return missing if few and len(others) > 1 and filled.issuperset(places) else []
 
     def used_at(self, line: int) -> set[WellRef]:
         """The wells that the statement at a line uses, itself or through what it calls."""

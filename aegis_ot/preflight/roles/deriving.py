@@ -26,6 +26,8 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
         if spec.loaded:
             _derive_loaded(roles, name, spec.loaded, trace)
     for name, spec in roles.family.roles.items():
+        if spec.passed_on:
+            _pass_on(roles, name, trace)
         if spec.receives:
             _derive_one(roles, name, spec, trace, usage)
 
@@ -42,7 +44,7 @@ def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
 
 
 _FEWEST_SINGLES = 3
-"""One or two sources may be anything; so many, each in wells of its own, are samples."""
+"""One or two sources may be anything, unless they stand beside samples."""
 
 
 def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
@@ -65,12 +67,13 @@ def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
             any(roles.has(source, common) for source in sources[well])
             and not any(roles.has(source, likes) for source in sources[well])
             and sum(not roles.of(source) for source in sources[well]) == 1
-            and not _is_control(roles, well)
             for well in wells
         )
+        and 2 * sum(_is_control(roles, well) for well in wells) < len(wells)
     }
-    if len(own) >= _FEWEST_SINGLES:
-        for ref in own:
+    known = {ref.labware for ref in roles.by_well if roles.has(ref, likes)}
+    for ref in own:
+        if len(own) >= _FEWEST_SINGLES or ref.labware in known:
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
 
 
@@ -124,6 +127,36 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
             roles.apart.update(refs)
             for ref in refs:
                 roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+_A_FEW = 3
+"""So few wells are not topped up: they are what the tube is for."""
+
+
+def _pass_on(roles: Roles, name: str, trace: Trace) -> None:
+    """What is drawn from a tube called NTC makes an NTC, beside reagents that others get too.
+
+    Not where many wells have each a liquid of their own besides: that tube only tops them up.
+    """
+    served = trace.served()
+    givers = {
+        ref: assigned
+        for ref, assigned in roles.by_well.items()
+        if assigned.role == name and ref in served
+    }
+    given = {well for ref in givers for well in served[ref]}
+    own = {
+        well
+        for ref, wells in served.items()
+        if ref not in givers and wells <= given
+        for well in wells
+    }
+    for ref, assigned in givers.items():
+        filled = served[ref] if len(served[ref]) <= _A_FEW else served[ref] - own
+        for well in filled - served.keys():
+            before = roles.by_well.get(well)
+            if before is None or before.role in roles.closure(name) - {name}:
+                roles.by_well[well] = assigned.copied("drawn from there")
 
 
 def _derive_one(

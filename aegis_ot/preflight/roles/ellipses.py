@@ -10,6 +10,7 @@ from .well_names import WellNames, well_names
 
 _ENDS = re.compile(r"(\d+|[A-P])$")
 _FEWEST_NUMBERED = 3
+_COLUMN_NUMBERS = re.compile(r"(?m)^\W*1\W+2\b[\s\d|]*$")
 
 
 def spelled_out(text: str, common: Common) -> str:
@@ -19,6 +20,12 @@ def spelled_out(text: str, common: Common) -> str:
     Only there: in "columns 1-3 standards, 8 samples" the eight are samples.
     """
     return _ellipses(well_names(common)).spelled_out(text)
+
+
+def with_rows(text: str, common: Common) -> str:
+    """A text with "row" before each letter of its lists of rows, as under "Map (row: content)"."""
+    read = _ellipses(well_names(common))
+    return "".join(map(read.with_rows, re.split(r"(\n\s*\n)", text)))
 
 
 class Ellipses:
@@ -36,6 +43,8 @@ class Ellipses:
         self._numbered = re.compile(
             rf"(?:^|[:,;(])\s*(?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?){goes_on}"
         )
+        self._lettered = re.compile(r"(?m)(?:^\s*|(?<=\s\s))([A-P])(?=\s{1,4}[:=]?\s*\w)")
+        self._row_word = re.compile(rf"\b{row}\b")
         self._of_column = re.compile(
             rf"[^:]{{0,40}}?\b{names.column}\.?\s*\(?(\d{{1,2}})\b[^:\d]{{0,20}}:"
         )
@@ -51,6 +60,18 @@ class Ellipses:
             re.compile(rf"\b{row}\s+{letters}{between}{column}\.?\s*{numbers}\b"),
             re.compile(rf"\b{column}\.?\s*{numbers}{between}{row}\s+{letters}"),
         )
+
+    def with_rows(self, text: str) -> str:
+        """One paragraph, see :func:`with_rows`: "A  lot 1   B  lot 2" has two entries."""
+        letters = [match[1] for match in self._lettered.finditer(text)]
+        counting = [chr(ord("A") + at) for at in range(len(letters))]
+        if len(letters) < _FEWEST_NUMBERED or letters != counting:
+            return text
+        if not self._row_word.search(text) or self._names.spec.search(text):
+            return text
+        if _COLUMN_NUMBERS.search(text):
+            return text  # drawn as a plate, see :mod:`.prose_grids`
+        return self._lettered.sub(lambda m: f" {self._names.first_word_of['row']} {m[1]} ", text)
 
     def spelled_out(self, text: str) -> str:
         """See :func:`spelled_out`."""

@@ -21,9 +21,11 @@ from .names import call_arguments, named_wells
 from .numbered_maps import numbered_maps
 from .places import indexing_names
 from .plate_maps import plate_maps
+from .prose_grids import maps_in_prose
 from .remarks import step_comments, written_wells
 from .run_maps import spotted_names, tabled_wells
 from .spoken import said_in_the_run
+from .text_tables import written_tables
 from .trough_legends import trough_legends
 from .well_names import well_names
 
@@ -58,7 +60,9 @@ def gather(
         *numbered_maps(deck, names, facts, common),
         *spotted_names(deck, names, facts, common),
         *tabled_wells(deck, names, facts, common),
+        *written_tables(deck, facts, common),
         *written_wells(deck, facts, common),
+        *maps_in_prose(deck, facts, common),
         *step_comments(trace, facts, common),
         *said_in_the_run(trace, facts, common),
         *call_arguments(trace, facts, common),

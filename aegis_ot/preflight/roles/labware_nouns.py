@@ -56,6 +56,19 @@ class LabwareNouns:
         keys = self._deck.by_name.get(name) or self._deck.of_wells.get(name) or set()
         return frozenset(keys) if len(keys) == 1 else frozenset()
 
+    def kind_in(self, text: str) -> frozenset[str]:
+        """The one labware of a kind that a text speaks of: "vials", "strip"."""
+        words = set(tokens(text))
+        words |= {word.removesuffix("s") for word in words}
+        found = {
+            info.key
+            for kind in self._kinds
+            if kind & words
+            for info in self._deck.plates()
+            if kind & set(tokens(info.load_name))
+        }
+        return frozenset(found) if len(found) == 1 else frozenset()
+
     def heading(self, line: str) -> frozenset[str]:
         """What a line speaks of that begins with a noun and a colon."""
         match = _HEADING.match(line)

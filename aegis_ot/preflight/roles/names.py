@@ -9,7 +9,7 @@ from typing import Any
 from ...instrumentation import NameBinding, OperationKind, is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, lexicon_of, tokens
+from ..text import SourceFacts, level_in, lexicon_of, tokens
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
@@ -22,7 +22,7 @@ def named_wells(
 ) -> Iterator[Clue]:
     """What variables were called that held wells or whole labware."""
     comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
-    lists = _lists(names, facts)
+    lists = _lists(names, facts, common)
     amounts_named = _amounts_in_names(names)
     keyed = {**_keyed_amounts(names, facts, common), **_numeric_keys(names)}
     for binding in names:
@@ -118,7 +118,7 @@ def _counts(facts: SourceFacts, name: str) -> bool:
     return any(other in ("range", "len") for other, _, _ in facts.comes_from.get(name, ()))
 
 
-_NUMBERED = re.compile(r"([^\[\]]*)\[(-?\d+(?:\.\d+)?)\]([^\[\]]*)")
+_NUMBERED = re.compile(r"(.*)\[(-?\d+(?:\.\d+)?)\]([^\[\]]*)")
 
 
 def _numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
@@ -211,7 +211,9 @@ def _beside(binding: NameBinding, facts: SourceFacts, line: int) -> Iterator[Clu
             )
 
 
-def _lists(names: Sequence[NameBinding], facts: SourceFacts) -> list[tuple[str, tuple[float, ...]]]:
+def _lists(
+    names: Sequence[NameBinding], facts: SourceFacts, common: Common
+) -> list[tuple[str, tuple[float, ...]]]:
     """Lists of numbers by name: written down, or made in the run (``[2000 / 2**n ...]``)."""
     known: list[tuple[str, Sequence[Any]]] = [
         (name, value)
@@ -225,11 +227,19 @@ def _lists(names: Sequence[NameBinding], facts: SourceFacts) -> list[tuple[str, 
     ]
     return list(
         dict.fromkeys(
-            (name, tuple(float(item) for item in value))
+            (name, levels)
             for name, value in known
-            if all(is_number(item) for item in value)
+            if (levels := tuple(n for item in value if (n := _amount(item, common)) is not None))
+            and len(levels) == len(value)
         )
     )
+
+
+def _amount(item: Any, common: Common) -> float | None:
+    """The number that an entry of a list is or says: ``0.4``, ``"2 mg/mL"``, ``"blank"``."""
+    if isinstance(item, str):
+        return level_in(item, common)
+    return float(item) if is_number(item) else None
 
 
 def _parallel(

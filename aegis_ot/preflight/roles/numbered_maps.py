@@ -15,7 +15,7 @@ from ..text import Numbered, SourceFacts, lexicon_of, origins
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
-from .levels import far_apart, is_number
+from .levels import far_apart, is_number, number_in
 
 Entry: TypeAlias = "tuple[str, tuple[int | str, ...], float | None]"
 """What is said, of which columns or rows, and their level."""
@@ -31,20 +31,17 @@ def numbered_maps(
     counts = lexicon_of({"count": common.countings})
     maps = _maps(names, facts)
     for name, value in maps.items():
-        entries = list(_entries(name, value, bool(counts.find(name))))
-        if not entries:
-            continue
-        places = [place for place in facts.numbered if _comes_from(facts, maps, place, name)]
-        if not places:
-            continue
+        counting = bool(counts.find(name))
+        of_entry: dict[tuple[str, float | None], dict[WellRef, None]] = {}
+        for place in facts.numbered:
+            if _comes_from(facts, maps, place, name):
+                for text, numbers, level in _entries(name, _column(facts, place, value), counting):
+                    held = of_entry.setdefault((text, level), {})
+                    held.update(dict.fromkeys(_wells(deck, facts, maps, place, numbers)))
         line = facts.assigned.get(name)
-        amounts = far_apart([level for _, _, level in entries if level is not None])
-        for text, numbers, level in entries:
-            wells = tuple(
-                dict.fromkeys(
-                    ref for place in places for ref in _wells(deck, facts, maps, place, numbers)
-                )
-            )
+        amounts = far_apart([level for _, level in of_entry if level is not None])
+        for (text, level), found in of_entry.items():
+            wells = tuple(found)
             yield Clue(
                 Strength.NAME,
                 text,
@@ -63,6 +60,20 @@ def numbered_maps(
                     f"one of several amounts in `{name}` at line {line}",
                     levels=(level,) * len(drawn),
                 )
+
+
+def _column(facts: SourceFacts, place: Numbered, value: Any) -> Any:
+    """A map with that cell of each of its rows which the name of a place is unpacked from."""
+    at = {len(names): names.index(place.name) for names in facts.unpacked if place.name in names}
+    return _narrowed(value, at) if at else value
+
+
+def _narrowed(value: Any, at: Mapping[int, int]) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _narrowed(item, at) for key, item in value.items()}
+    if isinstance(value, tuple) and len(value) in at:
+        return value[at[len(value)]]
+    return value
 
 
 def _maps(names: Sequence[NameBinding], facts: SourceFacts) -> dict[str, Any]:
@@ -87,7 +98,7 @@ def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
             elif isinstance(item, Mapping):
                 yield from _entries(f"{name} {key}", item, counts)
             elif isinstance(key, str) and _places_in(item):
-                yield f"{name} {key}", _places_in(item), None
+                yield f"{name} {key}", _places_in(item), number_in(key)
             elif is_number(key) and isinstance(item, (list, tuple)) and _places_in(item):
                 yield name, _places_in(item), float(key)
     elif _places_in(value):
@@ -151,18 +162,19 @@ def _wells(
     at = 1 if place.axis == "column" else 0
     across = _across(facts, maps, place)
     for key in sorted(deck.by_name.get(place.labware, ())):
-        used = [
-            ref
-            for ref in deck.used_wells((key,))
-            if row_column(ref.name)[at] in wanted
-            and (not across or row_column(ref.name)[1 - at] in across)
+        named = [
+            name
+            for name in deck.trace.labware[key].wells
+            if row_column(name)[at] in wanted and (not across or row_column(name)[1 - at] in across)
         ]
+        used = [deck.refs[key, name] for name in named if (key, name) in deck.refs]
         if place.axis == "row" and not across:
             # The row may hold other things in columns of which this place does not speak.
             here = deck.used_at(place.lines[0])
             used = [ref for ref in used if ref in here] or used
-        filled = [ref for ref in used if (key, ref.name) in deck.received]
-        yield from filled or used
+        yield from [ref for ref in used if (key, ref.name) in deck.received] or used
+        if place.fixed is None:
+            yield from (deck.ref(key, name) for name in deck.passed_over(key, named, at))
 
 
 def _indices(places: Iterable[int | str], first: int | None) -> Iterator[int]:

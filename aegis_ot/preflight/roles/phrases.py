@@ -80,6 +80,8 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
     if joints and any(at < joints[0] for at in places):
         # "drug in medium" is a drug.
         places = {at: topics for at, topics in places.items() if at < joints[0]}
+    elif joints and clue.subject and any(map(_is_telling, words[: joints[0]])):
+        places = {}  # "insulin in DMEM" is no medium, whatever insulin may be
     always = first_words(common.heads) if clue.subject else frozenset()
     sides = first_words(common.sides)
     ordered = [
@@ -89,6 +91,14 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
         )
     ]
     return [[topic for topic in group if not topic.startswith("!")] for group in ordered]
+
+
+_SHORTEST_NAME = 4
+
+
+def _is_telling(word: str) -> bool:
+    """Whether a word may be the name of something."""
+    return word.isalpha() and len(word) >= _SHORTEST_NAME
 
 
 def _without_additives(
@@ -168,6 +178,16 @@ def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:
     return _unlike(fitting, roles)
 
 
+def _made_of_a_reagent(fitting: Sequence[str], roles: Roles, clue: Clue) -> str | None:
+    """The NTC in "H3: water (NTC)": what the well is, beside the reagent that it is made of."""
+    specs = roles.family.roles
+    passed_on = [role for role in fitting if specs[role].passed_on]
+    if clue.subject or clue.step or len(passed_on) != 1 or BOTH & set(tokens(clue.text)):
+        return None
+    reagents = all(specs[role].one_liquid for role in fitting if role not in passed_on)
+    return passed_on[0] if reagents else None
+
+
 def _unlike(named: Sequence[str], roles: Roles) -> bool:
     """Whether two of these are neither the same nor one a kind of the other."""
     return any(
@@ -208,6 +228,8 @@ def fitting_role(
         ]
     if not fitting and passes_on and not clue.whole and clue.strength is not Strength.COMMENT:
         fitting = [role for role in named if specs[role].side == "source"]
+    if made_of := _made_of_a_reagent(fitting, roles, clue):
+        return made_of
     if not fitting or _ambiguous(fitting, roles, clue):
         return None
     if clue.subject and is_for_controls(named, sides, roles) and _treats(fitting[0], roles):

@@ -26,8 +26,10 @@ def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]
         if not all_names:
             continue
         labware = labware_of_map(deck, facts, name, all_names, common)
+        by_key = _labware_by_key(deck, facts, name)
         for text, wells, level in entries:
-            refs = tuple(refs_of(deck, labware, wells))
+            keyed = [keys for key, keys in by_key.items() if text.endswith(f" {key}")]
+            refs = tuple(refs_of(deck, keyed[0] if keyed else labware, wells))
             yield Clue(
                 Strength.NAME,
                 text,
@@ -68,6 +70,16 @@ def used_with(deck: Deck, facts: SourceFacts, name: str) -> tuple[str, ...]:
         if name in origins(facts, place.names, (place.line,)):
             keys |= deck.by_name.get(place.labware, set())
     return tuple(sorted(keys))
+
+
+def _labware_by_key(deck: Deck, facts: SourceFacts, name: str) -> dict[str, tuple[str, ...]]:
+    """For keys of a map the one labware that is indexed by them: ``tubes[layout["mix"]]``."""
+    found: dict[str, set[str]] = {}
+    for place in facts.places:
+        if name in origins(facts, place.names, (place.line,)):
+            for key in place.keys:
+                found.setdefault(key, set()).update(deck.by_name.get(place.labware, ()))
+    return {key: tuple(labware) for key, labware in found.items() if len(labware) == 1}
 
 
 def _alike(deck: Deck, keys: Sequence[str], spots: Sequence[str]) -> tuple[str, ...]:

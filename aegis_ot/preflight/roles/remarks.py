@@ -3,55 +3,59 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, lexicon_of, tokens
-from ..trace import Trace
+from ..text import SourceFacts, direction_in, lexicon_of, tokens
+from ..trace import Trace, row_column
 from .clauses import Part, parts_of
 from .clues import Clue, Strength, shortened
-from .deck import Deck
+from .deck import LEFT_OUT, Deck
+from .ellipses import with_rows
 from .labware_nouns import LabwareNouns
 from .replicates import called_alike
-from .well_names import WellNames, well_names
+from .well_names import well_names
 
 
 def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """Well names in comments and docstrings: "A1-A8: samples", "NTC in H12"."""
     texts = list(facts.docstrings)
-    texts += _blocks(facts)
+    texts += blocks_of(facts)
     texts += [(1, text) for text in facts.metadata.values()]
     nouns = LabwareNouns(deck, common)
-    names = well_names(common)
     noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
     for line, text in texts:
         heading: frozenset[str] = frozenset()
         last: frozenset[str] = frozenset()
-        for number, written in enumerate(text.splitlines() or [text]):
+        for number, written in enumerate(with_rows(text, common).splitlines() or [text]):
             of_line = nouns.named(written) or nouns.heading(written)
             if of_line and _heads(written, common):
                 heading = of_line
             elif not written.strip():
                 heading = last = frozenset()
-            for part in parts_of(written, common):
-                if not part.wells or len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
-                    continue
-                before = nouns.before(part)
+            parts = [part for part in parts_of(written, common) if part.wells]
+            own = [nouns.before(part) for part in parts]
+            for at, (part, before) in enumerate(zip(parts, own, strict=True)):
                 last = before or last
+                if len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
+                    continue
                 keys = (
-                    nouns.named(part.text)
+                    (before if len(before) == 1 else frozenset())
+                    or nouns.named(part.text)
                     or before
                     or noted.get(written)
                     or of_line
                     or heading
                     or last
                 )
-                yield from _spoken(deck, part, line + number, keys, names)
+                # "col 3  1 nM     tube A2": the column is not one of the tubes'.
+                others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
+                yield from _spoken(deck, part, line + number, keys - others, others, common)
 
 
-def _blocks(facts: SourceFacts) -> list[tuple[int, str]]:
+def blocks_of(facts: SourceFacts) -> list[tuple[int, str]]:
     """Comments by their first line; those that stand below each other are one text."""
     blocks: dict[int, list[str]] = {}
     first = 0
@@ -80,28 +84,36 @@ _LONGEST_CLAUSE = 160
 
 _ALL = re.compile(r"\ball\s+\d", re.IGNORECASE)
 
-_LEFT_OUT = 2
-"""As many wells of those that prose names may have been left out by mistake."""
-
 
 def _spoken(
-    deck: Deck, part: Part, line: int, keys: frozenset[str], names: WellNames
+    deck: Deck,
+    part: Part,
+    line: int,
+    keys: frozenset[str],
+    others: frozenset[str],
+    common: Common,
 ) -> Iterator[Clue]:
+    names = well_names(common)
     meant: dict[str, list[WellRef]] = {}
-    # "Column 2 = vehicle" may leave out the rows at the edge; "A2-H2" and "all 8" do not.
+    # "Column 2 = vehicle" may leave out the rows at the edge, if all of the plate does; "A2-H2"
+    # and "all 8" do not.
     ranges = any(match["last"] for match in part.wells)
     outright = ranges or _ALL.search(part.words) or all(match["first"] for match in part.wells)
+    axis = _axis(part)
     having = {
         info.key: named
         for info in deck.plates()
-        if (named := [name for match in part.wells for name in names.meant(match, info)])
+        if info.key not in others
+        and (named := [name for match in part.wells for name in names.meant(match, info)])
     }
     if not keys.isdisjoint(having):  # else it names that labware in passing
         having = {key: named for key, named in having.items() if key in keys}
     for key, named in having.items():
         used = [name for name in named if (key, name) in deck.refs]
-        if outright and 0 < len(named) - len(used) <= min(_LEFT_OUT, len(used) // 3):
+        if outright and 0 < len(named) - len(used) <= min(LEFT_OUT, len(used) // 3):
             used = named  # more than a few are wells for which there is nothing this time
+        elif axis is not None:
+            used += deck.passed_over(key, named, axis)
         if used:
             meant[key] = [deck.ref(key, name) for name in used]
     if len(meant) > 1:
@@ -124,7 +136,23 @@ def _spoken(
             line,
             f"'{shortened(part.text)}' at line {line}",
             subject=False,
+            levels=_across(part, wells, common),
         )
+
+
+def _across(part: Part, wells: Sequence[WellRef], common: Common) -> tuple[float, ...]:
+    """Levels that rise or fall from column to column, or from row to row, if it says so."""
+    direction, axis = direction_in(part.words, common), _axis(part)
+    at = [] if axis is None else [row_column(ref.name)[axis] for ref in wells]
+    return tuple(float(direction * place) for place in at) if len(set(at)) > 1 and direction else ()
+
+
+def _axis(part: Part) -> int | None:
+    """1 where a part names nothing but columns, 0 where nothing but rows."""
+    for axis, kinds in ((1, ("column", "columns")), (0, ("row", "rows"))):
+        if all(any(match[kind] for kind in kinds) for match in part.wells):
+            return axis
+    return None
 
 
 _LONGEST_STEP_COMMENT = 14

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 from ...instrumentation import NameBinding, Row, is_spot
 from ...vocabulary import WellRef
@@ -43,8 +46,6 @@ def tabled_wells(
     deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
 ) -> Iterator[Clue]:
     """Rows that the run held: words and amounts beside wells, or beside names of wells."""
-    amounts = lexicon_of({"amount": common.amounts})
-    counts = lexicon_of({"count": common.countings})
     for binding in names:
         base = binding.name.split("[", 1)[0]
         written = facts.constants.get(base)
@@ -52,55 +53,82 @@ def tabled_wells(
             continue
         titles = _titles(facts, base)
         rows = [_titled(row, titles) for row in binding.rows]
-        labware = _labware_of_columns(deck, facts, rows)
         line = facts.assigned.get(base, binding.line)
-        beside: dict[str, dict[WellRef, None]] = {}
-        levels: dict[WellRef, float] = {}
-        columns: dict[str, dict[WellRef, None]] = {}
-        for row in rows:
-            wells = list(row.wells)
-            named = ""
-            for column, cell in row.cells:
-                named = labware_in(deck, cell) or named
-                where = named or labware.get(column, "")
-                if is_spot(cell) and where:
-                    named = ""
-                    spots = list(refs_of(deck, (where,), (str(cell),)))
-                    columns.setdefault(column, {}).update(dict.fromkeys(spots))
-                    wells += spots
-            said = [(column, cell, number_in(cell)) for column, cell in row.said]
-            for _, cell, number in said:
-                if isinstance(cell, str) and number is None:
-                    beside.setdefault(cell, {}).update(dict.fromkeys(wells))
-            found = [
-                number
-                for column, _, number in said
-                if number is not None and amounts.find(column) and not counts.find(column)
-            ]
-            if len(found) == 1:
-                levels.update(dict.fromkeys(wells, found[0]))
-        for column, held in columns.items():
-            if not column.isdigit():
-                evidence = f"column `{column}` of `{binding.name}` at line {line}"
-                yield Clue(Strength.NAME, column, tuple(held), line, evidence)
-        for text, held in beside.items():
-            yield Clue(
-                Strength.NAME,
-                text,
-                tuple(held),
-                line,
-                f"'{text}' beside it in `{binding.name}` at line {line}",
-                levels=tuple(levels.get(ref) for ref in held) if levels else (),
-            )
-        if levels:
-            yield Clue(
-                Strength.NAME,
-                "",
-                tuple(levels),
-                line,
-                f"numbers beside it in `{binding.name}` at line {line}",
-                levels=tuple(levels.values()),
-            )
+        yield from clues_of_rows(deck, facts, common, rows, binding.name, line)
+
+
+def clues_of_rows(
+    deck: Deck,
+    facts: SourceFacts,
+    common: Common,
+    rows: Sequence[Row],
+    name: str,
+    line: int | None,
+) -> Iterator[Clue]:
+    """What the rows of one table, called ``name``, say of the wells in them."""
+    amounts = lexicon_of({"amount": common.amounts})
+    counts = lexicon_of({"count": common.countings})
+    labware = _labware_of_columns(deck, facts, rows)
+    beside: dict[tuple[str, str], Counter[WellRef]] = {}
+    of_column: dict[str, Counter[WellRef]] = {}
+    levels: dict[WellRef, float] = {}
+    columns: dict[str, dict[WellRef, None]] = {}
+    for row in rows:
+        wells = list(row.wells)
+        named = ""
+        for column, cell in row.cells:
+            named = labware_in(deck, cell) or named
+            where = named or labware.get(column, "")
+            if where and (listed := spots_in(cell)):
+                named = ""
+                spots = list(refs_of(deck, (where,), listed))
+                columns.setdefault(column, {}).update(dict.fromkeys(spots))
+                wells += spots
+        said = [(column, cell, number_in(cell)) for column, cell in row.said]
+        for column, cell, number in said:
+            of_column.setdefault(column, Counter()).update(wells)
+            if isinstance(cell, str) and number is None and not spots_in(cell):
+                beside.setdefault((column, cell), Counter()).update(wells)
+        found = [
+            number
+            for column, _, number in said
+            if number is not None and amounts.find(column) and not counts.find(column)
+        ]
+        if len(found) == 1:
+            levels.update(dict.fromkeys(wells, found[0]))
+    for column, held in columns.items():
+        if not column.isdigit():
+            evidence = f"column `{column}` of `{name}` at line {line}"
+            yield Clue(Strength.NAME, column, tuple(held), line, evidence)
+    said_of: dict[str, dict[WellRef, None]] = {}
+    for (column, text), times in beside.items():
+        # Of a source beside other words in most of its rows, a row like this says nothing.
+        mostly = [ref for ref, count in times.items() if 2 * count >= of_column[column][ref]]
+        said_of.setdefault(text, {}).update(dict.fromkeys(mostly))
+    for text, held in said_of.items():
+        yield Clue(
+            Strength.NAME,
+            text,
+            tuple(held),
+            line,
+            f"'{text}' beside it in `{name}` at line {line}",
+            levels=tuple(levels.get(ref) for ref in held) if levels else (),
+        )
+    if levels:
+        yield Clue(
+            Strength.NAME,
+            "",
+            tuple(levels),
+            line,
+            f"numbers beside it in `{name}` at line {line}",
+            levels=tuple(levels.values()),
+        )
+
+
+def spots_in(cell: Any) -> tuple[str, ...]:
+    """The names of wells that a cell is or lists: ``"A1"``, ``"C4 C5"``."""
+    words = re.split(r"[\s,;+/]+", cell.strip()) if isinstance(cell, str) else ()
+    return tuple(words) if words and all(map(is_spot, words)) else ()
 
 
 def _titles(facts: SourceFacts, name: str) -> dict[int, str]:
@@ -131,10 +159,11 @@ def _labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Row]) -> 
     spots: dict[str, dict[str, None]] = {}
     for row in rows:
         for column, cell in row.cells:
-            if is_spot(cell):
-                spots.setdefault(column, {})[str(cell)] = None
+            spots.setdefault(column, {}).update(dict.fromkeys(spots_in(cell)))
     found: dict[str, str] = {}
     for column, listed in spots.items():
+        if not listed:
+            continue
         indexed: set[str] = set()
         for place in facts.places:
             if column and (column in place.keys or column in place.names):

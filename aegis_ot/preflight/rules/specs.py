@@ -88,6 +88,9 @@ class RoleSpec:
             only adds to it.
         level: Value on the scale of concentrations or doses that this role has by itself.
         receives: Derived: a destination that is given liquid of one of these roles.
+        dosed: Derived: a source of which a concentration is said and no role, beside others.
+        passed_on: Derived: a well into which one of this role goes, unless that tops up many
+            wells which have each a liquid of their own besides.
     """
 
     title: str
@@ -105,6 +108,8 @@ class RoleSpec:
     one_liquid: bool = False
     level: float | None = None
     receives: tuple[str, ...] = ()
+    dosed: bool = False
+    passed_on: bool = False
 
 
 @dataclass(frozen=True)

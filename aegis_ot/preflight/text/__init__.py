@@ -3,7 +3,7 @@
 from .facts import Loop, Numbered, Place, SourceFacts, Values
 from .flow import origins
 from .legends import legend_of
-from .levels import direction_in, level_in, name_without_level, numbers_in_order
+from .levels import concentration_in, direction_in, level_in, name_without_level, numbers_in_order
 from .lines import source_lines
 from .reading import read_source
 from .words import Lexicon, Match, lexicon_of, tokens
@@ -16,6 +16,7 @@ __all__ = [
     "Place",
     "SourceFacts",
     "Values",
+    "concentration_in",
     "direction_in",
     "legend_of",
     "level_in",

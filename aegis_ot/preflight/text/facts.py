@@ -113,6 +113,7 @@ class SourceFacts:
         comes_from: For each name, the names that its values are made of, with the first and the
             last line on which that holds.
         runs: Loops over literals and over names.
+        unpacked: The names of each target that takes a row apart: ``well, (kind, source) = ...``.
         draws: By line, all names in what a call draws from.
         within: By line, the function that it belongs to, with the function's first line.
         names: Every identifier of the text, once.
@@ -136,6 +137,7 @@ class SourceFacts:
     liquids: dict[str, str] = field(default_factory=dict)
     comes_from: dict[str, set[tuple[str, int, int]]] = field(default_factory=dict)
     runs: list[Loop] = field(default_factory=list)
+    unpacked: list[tuple[str, ...]] = field(default_factory=list)
     draws: dict[int, set[str]] = field(default_factory=dict)
     within: dict[int, tuple[str, int]] = field(default_factory=dict)
     names: set[str] = field(default_factory=set)

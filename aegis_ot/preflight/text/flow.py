@@ -75,6 +75,7 @@ def _comes(facts: SourceFacts, name: str, value: ast.expr, span: tuple[int, int]
 
 def _assigned(facts: SourceFacts, targets: Iterable[ast.expr], value: ast.expr) -> None:
     for target in targets:
+        _unpacks(facts, target)
         for name in names_in(target):
             _comes(facts, name, value, _ANYWHERE)
         if not isinstance(target, ast.Name):
@@ -84,6 +85,21 @@ def _assigned(facts: SourceFacts, targets: Iterable[ast.expr], value: ast.expr) 
         made = value.generators[0]
         if not made.ifs:
             _loop(facts, made.target, made.iter, _ANYWHERE, (target.id,))
+
+
+def _unpacks(facts: SourceFacts, target: ast.expr) -> None:
+    if isinstance(target, (ast.Tuple, ast.List)):
+        names = tuple(part.id if isinstance(part, ast.Name) else "" for part in _leaves(target))
+        if all(names):
+            facts.unpacked.append(names)
+
+
+def _leaves(target: ast.expr) -> Iterator[ast.expr]:
+    if isinstance(target, (ast.Tuple, ast.List)):
+        for part in target.elts:
+            yield from _leaves(part)
+    else:
+        yield target
 
 
 def _draw(facts: SourceFacts, call: ast.Call, position: int, keyword: str) -> None:
@@ -103,6 +119,7 @@ def _loop(
     """Note one loop; ``names`` are those that stand for its turn."""
     values: list[Values] = []
     for part, iterable in _parts(target, over):
+        _unpacks(facts, part)
         if span != _ANYWHERE:
             for name in names_in(part):
                 _comes(facts, name, iterable, span)

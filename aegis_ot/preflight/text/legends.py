@@ -17,11 +17,13 @@ _MEANS = r"\s*(?:=>|->|→|[:=])\s*|\s+[-–]\s+"
 _ENTRY = re.compile(
     rf"(?:(?<=[\s,;(|/])|^)['\"]?(?P<code>{_CODE})['\"]?"
     rf"(?:\s*(?:\.\.+|…|-|–|to)\s*['\"]?(?P<last>{_CODE})['\"]?)?"
-    rf"(?:{_MEANS})(?P<said>[^,;|\n=:]{{2,60}}?)"
+    rf"(?:{_MEANS})(?P<said>[^\W_][^,;|\n=:]{{1,59}}?)"
     rf"(?=\s*(?:[,;|\n]|$)|\s+['\"]?(?:{_CODE})['\"]?(?:{_MEANS}))",
     re.MULTILINE,
 )
-_COLUMN = re.compile(rf"^\s*(?P<code>{_CODE})\s{{2,}}(?P<said>\S[^\n=:|]{{1,60}})$", re.MULTILINE)
+_COLUMN = re.compile(
+    rf"^\s*(?P<code>{_CODE})\s{{2,}}(?P<said>\S(?:[^\s=:|]| (?! )){{1,60}})$", re.MULTILINE
+)
 """Codes in a column of their own, what they stand for in the next."""
 _FEWEST = 2
 """A single "x = y" in prose may be anything."""

@@ -40,7 +40,7 @@ _WITH_UNIT = re.compile(
     re.IGNORECASE,
 )
 
-_LONG_NUMBER = re.compile(r"(?<![\d.])(\d{2,}(?:\.\d+)?|\d+\.\d+|0)(?![\d.])")
+_LONG_NUMBER = re.compile(r"(?<![\d.])((?!0\d)\d{2,}(?:\.\d+)?|\d+\.\d+|0)(?![\d.])")
 
 _RATIO = re.compile(r"\b1\s*(?::|/|to|in)\s*(\d+)\b", re.IGNORECASE)
 
@@ -70,6 +70,17 @@ def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | N
     if len(numbers) == 1:
         return float(numbers.pop())
     return None
+
+
+def concentration_in(text: str) -> float | None:
+    """The one concentration with a unit that a text states; per cent and "10x" are none."""
+    plain = text.replace("µ", "u").replace("μ", "u").lower()
+    found = {
+        _number(value) * _UNITS.get(_unit(unit), 1.0)
+        for value, unit in _WITH_UNIT.findall(plain)
+        if unit not in ("%", "x")
+    }
+    return found.pop() if len(found) == 1 else None
 
 
 def name_without_level(text: str, common: Common) -> tuple[str, ...]:

@@ -162,7 +162,7 @@ def _found(
         return
     row, column = parts
     labware = last_name(base)
-    letter = row.id if isinstance(row, ast.Name) else ""
+    letter = _held_in(row) if isinstance(row, ast.expr) else ""
     number, added = _counted(column) if isinstance(column, ast.expr) else ("", 0)
     if number:
         fixed = _LETTERS.find(row) if isinstance(row, str) and row in _LETTERS else None
@@ -172,12 +172,19 @@ def _found(
         yield Numbered(labware, "row", letter, 0, (line,), fixed, number, 1 - added)
 
 
+def _held_in(node: ast.expr) -> str:
+    """The name in ``c``, ``layout.c`` or ``LAYOUT["c"]``: a constant, a field or a dict."""
+    if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant):
+        node = node.value if isinstance(node.slice.value, str) else node
+    return last_name(node) if isinstance(node, (ast.Name, ast.Attribute)) else ""
+
+
 def _counted(node: ast.expr) -> tuple[str, int]:
     """The name in ``c``, ``str(c)``, ``c - 1`` or ``c + 1``, and what is added to it."""
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "str":
         node = node.args[0] if node.args else node
-    if isinstance(node, ast.Name):
-        return node.id, 0
+    if held := _held_in(node):
+        return held, 0
     if not isinstance(node, ast.BinOp) or not isinstance(node.left, ast.Name):
         return "", 0
     added = node.right.value if isinstance(node.right, ast.Constant) else None

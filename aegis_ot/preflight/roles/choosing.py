@@ -1,0 +1,124 @@
+"""Of all that speaks for a well, the evidence that decides what it is for, and at which level."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...vocabulary import WellRef
+from .clues import Clue, Strength
+from .roles import Assignment, Roles
+
+A_FEW = 3
+"""As many wells are named one by one; a layout's columns may be those of another plate."""
+
+Candidate = tuple[tuple[float, ...], str, Clue, "float | None"]
+"""How much a clue is worth, the role that it names, the clue, and the level that it gives."""
+
+
+def choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
+    """What a well is for; ``None`` where weak evidence says two things that nothing settles.
+
+    Args:
+        roles: For the kinds of roles; contradictions are noted there.
+        ref: The well.
+        found: All that speaks for it; put in order, what decides first.
+    """
+    found.sort(key=lambda candidate: candidate[0], reverse=True)
+    _put_exact_first(roles, found)
+    _put_declared_first(roles, found)
+    settled = _put_agreed_first(roles, found)
+    worth, role, clue, _ = found[0]
+    decisive = clue
+    for _, other, hint, _ in found[1:]:
+        # Weaker evidence may say more exactly what the stronger leaves open: the liquid says
+        # "cells", the name says "vehicle_controls".
+        exact = not hint.whole and hint.strength is not Strength.LOOSE_NAME
+        said = exact or hint.strength == clue.strength
+        if said and role != other and role in roles.closure(other):
+            role, decisive = other, hint
+    rivals = [
+        candidate
+        for candidate in found[1:]
+        if candidate[0] == worth
+        and candidate[1] != role
+        and candidate[1] not in roles.closure(role)
+        and role not in roles.closure(candidate[1])
+    ]
+    conflict = ""
+    if rivals:
+        conflict = f"{clue.said} against {rivals[0][2].said}"
+        roles.conflicts.setdefault(conflict, []).append(ref)
+        if clue.strength <= Strength.LOOSE_NAME and not settled:
+            return None
+    agreeing = [c for c in found if role in roles.closure(c[1]) or c[1] in roles.closure(role)]
+    level = _level(agreeing)
+    return Assignment(
+        role,
+        list(dict.fromkeys([decisive.said, *(c[2].said for c in agreeing)])),
+        decisive.strength,
+        clue.text,
+        level,
+        conflict,
+        whole=all(c[2].whole for c in agreeing),
+    )
+
+
+def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:
+    """Of two lists that have a well in common by mistake, the one of controls says what it is.
+
+    The other one says what is given to it. A list within the other says more exactly.
+    """
+    specs = roles.family.roles
+    worth, role, clue, _ = found[0]
+    if not specs[role].receives or clue.strength < Strength.NAME:
+        return
+    for at, (other_worth, other, hint, _) in enumerate(found[1:], 1):
+        mine, theirs = set(clue.wells), set(hint.wells)
+        if (
+            other_worth[:-1] == worth[:-1]
+            and specs[other].parents
+            and not specs[other].receives
+            and not (mine <= theirs or theirs <= mine)
+        ):
+            found.insert(0, found.pop(at))
+            return
+
+
+def _put_agreed_first(roles: Roles, found: list[Candidate]) -> bool:
+    """Of names that are worth the same, the one that weaker evidence agrees with counts, if any.
+
+    A helper's ``diluent`` was the stock once, by mistake: the deck's list says what stands there.
+    """
+    tied = [candidate for candidate in found if candidate[0] == found[0][0]]
+    if len({role for _, role, _, _ in tied}) < 2:
+        return False
+    for _, role, clue, _ in found[len(tied) :]:
+        agreed = [c for c in tied if c[1] in roles.closure(role) or role in roles.closure(c[1])]
+        if agreed and not clue.whole and clue.strength < tied[0][2].strength:
+            found[: len(tied)] = agreed + [c for c in tied if c not in agreed]
+            return True
+    return False
+
+
+def _put_exact_first(roles: Roles, found: list[Candidate]) -> None:
+    """What a layout says of one well ("H3: water, NTC") goes before its labware's other name."""
+    _, role, clue, _ = found[0]
+    if clue.whole:
+        other = [
+            c
+            for c in found
+            if not (c[2].whole or c[2].step or c[1] in roles.closure(role))
+            and role not in roles.closure(c[1])
+            and len(set(c[2].wells)) <= A_FEW
+        ]
+        found[:] = other + [c for c in found if c not in other]
+
+
+def _level(agreeing: Sequence[Candidate]) -> float | None:
+    """The level that the strongest evidence gives.
+
+    What is said of several wells at once ("vemurafenib 10x") gives way to what is said of each.
+    """
+    known = [(clue, level) for _, _, clue, level in agreeing if level is not None]
+    each = [level for clue, level in known if clue.levels or len(set(clue.wells)) == 1]
+    return next(iter(each or [level for _, level in known]), None)

@@ -1,0 +1,83 @@
+"""Tables written as one text: the work lists and layouts that a LIMS or a spreadsheet exports."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
+
+from ...instrumentation import Row, is_spot
+from ..rules import Common
+from ..text import SourceFacts, origins
+from .clues import Clue
+from .deck import Deck
+from .run_maps import clues_of_rows, spots_in
+
+_SEPARATORS = (r"\s*,\s*", r"\s*;\s*", r"\s*\|\s*", r"\s*\t\s*", r"\s{2,}", r"\s+")
+_FEWEST_ROWS = 2
+_EVERYWHERE = range(1, 100_000)
+"""All lines of a protocol."""
+
+
+def written_tables(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
+    """What stands beside the names of wells in texts of rows, however the run reads them.
+
+    So too in literal rows that name wells of two labware, ``("A1", "H12", "NTC")``.
+    """
+    for name, value in facts.constants.items():
+        if isinstance(value, str):
+            titles, cells = _table(value)
+        else:
+            titles, cells = (), _transfers(value)
+        if not cells:
+            continue
+        titles = titles or _unpacked_to(facts, name, len(cells[0]))
+        rows = [Row(tuple(zip(titles, row, strict=True))) for row in cells]
+        yield from clues_of_rows(deck, facts, common, rows, name, facts.assigned.get(name))
+
+
+def _table(text: str) -> tuple[Sequence[str], list[list[Any]]]:
+    """Titles, if there are any, and the cells of each row that names a well."""
+    lines = [line.strip() for line in text.splitlines()]
+    lines = [line for line in lines if line and not line.startswith("#")]
+    for separator in _SEPARATORS:
+        rows = [re.split(separator, line.strip("|")) for line in lines]
+        width = Counter(map(len, rows)).most_common(1)[0][0] if rows else 0
+        even = [row for row in rows if len(row) == width]
+        placed = [row for row in even if any(map(is_spot, row))]
+        if width > 1 and len(placed) >= _FEWEST_ROWS and len(placed) >= len(rows) - 1:
+            has_titles = even[0] is rows[0] and even[0] is not placed[0]
+            return (even[0] if has_titles else ()), [list[Any](row) for row in placed]
+    return (), []
+
+
+def _transfers(value: Any) -> list[list[Any]]:
+    """The cells of literal rows, if two columns of them or more hold the names of wells."""
+    if isinstance(value, Mapping):
+        value = list(value.items())
+    if not isinstance(value, (list, tuple)) or len(value) < _FEWEST_ROWS:
+        return []
+    if not all(isinstance(row, (list, tuple)) for row in value):
+        return []
+    rows = [list(_flat(row)) for row in value]
+    even = all(len(row) == len(rows[0]) for row in rows)
+    columns = list(zip(*rows, strict=True)) if even else []
+    placed = [column for column in columns if all(spots_in(cell) for cell in column)]
+    return rows if len(placed) > 1 else []
+
+
+def _flat(row: Iterable[Any]) -> Iterator[Any]:
+    for cell in row:
+        if isinstance(cell, (list, tuple)) and not all(map(is_spot, cell)):
+            yield from _flat(cell)
+        else:
+            yield " ".join(cell) if isinstance(cell, (list, tuple)) else cell
+
+
+def _unpacked_to(facts: SourceFacts, name: str, width: int) -> Sequence[str]:
+    """What the run calls the columns where it takes the rows apart, or else their places."""
+    for names in facts.unpacked:
+        if width == len(names) and name in origins(facts, names, _EVERYWHERE):
+            return names
+    return [str(at) for at in range(width)]

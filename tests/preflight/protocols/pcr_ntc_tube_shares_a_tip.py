@@ -1,0 +1,22 @@
+# expect: pcr fail PCR-2 PCR-3
+metadata = {"apiLevel": "2.13"}
+SAMPLES = 7
+
+
+def run(ctx):
+    tips = ctx.load_labware("opentrons_96_filtertiprack_20ul", 1)
+    rack = ctx.load_labware("opentrons_24_aluminumblock_nest_1.5ml_snapcap", 2)
+    dna = ctx.load_labware("nest_96_wellplate_100ul_pcr_full_skirt", 4, "gDNA extracts")
+    pcr = ctx.load_labware("nest_96_wellplate_100ul_pcr_full_skirt", 5, "PCR plate")
+    p20 = ctx.load_instrument("p20_single_gen2", "left", tip_racks=[tips])
+    mm = rack["A1"]
+    ntc = rack["B1"]
+    p20.pick_up_tip()
+    for i in range(SAMPLES + 1):
+        p20.transfer(15, mm, pcr.wells()[i], new_tip="never")
+    p20.drop_tip()
+    p20.pick_up_tip()
+    for i in range(SAMPLES):
+        p20.transfer(5, dna.wells()[i], pcr.wells()[i], new_tip="never")
+    p20.transfer(5, ntc, pcr.wells()[SAMPLES], new_tip="never")
+    p20.drop_tip()
