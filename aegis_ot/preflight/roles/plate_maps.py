@@ -8,7 +8,7 @@ from typing import Any
 from ...instrumentation import is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, lexicon_of, origins, tokens
+from ..text import SourceFacts, concentration_in, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import is_number
@@ -30,6 +30,8 @@ def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]
         for text, wells, level in entries:
             keyed = [keys for key, keys in by_key.items() if text.endswith(f" {key}")]
             refs = tuple(refs_of(deck, keyed[0] if keyed else labware, wells))
+            if concentration_in(text) is not None:
+                level = None  # the text says it, and the number beside it is another
             yield Clue(
                 Strength.NAME,
                 text,
