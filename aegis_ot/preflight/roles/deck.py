@@ -53,8 +53,8 @@ class Deck:
     def passed_over(self, labware: str, names: Collection[str], axis: int) -> list[str]:
         """Wells that the run does not fill, though it fills these places in all other columns.
 
-        A few of these ``names`` at most: of more, or where others are left out as well, the
-        layout speaks of wells for which there is nothing this time.
+        A few of these ``names`` at most: of more, the layout speaks of wells for which there is
+        nothing this time. Those that the other columns leave out as well are no part of it.
 
         Args:
             labware: Key of the labware.
@@ -62,12 +62,17 @@ class Deck:
             axis: 1 for columns, 0 for rows.
         """
         filled = {row_column(name) for key, name in self.received if key == labware}
-        missing = [name for name in names if (labware, name) not in self.received]
         others = {at[axis] for at in filled} - {row_column(name)[axis] for name in names}
-        across = {row_column(name)[1 - axis] for name in missing}
-        places = [(o, a) if axis == 0 else (a, o) for o in others for a in across]
-        few = len(missing) <= min(LEFT_OUT, (len(names) - len(missing)) // 3)
-        return missing if few and len(others) > 1 and filled.issuperset(places) else []
+        empty = [name for name in names if (labware, name) not in self.received]
+        missing = [
+            name
+            for name in empty
+            if filled.issuperset(
+                _place(axis, other, row_column(name)[1 - axis]) for other in others
+            )
+        ]
+        few = len(missing) <= min(LEFT_OUT, (len(names) - len(empty)) // 3)
+        return missing if few and len(others) > 1 else []
 
     def used_at(self, line: int) -> set[WellRef]:
         """The wells that the statement at a line uses, itself or through what it calls."""
@@ -110,3 +115,8 @@ class Deck:
                 key for key in full if any((key, name) in self.received for name in names)
             ] or full
         return full[0] if len(full) == 1 else ""
+
+
+def _place(axis: int, along: int, across: int) -> tuple[int, int]:
+    """Row and column of a place in a column (axis 1) or in a row (axis 0)."""
+    return (across, along) if axis == 1 else (along, across)

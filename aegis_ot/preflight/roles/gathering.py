@@ -25,7 +25,7 @@ from .prose_grids import maps_in_prose
 from .remarks import step_comments, written_wells
 from .run_maps import spotted_names, tabled_wells
 from .spoken import said_in_the_run
-from .text_tables import written_tables
+from .text_tables import transfer_lists, written_tables
 from .trough_legends import trough_legends
 from .well_names import well_names
 
@@ -54,7 +54,7 @@ def gather(
         *named_fields(names, facts),
         *labels(deck, common),
         *indexing_names(deck, facts, common),
-        *plate_maps(deck, facts, common),
+        *plate_maps(deck, facts, common, transfer_lists(deck, facts)),
         *drawn_maps(deck, facts, common),
         *trough_legends(deck, facts, common),
         *numbered_maps(deck, names, facts, common),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ...instrumentation import is_spot
@@ -15,10 +15,15 @@ from .levels import is_number
 from .work_lists import is_work_list
 
 
-def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
-    """Constants that hold well names: ``NTC_WELLS = ["H11", "H12"]``, ``{"A1": "NTC"}``."""
+def plate_maps(
+    deck: Deck, facts: SourceFacts, common: Common, others: Collection[str]
+) -> Iterator[Clue]:
+    """Constants that hold well names: ``NTC_WELLS = ["H11", "H12"]``, ``{"A1": "NTC"}``.
+
+    Not the ``others``, which list transfers.
+    """
     for name, value in facts.constants.items():
-        if name == "metadata" or is_work_list(deck, value):
+        if name == "metadata" or name in others or is_work_list(deck, value):
             continue
         line = facts.assigned.get(name)
         entries = list(_Reader(common).entries(name, value))
@@ -27,11 +32,12 @@ def plate_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]
             continue
         labware = labware_of_map(deck, facts, name, all_names, common)
         by_key = _labware_by_key(deck, facts, name)
+        places = _numbers_places(facts, name)
         for text, wells, level in entries:
             keyed = [keys for key, keys in by_key.items() if text.endswith(f" {key}")]
             refs = tuple(refs_of(deck, keyed[0] if keyed else labware, wells))
-            if concentration_in(text) is not None:
-                level = None  # the text says it, and the number beside it is another
+            if concentration_in(text) is not None or places:
+                level = None  # the text says it, or the number beside it is a column's
             yield Clue(
                 Strength.NAME,
                 text,
@@ -72,6 +78,15 @@ def used_with(deck: Deck, facts: SourceFacts, name: str) -> tuple[str, ...]:
         if name in origins(facts, place.names, (place.line,)):
             keys |= deck.by_name.get(place.labware, set())
     return tuple(sorted(keys))
+
+
+def _numbers_places(facts: SourceFacts, name: str) -> bool:
+    """Whether the run takes the numbers of a map's rows for those of columns or rows."""
+    taken = {part for names in facts.unpacked for part in names}
+    return any(
+        place.name in taken and name in origins(facts, (place.name,), place.lines)
+        for place in facts.numbered
+    )
 
 
 def _labware_by_key(deck: Deck, facts: SourceFacts, name: str) -> dict[str, tuple[str, ...]]:

@@ -49,10 +49,26 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
                     or of_line
                     or heading
                     or last
+                    or _only_one_with(deck, parts, common)
                 )
                 # "col 3  1 nM     tube A2": the column is not one of the tubes'.
                 others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
                 yield from _spoken(deck, part, line + number, keys - others, others, common)
+
+
+def _only_one_with(deck: Deck, parts: Sequence[Part], common: Common) -> frozenset[str]:
+    """The one labware that all entries of a line can speak of: "A1 vehicle, A2 low, A3 high"."""
+    names = well_names(common)
+    fitting = [
+        info.key
+        for info in deck.plates()
+        if all(
+            any((info.key, name) in deck.refs for name in names.meant(match, info))
+            for part in parts
+            for match in part.wells
+        )
+    ]
+    return frozenset(fitting) if len(fitting) == 1 else frozenset()
 
 
 def blocks_of(facts: SourceFacts) -> list[tuple[int, str]]:

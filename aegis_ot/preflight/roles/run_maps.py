@@ -68,7 +68,7 @@ def clues_of_rows(
     """What the rows of one table, called ``name``, say of the wells in them."""
     amounts = lexicon_of({"amount": common.amounts})
     counts = lexicon_of({"count": common.countings})
-    labware = _labware_of_columns(deck, facts, rows)
+    labware = labware_of_columns(deck, facts, rows)
     beside: dict[tuple[str, str], Counter[WellRef]] = {}
     of_column: dict[str, Counter[WellRef]] = {}
     levels: dict[WellRef, float] = {}
@@ -102,8 +102,13 @@ def clues_of_rows(
             yield Clue(Strength.NAME, column, tuple(held), line, evidence)
     said_of: dict[str, dict[WellRef, None]] = {}
     for (column, text), times in beside.items():
-        # Of a source beside other words in most of its rows, a row like this says nothing.
-        mostly = [ref for ref, count in times.items() if 2 * count >= of_column[column][ref]]
+        # Of a source beside other words in as many of its rows, a row like this says nothing.
+        mostly = [
+            ref
+            for ref, count in times.items()
+            if 2 * count > of_column[column][ref]
+            or (2 * count == of_column[column][ref] and (ref.labware, ref.name) in deck.received)
+        ]
         said_of.setdefault(text, {}).update(dict.fromkeys(mostly))
     for text, held in said_of.items():
         yield Clue(
@@ -128,7 +133,11 @@ def clues_of_rows(
 def spots_in(cell: Any) -> tuple[str, ...]:
     """The names of wells that a cell is or lists: ``"A1"``, ``"C4 C5"``."""
     words = re.split(r"[\s,;+/]+", cell.strip()) if isinstance(cell, str) else ()
-    return tuple(words) if words and all(map(is_spot, words)) else ()
+    return tuple(map(_plain, words)) if words and all(map(is_spot, words)) else ()
+
+
+def _plain(spot: str) -> str:
+    return f"{spot[0]}{int(spot[1:])}"  # "A01" is A1
 
 
 def _titles(facts: SourceFacts, name: str) -> dict[int, str]:
@@ -150,11 +159,11 @@ def _titled(row: Row, titles: Mapping[int, str]) -> Row:
     )
 
 
-def _labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Row]) -> dict[str, str]:
+def labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Row]) -> dict[str, str]:
     """In which labware the well names of each column stand, where that is plain.
 
     It is the one that is indexed by that column's name, else the only one in which the run uses
-    all these wells.
+    all these wells, or most: those of "untreated" get nothing.
     """
     spots: dict[str, dict[str, None]] = {}
     for row in rows:
@@ -171,11 +180,12 @@ def _labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Row]) -> 
         if len(indexed) == 1:
             found[column] = next(iter(indexed))
             continue
-        using = [
-            info.key
+        used = {
+            info.key: sum((info.key, spot) in deck.refs for spot in listed)
             for info in deck.plates()
-            if all((info.key, spot) in deck.refs for spot in listed)
-        ]
+        }
+        wholly = [key for key, count in used.items() if count == len(listed)]
+        using = wholly or [key for key, count in used.items() if 2 * count > len(listed)]
         if len(using) == 1:
             found[column] = using[0]
     return found

@@ -12,7 +12,7 @@ from ..rules import Common
 from ..text import SourceFacts, origins
 from .clues import Clue
 from .deck import Deck
-from .run_maps import clues_of_rows, spots_in
+from .run_maps import clues_of_rows, labware_of_columns, spots_in
 
 _SEPARATORS = (r"\s*,\s*", r"\s*;\s*", r"\s*\|\s*", r"\s*\t\s*", r"\s{2,}", r"\s+")
 _FEWEST_ROWS = 2
@@ -25,16 +25,30 @@ def written_tables(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
 
     So too in literal rows that name wells of two labware, ``("A1", "H12", "NTC")``.
     """
-    for name, value in facts.constants.items():
-        if isinstance(value, str):
-            titles, cells = _table(value)
-        else:
-            titles, cells = (), _transfers(value)
-        if not cells:
-            continue
-        titles = titles or _unpacked_to(facts, name, len(cells[0]))
-        rows = [Row(tuple(zip(titles, row, strict=True))) for row in cells]
-        yield from clues_of_rows(deck, facts, common, rows, name, facts.assigned.get(name))
+    for name in facts.constants:
+        rows = _rows(facts, name)
+        if rows:
+            yield from clues_of_rows(deck, facts, common, rows, name, facts.assigned.get(name))
+
+
+def transfer_lists(deck: Deck, facts: SourceFacts) -> frozenset[str]:
+    """Constants whose rows name wells of two labware: they are no maps of one plate."""
+    return frozenset(
+        name
+        for name in facts.constants
+        if len(set(labware_of_columns(deck, facts, _rows(facts, name)).values())) > 1
+    )
+
+
+def _rows(facts: SourceFacts, name: str) -> list[Row]:
+    value = facts.constants[name]
+    if isinstance(value, str):
+        titles, cells = _table(value)
+    else:
+        titles, cells = (), _transfers(value)
+    if cells and not titles:
+        titles = _unpacked_to(facts, name, len(cells[0]))
+    return [Row(tuple(zip(titles, row, strict=True))) for row in cells]
 
 
 def _table(text: str) -> tuple[Sequence[str], list[list[Any]]]:

@@ -92,6 +92,8 @@ def _unpacks(facts: SourceFacts, target: ast.expr) -> None:
         names = tuple(part.id if isinstance(part, ast.Name) else "" for part in _leaves(target))
         if all(names):
             facts.unpacked.append(names)
+        for part in target.elts:
+            _unpacks(facts, part)  # "arm, (tube, column)": each row, and what is within it
 
 
 def _leaves(target: ast.expr) -> Iterator[ast.expr]:
