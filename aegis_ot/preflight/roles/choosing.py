@@ -109,7 +109,7 @@ def _put_exact_first(roles: Roles, found: list[Candidate]) -> None:
             for c in found
             if not (c[2].whole or c[2].step or c[1] in roles.closure(role))
             and role not in roles.closure(c[1])
-            and len(set(c[2].wells)) <= A_FEW
+            and (c[2].placed or len(set(c[2].wells)) <= A_FEW)
         ]
         found[:] = other + [c for c in found if c not in other]
 

@@ -18,7 +18,7 @@ from .well_names import WellNames, well_names
 
 _BREAKS = re.compile(
     r"[;|]|\.\s+(?=[A-Z])|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
-    r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}))"
+    r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}|[A-Za-z]{1,2}\.\s*\d))"
     r"|(?<=\S)\s{3,}(?=(?:[a-z]+\s+)?[A-P]\d{1,2}\b)"
 )
 _BRACKETS = re.compile(r"[(\[]([^()\[\]]*)[)\]]")

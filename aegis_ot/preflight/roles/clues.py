@@ -36,6 +36,7 @@ class Clue:
         subject: Whether only the last word names the thing, as in ``sample_buffer``.
         step: For a comment beside a transfer: ``source`` or ``destination`` of the transfer.
         lone: Whether it speaks of its wells only if it names a single role.
+        placed: Whether a comment says itself in which labware its wells are.
     """
 
     strength: Strength
@@ -49,6 +50,7 @@ class Clue:
     subject: bool = True
     step: str = ""
     lone: bool = False
+    placed: bool = False
 
 
 def shortened(text: str) -> str:

@@ -94,6 +94,9 @@ class LabwareNouns:
         kinds = [kind for kind in self._kinds if words[-1] in kind]
         if not kinds:
             return frozenset()
+        labelled = {key for label, key in self._labels if tuple(label.split()) == words}
+        if len(labelled) == 1:
+            return frozenset(labelled)
         for name in (*self._deck.by_name, *self._deck.of_wells):
             if tokens(name) == words and self.of_name(name):
                 return self.of_name(name)

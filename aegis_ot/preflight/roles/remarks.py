@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
@@ -30,7 +31,8 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
         heading: frozenset[str] = frozenset()
         last: frozenset[str] = frozenset()
         for number, written in enumerate(with_rows(text, common).splitlines() or [text]):
-            of_line = nouns.named(written) or nouns.heading(written)
+            headed = nouns.heading(written)
+            of_line = nouns.named(written) or headed
             if of_line and _heads(written, common):
                 heading = of_line
             elif not written.strip():
@@ -53,7 +55,9 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
                 )
                 # "col 3  1 nM     tube A2": the column is not one of the tubes'.
                 others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
-                yield from _spoken(deck, part, line + number, keys - others, others, common)
+                placed = 1 in (len(headed), len(before))
+                for clue in _spoken(deck, part, line + number, keys - others, others, common):
+                    yield replace(clue, placed=placed)
 
 
 def _only_one_with(deck: Deck, parts: Sequence[Part], common: Common) -> frozenset[str]:

@@ -1,5 +1,6 @@
 # expect: bradford fail BRD-4
 """DC protein assay: the dye stands in the wells, and the protein comes after it."""
+
 metadata = {"apiLevel": "2.15", "protocolName": "DC protein assay"}
 
 

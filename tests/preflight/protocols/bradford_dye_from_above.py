@@ -1,5 +1,6 @@
 # expect: bradford pass
 """Coomassie protein assay. Standards in column 1-2 in duplicate, unknowns after."""
+
 metadata = {"apiLevel": "2.13"}
 STD_CONC = [0, 125, 250, 500, 750, 1000, 1500, 2000]  # ug/mL
 

@@ -1,13 +1,19 @@
 # expect: bradford pass
 from dataclasses import dataclass, field
+
 metadata = {"protocolName": "BCA assay", "apiLevel": "2.15"}
+
+
 @dataclass(order=True)
 class Std:
     ug_ml: float
     tube: object = field(compare=False)
+
     @property
     def label(self):
         raise RuntimeError
+
+
 def run(protocol):
     tips = [protocol.load_labware("opentrons_96_tiprack_20ul", s) for s in (1, 4)]
     big = protocol.load_labware("opentrons_96_tiprack_300ul", 7)
@@ -25,4 +31,10 @@ def run(protocol):
     samples = rack.rows()[3]
     for n, t in enumerate(samples):
         p20.transfer(10, t, plate.columns()[1][n])
-    p300.transfer(200, res["A1"], plate.columns()[0][:5] + plate.columns()[1][:6], mix_after=(3, 100), new_tip="always")
+    p300.transfer(
+        200,
+        res["A1"],
+        plate.columns()[0][:5] + plate.columns()[1][:6],
+        mix_after=(3, 100),
+        new_tip="always",
+    )

@@ -1,5 +1,6 @@
 # expect: bradford fail BRD-1
 """Lowry assay. Albumin curve: tube, ug/ml, row of the plate."""
+
 metadata = {"apiLevel": "2.13"}
 CURVE = [("C6", 800, "A"), ("C5", 400, "B"), ("C4", 200, "C"), ("C3", 0, "D")]
 

@@ -1,5 +1,6 @@
 # expect: bradford pass
 """Lowry assay. Albumin curve: tube, ug/ml, row of the plate."""
+
 metadata = {"apiLevel": "2.13"}
 CURVE = [("C3", 0, "A"), ("C4", 200, "B"), ("C5", 400, "C"), ("C6", 800, "D")]
 

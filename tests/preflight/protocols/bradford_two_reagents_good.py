@@ -1,5 +1,6 @@
 # expect: bradford pass
 """DC protein assay: reagent A stands in the wells, then the protein comes, then the dye."""
+
 metadata = {"apiLevel": "2.15", "protocolName": "DC protein assay"}
 
 

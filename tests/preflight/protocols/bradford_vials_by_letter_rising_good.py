@@ -17,7 +17,9 @@ def run(protocol):
         "p20_single_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 4)]
     )
     p300 = protocol.load_instrument(
-        "p300_multi_gen2", "right", tip_racks=[protocol.load_labware("opentrons_96_tiprack_300ul", 5)]
+        "p300_multi_gen2",
+        "right",
+        tip_racks=[protocol.load_labware("opentrons_96_tiprack_300ul", 5)],
     )
 
     for column in STANDARD_COLUMNS:

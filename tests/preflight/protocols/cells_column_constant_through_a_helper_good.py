@@ -14,8 +14,10 @@ def run(protocol):
     p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=tips)
     cisplatin = [tubes.wells()[i] for i in range(8)]
     dmso = tubes["D6"]
+
     def well(row, column):
         return plate.wells_by_name()[row + str(column)]
+
     for row in ROWS:
         p20.transfer(5, dmso, well(row, VEHICLE_COLUMN), new_tip="always")
     for drug, column in zip(cisplatin, DRUG_COLUMNS):

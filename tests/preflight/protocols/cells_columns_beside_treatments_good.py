@@ -3,7 +3,9 @@
 
 metadata = {"apiLevel": "2.15", "protocolName": "IL-6 stimulation of HepG2"}
 PLATE_LAYOUT = [
-    ("vehicle", 1), ("IL-6 1 ng/ml", 2), ("IL-6 10 ng/ml", 3),
+    ("vehicle", 1),
+    ("IL-6 1 ng/ml", 2),
+    ("IL-6 10 ng/ml", 3),
 ]
 
 

@@ -10,7 +10,9 @@ UNTREATED = ["B8", "C8", "D8"]
 def run(protocol):
     cells = protocol.load_labware("corning_96_wellplate_360ul_flat", 1, "HeLa cells")
     prep = protocol.load_labware("nest_96_wellplate_2ml_deep", 2, "complexes")
-    tubes = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 4, "siRNA 200 nM in Opti-MEM")
+    tubes = protocol.load_labware(
+        "opentrons_24_tuberack_nest_1.5ml_snapcap", 4, "siRNA 200 nM in Opti-MEM"
+    )
     tips = protocol.load_labware("opentrons_96_filtertiprack_200ul", 5)
     p300 = protocol.load_instrument("p300_single_gen2", "left", tip_racks=[tips])
 

@@ -1,5 +1,7 @@
 # expect: cell_treatment fail CELL-4
 metadata = {"apiLevel": "2.16", "protocolName": "Kinase inhibitor dose response, MCF7"}
+
+
 def run(protocol):
     tr = [protocol.load_labware("opentrons_96_tiprack_20ul", s) for s in (4, 5)]
     p = protocol.load_instrument("p20_multi_gen2", "left", tip_racks=tr)

@@ -9,7 +9,11 @@ LAYOUT = {
 
 
 def run(protocol):
-    p = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_filtertiprack_20ul", 1)])
+    p = protocol.load_instrument(
+        "p20_single_gen2",
+        "left",
+        tip_racks=[protocol.load_labware("opentrons_96_filtertiprack_20ul", 1)],
+    )
     cell_plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 2, "HeLa cells")
     cmpd = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 3, "compounds")
     veh = cmpd["A1"]

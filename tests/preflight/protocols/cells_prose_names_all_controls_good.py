@@ -4,6 +4,7 @@ Compounds on HeLa cells, 96 wells
 Columns 2-9: compounds, 10 uM
 Column 10: DMSO controls (A10-H10)
 """
+
 metadata = {"protocolName": "Compounds on HeLa", "apiLevel": "2.12"}
 
 

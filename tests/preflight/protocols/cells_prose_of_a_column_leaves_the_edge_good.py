@@ -13,4 +13,6 @@ def run(protocol):
         p300.transfer(20, vehicle, cells[f"{row}2"], new_tip="always")
     for number in range(4):
         for row in "BCDEFG":
-            p300.transfer(20, drugs.wells()[8 * number], cells[f"{row}{number + 3}"], new_tip="always")
+            p300.transfer(
+                20, drugs.wells()[8 * number], cells[f"{row}{number + 3}"], new_tip="always"
+            )

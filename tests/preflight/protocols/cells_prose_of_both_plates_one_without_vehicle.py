@@ -7,6 +7,7 @@ col 1     untreated
 col 2-5   tamoxifen, rising
 col 6     ethanol vehicle
 """
+
 metadata = {"protocolName": "Tamoxifen on T47D", "apiLevel": "2.13"}
 
 

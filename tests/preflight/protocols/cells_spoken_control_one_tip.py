@@ -1,5 +1,7 @@
 # expect: cell_treatment warn CELL-3
 metadata = {"protocolName": "Dose response MCF-7", "apiLevel": "2.15"}
+
+
 def run(protocol):
     tips = [protocol.load_labware("opentrons_96_tiprack_20ul", s) for s in (1, 4)]
     rack = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 2)

@@ -1,5 +1,6 @@
 # expect: pcr fail PCR-5
 """qPCR of four templates, SYBR chemistry."""
+
 metadata = {"protocolName": "qPCR, four templates", "apiLevel": "2.13"}
 
 

@@ -1,10 +1,13 @@
 # expect: serial_dilution pass
 """Standard curve for the qPCR of tomorrow: plasmid, 1:10, six steps, in strips."""
+
 metadata = {"protocolName": "qPCR standards", "apiLevel": "2.13"}
 
 
 def run(ctx):
-    tubes = ctx.load_labware("opentrons_24_aluminumblock_nest_1.5ml_snapcap", 1, "plasmid 1e8 copies/uL")
+    tubes = ctx.load_labware(
+        "opentrons_24_aluminumblock_nest_1.5ml_snapcap", 1, "plasmid 1e8 copies/uL"
+    )
     strips = ctx.load_labware("nest_96_wellplate_100ul_pcr_full_skirt", 2, "curve")
     trough = ctx.load_labware("nest_12_reservoir_15ml", 3)
     small = ctx.load_labware("opentrons_96_filtertiprack_20ul", 4)

@@ -11,7 +11,7 @@ def run(protocol):
     tips_l = protocol.load_labware("opentrons_96_tiprack_300ul", 11)
     small = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[tips_s])
     large = protocol.load_instrument("p300_single_gen2", "right", tip_racks=[tips_l])
-    cal_tubes = rack.rows()[0]          # blank first, then 0.2 to 1.5 mg/ml
+    cal_tubes = rack.rows()[0]  # blank first, then 0.2 to 1.5 mg/ml
     blank_well, *std_wells = plate.rows()[0][:6]
     unknown_tubes = rack.rows()[3][:5]
     unknown_wells = plate.rows()[1][:5]

@@ -1,5 +1,6 @@
 # expect: generic pass
 """Thermal shift assay: SYPRO orange and protein, melted in the machine of the PCR people."""
+
 metadata = {"protocolName": "Thermal shift, buffers", "apiLevel": "2.13"}
 
 

@@ -1,5 +1,6 @@
 # expect: generic fail GEN-1
 """Equal volumes of the barcoded PCRs of one plate, one tube, before the bead bench."""
+
 metadata = {"protocolName": "Pool the night's PCRs", "apiLevel": "2.13"}
 
 

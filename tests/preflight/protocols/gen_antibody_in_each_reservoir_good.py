@@ -1,10 +1,15 @@
 # expect: generic pass
 """Three plates, each with a reservoir of its own, all laid out alike; one set of tips."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Reagent addition"}
 
 
 def run(protocol):
-    m300 = protocol.load_instrument("p300_multi_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_filtertiprack_200ul", 7)])
+    m300 = protocol.load_instrument(
+        "p300_multi_gen2",
+        "left",
+        tip_racks=[protocol.load_labware("opentrons_96_filtertiprack_200ul", 7)],
+    )
     plates = [protocol.load_labware("nest_96_wellplate_200ul_flat", slot) for slot in (4, 5, 6)]
     reservoirs = [protocol.load_labware("nest_12_reservoir_15ml", slot) for slot in (1, 2, 3)]
     wash_buffers = [reservoir.wells()[:6] for reservoir in reservoirs]

@@ -1,5 +1,6 @@
 # expect: generic pass
 """Buffer to every donor's plasma with a tip of its own."""
+
 metadata = {"protocolName": "Dilute plasma 1:2 with buffer", "apiLevel": "2.13"}
 
 

@@ -1,5 +1,6 @@
 # expect: generic fail GEN-1 GEN-2
 """Buffer to every donor's plasma with one tip, whose end comes below the wells' tops."""
+
 metadata = {"protocolName": "Dilute plasma 1:2 with buffer", "apiLevel": "2.13"}
 
 

@@ -1,5 +1,6 @@
 # expect: generic pass
 """Bead clean-up: what the sample wells hold is not declared, the ethanol falls from high up."""
+
 metadata = {"protocolName": "Bead cleanup", "apiLevel": "2.14"}
 
 

@@ -1,13 +1,19 @@
 # expect: generic pass
 """Trial run: tips are put back; when the rack runs out, someone puts a new one there."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Amplicon plate copies"}
 
 
 def run(ctx):
     tips = ctx.load_labware("opentrons_96_filtertiprack_20ul", 1)
     m20 = ctx.load_instrument("p20_multi_gen2", "left", tip_racks=[tips])
-    amplicon_plates = [ctx.load_labware("biorad_96_wellplate_200ul_pcr", slot, f"sample plate {slot}") for slot in (2, 3)]
-    copies = [ctx.load_labware("biorad_96_wellplate_200ul_pcr", slot, f"copy {slot}") for slot in (5, 6)]
+    amplicon_plates = [
+        ctx.load_labware("biorad_96_wellplate_200ul_pcr", slot, f"sample plate {slot}")
+        for slot in (2, 3)
+    ]
+    copies = [
+        ctx.load_labware("biorad_96_wellplate_200ul_pcr", slot, f"copy {slot}") for slot in (5, 6)
+    ]
     for number, plate in enumerate(amplicon_plates):
         for source, dest in zip(plate.rows()[0], copies[number].rows()[0]):
             m20.pick_up_tip()

@@ -1,10 +1,15 @@
 # expect: generic fail GEN-3
 """What stands where is declared after the last command, and it is too little."""
+
 metadata = {"apiLevel": "2.20", "protocolName": "Enzyme addition"}
 
 
 def run(protocol):
-    p300 = protocol.load_instrument("p300_multi_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_300ul", 1)])
+    p300 = protocol.load_instrument(
+        "p300_multi_gen2",
+        "left",
+        tip_racks=[protocol.load_labware("opentrons_96_tiprack_300ul", 1)],
+    )
     enzyme = protocol.load_labware("nest_12_reservoir_15ml", 2)["A1"]
     plate = protocol.load_labware("nest_96_wellplate_200ul_flat", 3, "Sample Plate")
     for well in plate.rows()[0][:3]:

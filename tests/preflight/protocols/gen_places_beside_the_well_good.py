@@ -1,5 +1,6 @@
 # expect: generic pass
 """Places on the plate are reckoned from its first well, as for a surface without wells."""
+
 from opentrons.types import Point
 
 metadata = {"protocolName": "Buffer onto spots", "apiLevel": "2.13"}

@@ -1,5 +1,6 @@
 # expect: generic fail GEN-3
 """Three places in one and the same well."""
+
 from opentrons.types import Point
 
 metadata = {"protocolName": "Buffer onto spots", "apiLevel": "2.13"}

@@ -1,5 +1,6 @@
 # expect: generic pass
 """Two washes; the plate in slot 3 is flicked out by hand between them."""
+
 metadata = {"protocolName": "Buffer aliquots", "apiLevel": "2.13"}
 
 

@@ -1,5 +1,6 @@
 # expect: generic pass
 """Each column is rinsed with what rinsed the one before it, and a part goes to the pool."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Barcoded islets, pooling"}
 
 

@@ -1,10 +1,13 @@
 # expect: generic pass
 """Wells of a plate are rinsed one into the next; a part of each, and in the end all, goes into a pool."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Sample pooling"}
 
 
 def run(ctx):
-    m300 = ctx.load_instrument("p300_multi_gen2", "left", tip_racks=[ctx.load_labware("opentrons_96_tiprack_300ul", 4)])
+    m300 = ctx.load_instrument(
+        "p300_multi_gen2", "left", tip_racks=[ctx.load_labware("opentrons_96_tiprack_300ul", 4)]
+    )
     samp_cols = ctx.load_labware("nest_96_wellplate_200ul_flat", 1, "sample plate").rows()[0][:4]
     pool = ctx.load_labware("nest_12_reservoir_15ml", 2)["A12"]
     m300.pick_up_tip()

@@ -3,7 +3,11 @@ metadata = {"protocolName": "Pool libraries, then aliquot the pool", "apiLevel":
 
 
 def run(protocol):
-    p = protocol.load_instrument("p300_single_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_300ul", 4)])
+    p = protocol.load_instrument(
+        "p300_single_gen2",
+        "left",
+        tip_racks=[protocol.load_labware("opentrons_96_tiprack_300ul", 4)],
+    )
     libs = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 1, "libraries")
     tubes = protocol.load_labware("opentrons_24_tuberack_nest_2ml_snapcap", 2)
     pool = tubes["A1"]

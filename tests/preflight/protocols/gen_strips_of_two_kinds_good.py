@@ -4,9 +4,9 @@ metadata = {"protocolName": "Incubation mix to a strip", "apiLevel": "2.13"}
 
 def run(protocol):
     tips = [protocol.load_labware("opentrons_96_tiprack_300ul", slot) for slot in (7, 8)]
-    inc_mix = protocol.load_labware(
-        "opentrons_24_tuberack_eppendorf_1.5ml_safelock_snapcap", 2
-    )["A1"]
+    inc_mix = protocol.load_labware("opentrons_24_tuberack_eppendorf_1.5ml_safelock_snapcap", 2)[
+        "A1"
+    ]
     strips = protocol.load_labware("nest_96_wellplate_200ul_flat", 3, "sample and dilution strips")
     plate = protocol.load_labware("nest_96_wellplate_200ul_flat", 4, "incubation plate")
     p300 = protocol.load_instrument("p300_single_gen2", "left", tip_racks=tips)

@@ -1,5 +1,6 @@
 # expect: generic fail GEN-1
 """Parked tips are taken up for another source."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Cherrypicking with parked tips"}
 
 

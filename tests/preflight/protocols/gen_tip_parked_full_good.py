@@ -1,5 +1,6 @@
 # expect: generic pass
 """Liquids are drawn and parked in their tips first, and given off together afterwards."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Cherrypicking with parked tips"}
 
 

@@ -1,10 +1,18 @@
 # expect: generic fail GEN-1? GEN-2?
 """Plate copy; every tip is rinsed in the buffer that the next plate is filled from."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Sample plate copy"}
 
 
 def run(protocol):
-    p300 = protocol.load_instrument("p300_multi_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_300ul", 1), protocol.load_labware("opentrons_96_tiprack_300ul", 6)])
+    p300 = protocol.load_instrument(
+        "p300_multi_gen2",
+        "left",
+        tip_racks=[
+            protocol.load_labware("opentrons_96_tiprack_300ul", 1),
+            protocol.load_labware("opentrons_96_tiprack_300ul", 6),
+        ],
+    )
     samples = protocol.load_labware("nest_96_wellplate_2ml_deep", 2, "sample plate")
     copies = protocol.load_labware("nest_96_wellplate_200ul_flat", 3, "destination plate")
     buffer = protocol.load_labware("agilent_1_reservoir_290ml", 4, "buffer reservoir")["A1"]

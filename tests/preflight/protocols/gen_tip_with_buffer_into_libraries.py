@@ -1,10 +1,13 @@
 # expect: generic fail GEN-1
 """The same, but the tips have met another library, not Tris."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Library pooling"}
 
 
 def run(protocol):
-    m20 = protocol.load_instrument("p20_multi_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 1)])
+    m20 = protocol.load_instrument(
+        "p20_multi_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 1)]
+    )
     libraries = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 3, "library plate")
     merged = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 4, "merging plate")
     pool = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 5, "pooling plate")["A1"]

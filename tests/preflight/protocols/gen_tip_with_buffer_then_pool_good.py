@@ -1,10 +1,13 @@
 # expect: generic pass
 """Libraries go to a merging plate and from there into a pool that holds Tris; its tips are reused."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Library pooling"}
 
 
 def run(protocol):
-    m20 = protocol.load_instrument("p20_multi_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 1)])
+    m20 = protocol.load_instrument(
+        "p20_multi_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 1)]
+    )
     tris = protocol.load_labware("nest_12_reservoir_15ml", 2)["A1"]
     libraries = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 3, "library plate")
     merged = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 4, "merging plate")

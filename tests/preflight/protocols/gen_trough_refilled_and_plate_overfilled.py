@@ -1,5 +1,6 @@
 # expect: generic fail GEN-3
 """Buffer plates in two rounds; the trough is filled up between them, the plate stays."""
+
 metadata = {"protocolName": "Buffer aliquots", "apiLevel": "2.13"}
 
 

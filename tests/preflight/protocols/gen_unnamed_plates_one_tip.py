@@ -1,5 +1,7 @@
 # expect: generic fail GEN-1
 metadata = {"apiLevel": "2.13", "protocolName": "Plate to plate plate_2"}
+
+
 def run(ctx):
     t = ctx.load_labware("opentrons_96_tiprack_300ul", 4)
     m = ctx.load_instrument("p300_multi_gen2", "left", tip_racks=[t])

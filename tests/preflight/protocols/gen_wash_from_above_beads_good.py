@@ -1,5 +1,6 @@
 # expect: generic pass
 """Bead wash: the ethanol falls from above the columns, with one set of tips."""
+
 metadata = {"protocolName": "Bead wash", "apiLevel": "2.13"}
 
 

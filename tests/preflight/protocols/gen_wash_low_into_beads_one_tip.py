@@ -1,5 +1,6 @@
 # expect: generic fail GEN-1 GEN-2
 """Bead wash: the tips of the first column dip into all others and go back to the ethanol."""
+
 metadata = {"protocolName": "Bead wash", "apiLevel": "2.13"}
 
 

@@ -1,12 +1,17 @@
 # expect: generic pass
 """Hit picking: each hit goes into two wells, with one tip for both."""
+
 metadata = {"protocolName": "hit picking", "apiLevel": "2.15"}
 
 PICKS = [
-    ("LIB-01", "A04", "A1"), ("LIB-01", "A04", "A2"),
-    ("LIB-02", "C07", "B1"), ("LIB-02", "C07", "B2"),
-    ("LIB-01", "E10", "C1"), ("LIB-01", "E10", "C2"),
-    ("LIB-02", "E10", "D1"), ("LIB-02", "E10", "D2"),
+    ("LIB-01", "A04", "A1"),
+    ("LIB-01", "A04", "A2"),
+    ("LIB-02", "C07", "B1"),
+    ("LIB-02", "C07", "B2"),
+    ("LIB-01", "E10", "C1"),
+    ("LIB-01", "E10", "C2"),
+    ("LIB-02", "E10", "D1"),
+    ("LIB-02", "E10", "D2"),
 ]
 
 

@@ -1,5 +1,6 @@
 # expect: pcr pass
 """The rest of each row is filled with buffer, so that no well of the reader stays dry."""
+
 metadata = {"protocolName": "Droplet PCR", "apiLevel": "2.13"}
 
 

@@ -1,5 +1,6 @@
 # expect: pcr fail PCR-1
 """Two blanks get water in the template's place, and nothing else."""
+
 metadata = {"protocolName": "Droplet PCR with blanks", "apiLevel": "2.13"}
 
 

@@ -1,11 +1,16 @@
 # expect: pcr pass
 """Several plates one after the other; tips and plate are changed in one pause."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "PCR prep"}
 
 
 def run(ctx):
     tips20 = [ctx.load_labware("opentrons_96_filtertiprack_20ul", 4)]
-    m300 = ctx.load_instrument("p300_multi_gen2", "left", tip_racks=[ctx.load_labware("opentrons_96_filtertiprack_200ul", 2)])
+    m300 = ctx.load_instrument(
+        "p300_multi_gen2",
+        "left",
+        tip_racks=[ctx.load_labware("opentrons_96_filtertiprack_200ul", 2)],
+    )
     m20 = ctx.load_instrument("p20_multi_gen2", "right", tip_racks=tips20)
     master_mix = ctx.load_labware("nest_12_reservoir_15ml", 1)["A1"]
     pcr_plate = ctx.load_labware("biorad_96_wellplate_200ul_pcr", 5)
@@ -24,4 +29,6 @@ def run(ctx):
             m20.drop_tip()
         m20.reset_tipracks()
         if number == 0:
-            ctx.pause("Replace 20ul tiprack. Refill mastermix. Ensure clean PCR plate on slot 5 before resuming.")
+            ctx.pause(
+                "Replace 20ul tiprack. Refill mastermix. Ensure clean PCR plate on slot 5 before resuming."
+            )

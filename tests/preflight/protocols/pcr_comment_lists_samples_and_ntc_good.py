@@ -1,10 +1,15 @@
 # expect: pcr pass
 """qPCR of seven extracts."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "qPCR"}
 
 
 def run(ctx):
-    p20 = ctx.load_instrument("p20_single_gen2", "right", tip_racks=[ctx.load_labware("opentrons_96_filtertiprack_20ul", s) for s in (7, 8)])
+    p20 = ctx.load_instrument(
+        "p20_single_gen2",
+        "right",
+        tip_racks=[ctx.load_labware("opentrons_96_filtertiprack_20ul", s) for s in (7, 8)],
+    )
     plate = ctx.load_labware("biorad_96_wellplate_200ul_pcr", 1, "qPCR plate")
     rna = ctx.load_labware("nest_96_wellplate_2ml_deep", 2, "RNA extracts")
     cold = ctx.load_labware("opentrons_24_aluminumblock_nest_1.5ml_snapcap", 3)

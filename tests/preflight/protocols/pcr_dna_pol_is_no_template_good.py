@@ -1,11 +1,16 @@
 # expect: pcr pass
 """PCR from a chip: the master mix is made of four tubes, DNA polymerase last."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "PCR prep"}
 
 
 def run(ctx):
-    p20 = ctx.load_instrument("p20_single_gen2", "left", tip_racks=[ctx.load_labware("opentrons_96_tiprack_20ul", 1)])
-    p300 = ctx.load_instrument("p300_single_gen2", "right", tip_racks=[ctx.load_labware("opentrons_96_tiprack_300ul", 5)])
+    p20 = ctx.load_instrument(
+        "p20_single_gen2", "left", tip_racks=[ctx.load_labware("opentrons_96_tiprack_20ul", 1)]
+    )
+    p300 = ctx.load_instrument(
+        "p300_single_gen2", "right", tip_racks=[ctx.load_labware("opentrons_96_tiprack_300ul", 5)]
+    )
     tubes = ctx.load_labware("opentrons_24_aluminumblock_nest_2ml_screwcap", 2)
     plate = ctx.load_labware("biorad_96_wellplate_200ul_pcr", 3)
     h2o, rxn_buffer, primer, dna_pol, mix_tube = tubes.wells()[:5]

@@ -14,7 +14,11 @@ class Reagent:
 def run(protocol):
     tip20 = [protocol.load_labware("opentrons_96_filtertiprack_20ul", x) for x in ("10", "11")]
     pip = protocol.load_instrument("p20_single_gen2", "left", tip_racks=tip20)
-    pip2 = protocol.load_instrument("p300_single_gen2", "right", tip_racks=[protocol.load_labware("opentrons_96_filtertiprack_200ul", "9")])
+    pip2 = protocol.load_instrument(
+        "p300_single_gen2",
+        "right",
+        tip_racks=[protocol.load_labware("opentrons_96_filtertiprack_200ul", "9")],
+    )
     tubes = protocol.load_labware("opentrons_24_aluminumblock_nest_1.5ml_snapcap", "2")
     dest = protocol.load_labware("biorad_96_wellplate_200ul_pcr", "3")
 

@@ -2,14 +2,21 @@
 from enum import Enum
 from types import SimpleNamespace
 from typing import NamedTuple
+
 metadata = {"protocolName": "qPCR plate", "apiLevel": "2.15"}
+
+
 class Kind(str, Enum):
     SAMPLE = "sample"
     NTC = "ntc"
+
+
 class Rxn(NamedTuple):
     kind: Kind
     tube: object
     well: object
+
+
 def run(protocol):
     tips = [protocol.load_labware("opentrons_96_filtertiprack_20ul", s) for s in (1, 4)]
     rack = protocol.load_labware("opentrons_24_aluminumblock_nest_1.5ml_snapcap", 2)

@@ -7,8 +7,12 @@ def run(protocol):
     mix = protocol.load_labware("nest_12_reservoir_15ml", 2, "ddPCR supermix with assay")
     water = protocol.load_labware("nest_12_reservoir_15ml", 3, "PCR water")
     dna = protocol.load_labware("nest_96_wellplate_100ul_pcr_full_skirt", 4, "gDNA")
-    out = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 5, "Plate: 1-2 gDNA, 3 pos. control, 4 NTC")
-    control = protocol.load_labware("nest_96_wellplate_100ul_pcr_full_skirt", 6, "positive control DNA")
+    out = protocol.load_labware(
+        "biorad_96_wellplate_200ul_pcr", 5, "Plate: 1-2 gDNA, 3 pos. control, 4 NTC"
+    )
+    control = protocol.load_labware(
+        "nest_96_wellplate_100ul_pcr_full_skirt", 6, "positive control DNA"
+    )
     m20 = protocol.load_instrument("p20_multi_gen2", "left", tip_racks=[tips])
     columns = out.rows()[0][:4]
     m20.pick_up_tip()

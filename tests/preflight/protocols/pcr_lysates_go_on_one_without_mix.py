@@ -4,9 +4,7 @@ metadata = {"protocolName": "Lysis and PCR", "apiLevel": "2.14"}
 
 def run(protocol):
     tips = [protocol.load_labware("opentrons_96_filtertiprack_20ul", slot) for slot in (1, 4)]
-    rack = protocol.load_labware(
-        "opentrons_24_tuberack_nest_1.5ml_snapcap", 5
-    )
+    rack = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 5)
     swabs = protocol.load_labware("nest_96_wellplate_2ml_deep", 6, "swabs")
     lysis_plate = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 2, "lysis plate")
     pcr_plate = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 3, "PCR plate")

@@ -1,10 +1,13 @@
 # expect: pcr warn PCR-1
 """Melting curves of proteins in the qPCR machine: what a comment calls a mix makes no error."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "qPCR melting curves"}
 
 
 def run(protocol):
-    p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 1)])
+    p20 = protocol.load_instrument(
+        "p20_single_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 1)]
+    )
     rack = protocol.load_labware("opentrons_24_aluminumblock_nest_1.5ml_screwcap", 2)
     pcr1 = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 4)
     samples = [rack["B1"]]

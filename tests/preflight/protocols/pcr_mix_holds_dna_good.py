@@ -1,11 +1,18 @@
 # expect: pcr pass
 """qPCR primer matrix: the same DNA in every reaction, so it is put into the mix beforehand."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "qPCR primer matrix"}
 
 
 def run(protocol):
-    p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 1)])
-    p300 = protocol.load_instrument("p300_single_gen2", "right", tip_racks=[protocol.load_labware("opentrons_96_tiprack_300ul", 5)])
+    p20 = protocol.load_instrument(
+        "p20_single_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 1)]
+    )
+    p300 = protocol.load_instrument(
+        "p300_single_gen2",
+        "right",
+        tip_racks=[protocol.load_labware("opentrons_96_tiprack_300ul", 5)],
+    )
     rack = protocol.load_labware("opentrons_24_aluminumblock_nest_1.5ml_screwcap", 2)
     plate = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 3)
     master_mix, std_dna, dna_mix = rack["A1"], rack["A2"], rack["A3"]

@@ -1,5 +1,6 @@
 # expect: pcr warn PCR-6
 """The mix for three replicates is meant for the first well of each row, and stays there."""
+
 metadata = {"protocolName": "qPCR in triplicate", "apiLevel": "2.13"}
 
 

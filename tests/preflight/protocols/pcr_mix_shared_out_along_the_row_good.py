@@ -1,5 +1,6 @@
 # expect: pcr pass
 """The mix for three replicates goes to the first well of each row and on from there."""
+
 metadata = {"protocolName": "qPCR in triplicate", "apiLevel": "2.13"}
 
 

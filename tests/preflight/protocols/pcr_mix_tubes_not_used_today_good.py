@@ -1,10 +1,13 @@
 # expect: pcr pass
 """qPCR stock solutions. The mixes and the NTC tube are named for the next script; only primers move."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "qPCR primer dilution"}
 
 
 def run(protocol):
-    p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 1)])
+    p20 = protocol.load_instrument(
+        "p20_single_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 1)]
+    )
     rack = protocol.load_labware("opentrons_24_aluminumblock_nest_1.5ml_screwcap", 2)
     mixes = protocol.load_labware("opentrons_24_aluminumblock_nest_1.5ml_screwcap", 3)
     strips = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 4)

@@ -2,7 +2,6 @@
 metadata = {"apiLevel": "2.15", "protocolName": "End-point PCR, 8-channel"}
 
 
-
 def run(protocol):
     n = 3
     tr = [protocol.load_labware("opentrons_96_tiprack_20ul", s) for s in (4, 5)]

@@ -2,7 +2,6 @@
 metadata = {"apiLevel": "2.15", "protocolName": "End-point PCR, 8-channel"}
 
 
-
 def run(protocol):
     n = 3
     tr = [protocol.load_labware("opentrons_96_tiprack_20ul", s) for s in (4, 5)]
@@ -15,5 +14,5 @@ def run(protocol):
     sample_cols = pcr_plate.rows()[0][:n]
     ntc_col = pcr_plate["A12"]
     m20.distribute(15, master_mix, sample_cols + [ntc_col], disposal_volume=0)
-    for src, dst in zip(dna_plate.rows()[0][:n + 1], sample_cols + [ntc_col]):
+    for src, dst in zip(dna_plate.rows()[0][: n + 1], sample_cols + [ntc_col]):
         m20.transfer(5, src, dst, mix_after=(2, 10))

@@ -1,5 +1,6 @@
 # expect: pcr warn PCR-6
 """One target in two columns, by mistake with two volumes."""
+
 from collections import namedtuple
 
 metadata = {"protocolName": "PCR set-up", "apiLevel": "2.13"}

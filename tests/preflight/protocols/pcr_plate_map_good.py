@@ -3,6 +3,7 @@
 
 Column 1: samples, H12 no-template control.
 """
+
 metadata = {"protocolName": "qPCR assay plate", "apiLevel": "2.13"}
 PLATE_MAP = {"A1": "S1", "B1": "S2", "C1": "S3", "G12": "PTC", "H12": "NTC"}
 SOURCES = {"S1": "A1", "S2": "A2", "S3": "A3", "PTC": "B1", "NTC": "D6"}

@@ -3,6 +3,7 @@
 
 Column 1: samples, H12 no-template control.
 """
+
 metadata = {"protocolName": "qPCR assay plate", "apiLevel": "2.13"}
 PLATE_MAP = {"A1": "S1", "B1": "S2", "C1": "S3", "G12": "PTC", "H12": "NTC"}
 SOURCES = {"S1": "A1", "S2": "A2", "S3": "A3", "PTC": "B1", "NTC": "D6"}
@@ -22,7 +23,8 @@ def run(ctx):
         p20.dispense(RXN_VOL - DNA_VOL, qplate[well])
     p20.drop_tip()
     for well, name in PLATE_MAP.items():
-        if not p20.has_tip: p20.pick_up_tip()
+        if not p20.has_tip:
+            p20.pick_up_tip()
         p20.aspirate(DNA_VOL, rack[SOURCES[name]])
         p20.dispense(DNA_VOL, qplate[well])
         p20.mix(3, 10, qplate[well])

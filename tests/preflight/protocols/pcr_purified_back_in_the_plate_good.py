@@ -1,5 +1,6 @@
 # expect: pcr pass
 """Library prep: PCR, bead clean-up, and the purified samples go into a free column of the PCR plate."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "PCR and clean-up"}
 
 
@@ -9,8 +10,14 @@ def run(protocol):
     reaction_plate = protocol.load_labware("nest_96_wellplate_100ul_pcr_full_skirt", 2, "PCR plate")
     block = protocol.load_labware("opentrons_24_aluminumblock_nest_2ml_screwcap", 3)
     reservoir = protocol.load_labware("nest_12_reservoir_15ml", 4)
-    m20 = protocol.load_instrument("p20_multi_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 5)])
-    p20 = protocol.load_instrument("p20_single_gen2", "right", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 6)])
+    m20 = protocol.load_instrument(
+        "p20_multi_gen2", "left", tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 5)]
+    )
+    p20 = protocol.load_instrument(
+        "p20_single_gen2",
+        "right",
+        tip_racks=[protocol.load_labware("opentrons_96_tiprack_20ul", 6)],
+    )
     pcr_mm = block["A1"]
     beads, te = reservoir["A1"], reservoir["A6"]
     eluates = mag_plate.rows()[0][0]

@@ -1,11 +1,16 @@
 # expect: pcr fail PCR-5 PCR-3? PCR-6? GEN-3?
 """Several plates one after the other; the plate stays where it is."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "PCR prep"}
 
 
 def run(ctx):
     tips20 = [ctx.load_labware("opentrons_96_filtertiprack_20ul", 4)]
-    m300 = ctx.load_instrument("p300_multi_gen2", "left", tip_racks=[ctx.load_labware("opentrons_96_filtertiprack_200ul", 2)])
+    m300 = ctx.load_instrument(
+        "p300_multi_gen2",
+        "left",
+        tip_racks=[ctx.load_labware("opentrons_96_filtertiprack_200ul", 2)],
+    )
     m20 = ctx.load_instrument("p20_multi_gen2", "right", tip_racks=tips20)
     master_mix = ctx.load_labware("nest_12_reservoir_15ml", 1)["A1"]
     pcr_plate = ctx.load_labware("biorad_96_wellplate_200ul_pcr", 5)

@@ -20,6 +20,8 @@ def run(ctx):
         s20.distribute(8, master_mixes[assay], reactions, disposal_volume=0)
     for assay, dest in plates.items():
         for name in NTC:
-            s20.transfer(2, water if assay == "cre" else lysates["A1"], dest[name], new_tip="always")
+            s20.transfer(
+                2, water if assay == "cre" else lysates["A1"], dest[name], new_tip="always"
+            )
         for source, target in zip(lysates.columns()[0], dest.columns()[0]):
             s20.transfer(2, source, target, new_tip="always")

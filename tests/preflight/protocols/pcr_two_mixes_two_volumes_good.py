@@ -1,5 +1,6 @@
 # expect: pcr pass
 """Two targets, each with a mix and a volume of its own, on the same templates."""
+
 from collections import namedtuple
 
 metadata = {"protocolName": "PCR set-up", "apiLevel": "2.13"}

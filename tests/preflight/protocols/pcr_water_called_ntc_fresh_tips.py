@@ -3,6 +3,7 @@
 
 Eluate plate: A1-F2 patient RNA, G2 = positive control, H2 = water (NTC).
 """
+
 metadata = {"apiLevel": "2.13"}
 
 

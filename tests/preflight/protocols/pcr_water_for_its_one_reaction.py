@@ -1,5 +1,6 @@
 # expect: pcr warn PCR-6
 """Colony PCR, the blank with a fresh tip; one thin colony is made up with water of its own."""
+
 metadata = {"protocolName": "Colony PCR", "apiLevel": "2.13"}
 
 

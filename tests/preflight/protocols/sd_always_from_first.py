@@ -1,5 +1,7 @@
 # expect: serial_dilution fail SD-2
 metadata = {"apiLevel": "2.13", "protocolName": "MIC broth microdilution"}
+
+
 def run(ctx):
     t = ctx.load_labware("opentrons_96_tiprack_300ul", 4)
     p = ctx.load_instrument("p300_single_gen2", "left", tip_racks=[t])

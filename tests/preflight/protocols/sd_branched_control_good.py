@@ -1,5 +1,6 @@
 # expect: serial_dilution pass
 """Twofold line of eight points, and a quality control made from the fourth by another factor."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Calibration curve, serial dilution"}
 
 

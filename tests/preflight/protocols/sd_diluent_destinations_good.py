@@ -1,5 +1,6 @@
 # expect: serial_dilution pass
 """Standard curve in rows; the wells are called after what goes into them first."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Standard curve, two fold serial dilution"}
 
 

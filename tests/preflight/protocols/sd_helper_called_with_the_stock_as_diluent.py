@@ -6,6 +6,7 @@ Trough:
     A2  peptide A, 20 uM
     A3  peptide B, 20 uM
 """
+
 metadata = {"protocolName": "peptide titration", "apiLevel": "2.14"}
 
 

@@ -12,5 +12,7 @@ def run(protocol):
     p300.distribute(100, diluent, row[1:], disposal_volume=0)
     p300.transfer(200, stock, row[0])
     for one, other in zip(row, row[1:]):
-        p300.transfer(100, one, other, mix_after=(5, 80) if other is not row[-1] else None, new_tip="always")
+        p300.transfer(
+            100, one, other, mix_after=(5, 80) if other is not row[-1] else None, new_tip="always"
+        )
     p300.transfer(100, row[-1], trough["A12"].top())  # the last 100 to waste

@@ -1,5 +1,6 @@
 # expect: serial_dilution fail SD-3
 """The stock stands at the head of the column and is diluted down it."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Compound dilution"}
 
 

@@ -1,5 +1,6 @@
 # expect: serial_dilution fail SD-4
 """Venom, twofold over ten columns; the rows are filled one at a time"""
+
 metadata = {"apiLevel": "2.13"}
 
 

@@ -1,5 +1,6 @@
 # expect: serial_dilution pass
 """The stock is prediluted beside the column, moved to its head, and diluted down the column."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "Compound dilution"}
 
 

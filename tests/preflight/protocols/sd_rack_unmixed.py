@@ -1,6 +1,7 @@
 # expect: serial_dilution fail SD-1
 """1:10 steps through a rack, row after row. The tubes hold 900 µL of water each, put in by hand;
 only the tubes of the last, 1:2 steps are filled here."""
+
 metadata = {"apiLevel": "2.13", "protocolName": "RNA dilution series for qPCR standards"}
 
 

@@ -1,5 +1,6 @@
 # expect: serial_dilution pass
 """Ten-fold dilutions of phage lysate in tubes; each tube is mixed before the next step."""
+
 metadata = {"apiLevel": "2.9"}
 
 

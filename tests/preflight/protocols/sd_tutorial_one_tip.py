@@ -1,6 +1,9 @@
 # expect: serial_dilution fail SD-5
-metadata = {"protocolName": "Serial Dilution Tutorial", "apiLevel": "2.12",
-            "description": "Dilutes a solution from column 1 across the plate."}
+metadata = {
+    "protocolName": "Serial Dilution Tutorial",
+    "apiLevel": "2.12",
+    "description": "Dilutes a solution from column 1 across the plate.",
+}
 
 
 def run(protocol):

@@ -1,5 +1,6 @@
 # expect: serial_dilution fail SD-3
 """Colony counts: tenfold dilutions of an overnight culture in saline, columns 1 to 6."""
+
 metadata = {"apiLevel": "2.13"}
 
 
