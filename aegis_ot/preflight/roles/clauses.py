@@ -21,6 +21,7 @@ _BREAKS = re.compile(
     r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}|[A-Za-z]{1,2}\.\s*\d))"
     r"|(?<=\S)\s{3,}(?=(?:[a-z]+\s+)?[A-P]\d{1,2}\b)"
 )
+_TO_THE_END = re.compile(r"[;|()]|\.\s|\s{3,}")
 _BRACKETS = re.compile(r"[(\[]([^()\[\]]*)[)\]]")
 
 
@@ -76,11 +77,21 @@ def _clauses(text: str, names: WellNames, nouns: frozenset[str]) -> Iterator[str
             goes_on = at[0] < len(whole) and whole[at[0]] != "."
             if goes_on and (_is_list(clause, names, nouns) or _is_open(clause)):
                 continue  # "A1, B1 and C1: standards" is one, and "columns 1+2 (blank, standards)"
+            if goes_on and whole[at[0]] == "," and _is_begun(clause, whole[at[1] :], names):
+                continue  # "NTCs H3, H6"
             if goes_on and whole[at[0]].isspace() and not names.spec.search(clause):
                 continue  # "vehicle     A3" is one entry of a layout
             if clause.strip():
                 yield clause
             start = at[1]
+
+
+def _is_begun(clause: str, rest: str, names: WellNames) -> bool:
+    """Whether wells that end a clause are the first of a list that goes on to the end."""
+    groups = _groups(clause, names)
+    if not groups or not tokens(clause[: groups[0][0]]) or tokens(clause[groups[-1][1] :]):
+        return False
+    return _is_list(_TO_THE_END.split(rest, maxsplit=1)[0], names, frozenset())
 
 
 def _is_open(clause: str) -> bool:

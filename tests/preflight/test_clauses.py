@@ -1,0 +1,34 @@
+"""Where one entry of a layout's line ends and the next begins, and which wells each speaks of."""
+
+from __future__ import annotations
+
+import pytest
+
+from aegis_ot.preflight import load_database
+from aegis_ot.preflight.roles.clauses import parts_of
+
+COMMON = load_database().common
+
+
+@pytest.mark.parametrize(
+    ("line", "entries"),
+    [
+        ("D1 mix       D6 water", [("mix", ["D1"]), ("water", ["D6"])]),
+        ("vehicle     A3      drug     A4", [("vehicle", ["A3"]), ("drug", ["A4"])]),
+        ("col 2  5 nM     tube A1", [("5 nM", ["col 2"]), ("tube", ["A1"])]),
+        ("lot 4     C1", [("lot 4", ["C1"])]),
+        ("row C   C1-C3 worm, C4-C6 NTC", [("worm", ["C1-C3"]), ("NTC", ["C4-C6"])]),
+        ("tubes B1..B6, C1 gDNA", [("tubes , gDNA", ["B1..B6", "C1"])]),
+        ("strips B1..B6 full, C1 gDNA", [("strips full", ["B1..B6"]), ("gDNA", ["C1"])]),
+        (
+            "ticks in columns 1-6. NTCs H3, H6",
+            [("ticks in", ["columns 1-6"]), ("NTCs ,", ["H3", "H6"])],
+        ),
+        ("columns 1-6. NTC in H3", [("", ["columns 1-6"]), ("NTC in", ["H3"])]),
+        ("A1, B1 and C1: standards", [(", and : standards", ["A1", "B1", "C1"])]),
+    ],
+)
+def test_entries_of_a_line(line: str, entries: list[tuple[str, list[str]]]) -> None:
+    parts = [part for part in parts_of(line, COMMON) if part.wells]
+    found = [(" ".join(p.words.split()), [match.group() for match in p.wells]) for p in parts]
+    assert found == entries

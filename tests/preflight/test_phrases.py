@@ -1,0 +1,28 @@
+"""What the words of a name say that a well holds."""
+
+from __future__ import annotations
+
+import pytest
+
+from aegis_ot.preflight import load_database
+from aegis_ot.preflight.roles import Clue, Strength
+from aegis_ot.preflight.roles.phrases import role_words, roles_named
+
+DATABASE = load_database()
+
+
+@pytest.mark.parametrize(
+    ("family", "text", "role"),
+    [
+        ("cell_treatment", "plain DMEM", "medium"),
+        ("cell_treatment", "glucagon in DMEM", None),
+        ("cell_treatment", "drug in DMEM", "drug"),
+        ("pcr", "no gDNA", "ntc"),
+        ("pcr", "NO_CDNA", "ntc"),
+        ("bradford", "QC high", "sample"),
+    ],
+)
+def test_the_head_of_a_name(family: str, text: str, role: str | None) -> None:
+    lexicon = role_words(DATABASE.family(family), DATABASE.common)
+    named = roles_named(lexicon, Clue(Strength.NAME, text, (), 1, text), DATABASE.common)
+    assert (role in named) if role else not named
