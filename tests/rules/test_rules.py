@@ -44,6 +44,13 @@ def test_files_agree_with_the_schema(path: Path) -> None:
     jsonschema.Draft202012Validator(family_schema()).validate(data)
 
 
+def test_no_role_lists_a_word_twice() -> None:
+    for family in load_database().families:
+        for name, role in family.roles.items():
+            for words in (role.words, role.never):
+                assert sorted(set(words)) == sorted(words), f"{family.family}: {name}"
+
+
 def test_examples_do_what_they_say() -> None:
     results = run_examples(load_database())
     assert {result.rule for result in results} == set(IDS)
