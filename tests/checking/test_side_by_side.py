@@ -88,8 +88,13 @@ def test_an_interruption_is_heard_whichever_thread_the_system_gives_it_to() -> N
             heard.append(rehearser.cancelled.wait(60))
 
     files = [Path("first"), Path("second")]
-    with pytest.raises(KeyboardInterrupt):
-        check_each(files, 2, (), check, lambda _: all_are_asked_for.set())
+    # A shell that starts the tests in the background has SIGINT ignored, for Python too.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            check_each(files, 2, (), check, lambda _: all_are_asked_for.set())
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert heard == [True]
 
 
@@ -101,7 +106,10 @@ def test_an_interruption_ends_every_rehearsal_and_is_told_in_one_line(tmp_path: 
         (tmp_path / f"p{number}.py").write_text(text, encoding="utf-8")
     scratch = tmp_path / "scratch"
     scratch.mkdir()
-    command = "from aegis_ot.cli import main; main()"
+    command = (
+        "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); "
+        "from aegis_ot.cli import main; main()"
+    )
     process = subprocess.Popen(
         [sys.executable, "-c", command, "check", "p0.py", "p1.py", "--jobs", "2"],
         cwd=tmp_path,
