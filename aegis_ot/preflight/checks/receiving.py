@@ -12,27 +12,7 @@ from ..roles import Strength
 from ..text import lexicon_of, tokens
 from ..trace import Well
 from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
-
-
-def received(case: Case, well: Well, liquid: RoleSet) -> tuple[float, int | None]:
-    """µL of a liquid that a well receives in the run, and the line that first brought it."""
-    total, line = 0.0, None
-    for visit in case.trace.deliveries(well):
-        for origin, volume, source, _ in delivered(visit):
-            if case.has(origin, liquid) or case.has(source, liquid):
-                total += volume
-                line = line or visit.line
-    return total, line
-
-
-def filled(case: Case, well: Well) -> tuple[float, int | None]:
-    """µL that a well receives in the run altogether, and the line that brought the last."""
-    total, line = 0.0, None
-    for visit in case.trace.deliveries(well):
-        for _, volume, _, _ in delivered(visit):
-            total += volume
-        line = visit.line
-    return total, line
+from .given import filled, received, sources_of
 
 
 def _unknown_source(case: Case, well: Well, served: set[tuple[str, str]]) -> Well | None:
@@ -69,12 +49,7 @@ def _is_of_another_stage(case: Case, well: Well, served: set[tuple[str, str]]) -
 
 def _is_handed_on(case: Case, well: Well, wells: RoleSet) -> bool:
     """Whether something unknown fills this well, or nothing but what such wells held before."""
-    sources = [
-        part[0]
-        for visit in case.trace.deliveries(well)
-        for part in visit.parts
-        if part[0] is not None and part[0] is not well
-    ]
+    sources = sources_of(case, well)
     if any(not case.of(source) for source in sources):
         return True
     return bool(sources) and all(case.has(source, wells) for source in sources)
@@ -129,7 +104,12 @@ class Receives(Check):
         plates = self._plates(case, liquid)
         if not plates and self._stands_unused(case, liquid):
             plates = {ref.labware for ref, used in case.usage.items() if used.received}
-            judged = [well for well in self._judged(case) if case.has(well, frozenset(self.always))]
+            always = frozenset(self.always)
+            judged = [
+                well
+                for well in self._judged(case)
+                if case.has(well, always) and not self._is_ready_made(case, well, served)
+            ]
         else:
             judged = list(self._judged(case))
         if not plates or not judged:
@@ -169,6 +149,11 @@ class Receives(Check):
             ):
                 yield Doubt(f"{place(well)} is filled from elsewhere, after a clean-up perhaps")
                 continue
+            if self._is_ready_made(case, well, served):
+                yield Doubt(
+                    f"{place(well)} may get all of its liquid from one tube, as the others do"
+                )
+                continue
             total, line = filled(case, well)
             if self._is_filled_otherwise(case, well, total, served):
                 yield Doubt(f"{place(well)} may be a blank of the instrument: it is filled up")
@@ -190,6 +175,19 @@ class Receives(Check):
                 (case.title(well),),
                 (well, source_line[2]) if source_line else (well,),
             )
+
+    def _is_ready_made(self, case: Case, well: Well, served: set[tuple[str, str]]) -> bool:
+        """Whether an NTC comes out of an NTC tube, and no well beside it is put together."""
+        beside = [
+            other
+            for other in case.trace.wells.values()
+            if other.ref.labware == well.ref.labware
+            and (other.ref.labware, other.ref.name) in served
+        ]
+        always = frozenset(self.always)
+        return any(case.has(source, always) for source in sources_of(case, well)) and all(
+            len(sources_of(case, other)) == 1 for other in beside
+        )
 
     def _is_filled_otherwise(
         self, case: Case, well: Well, total: float, served: set[tuple[str, str]]

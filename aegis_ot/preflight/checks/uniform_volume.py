@@ -9,7 +9,7 @@ from typing import ClassVar
 from ...vocabulary import Site
 from ..trace import Well
 from .base import Case, Check, Result, RoleSet, Violation, at, place, role_field
-from .receiving import filled, received
+from .given import filled, received
 
 Member = tuple[Well, float, float]
 """A well, the µL of the liquid that it received, and those that it received in all."""

@@ -1,0 +1,37 @@
+"""What a well is given in the whole run."""
+
+from __future__ import annotations
+
+from ..trace import Well
+from .base import Case, RoleSet, delivered
+
+
+def received(case: Case, well: Well, liquid: RoleSet) -> tuple[float, int | None]:
+    """µL of a liquid that a well receives in the run, and the line that first brought it."""
+    total, line = 0.0, None
+    for visit in case.trace.deliveries(well):
+        for origin, volume, source, _ in delivered(visit):
+            if case.has(origin, liquid) or case.has(source, liquid):
+                total += volume
+                line = line or visit.line
+    return total, line
+
+
+def filled(case: Case, well: Well) -> tuple[float, int | None]:
+    """µL that a well receives in the run altogether, and the line that brought the last."""
+    total, line = 0.0, None
+    for visit in case.trace.deliveries(well):
+        for _, volume, _, _ in delivered(visit):
+            total += volume
+        line = visit.line
+    return total, line
+
+
+def sources_of(case: Case, well: Well) -> set[Well]:
+    """All wells, itself apart, that liquid came from into this one."""
+    return {
+        part[0]
+        for visit in case.trace.deliveries(well)
+        for part in visit.parts
+        if part[0] is not None and part[0] is not well
+    }
