@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..checks import Case
 from ..rehearsal import Recording
@@ -12,6 +13,7 @@ from ..roles import (
     Clue,
     Inference,
     Roles,
+    Strength,
     Usage,
     assign_roles,
     derive,
@@ -116,7 +118,7 @@ def read_recording(recording: Recording, database: Database, options: Options) -
         usage=usage,
         families=tuple(families),
         roles=tuple(roles),
-        waste=_waste(clues, common),
+        waste=_waste(clues, common, trace),
         loose_volumes=_loose_volumes(facts, common),
         unsure=frozenset(_prefilled_by_words(clues, common))
         | _implied_elsewhere(database, families, clues, usage, trace),
@@ -171,12 +173,17 @@ def _prefilled_by_words(clues: Iterable[Clue], common: Common) -> set[WellRef]:
     }
 
 
-def _waste(clues: Iterable[Clue], common: Common) -> frozenset[WellRef]:
-    """Wells that are called waste; "to waste" beside a transfer means where it goes."""
+def _waste(clues: Iterable[Clue], common: Common, trace: Trace) -> frozenset[WellRef]:
+    """Wells that are called waste; "to waste" beside a transfer means where it goes.
+
+    Where a comment says "discard the surplus of column 10", that is drawn from, and no waste.
+    """
     lexicon = lexicon_of({"waste": common.waste})
+    drawn = {v.well.ref for v in trace.visits if v.kind is OperationKind.ASPIRATE}
     return frozenset(
         ref
         for clue in clues
         if clue.step != "source" and lexicon.find(clue.text)
         for ref in clue.wells
+        if clue.strength > Strength.COMMENT or ref not in drawn
     )

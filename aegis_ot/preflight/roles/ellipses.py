@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
+from collections.abc import Iterable
 
 from ..rules import Common
 from .well_names import WellNames, well_names
@@ -43,6 +44,7 @@ class Ellipses:
         self._numbered = re.compile(
             rf"(?:^|[:,;(])\s*(?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?){goes_on}"
         )
+        self._bracketed = re.compile(rf"\((?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?)\)")
         self._lettered = re.compile(r"(?m)(?:^\s*|(?<=\s\s))([A-P])(?=\s{1,4}[:=]?\s*\w)")
         self._row_word = re.compile(rf"\b{row}\b")
         self._of_column = re.compile(
@@ -90,14 +92,16 @@ class Ellipses:
         return self._crossed(text)
 
     def _with_columns(self, text: str) -> str:
-        """Bare numbers that count on from 1 are columns: "1-3 samples, 4 standard, 5 blank"."""
-        found: list[re.Match[str]] = []
-        for match in self._numbered.finditer(text):
-            last = (found[-1]["high"] or found[-1]["low"]) if found else "0"
-            if not _follows(last, match["low"]):
-                return text
-            found.append(match)
-        if len(found) < _FEWEST_NUMBERED or self._names.spec.search(text):
+        """Bare numbers that count on from 1 are columns: "1-3 samples, 4 standard, 5 blank",
+        "drug (1-6), vehicle (7)".
+        """
+        bracketed = _counting_on(self._bracketed.finditer(text))
+        # "(1-6)", not "(1)": that numbers the steps of a text.
+        if len(bracketed) < 2 or not any(match["high"] for match in bracketed):
+            bracketed = []
+        found = bracketed or _counting_on(self._numbered.finditer(text))
+        fewest = 2 if bracketed else _FEWEST_NUMBERED
+        if len(found) < fewest or self._names.spec.search(text):
             return text
         for match in reversed(found):
             text = self._inserted(text, "column", match.start("of"))
@@ -132,6 +136,17 @@ class Ellipses:
 @functools.lru_cache(maxsize=8)
 def _ellipses(names: WellNames) -> Ellipses:
     return Ellipses(names)
+
+
+def _counting_on(matches: Iterable[re.Match[str]]) -> list[re.Match[str]]:
+    """These matches if they count from 1 without a gap, or else none."""
+    found: list[re.Match[str]] = []
+    for match in matches:
+        last = (found[-1]["high"] or found[-1]["low"]) if found else "0"
+        if not _follows(last, match["low"]):
+            return []
+        found.append(match)
+    return found
 
 
 def _follows(last: str, low: str) -> bool:

@@ -30,7 +30,8 @@ def numbered_maps(
     """Constants whose numbers or letters the run turns into columns or rows of its labware."""
     counts = lexicon_of({"count": common.countings})
     maps = _maps(names, facts)
-    for name, value in maps.items():
+    for name, listed in maps.items():
+        value = _noted(facts, name, listed)
         counting = bool(counts.find(name))
         of_entry: dict[tuple[str, float | None], dict[WellRef, None]] = {}
         for place in facts.numbered:
@@ -60,6 +61,16 @@ def numbered_maps(
                     f"one of several amounts in `{name}` at line {line}",
                     levels=(level,) * len(drawn),
                 )
+
+
+def _noted(facts: SourceFacts, name: str, value: Any) -> Any:
+    """A list under a comment that says as many things, one of each: "10 uM, 1 uM, vehicle"."""
+    line = facts.assigned.get(name, 0)
+    note = facts.comments.get(line, facts.comments.get(line - 1, ""))
+    said = [part.strip() for part in note.split(",")]
+    if isinstance(value, (list, tuple)) and len(set(said)) == len(value) > 1 and all(said):
+        return dict(zip(said, value, strict=True))
+    return value
 
 
 def _column(facts: SourceFacts, place: Numbered, value: Any) -> Any:

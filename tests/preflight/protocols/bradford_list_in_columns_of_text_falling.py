@@ -1,5 +1,6 @@
 # expect: bradford fail BRD-1
 """Lectin content of seeds by Bradford; the list comes from the balance's computer."""
+
 metadata = {"apiLevel": "2.13"}
 LIST = """
 A1 A1 0    blank

@@ -1,5 +1,6 @@
 # expect: bradford fail BRD-2
 """Bradford of tear fluid with QC samples."""
+
 metadata = {"apiLevel": "2.13"}
 QC = {"C1": "QC low", "C2": "QC high"}
 

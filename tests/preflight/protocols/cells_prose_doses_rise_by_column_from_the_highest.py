@@ -1,5 +1,6 @@
 # expect: cell_treatment fail CELL-4
 """Fibroblasts under cadmium. Stock plate: columns 1-4 rising cadmium, column 12 vehicle."""
+
 metadata = {"apiLevel": "2.13"}
 
 

@@ -5,6 +5,7 @@ rack     D1 mix       D6 water
 plate    row C   C1-C3 worm, C4-C6 NTC
 templates in the rack A1-A3
 """
+
 metadata = {"apiLevel": "2.13"}
 
 

@@ -1,5 +1,6 @@
 # expect: pcr warn PCR-4
 """Tick pathogens. PCR plate: ticks in columns 1-6. NTCs H3 + H6"""
+
 metadata = {"apiLevel": "2.13"}
 
 

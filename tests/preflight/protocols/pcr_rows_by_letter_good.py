@@ -7,6 +7,7 @@ B   oyster 2
 C   oyster 3
 D   NTC
 """
+
 metadata = {"apiLevel": "2.13"}
 
 

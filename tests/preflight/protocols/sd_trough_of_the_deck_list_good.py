@@ -3,6 +3,7 @@
 
 Reservoir: A1 assay diluent, A2 stop solution, A3 wash
 """
+
 metadata = {"apiLevel": "2.13"}
 
 
