@@ -25,6 +25,10 @@ _TO_THE_END = re.compile(r"[;|()]|\.\s|\s{3,}")
 _BRACKETS = re.compile(r"[(\[]([^()\[\]]*)[)\]]")
 
 
+_LONGEST_LINE = 2000
+"""A longer line is data and not prose, and would take for ages."""
+
+
 class Part(NamedTuple):
     """A part of a text: as written, without its well names, and the matches of these."""
 
@@ -36,6 +40,9 @@ class Part(NamedTuple):
 def parts_of(text: str, common: Common) -> Iterator[Part]:
     """The parts of one line, in order; a part that names no wells has an empty ``wells``."""
     names = well_names(common)
+    if len(text) > _LONGEST_LINE:
+        yield Part(text, text, ())
+        return
     for clause in _clauses(spelled_out(text, common), names, first_words(_nouns(common))):
         groups = _groups(clause, names)
         for piece in _shares(clause, groups) if len(groups) > 1 else [clause]:

@@ -9,7 +9,7 @@ from ..text import tokens
 from .clauses import Part
 from .deck import Deck
 
-_HEADING = re.compile(r"\W*((?:[^\W\d]\w*[ -]?){1,4})\s*:")
+_HEADING = re.compile(r"\W*([^\W\d]\w*(?:[ -][^\W\d]\w*){0,3}[ -]?)\s*:")
 """A line that begins with what it speaks of: "tubes: A1 lowest ... B2 highest"."""
 
 

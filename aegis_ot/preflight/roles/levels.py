@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 from contextlib import suppress
 from typing import Any
@@ -42,18 +43,21 @@ def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:
 
 
 def is_number(value: Any) -> bool:
-    """Whether a value of the protocol is a number."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    """Whether a value of the protocol is a number, and no larger than a float can be."""
+    if not isinstance(value, (int, float)) or isinstance(value, bool):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
 
 
 def number_in(value: Any) -> float | None:
     """The number that a value of the protocol is, or that its text says."""
-    if is_number(value):
-        return float(value)
     if isinstance(value, str):
         with suppress(ValueError):
-            return float(value)
-    return None
+            value = float(value)
+    return float(value) if is_number(value) else None
 
 
 _FEWEST_AMOUNTS = 3

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from itertools import groupby
+from typing import NamedTuple
 
 from ...instrumentation import is_spot
-from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, level_in
 from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .labware_nouns import LabwareNouns
 from .levels import far_apart, number_in
+from .plate_maps import refs_of
 from .remarks import blocks_of
 
 _FEWEST = 3
@@ -20,6 +22,9 @@ _FEWEST = 3
 
 _HEADING_LINES = 2
 """A drawing's heading stands so near above it."""
+
+_MOST_ROWS = 16
+"""As many rows have the plates that people draw."""
 
 
 def maps_in_prose(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
@@ -30,32 +35,32 @@ def maps_in_prose(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     nouns = LabwareNouns(deck, common)
     for line, text in (*facts.docstrings, *blocks_of(facts)):
         lines = text.splitlines()
-        cells = [_cells(written) for written in lines]
         for at in range(len(lines)):
-            heading = " ".join(lines[max(0, at - _HEADING_LINES) : at])
-            yield from _grid(deck, nouns, heading, lines[at:], line + at)
-            yield from _table(deck, nouns, common, lines, cells, at, line + at)
+            yield from _grid(deck, nouns, lines, at, line + at)
+        for table in _tables(lines):
+            yield from _of_table(deck, nouns, common, table, line)
 
 
 def _grid(
-    deck: Deck, nouns: LabwareNouns, heading: str, lines: Sequence[str], line: int
+    deck: Deck, nouns: LabwareNouns, lines: Sequence[str], at: int, line: int
 ) -> Iterator[Clue]:
     """A line ``1 2 3``, and under it lines ``A x y z``, ``B ...``."""
-    numbers = _cells(lines[0])
+    numbers = _cells(lines[at])
     if len(numbers) < 2 or [str(n + 1) for n in range(len(numbers))] != list(numbers):
         return
     wells_of: dict[str, list[str]] = {}
-    for row, written in enumerate(lines[1:]):
+    for row, written in enumerate(lines[at + 1 : at + 1 + _MOST_ROWS]):
         letter, *codes = _cells(written, len(numbers) + 1) or [""]
         if letter.rstrip(":") != chr(ord("A") + row) or len(codes) != len(numbers):
             break
         for number, code in zip(numbers, codes, strict=True):
             if re.search(r"[^\W\d_]", code):
                 wells_of.setdefault(code, []).append(f"{chr(ord('A') + row)}{number}")
+    heading = _above(lines, at)
     named = nouns.named(heading) or nouns.kind_in(heading)
     key = _labware(deck, named, [well for wells in wells_of.values() for well in wells])
     for code, wells in wells_of.items():
-        found = _refs(deck, key, wells)
+        found = tuple(refs_of(deck, (key,), wells))
         yield Clue(
             Strength.NAME,
             code,
@@ -73,50 +78,84 @@ def _cells(written: str, count: int = 0) -> list[str]:
     return [cell.strip() for cell in re.split(r"\s{2,}|\|", written.strip(" |"))]
 
 
-def _table(
-    deck: Deck,
-    nouns: LabwareNouns,
-    common: Common,
-    lines: Sequence[str],
-    cells: Sequence[Sequence[str]],
-    at: int,
-    line: int,
+class _Table(NamedTuple):
+    """A line ``pos A1 A2 A3``, and above or below it lines as long: ``ug/ml 0 25 50``.
+
+    Attributes:
+        heading: What stands above it.
+        at: Place of the line of wells in its text.
+        spots: The names of the wells.
+        rows: For each other line its title, its cells, and whether they stand in line with the
+            wells.
+    """
+
+    heading: str
+    at: int
+    spots: list[str]
+    rows: list[tuple[str, list[str], bool]]
+
+
+def _tables(lines: Sequence[str]) -> Iterator[_Table]:
+    """Each line of wells with the lines as long that are about it.
+
+    Where several stand in one block, each line belongs to the wells above it; if the block
+    begins with another line, to those below.
+    """
+    spans = [list(re.finditer(r"[^\s|]+", written)) for written in lines]
+    first = 0
+    for count, block in groupby(map(len, spans)):
+        end = first + len(list(block))
+        spots_at = {at: _spots([cell.group() for cell in spans[at]]) for at in range(first, end)}
+        placed = [at for at in range(first, end) if len(spots_at[at]) >= _FEWEST]
+        after = placed[1:] if first in placed else [at + 1 for at in placed[:-1]]
+        for start, at, stop in zip((first, *after), placed, (*after, end), strict=False):
+            wells = spans[at][count - len(spots_at[at]) :]
+            rows = []
+            for cells in (spans[row] for row in range(start, stop) if row != at):
+                told = cells[count - len(wells) :]
+                title = " ".join(cell.group() for cell in cells[: count - len(wells)])
+                aligned = all(
+                    well.start() < cell.end() and cell.start() < well.end()
+                    for well, cell in zip(wells, told, strict=True)
+                )
+                rows.append((title, [cell.group() for cell in told], aligned))
+            yield _Table(_above(lines, first), at, spots_at[at], rows)
+        first = end
+
+
+def _spots(cells: Sequence[str]) -> list[str]:
+    """The wells of a line that holds no others, and nothing after them."""
+    spots = [cell for cell in cells if is_spot(cell)]
+    return spots if list(cells[len(cells) - len(spots) :]) == spots else []
+
+
+def _of_table(
+    deck: Deck, nouns: LabwareNouns, common: Common, table: _Table, first_line: int
 ) -> Iterator[Clue]:
-    """A line ``pos A1 A2 A3``, and above or below it lines as long: ``ug/ml 0 25 50``."""
-    spots = [cell for cell in cells[at] if is_spot(cell)]
-    if len(spots) < _FEWEST or list(cells[at][-len(spots) :]) != spots:
+    heading, spots = table.heading, table.spots
+    titles = " ".join(title for title, _, _ in table.rows)
+    named = nouns.named(heading) or nouns.kind_in(f"{heading} {titles}")
+    wells = tuple(refs_of(deck, (_labware(deck, named, spots),), spots))
+    if len(wells) != len(spots):
         return
-    first = last = at
-    while first > 0 and len(cells[first - 1]) == len(cells[at]):
-        first -= 1
-    while last + 1 < len(cells) and len(cells[last + 1]) == len(cells[at]):
-        last += 1
-    heading = " ".join(lines[max(0, first - _HEADING_LINES) : first])
-    titles = [" ".join(row[: -len(spots)]) for row in cells[first : last + 1]]
-    named = nouns.named(heading) or nouns.kind_in(" ".join((heading, *titles)))
-    key = _labware(deck, named, spots)
-    wells = _refs(deck, key, spots)
-    for row in range(first, last + 1):
-        if row == at or len(wells) != len(spots):
-            continue
-        title, said = titles[row - first], cells[row][-len(spots) :]
-        numbers = [number_in(cell) for cell in said]
-        levels = tuple(number for number in numbers if number is not None)
-        evidence = f"the table at line {line}"
+    line = first_line + table.at
+    evidence = f"the table at line {line}"
+    for title, said, aligned in table.rows:
+        levels = tuple(number for number in map(number_in, said) if number is not None)
         if len(levels) == len(wells) and level_in(f"1 {title}", common, False) is not None:
             yield Clue(Strength.NAME, heading, wells, line, evidence, subject=False, levels=levels)
             if far_apart(levels):
                 said_so = f"one of several amounts in {evidence}"
                 yield Clue(Strength.LOOSE_NAME, "standard", wells, line, said_so, levels=levels)
-        elif not any(levels):
+        elif aligned and not any(levels):
             for ref, cell in zip(wells, said, strict=True):
                 yield Clue(Strength.NAME, cell, (ref,), line, f"'{cell}' in {evidence}")
 
 
+def _above(lines: Sequence[str], at: int) -> str:
+    """The heading of what is drawn from a line on."""
+    return " ".join(lines[max(0, at - _HEADING_LINES) : at])
+
+
 def _labware(deck: Deck, named: frozenset[str], spots: Sequence[str]) -> str:
     return next(iter(named)) if named else deck.most_likely(spots)
-
-
-def _refs(deck: Deck, key: str, spots: Sequence[str]) -> tuple[WellRef, ...]:
-    info = deck.trace.labware.get(key)
-    return tuple(deck.ref(key, spot) for spot in spots if info is not None and spot in info.wells)

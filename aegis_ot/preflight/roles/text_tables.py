@@ -14,7 +14,7 @@ from .clues import Clue
 from .deck import Deck
 from .run_maps import clues_of_rows, labware_of_columns, spots_in
 
-_SEPARATORS = (r"\s*,\s*", r"\s*;\s*", r"\s*\|\s*", r"\s*\t\s*", r"\s{2,}", r"\s+")
+_SEPARATORS = (",", ";", r"\|", r"\t+", r"\s{2,}", r"\s+")
 _FEWEST_ROWS = 2
 _EVERYWHERE = range(1, 100_000)
 """All lines of a protocol."""
@@ -56,7 +56,7 @@ def _table(text: str) -> tuple[Sequence[str], list[list[Any]]]:
     lines = [line.strip() for line in text.splitlines()]
     lines = [line for line in lines if line and not line.startswith("#")]
     for separator in _SEPARATORS:
-        rows = [re.split(separator, line.strip("|")) for line in lines]
+        rows = [[cell.strip() for cell in re.split(separator, line.strip("|"))] for line in lines]
         width = Counter(map(len, rows)).most_common(1)[0][0] if rows else 0
         even = [row for row in rows if len(row) == width]
         placed = [row for row in even if any(map(is_spot, row))]

@@ -23,6 +23,7 @@ class WellNames:
         to, conjunction: What stands between the ends of a range, and between members of a list.
         between: What may stand between two wells of one list.
         of: What joins rows to columns: "columns 1-6 of row H".
+        first_word_of: For ``column`` and ``row`` the word that is put where one is left out.
         spec: A well, a range of them, or columns and rows; only a plural lists several:
             "columns 1 and 2".
     """
@@ -34,8 +35,8 @@ class WellNames:
         self.to = rf"\s*(?:-|–|—|\b(?:{_any(layout.get('to', ()))})\b)\s*"
         self.conjunction = rf"\s*(?:,|/|&|\+|\b(?:{_any(layout.get('and', ()))})\b)\s*"
         self.of = _any(layout.get("of", ()))
-        self.first_word_of = {kind: words[0] for kind, words in layout.items() if words}
-        numbers = rf"(?:1\d|2[0-4]|[1-9])(?!\d)(?:{self.to}\d+)?"
+        self.first_word_of = {kind: (*layout.get(kind, ()), kind)[0] for kind in ("column", "row")}
+        numbers = rf"(?:1\d|2[0-4]|[1-9])(?!\d)(?:{self.to}\d{{1,2}}(?!\d))?"
         letters = rf"[A-P](?![A-Za-z0-9])(?:{self.to}[A-P](?![A-Za-z0-9]))?"
         self.spec = re.compile(
             rf"\b(?:(?P<first>{_WELL})(?:(?:{self.to}|\s*(?:\.\.+|:)\s*)(?P<last>{_WELL}))?"

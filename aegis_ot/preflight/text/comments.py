@@ -7,7 +7,7 @@ import io
 import tokenize
 
 from .facts import SourceFacts
-from .lines import source_lines
+from .lines import source_lines, without_gaps
 
 
 def read_comments(text: str, facts: SourceFacts) -> None:
@@ -15,7 +15,7 @@ def read_comments(text: str, facts: SourceFacts) -> None:
     try:
         for token in tokenize.generate_tokens(io.StringIO(text).readline):
             if token.type == tokenize.COMMENT:
-                facts.comments[token.start[0]] = token.string.lstrip("#").strip()
+                facts.comments[token.start[0]] = without_gaps(token.string.lstrip("#").strip())
                 if not token.line[: token.start[1]].strip():
                     facts.own_line.add(token.start[0])
     except (tokenize.TokenError, IndentationError, SyntaxError):

@@ -4,6 +4,15 @@ from __future__ import annotations
 
 import re
 
+_WIDEST_GAP = 40
+"""Columns that are drawn in line stand no further apart."""
+_GAP = re.compile(rf"[^\S\n]{{{_WIDEST_GAP + 1},}}")
+
+
+def without_gaps(text: str) -> str:
+    """A text without the long runs of spaces on which patterns would take for ages."""
+    return _GAP.sub(" " * _WIDEST_GAP, text)
+
 
 def source_lines(text: str) -> list[str]:
     """Split at ends of lines. ``str.splitlines`` would also split at form feeds and the like,

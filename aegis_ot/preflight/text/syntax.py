@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 
 from .facts import Place, SourceFacts
+from .lines import without_gaps
 from .literals import counted, index_value, keys_in, last_name, names_in, plain_text, rows_of
 
 _SIDES: dict[str, dict[int | str, str]] = {
@@ -35,7 +36,7 @@ class SyntaxReader:
                 self._assign(node.target, node.value, node.lineno)
             elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
                 if isinstance(node.value.value, str):
-                    facts.docstrings.append((node.lineno, node.value.value))
+                    facts.docstrings.append((node.lineno, without_gaps(node.value.value)))
                     self._documents.add(id(node.value))
             elif isinstance(node, (ast.FunctionDef, ast.Lambda)):
                 function = node.name if isinstance(node, ast.FunctionDef) else "<lambda>"

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 _PIECES = re.compile(r"#|[A-Z]{2,}s(?![a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+(?:\.\d+)?|[^\W\d_]+")
 
-_MIXED = re.compile(r"[A-Za-z]*[a-z][A-Z][A-Za-z]*")
+_MIXED = re.compile(r"(?<![A-Za-z])[A-Za-z]*[a-z][A-Z][A-Za-z]*")
 """A word with a capital inside."""
 
 _SHORTEST_PART = 3
