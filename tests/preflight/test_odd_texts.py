@@ -43,6 +43,7 @@ def _check(head: str = "", doc: str = "What it does.") -> Report:
         "EMPTY = [[], [], []]\nMIXED = [['A1', []], ['A2', []]]",
         "TABLE = 'A1,B1,nan\\nA2,B2,inf\\nA3,B3,1e999'",
         "NOTHING = '\\n\\n'\nBARS = '|\\n|'\nHASH = '#\\n#'",
+        "MANY = range(10000000000000000000000)",
         "LARGE = 'AF48 x\\nAE12 y\\nP24 z'",
         f"# columns 1-{'9' * 5000} water\n# A1-A{'9' * 12} x\n# columns 1-99999999 dye",
     ],

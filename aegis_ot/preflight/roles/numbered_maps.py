@@ -184,7 +184,7 @@ def _wells(
             here = deck.used_at(place.lines[0])
             used = [ref for ref in used if ref in here] or used
         yield from [ref for ref in used if (key, ref.name) in deck.received] or used
-        if place.fixed is None:
+        if place.fixed is None and not place.partly:
             yield from (deck.ref(key, name) for name in deck.passed_over(key, named, at))
 
 

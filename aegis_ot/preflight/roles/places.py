@@ -21,6 +21,8 @@ def indexing_names(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
             continue
         key = next(iter(keys))
         wells = tuple(_indexed(deck, key, place))
+        if place.partly:
+            wells = tuple(ref for ref in wells if (key, ref.name) in deck.refs)
         for name in place.names:
             if positions >= set(tokens(name)):
                 continue

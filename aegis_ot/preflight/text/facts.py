@@ -21,6 +21,7 @@ class Place:
         kind: ``well``, ``wells``, ``columns`` or ``rows``: what is indexed.
         line: Where it stands.
         keys: Keys and attributes in the index: ``"tube"`` in ``rack[row["tube"]]``.
+        partly: Whether only some of what stands there is taken: ``plate.columns()[NTC][:6]``.
     """
 
     labware: str
@@ -29,6 +30,7 @@ class Place:
     kind: str
     line: int
     keys: tuple[str, ...] = ()
+    partly: bool = False
 
 
 @dataclass(frozen=True)
@@ -78,6 +80,7 @@ class Numbered:
         fixed: Index of the row of a column's wells, or of the column of a row's, if one is given.
         across: The name that gives it otherwise, or ``""``.
         across_first: What ``first`` is for that name.
+        partly: Whether only some of these wells are taken: ``plate.columns()[c][:6]``.
     """
 
     labware: str
@@ -88,6 +91,7 @@ class Numbered:
     fixed: int | None = None
     across: str = ""
     across_first: int = 0
+    partly: bool = False
 
 
 @dataclass

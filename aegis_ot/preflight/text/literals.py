@@ -53,9 +53,33 @@ def counted(node: ast.expr) -> list[int] | None:
         return None
     try:
         numbers = range(*bounds)
-    except ValueError:  # a step of 0, which Python will refuse as well
+        return list(numbers) if 0 < len(numbers) <= _LONGEST_RANGE else None
+    except (ValueError, OverflowError):  # a step of 0, which Python will refuse as well; too many
         return None
-    return list(numbers) if 0 < len(numbers) <= _LONGEST_RANGE else None
+
+
+_PASSING_ON = ("enumerate", "list", "reversed", "sorted", "tuple", "zip")
+"""Calls that give on what they are given, one by one."""
+
+
+def taken_in_part(tree: ast.AST) -> set[int]:
+    """Identities of the expressions of which a slice or a condition takes some members only.
+
+    ``plate.columns()[11]`` in ``plate.columns()[11][:6]`` and ``[w for w in ... if w in used]``.
+    """
+    found: set[int] = set()
+    for node in ast.walk(tree):
+        taken: list[ast.expr] = []
+        if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice):
+            taken = [node.value] if node.slice.lower or node.slice.upper else []
+        elif isinstance(node, ast.comprehension) and node.ifs:
+            taken = [node.iter]
+        while taken:
+            part = taken.pop()
+            found.add(id(part))
+            if isinstance(part, ast.Call) and isinstance(part.func, ast.Name):
+                taken += part.args if part.func.id in _PASSING_ON else []
+    return found
 
 
 def rows_of(value: ast.expr) -> Iterator[tuple[Any, ...]]:

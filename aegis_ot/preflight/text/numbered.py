@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 from .facts import Numbered, SourceFacts
-from .literals import last_name, plain_text
+from .literals import last_name, plain_text, taken_in_part
 
 _INDEXED = {
     "columns": ("column", 0),
@@ -44,10 +45,11 @@ def read_numbered(tree: ast.Module, facts: SourceFacts) -> None:
 
 
 def _places(tree: ast.Module) -> Iterator[Numbered]:
-    named = _names_of_lists(tree)
+    named, in_part = _names_of_lists(tree), taken_in_part(tree)
     for node in ast.walk(tree):
         if isinstance(node, ast.Subscript):
-            yield from _found(node.value, node.slice, node.lineno, named)
+            for place in _found(node.value, node.slice, node.lineno, named):
+                yield replace(place, partly=id(node) in in_part)
         elif (
             isinstance(node, ast.Call)
             and isinstance(node.func, ast.Attribute)
@@ -86,6 +88,7 @@ def _passed(place: Numbered, given: Mapping[str, ast.expr], line: int) -> Iterat
         fixed,
         across,
         across_first,
+        place.partly,
     )
 
 

@@ -6,7 +6,16 @@ import ast
 
 from .facts import Place, SourceFacts
 from .lines import without_gaps
-from .literals import counted, index_value, keys_in, last_name, names_in, plain_text, rows_of
+from .literals import (
+    counted,
+    index_value,
+    keys_in,
+    last_name,
+    names_in,
+    plain_text,
+    rows_of,
+    taken_in_part,
+)
 
 _SIDES: dict[str, dict[int | str, str]] = {
     "aspirate": {1: "source", "location": "source"},
@@ -24,6 +33,7 @@ class SyntaxReader:
     def __init__(self, facts: SourceFacts) -> None:
         self._facts = facts
         self._documents: set[int] = set()
+        self._in_part: set[int] = set()
 
     def visit_module(self, tree: ast.Module) -> None:
         """Note the facts of a whole module."""
@@ -48,6 +58,7 @@ class SyntaxReader:
                 ):
                     facts.loose.add((function, argument.arg))
         self._functions(tree, "<module>")
+        self._in_part = taken_in_part(tree)
         for node in ast.walk(tree):
             if isinstance(node, ast.Name):
                 facts.names.add(node.id)
@@ -132,7 +143,7 @@ class SyntaxReader:
             kind, base = kinds[base.func.attr], base.func.value
         labware = last_name(base)
         if labware:
-            self._place(labware, node.slice, kind, node.lineno)
+            self._place(labware, node.slice, kind, node.lineno, id(node) in self._in_part)
 
     def _call(self, node: ast.Call) -> None:
         if isinstance(node.func, ast.Attribute) and node.func.attr == "define_liquid":
@@ -172,7 +183,9 @@ class SyntaxReader:
         if name and description:
             self._facts.liquids.setdefault(name, description)
 
-    def _place(self, labware: str, index: ast.expr, kind: str, line: int) -> None:
+    def _place(
+        self, labware: str, index: ast.expr, kind: str, line: int, partly: bool = False
+    ) -> None:
         names = tuple(dict.fromkeys(names_in(index)))
         if names:
             self._facts.places.append(
@@ -183,6 +196,7 @@ class SyntaxReader:
                     kind,
                     line,
                     tuple(keys_in(index)),
+                    partly,
                 )
             )
 
