@@ -26,7 +26,7 @@ def run(ctx):
 '''
 
 _SECONDS = 8.0
-"""Ten times what any of these takes on a slow machine."""
+"""Of the processor; far more than any of these takes."""
 
 
 def _check(head: str = "", doc: str = "What it does.") -> Report:
@@ -67,9 +67,9 @@ def test_odd_constants_are_no_fault(head: str) -> None:
     ],
 )
 def test_long_texts_are_read_in_no_time(head: str, doc: str) -> None:
-    start = time.monotonic()
+    start = time.process_time()
     assert _check(head, doc).verdict is VerdictWord.PASS
-    assert time.monotonic() - start < _SECONDS
+    assert time.process_time() - start < _SECONDS
 
 
 def test_no_words_of_layouts_are_no_fault() -> None:

@@ -184,8 +184,17 @@ def _wells(
             here = deck.used_at(place.lines[0])
             used = [ref for ref in used if ref in here] or used
         yield from [ref for ref in used if (key, ref.name) in deck.received] or used
-        if place.fixed is None and not place.partly:
+        if place.fixed is None and not _takes_less(facts, place):
             yield from (deck.ref(key, name) for name in deck.passed_over(key, named, at))
+
+
+def _takes_less(facts: SourceFacts, place: Numbered) -> bool:
+    """Whether some of these wells are left out on purpose: of other columns all are taken."""
+    return place.partly and not all(
+        other.partly
+        for other in facts.numbered
+        if (other.labware, other.axis) == (place.labware, place.axis)
+    )
 
 
 def _indices(places: Iterable[int | str], first: int | None) -> Iterator[int]:
