@@ -78,8 +78,8 @@ class RoleSpec:
         implies_contents: Whether such a well held liquid before the run.
         filled_by: Roles whose liquid, given in the run, would make up those contents.
         feeds: Derived: an unnamed source that mostly feeds wells of these roles.
-        single_with: Derived: unnamed sources, three at least, that each go into wells of their own
-            which all get a liquid of these roles as well.
+        single_with: Derived: unnamed sources that each go into wells of their own which all get a
+            liquid of these roles as well; three at least, or beside named ones of this role.
         replicated: Whether plates that are filled alike and called alike have it in the same wells.
         one_liquid: Whether all wells of this role hold the same liquid unless named apart.
         one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
