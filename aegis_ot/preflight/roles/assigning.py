@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
 from ..rules import Common, Family
-from ..text import concentration_in
+from ..text import concentration_in, name_without_level
 from ..trace import Trace
 from .channels import spread_over_channels
 from .choosing import A_FEW, Candidate, choose
@@ -120,7 +120,7 @@ def assign_roles(
             ):
                 level = family.roles[role].level  # that of the blank, not of all standards
             candidates.setdefault(ref, []).append((worth, role, clue, level))
-    _add_dosed(roles, candidates, sides, doses)
+    _add_dosed(roles, candidates, sides, doses, common)
     for first, group in trace.groups.items():
         if first in for_controls and first not in trace.singles:
             for_controls.update(group)
@@ -146,20 +146,25 @@ def _add_dosed(
     candidates: dict[WellRef, list[Candidate]],
     sides: Sides,
     doses: Sequence[tuple[Clue, float]],
+    common: Common,
 ) -> None:
-    """What is called by nothing but its concentration: "stauro 0.3 uM" beside "stauro 1 uM"."""
-    of_labware: dict[str, set[float]] = {}
+    """What is called by nothing but its concentration: "stauro 0.3 uM" beside "stauro 1 uM".
+
+    Two supplements with a concentration each are no doses.
+    """
+    told: list[tuple[WellRef, tuple[str, ...], Clue, float]] = []
+    series: dict[tuple[str, tuple[str, ...]], set[float]] = {}
     for clue, dose in doses:
+        of_what = name_without_level(clue.text, common)
         for ref in clue.wells:
             if sides(ref)[0] == "source":
-                of_labware.setdefault(ref.labware, set()).add(dose)
-    for name, spec in roles.family.roles.items():
-        for clue, dose in doses if spec.dosed else ():
-            for ref in clue.wells:
-                several = len(of_labware.get(ref.labware, ())) >= _FEWEST_DOSES
-                if several and sides(ref)[0] == "source":
-                    worth = _worth(clue, False, False)
-                    candidates.setdefault(ref, []).append((worth, name, clue, dose))
+                told.append((ref, of_what, clue, dose))
+                series.setdefault((ref.labware, of_what), set()).add(dose)
+    for name in [name for name, spec in roles.family.roles.items() if spec.dosed]:
+        for ref, of_what, clue, dose in told:
+            if len(series[ref.labware, of_what]) >= _FEWEST_DOSES:
+                worth = _worth(clue, False, False)
+                candidates.setdefault(ref, []).append((worth, name, clue, dose))
 
 
 def _is_of_a_layout(clue: Clue) -> bool:
