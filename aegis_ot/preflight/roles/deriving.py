@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
 
 from ...vocabulary import WellRef
 from ..rules import RoleSpec
@@ -130,7 +130,7 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
 
 
 _A_FEW = 3
-"""So few wells are not topped up: they are what the tube is for."""
+"""So few wells are not topped up where each gets as much: they are what the tube is for."""
 
 
 def _pass_on(roles: Roles, name: str, trace: Trace) -> None:
@@ -151,12 +151,26 @@ def _pass_on(roles: Roles, name: str, trace: Trace) -> None:
         if ref not in givers and wells <= given
         for well in wells
     }
+    volumes = _given_by(trace, givers)
     for ref, assigned in givers.items():
-        filled = served[ref] if len(served[ref]) <= _A_FEW else served[ref] - own
+        most = max(volumes[ref].values())
+        few = len(served[ref]) <= _A_FEW
+        filled = {w for w in served[ref] if w not in own or (few and volumes[ref][w] >= most)}
         for well in filled - served.keys():
             before = roles.by_well.get(well)
             if before is None or before.role in roles.closure(name) - {name}:
                 roles.by_well[well] = assigned.copied("drawn from there")
+
+
+def _given_by(trace: Trace, refs: Container[WellRef]) -> dict[WellRef, dict[WellRef, float]]:
+    """µL that each of these sources gives to each well, rounded."""
+    found: dict[WellRef, dict[WellRef, float]] = {}
+    for visit in trace.visits:
+        for source, volume, _, _ in visit.parts:
+            if source is not None and source is not visit.well and source.ref in refs:
+                given = found.setdefault(source.ref, {})
+                given[visit.well.ref] = round(given.get(visit.well.ref, 0.0) + volume, 3)
+    return found
 
 
 def _derive_one(
