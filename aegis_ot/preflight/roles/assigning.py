@@ -84,7 +84,7 @@ def assign_roles(
             continue
         if clue.lone and names_several(lexicon, clue, common, roles):
             continue
-        if clue.whole and joins_others(lexicon, clue.text):
+        if clue.whole and joins_others(lexicon, clue.text, common):
             named = [role for role in named if not family.roles[role].implies_contents]
             if not named:
                 continue
@@ -100,7 +100,7 @@ def assign_roles(
             worth = (float(Strength.LIQUID), 2.0, *worth[2:])
         passing = side_only and clue.strength is Strength.LOOSE_NAME
         for ref, level in zip(clue.wells, levels_of(clue, common), strict=True):
-            role = fitting_role(named, roles, sides(ref), clue)
+            role = fitting_role(named, roles, sides(ref), clue, common)
             if role is None and not clue.whole and is_for_controls(named, sides(ref), roles):
                 for_controls.add(ref)
             if role is None or (passing and _is_trough(trace, ref)):

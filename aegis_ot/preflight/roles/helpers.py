@@ -15,7 +15,7 @@ from ..rules import Common
 from ..text import SourceFacts, tokens
 from ..trace import Trace
 from .clues import Clue, Strength
-from .phrases import BOTH, first_words
+from .phrases import first_words
 from .roles import Roles
 
 _SAID = "function"
@@ -64,13 +64,14 @@ def thing_given(name: str, common: Common) -> str:
 
 def _one_thing(words: list[str], verbs: Collection[str], common: Common) -> list[str]:
     """The words up to where it goes; further deeds are left out, further things make it none."""
-    while len(words) > 1 and words[0] in BOTH and words[1] in verbs:
+    joining = first_words(common.joining)
+    while len(words) > 1 and words[0] in joining and words[1] in verbs:
         words = words[2:]  # dispense_and_mix_sample
     toward = first_words(common.toward)
     for at, word in enumerate(words):
         if word in toward:
             return words[:at]
-        if word in BOTH:
+        if word in joining:
             return words[:at] if at + 1 < len(words) and words[at + 1] in verbs else []
     return words
 

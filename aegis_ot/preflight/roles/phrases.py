@@ -20,10 +20,6 @@ def role_words(family: Family, common: Common) -> Lexicon:
     return lexicon_of(phrases, common.aliases, common.endings)
 
 
-BOTH = frozenset({"and", "plus", "all", "und", "et", "y"})
-"""Words that join several things."""
-
-
 def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
     """The roles that the text of a clue names, the head of the phrase first.
 
@@ -50,10 +46,10 @@ def names_several(lexicon: Lexicon, clue: Clue, common: Common, roles: Roles) ->
     )
 
 
-def joins_others(lexicon: Lexicon, text: str) -> bool:
+def joins_others(lexicon: Lexicon, text: str, common: Common) -> bool:
     """Whether a name joins what it names with something else: "sample and dilution strips"."""
     words = tokens(text)
-    joints = [at for at, word in enumerate(words) if word in BOTH]
+    joints = [at for at, word in enumerate(words) if word in first_words(common.joining)]
     if not joints:
         return False
     starts, ends = [0, *(at + 1 for at in joints)], [*joints, len(words)]
@@ -168,21 +164,28 @@ def says_only_a_place(clue: Clue, common: Common) -> bool:
     return set(tokens(clue.text)) <= first_words(common.places)
 
 
-def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue) -> bool:
+def _joins(clue: Clue, common: Common) -> bool:
+    """Whether a word of a clue joins several things."""
+    return not first_words(common.joining).isdisjoint(tokens(clue.text))
+
+
+def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue, common: Common) -> bool:
     """A text that joins several different things speaks of none of them in particular.
 
     In a name the last word is the head, unless the name joins several with "and".
     """
-    if clue.subject and not BOTH & set(tokens(clue.text)):
+    if clue.subject and not _joins(clue, common):
         return False
     return _unlike(fitting, roles)
 
 
-def _made_of_a_reagent(fitting: Sequence[str], roles: Roles, clue: Clue) -> str | None:
+def _made_of_a_reagent(
+    fitting: Sequence[str], roles: Roles, clue: Clue, common: Common
+) -> str | None:
     """The NTC in "H3: water (NTC)": what the well is, beside the reagent that it is made of."""
     specs = roles.family.roles
     passed_on = [role for role in fitting if specs[role].passed_on]
-    if clue.subject or clue.step or len(passed_on) != 1 or BOTH & set(tokens(clue.text)):
+    if clue.subject or clue.step or len(passed_on) != 1 or _joins(clue, common):
         return None
     reagents = all(specs[role].one_liquid for role in fitting if role not in passed_on)
     return passed_on[0] if reagents else None
@@ -206,7 +209,7 @@ def _is_plate_of(clue: Clue) -> bool:
 
 
 def fitting_role(
-    named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: Clue
+    named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: Clue, common: Common
 ) -> str | None:
     """The first named role whose side agrees with how the run uses the well."""
     named = list(dict.fromkeys(named))
@@ -228,9 +231,9 @@ def fitting_role(
         ]
     if not fitting and passes_on and not clue.whole and clue.strength is not Strength.COMMENT:
         fitting = [role for role in named if specs[role].side == "source"]
-    if made_of := _made_of_a_reagent(fitting, roles, clue):
+    if made_of := _made_of_a_reagent(fitting, roles, clue, common):
         return made_of
-    if not fitting or _ambiguous(fitting, roles, clue):
+    if not fitting or _ambiguous(fitting, roles, clue, common):
         return None
     if clue.subject and is_for_controls(named, sides, roles) and _treats(fitting[0], roles):
         return None

@@ -216,6 +216,7 @@ class Common:
     waste: tuple[str, ...] = ()
     negations: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
+    joining: tuple[str, ...] = ()
     additives: tuple[str, ...] = ()
     toward: tuple[str, ...] = ()
     giving: tuple[str, ...] = ()
