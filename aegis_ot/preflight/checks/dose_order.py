@@ -176,7 +176,7 @@ def _in_one_list(case: Case, one: Well, other: Well) -> bool:
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
     if mine is None or theirs is None:
         return False
-    kinds = lexicon_of({"distinct": case.common.distinct, "dosed": case.common.dosed})
+    kinds = lexicon_of({"distinct": case.common.distinct, "dosed": case.common.dose_words})
     said = {match.topic for match in kinds.find(mine.text)}
     same = name_without_level(mine.text, case.common) == name_without_level(
         theirs.text, case.common

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
 from ..rules import Common, Family
-from ..text import concentration_in, name_without_level
+from ..text import Lexicon, concentration_in, name_without_level
 from ..trace import Trace
 from .channels import spread_over_channels
 from .choosing import A_FEW, Candidate, choose
@@ -65,22 +65,11 @@ def assign_roles(
     named_outright: set[str] = set()
     doubtful: set[WellRef] = set()
     for_controls: set[WellRef] = set()
-    levels: dict[WellRef, set[float]] = {}
-    doses: list[tuple[Clue, float]] = []
+    untold: list[Clue] = []
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
         if not named:
-            if clue.strength is Strength.LIQUID:
-                roles.unnamed.update(clue.wells)
-            if clue.strength >= Strength.DESCRIPTION and not clue.whole:
-                for denied in roles_denied(lexicon, clue.text):
-                    roles.denied.setdefault(denied, set()).update(clue.wells)
-            dose = concentration_in(clue.text)
-            if dose is not None and not clue.whole and not clue.step:
-                doses.append((clue, dose))
-            for ref, level in zip(clue.wells, levels_beside(clue, common), strict=False):
-                if level is not None:
-                    levels.setdefault(ref, set()).add(level)
+            untold.append(clue)
             continue
         if clue.lone and names_several(lexicon, clue, common, roles):
             continue
@@ -120,7 +109,9 @@ def assign_roles(
             ):
                 level = family.roles[role].level  # that of the blank, not of all standards
             candidates.setdefault(ref, []).append((worth, role, clue, level))
-    _add_dosed(roles, candidates, sides, doses, common)
+    _note_untold(roles, lexicon, untold)
+    levels = _levels_beside(untold, common)
+    _add_dosed(roles, candidates, sides, untold, common)
     for first, group in trace.groups.items():
         if first in for_controls and first not in trace.singles:
             for_controls.update(group)
@@ -138,6 +129,26 @@ def assign_roles(
     return roles
 
 
+def _note_untold(roles: Roles, lexicon: Lexicon, untold: Sequence[Clue]) -> None:
+    """What clues that name no role still say: that a liquid is unknown, or what it is not."""
+    for clue in untold:
+        if clue.strength is Strength.LIQUID:
+            roles.unnamed.update(clue.wells)
+        if clue.strength >= Strength.DESCRIPTION and not clue.whole:
+            for denied in roles_denied(lexicon, clue.text):
+                roles.denied.setdefault(denied, set()).update(clue.wells)
+
+
+def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, set[float]]:
+    """The levels that clues without a word for what they hold give their wells."""
+    levels: dict[WellRef, set[float]] = {}
+    for clue in untold:
+        for ref, level in zip(clue.wells, levels_beside(clue, common), strict=False):
+            if level is not None:
+                levels.setdefault(ref, set()).add(level)
+    return levels
+
+
 _FEWEST_DOSES = 2
 
 
@@ -145,7 +156,7 @@ def _add_dosed(
     roles: Roles,
     candidates: dict[WellRef, list[Candidate]],
     sides: Sides,
-    doses: Sequence[tuple[Clue, float]],
+    untold: Sequence[Clue],
     common: Common,
 ) -> None:
     """What is called by nothing but its concentration: "stauro 0.3 uM" beside "stauro 1 uM".
@@ -154,7 +165,10 @@ def _add_dosed(
     """
     told: list[tuple[WellRef, tuple[str, ...], Clue, float]] = []
     series: dict[tuple[str, tuple[str, ...]], set[float]] = {}
-    for clue, dose in doses:
+    for clue in untold:
+        dose = concentration_in(clue.text)
+        if dose is None or clue.whole or clue.step:
+            continue
         of_what = name_without_level(clue.text, common)
         for ref in clue.wells:
             if sides(ref)[0] == "source":

@@ -129,7 +129,7 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
                 roles.derived.setdefault(ref, set()).update(roles.closure(name))
 
 
-_A_FEW = 3
+_MOST_FILLED = 3
 """So few wells are not topped up where each gets as much: they are what the tube is for."""
 
 
@@ -154,7 +154,7 @@ def _pass_on(roles: Roles, name: str, trace: Trace) -> None:
     volumes = _given_by(trace, givers)
     for ref, assigned in givers.items():
         most = max(volumes[ref].values())
-        few = len(served[ref]) <= _A_FEW
+        few = len(served[ref]) <= _MOST_FILLED
         filled = {w for w in served[ref] if w not in own or (few and volumes[ref][w] >= most)}
         for well in filled - served.keys():
             before = roles.by_well.get(well)

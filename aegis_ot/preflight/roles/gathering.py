@@ -25,7 +25,7 @@ from .prose_grids import maps_in_prose
 from .remarks import step_comments, written_wells
 from .run_maps import spotted_names, tabled_wells
 from .spoken import said_in_the_run
-from .text_tables import transfer_lists, written_tables
+from .text_tables import read_tables, transfer_lists, written_tables
 from .trough_legends import trough_legends
 from .well_names import well_names
 
@@ -47,6 +47,7 @@ def gather(
         common: Words for amounts.
     """
     deck = Deck(trace, names)
+    tables = read_tables(facts)
     clues = [
         *_given(deck, given, common),
         *_liquids(trace, facts),
@@ -54,13 +55,13 @@ def gather(
         *named_fields(names, facts),
         *labels(deck, common),
         *indexing_names(deck, facts, common),
-        *plate_maps(deck, facts, common, transfer_lists(deck, facts)),
+        *plate_maps(deck, facts, common, transfer_lists(deck, facts, tables)),
         *drawn_maps(deck, facts, common),
         *trough_legends(deck, facts, common),
         *numbered_maps(deck, names, facts, common),
         *spotted_names(deck, names, facts, common),
         *tabled_wells(deck, names, facts, common),
-        *written_tables(deck, facts, common),
+        *written_tables(deck, facts, common, tables),
         *written_wells(deck, facts, common),
         *maps_in_prose(deck, facts, common),
         *step_comments(trace, facts, common),

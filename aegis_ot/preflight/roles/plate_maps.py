@@ -12,6 +12,7 @@ from ..text import SourceFacts, concentration_in, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import is_number
+from .well_names import plain_name
 from .work_lists import is_work_list
 
 
@@ -63,7 +64,7 @@ def labware_of_map(
 
 def refs_of(deck: Deck, labware: Sequence[str], spots: Iterable[str]) -> Iterator[WellRef]:
     """The wells of these names in each of these labware."""
-    names = [spot[0] + str(int(spot[1:])) for spot in spots]  # "A01" is A1
+    names = [plain_name(spot) for spot in spots]
     for key in labware:
         info = deck.trace.labware.get(key)
         for name in names:

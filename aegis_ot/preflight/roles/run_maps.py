@@ -15,6 +15,7 @@ from .clues import Clue, Strength
 from .deck import Deck
 from .levels import number_in
 from .plate_maps import labware_of_map, refs_of
+from .well_names import plain_name
 from .work_lists import is_work_list, labware_in
 
 
@@ -133,11 +134,7 @@ def clues_of_rows(
 def spots_in(cell: Any) -> tuple[str, ...]:
     """The names of wells that a cell is or lists: ``"A1"``, ``"C4 C5"``."""
     words = re.split(r"[\s,;+/]+", cell.strip()) if isinstance(cell, str) else ()
-    return tuple(map(_plain, words)) if words and all(map(is_spot, words)) else ()
-
-
-def _plain(spot: str) -> str:
-    return f"{spot[0]}{int(spot[1:])}"  # "A01" is A1
+    return tuple(map(plain_name, words)) if words and all(map(is_spot, words)) else ()
 
 
 def _titles(facts: SourceFacts, name: str) -> dict[int, str]:

@@ -20,23 +20,32 @@ _EVERYWHERE = range(1, 100_000)
 """All lines of a protocol."""
 
 
-def written_tables(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
-    """What stands beside the names of wells in texts of rows, however the run reads them.
+Tables = Mapping[str, Sequence[Row]]
+"""The rows of each constant that is a table, by its name."""
 
-    So too in literal rows that name wells of two labware, ``("A1", "H12", "NTC")``.
+
+def read_tables(facts: SourceFacts) -> Tables:
+    """Texts of rows, however the run reads them.
+
+    So too literal rows that name wells of two labware, ``("A1", "H12", "NTC")``.
     """
-    for name in facts.constants:
-        rows = _rows(facts, name)
-        if rows:
-            yield from clues_of_rows(deck, facts, common, rows, name, facts.assigned.get(name))
+    return {name: rows for name in facts.constants if (rows := _rows(facts, name))}
 
 
-def transfer_lists(deck: Deck, facts: SourceFacts) -> frozenset[str]:
-    """Constants whose rows name wells of two labware: they are no maps of one plate."""
+def written_tables(
+    deck: Deck, facts: SourceFacts, common: Common, tables: Tables
+) -> Iterator[Clue]:
+    """What stands beside the names of wells in tables."""
+    for name, rows in tables.items():
+        yield from clues_of_rows(deck, facts, common, rows, name, facts.assigned.get(name))
+
+
+def transfer_lists(deck: Deck, facts: SourceFacts, tables: Tables) -> frozenset[str]:
+    """Tables whose rows name wells of two labware: they are no maps of one plate."""
     return frozenset(
         name
-        for name in facts.constants
-        if len(set(labware_of_columns(deck, facts, _rows(facts, name)).values())) > 1
+        for name, rows in tables.items()
+        if len(set(labware_of_columns(deck, facts, rows).values())) > 1
     )
 
 

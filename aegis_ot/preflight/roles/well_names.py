@@ -62,10 +62,10 @@ class WellNames:
         """The wells of this labware that a match of :attr:`spec` stands for."""
         parts = match.groupdict()
         if parts["first"]:
-            first = _plain(parts["first"])
+            first = plain_name(parts["first"])
             if not parts["last"]:
                 return [first] if first in info.wells else []
-            (r1, c1), (r2, c2) = row_column(first), row_column(_plain(parts["last"]))
+            (r1, c1), (r2, c2) = row_column(first), row_column(plain_name(parts["last"]))
             rows, columns = sorted((r1, r2)), sorted((c1, c2))
             return [
                 name
@@ -102,5 +102,6 @@ def _number(text: str) -> int:
     return int(text) - 1 if text.isdigit() else row_column(text + "1")[0]
 
 
-def _plain(name: str) -> str:
+def plain_name(name: str) -> str:
+    """``"A1"`` for ``"A01"``."""
     return name[0] + str(int(name[1:]))

@@ -237,7 +237,7 @@ class Common:
     aliases: Mapping[str, str] = field(default_factory=dict)
     noise: tuple[str, ...] = ()
     distinct: tuple[str, ...] = ()
-    dosed: tuple[str, ...] = ()
+    dose_words: tuple[str, ...] = ()
     layout: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     schema: int = SCHEMA_VERSION
 
