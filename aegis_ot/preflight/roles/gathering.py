@@ -14,6 +14,7 @@ from .deck import Deck
 from .fields import named_fields
 from .grids import drawn_maps
 from .helpers import helper_names
+from .item_notes import item_notes
 from .labels import labels
 from .legend_clues import explained
 from .loop_levels import loop_levels
@@ -53,6 +54,7 @@ def gather(
         *_liquids(trace, facts),
         *named_wells(deck, names, facts, common),
         *named_fields(names, facts),
+        *item_notes(deck, names, facts, common),
         *labels(deck, common),
         *indexing_names(deck, facts, common),
         *plate_maps(deck, facts, common, transfer_lists(deck, facts, tables)),

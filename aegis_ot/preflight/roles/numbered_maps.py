@@ -64,10 +64,10 @@ def numbered_maps(
 
 
 def _noted(facts: SourceFacts, name: str, value: Any) -> Any:
-    """A list under a comment that says as many things, one of each: "10 uM, 1 uM, vehicle"."""
+    """A list whose comments say one thing of each item: beside it, or "10 uM, 1 uM, vehicle"."""
     line = facts.assigned.get(name, 0)
     note = facts.comments.get(line, facts.comments.get(line - 1, ""))
-    said = [part.strip() for part in note.split(",")]
+    said = facts.item_notes.get(name) or [part.strip() for part in note.split(",")]
     if isinstance(value, (list, tuple)) and len(set(said)) == len(value) > 1 and all(said):
         return dict(zip(said, value, strict=True))
     return value

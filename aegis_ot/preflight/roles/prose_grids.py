@@ -9,13 +9,12 @@ from typing import NamedTuple
 
 from ...instrumentation import is_spot
 from ..rules import Common
-from ..text import SourceFacts, level_in
+from ..text import SourceFacts, comment_blocks, level_in
 from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .labware_nouns import LabwareNouns
 from .levels import far_apart, number_in
 from .plate_maps import refs_of
-from .remarks import blocks_of
 
 _FEWEST = 3
 """So many wells side by side are a table."""
@@ -33,7 +32,7 @@ def maps_in_prose(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     They are as exact as a plate map in code, and so as strong.
     """
     nouns = LabwareNouns(deck, common)
-    for line, text in (*facts.docstrings, *blocks_of(facts)):
+    for line, text in (*facts.docstrings, *comment_blocks(facts)):
         lines = text.splitlines()
         for at in range(len(lines)):
             yield from _grid(deck, nouns, lines, at, line + at)

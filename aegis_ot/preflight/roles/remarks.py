@@ -9,7 +9,7 @@ from dataclasses import replace
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, direction_in, lexicon_of, tokens
+from ..text import SourceFacts, comment_blocks, direction_in, lexicon_of, tokens
 from ..trace import Trace, row_column
 from .clauses import Part, parts_of
 from .clues import Clue, Strength, shortened
@@ -23,7 +23,7 @@ from .well_names import well_names
 def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """Well names in comments and docstrings: "A1-A8: samples", "NTC in H12"."""
     texts = list(facts.docstrings)
-    texts += blocks_of(facts)
+    texts += comment_blocks(facts)
     texts += [(1, text) for text in facts.metadata.values()]
     nouns = LabwareNouns(deck, common)
     noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
@@ -73,19 +73,6 @@ def _only_one_with(deck: Deck, parts: Sequence[Part], common: Common) -> frozens
         )
     ]
     return frozenset(fitting) if len(fitting) == 1 else frozenset()
-
-
-def blocks_of(facts: SourceFacts) -> list[tuple[int, str]]:
-    """Comments by their first line; those that stand below each other are one text."""
-    blocks: dict[int, list[str]] = {}
-    first = 0
-    for line, text in sorted(facts.comments.items()):
-        if line in facts.own_line and line - 1 in facts.own_line:
-            blocks[first].append(text)
-        else:
-            first = line
-            blocks[first] = [text]
-    return [(line, "\n".join(texts)) for line, texts in blocks.items()]
 
 
 _LONGEST_HEADING = 6

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from ...instrumentation import LabwareInfo
 from ..rules import Common
-from ..text import SourceFacts, tokens
+from ..text import SourceFacts, comment_blocks, tokens
 from .clues import Clue, Strength, shortened
 from .deck import Deck
 
@@ -42,14 +42,7 @@ def _blocks(facts: SourceFacts) -> Iterator[tuple[int, str]]:
     for line, text in facts.docstrings:
         for part in re.split(r"\n\s*\n", text):
             yield line, part
-    block: list[str] = []
-    for line in sorted(facts.comments):
-        if block and not {line, line - 1} <= facts.own_line:
-            yield line - 1, "\n".join(block)
-            block = []
-        block.append(facts.comments[line])
-    if block:
-        yield max(facts.comments), "\n".join(block)
+    yield from comment_blocks(facts)
 
 
 def _legend(deck: Deck, trough: LabwareInfo, line: int, text: str) -> Iterator[Clue]:

@@ -1,5 +1,6 @@
 """What the text of a protocol says: its comments, its constants, the words in its names."""
 
+from .comments import comment_blocks
 from .facts import Loop, Numbered, Place, SourceFacts, Values
 from .flow import origins
 from .legends import legend_of
@@ -16,6 +17,7 @@ __all__ = [
     "Place",
     "SourceFacts",
     "Values",
+    "comment_blocks",
     "concentration_in",
     "direction_in",
     "legend_of",

@@ -8,6 +8,7 @@ import tokenize
 
 from .facts import SourceFacts
 from .lines import source_lines, without_gaps
+from .literals import last_name
 
 
 def read_comments(text: str, facts: SourceFacts) -> None:
@@ -41,3 +42,27 @@ def read_blocks(text: str, tree: ast.Module, facts: SourceFacts) -> None:
                 break
             covered.append(line)
         facts.blocks[first] = tuple(covered)
+
+
+def read_item_notes(tree: ast.Module, facts: SourceFacts) -> None:
+    """Note the comments beside the items of a list, where each has a line to itself."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and isinstance(node.value, (ast.List, ast.Tuple)):
+            ends = [item.end_lineno or item.lineno for item in node.value.elts]
+            notes = tuple(facts.comments.get(end, "") for end in ends)
+            if len(set(ends)) == len(ends) > 1 and all(notes):
+                for name in filter(None, map(last_name, node.targets)):
+                    facts.item_notes.setdefault(name, notes)
+
+
+def comment_blocks(facts: SourceFacts) -> list[tuple[int, str]]:
+    """Comments by their first line; those that stand below each other are one text."""
+    blocks: dict[int, list[str]] = {}
+    first = 0
+    for line, text in sorted(facts.comments.items()):
+        if line in facts.own_line and line - 1 in facts.own_line:
+            blocks[first].append(text)
+        else:
+            first = line
+            blocks[first] = [text]
+    return [(line, "\n".join(texts)) for line, texts in blocks.items()]

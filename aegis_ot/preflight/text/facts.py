@@ -109,6 +109,7 @@ class SourceFacts:
         loose: Names that are loop variables or parameters, as ``(function, name)``.
         loops: Those of them that are loop variables.
         notes: Comment beside or right above the assignment of a name, by that name.
+        item_notes: For names bound to a list of a line for each item, the comments beside these.
         assigned: Line of the first assignment of each name.
         tables: For names bound to a list of rows or to a dict, the constants of each row.
         blocks: For the first line of a run of statements without a gap, all lines of it.
@@ -134,6 +135,7 @@ class SourceFacts:
     loose: set[tuple[str, str]] = field(default_factory=set)
     loops: set[tuple[str, str]] = field(default_factory=set)
     notes: dict[str, str] = field(default_factory=dict)
+    item_notes: dict[str, tuple[str, ...]] = field(default_factory=dict)
     assigned: dict[str, int] = field(default_factory=dict)
     tables: dict[str, list[tuple[Any, ...]]] = field(default_factory=dict)
     blocks: dict[int, tuple[int, ...]] = field(default_factory=dict)

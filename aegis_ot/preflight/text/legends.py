@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from .comments import comment_blocks
 from .facts import SourceFacts
 
 _CODE = r"[A-Za-z+*.#-]|[A-Za-z+-][A-Za-z0-9+-]{0,3}"
@@ -42,13 +43,7 @@ def legend_of(facts: SourceFacts) -> dict[str, str]:
 
 def _written(facts: SourceFacts) -> Iterable[dict[str, str]]:
     texts = [text for _, text in facts.docstrings]
-    block: list[str] = []
-    for line in sorted(facts.comments):
-        if line not in facts.own_line or line - 1 not in facts.own_line:
-            texts.append("\n".join(block))
-            block = []
-        block.append(facts.comments[line])
-    texts.append("\n".join(block))
+    texts += [text for _, text in comment_blocks(facts)]
     for text in texts:
         codes: dict[str, str] = {}
         for match in _ENTRY.finditer(text):

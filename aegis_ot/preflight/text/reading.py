@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 
-from .comments import read_blocks, read_comments
+from .comments import read_blocks, read_comments, read_item_notes
 from .facts import SourceFacts
 from .flow import read_flow
 from .functions import read_functions
@@ -24,5 +24,6 @@ def read_source(text: str) -> SourceFacts:
     read_flow(tree, facts)
     read_numbered(tree, facts)
     read_blocks(text, tree, facts)
+    read_item_notes(tree, facts)
     read_functions(tree, facts)
     return facts
