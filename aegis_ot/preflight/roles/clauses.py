@@ -73,8 +73,8 @@ def _clauses(text: str, names: WellNames, nouns: frozenset[str]) -> Iterator[str
     apart = [
         inner
         for inner in _BRACKETS.findall(text)
-        if names.spec.search(inner) and tokens(names.spec.sub(" ", inner))
-    ]
+        if names.spec.search(inner) and not nouns.issuperset(tokens(names.spec.sub(" ", inner)))
+    ]  # "buffer (reservoir A1)" is one
     for inner in apart:
         text = text.replace(f"({inner})", " ").replace(f"[{inner}]", " ")
     for whole in (text, *apart):

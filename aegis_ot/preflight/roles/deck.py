@@ -53,8 +53,9 @@ class Deck:
     def passed_over(self, labware: str, names: Collection[str], axis: int) -> list[str]:
         """Wells that the run does not fill, though it fills these places in all other columns.
 
-        A few of these ``names`` at most: of more, the layout speaks of wells for which there is
-        nothing this time. Those that the other columns leave out as well are no part of it.
+        A few of these ``names`` at most, or one of two columns: of more, the layout speaks of wells
+        for which there is nothing this time. Those that the other columns leave out as well are no
+        part of it.
 
         Args:
             labware: Key of the labware.
@@ -72,7 +73,24 @@ class Deck:
             )
         ]
         few = len(missing) <= min(LEFT_OUT, (len(names) - len(empty)) // 3)
-        return missing if few and len(others) > 1 else []
+        lines = {row_column(name)[axis] for name in names}
+        # One of two columns, whole: the other one got what both were to get.
+        one_of_two = len(lines) == 2 and len(missing) == len(empty) == len(names) // 2
+        whole = one_of_two and len({row_column(name)[axis] for name in missing}) == 1
+        return missing if (few or whole) and len(others) > 1 else []
+
+    def are_whole_lines(self, wells: Collection[WellRef]) -> bool:
+        """Whether these are all wells of some columns, or of some rows, of one labware."""
+        keys = {ref.labware for ref in wells}
+        if len(keys) != 1:
+            return False
+        names = {ref.name for ref in wells}
+        every = self.trace.labware[next(iter(keys))].wells
+        return any(
+            names == {name for name in every if row_column(name)[axis] in lines}
+            for axis in (0, 1)
+            for lines in [{row_column(name)[axis] for name in names}]
+        )
 
     def used_at(self, line: int) -> set[WellRef]:
         """The wells that the statement at a line uses, itself or through what it calls."""

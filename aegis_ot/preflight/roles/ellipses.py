@@ -24,9 +24,13 @@ def spelled_out(text: str, common: Common) -> str:
 
 
 def with_rows(text: str, common: Common) -> str:
-    """A text with "row" before each letter of its lists of rows, as under "Map (row: content)"."""
+    """A text with "row" before each letter of its lists of rows, as under "Map (row: content)".
+
+    And with "columns" before the numbers of its lists of columns, one on a line.
+    """
     read = _ellipses(well_names(common))
-    return "".join(map(read.with_rows, re.split(r"(\n\s*\n)", text)))
+    paragraphs = re.split(r"(\n\s*\n)", text)
+    return "".join(read.with_columns(read.with_rows(paragraph)) for paragraph in paragraphs)
 
 
 class Ellipses:
@@ -34,6 +38,7 @@ class Ellipses:
 
     def __init__(self, names: WellNames) -> None:
         self._names = names
+        self._plural = names.plural_columns
         to, listing = names.to, names.conjunction
         column, row = rf"(?:{names.columns}|{names.column})", rf"(?:{names.rows}|{names.row})"
         goes_on = r"(?=\s*[:=]?\s+[^\W\d_]{3,})"
@@ -47,6 +52,13 @@ class Ellipses:
         self._bracketed = re.compile(rf"\((?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?)\)")
         self._lettered = re.compile(r"(?m)(?:^\s*|(?<=\s\s))([A-P])(?=\s{1,4}[:=]?\s*\w)")
         self._row_word = re.compile(rf"\b{row}\b")
+        self._column_word = re.compile(rf"\b{column}\b")
+        self._all_columns = re.compile(rf"(?m)^\W*1{to}(?:\d{{1,2}})\W*$")
+        span_of_list = rf"\d{{1,2}}(?:{to}\d{{1,2}})?"
+        self._listed = re.compile(
+            rf"(?m)^(\s*)({span_of_list}(?:{listing}{span_of_list})*)(?=\s*:\s|\s{{2,}}[^\W\d])"
+        )
+        self._short = re.compile(rf"(?<![\w.])c(\d{{1,2}})(?:{to}c?(\d{{1,2}}))?(?!\w)")
         self._of_column = re.compile(
             rf"[^:]{{0,40}}?\b{names.column}\.?\s*\(?(\d{{1,2}})\b[^:\d]{{0,20}}:"
         )
@@ -69,14 +81,25 @@ class Ellipses:
         counting = [chr(ord("A") + at) for at in range(len(letters))]
         if len(letters) < _FEWEST_NUMBERED or letters != counting:
             return text
-        if not self._row_word.search(text) or self._names.spec.search(text):
+        headed = self._row_word.search(text) or self._all_columns.search(text)
+        if not headed or self._names.spec.search(text):
             return text
         if _COLUMN_NUMBERS.search(text):
             return text  # drawn as a plate, see :mod:`.prose_grids`
         return self._lettered.sub(lambda m: f" {self._names.first_word_of['row']} {m[1]} ", text)
 
+    def with_columns(self, text: str) -> str:
+        """One paragraph: under "Column layout" a list of "3-6   doxorubicin"."""
+        if self._names.spec.search(text) or not self._column_word.search(text):
+            return text
+        if len(self._listed.findall(text)) < _FEWEST_NUMBERED:
+            return text
+        return self._listed.sub(lambda match: f"{match[1]}{self._plural} {match[2]}", text)
+
     def spelled_out(self, text: str) -> str:
         """See :func:`spelled_out`."""
+        if len(self._short.findall(text)) > 1:  # "c1 vehicle, c2-11 drug"
+            text = self._short.sub(self._spelled, text)
         text = self._with_columns(text)
         at = 0
         while match := self._names.spec.search(text, at):
@@ -106,6 +129,10 @@ class Ellipses:
         for match in reversed(found):
             text = self._inserted(text, "column", match.start("of"))
         return text
+
+    def _spelled(self, match: re.Match[str]) -> str:
+        last = f"-{match[2]}" if match[2] else ""
+        return f"{self._plural} {match[1]}{last}"
 
     def _inserted(self, text: str, kind: str, at: int) -> str:
         return f"{text[:at]}{self._names.first_word_of[kind]} {text[at:]}"

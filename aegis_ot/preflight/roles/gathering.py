@@ -17,6 +17,7 @@ from .helpers import helper_names
 from .item_notes import item_notes
 from .labels import labels
 from .legend_clues import explained
+from .level_spans import level_spans
 from .loop_levels import loop_levels
 from .names import call_arguments, named_wells
 from .numbered_maps import numbered_maps
@@ -66,6 +67,7 @@ def gather(
         *written_tables(deck, facts, common, tables),
         *written_wells(deck, facts, common),
         *maps_in_prose(deck, facts, common),
+        *level_spans(deck, facts, common),
         *step_comments(trace, facts, common),
         *said_in_the_run(trace, facts, common),
         *call_arguments(trace, facts, common),

@@ -94,12 +94,13 @@ class LabwareNouns:
         kinds = [kind for kind in self._kinds if words[-1] in kind]
         if not kinds:
             return frozenset()
-        labelled = {key for label, key in self._labels if tuple(label.split()) == words}
-        if len(labelled) == 1:
-            return frozenset(labelled)
-        for name in (*self._deck.by_name, *self._deck.of_wells):
-            if tokens(name) == words and self.of_name(name):
-                return self.of_name(name)
+        for called in (words, words[:-1]):  # "dose plate" may be labelled or named "dose"
+            labelled = {key for label, key in self._labels if tuple(label.split()) == called}
+            if len(labelled) == 1:
+                return frozenset(labelled)
+            for name in (*self._deck.by_name, *self._deck.of_wells):
+                if called and tokens(name) == called and self.of_name(name):
+                    return self.of_name(name)
         found = {
             info.key
             for info in self._deck.plates()

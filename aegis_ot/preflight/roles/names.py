@@ -12,7 +12,7 @@ from ..rules import Common
 from ..text import SourceFacts, level_in, lexicon_of, tokens
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
-from .deck import Deck
+from .deck import LEFT_OUT, Deck
 from .levels import far_apart, is_number
 from .well_names import well_names
 
@@ -24,7 +24,7 @@ def named_wells(
     comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
     lists = _lists(names, facts, common)
     amounts_named = _amounts_in_names(names)
-    keyed = {**_keyed_amounts(names, facts, common), **_numeric_keys(names)}
+    keyed = {**_keyed_amounts(names, facts, common), **numeric_keys(names)}
     for binding in names:
         base = binding.name.split("[", 1)[0]
         loose = (binding.function, base) in facts.loose or (
@@ -34,11 +34,11 @@ def named_wells(
         if (binding.function, base) in facts.loops:
             continue  # its last value only; see call_arguments
         whole = not binding.wells
-        wells = binding.wells or deck.used_wells(binding.labware)
+        wells = _meant(deck, binding.wells) or deck.used_wells(binding.labware)
         counted = binding.name in keyed and keyed[binding.name] is None
         yield Clue(
             Strength.LOOSE_NAME if loose else Strength.NAME,
-            _NUMBERED.sub(r"\1\3", binding.name) if counted else binding.name,
+            _NUMBERED.sub(r"\1\4", binding.name) if counted else binding.name,
             wells,
             line,
             f"name `{binding.name}` at line {line}",
@@ -58,7 +58,8 @@ def named_wells(
                 levels=(amounts_named[binding.name],) * len(wells),
             )
         note = facts.notes.get(base)
-        if note and not loose and binding.name == base and _of_all(note, wells, common):
+        chosen = binding.name == base and not _is_all(deck, binding.wells)
+        if note and not loose and chosen and _of_all(note, wells, common):
             yield Clue(
                 Strength.COMMENT,
                 note,
@@ -69,6 +70,26 @@ def named_wells(
                 subject=False,
                 lone=len(wells) > 1,
             )
+
+
+def _meant(deck: Deck, wells: tuple[WellRef, ...]) -> tuple[WellRef, ...]:
+    """The wells of a name, without those of whole columns or rows that are not used this time.
+
+    A few that the run leaves out may be a mistake, and so may all of them.
+    """
+    used = tuple(ref for ref in wells if (ref.labware, ref.name) in deck.refs)
+    unused = len(wells) - len(used)
+    if not used or unused <= max(LEFT_OUT, len(used) // 3) or len(set(wells)) != len(wells):
+        return wells
+    return used if deck.are_whole_lines(wells) else wells
+
+
+def _is_all(deck: Deck, wells: Sequence[WellRef]) -> bool:
+    """Whether these are all wells of a labware: such a name says which one, and not what for."""
+    info = deck.trace.labware[wells[0].labware] if len(wells) > 1 else None
+    return info is not None and {(info.key, name) for name in info.wells} == {
+        (ref.labware, ref.name) for ref in wells
+    }
 
 
 def _of_all(note: str, wells: Sequence[WellRef], common: Common) -> bool:
@@ -118,24 +139,29 @@ def _counts(facts: SourceFacts, name: str) -> bool:
     return any(other in ("range", "len") for other, _, _ in facts.comes_from.get(name, ()))
 
 
-_NUMBERED = re.compile(r"(.*)\[(-?\d+(?:\.\d+)?)\]([^\[\]]*)")
+_NUMBERED = re.compile(r"(.*)\[(?P<quote>['\"]?)(-?\d+(?:\.\d+)?)(?P=quote)\]([^\[\]]*)")
 
 
-def _numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
-    """Level of each name like ``standards[125]``; ``None`` where the keys only count."""
-    groups: dict[str, dict[str, float]] = {}
+def numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
+    """Level of each name like ``standards[125]``; ``None`` where the keys only count.
+
+    Keys that are text, ``tubes["1"]``, name something rather than count it.
+    """
+    groups: dict[tuple[str, str], dict[str, float]] = {}
     for binding in names:
         match = _NUMBERED.fullmatch(binding.name)
         if match:
-            groups.setdefault(match[1] + match[3], {})[binding.name] = float(match[2])
+            key = (match[1] + match[4], match["quote"])
+            groups.setdefault(key, {})[binding.name] = float(match[3])
     found: dict[str, float | None] = {}
-    for group in groups.values():
+    for (_, quote), group in groups.items():
         values = sorted(group.values())
         counting = values in (
             [float(n) for n in range(len(values))],
             [float(n + 1) for n in range(len(values))],
         )
-        found.update({name: None if counting else value for name, value in group.items()})
+        if not (counting and quote):
+            found.update({name: None if counting else value for name, value in group.items()})
     return found
 
 

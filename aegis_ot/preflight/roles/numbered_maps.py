@@ -16,6 +16,7 @@ from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import far_apart, is_number, number_in
+from .written_columns import WrittenColumns
 
 Entry: TypeAlias = "tuple[str, tuple[int | str, ...], float | None]"
 """What is said, of which columns or rows, and their level."""
@@ -30,6 +31,7 @@ def numbered_maps(
     """Constants whose numbers or letters the run turns into columns or rows of its labware."""
     counts = lexicon_of({"count": common.countings})
     maps = _maps(names, facts)
+    written = WrittenColumns(deck, facts, common)
     for name, listed in maps.items():
         value = _noted(facts, name, listed)
         counting = bool(counts.find(name))
@@ -38,7 +40,8 @@ def numbered_maps(
             if _comes_from(facts, maps, place, name):
                 for text, numbers, level in _entries(name, _column(facts, place, value), counting):
                     held = of_entry.setdefault((text, level), {})
-                    held.update(dict.fromkeys(_wells(deck, facts, maps, place, numbers)))
+                    meant = written.meant(place, text, numbers)
+                    held.update(dict.fromkeys(_wells(deck, facts, maps, meant, numbers)))
         line = facts.assigned.get(name)
         amounts = far_apart([level for _, level in of_entry if level is not None])
         for (text, level), found in of_entry.items():

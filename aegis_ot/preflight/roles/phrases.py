@@ -6,7 +6,7 @@ import functools
 from collections.abc import Iterable, Mapping, Sequence
 
 from ..rules import Common, Family
-from ..text import Lexicon, lexicon_of, tokens
+from ..text import Lexicon, concentrations_in, lexicon_of, tokens
 from .clues import Clue, Strength
 from .roles import Roles
 
@@ -73,11 +73,14 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
     if clue.step == "source":
         places = _drawn(places, words, common)
     joints = [at for at, word in enumerate(words) if word in first_words(common.joints)]
+    before = text.lower().partition(f" {words[joints[0]]} ")[0] if joints else ""
     if joints and any(at < joints[0] for at in places):
         # "drug in medium" is a drug.
         places = {at: topics for at, topics in places.items() if at < joints[0]}
-    elif joints and clue.subject and any(map(_is_telling, words[: joints[0]])):
-        places = {}  # "insulin in DMEM" is no medium, whatever insulin may be
+    elif joints and (
+        (clue.subject and any(map(_is_telling, words[: joints[0]]))) or concentrations_in(before)
+    ):
+        places = {}  # "insulin in DMEM" is no medium, whatever insulin may be, nor "3 mM in DMSO"
     always = first_words(common.heads) if clue.subject else frozenset()
     sides = first_words(common.sides)
     ordered = [

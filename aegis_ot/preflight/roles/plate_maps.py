@@ -23,19 +23,26 @@ def plate_maps(
 
     Not the ``others``, which list transfers.
     """
+    decks = lexicon_of({"deck": common.decks})
     for name, value in facts.constants.items():
-        if name == "metadata" or name in others or is_work_list(deck, value):
+        if name == "metadata" or name in others or is_work_list(deck, value) or decks.find(name):
             continue
         line = facts.assigned.get(name)
         entries = list(_Reader(common).entries(name, value))
-        all_names = [well for _, wells, _ in entries for well in wells]
+        all_names = [well for _, wells, _, _ in entries for well in wells]
         if not all_names:
             continue
         labware = labware_of_map(deck, facts, name, all_names, common)
         by_key = _labware_by_key(deck, facts, name)
+        used = set(used_with(deck, facts, name))
         places = _numbers_places(facts, name)
-        for text, wells, level in entries:
+        others = used - {key for keys in by_key.values() for key in keys}
+        for text, wells, level, column in entries:
             keyed = [keys for key, keys in by_key.items() if text.endswith(f" {key}")]
+            if column in by_key:
+                keyed = [by_key[column]]
+            elif column and by_key and len(others) == 1:
+                keyed = [tuple(others)]  # not where the other column's wells are
             refs = tuple(refs_of(deck, keyed[0] if keyed else labware, wells))
             if concentration_in(text) is not None or places:
                 level = None  # the text says it, or the number beside it is a column's
@@ -52,9 +59,14 @@ def plate_maps(
 def labware_of_map(
     deck: Deck, facts: SourceFacts, name: str, spots: Sequence[str], common: Common
 ) -> tuple[str, ...]:
-    """The labware that a plate map of this name speaks of: several plates where the run uses it on
-    all alike, none where that is not plain.
+    """The labware that a plate map of this name speaks of: the one that is called so, several
+    plates where the run uses it on all alike, none where that is not plain.
     """
+    called = {
+        key for own, keys in deck.by_name.items() if tokens(own) == tokens(name) for key in keys
+    }
+    if len(called) == 1:
+        return tuple(called)
     used = used_with(deck, facts, name)
     if len(used) > 1:
         used = _alike(deck, used, spots)
@@ -91,20 +103,33 @@ def _numbers_places(facts: SourceFacts, name: str) -> bool:
 
 
 def _labware_by_key(deck: Deck, facts: SourceFacts, name: str) -> dict[str, tuple[str, ...]]:
-    """For keys of a map the one labware that is indexed by them: ``tubes[layout["mix"]]``."""
+    """For keys of a map the one labware that is indexed by them: ``tubes[layout["mix"]]``.
+
+    Or by a name that such a key gives its value: ``tube = row["tube"]``, a helper's parameter.
+    """
     found: dict[str, set[str]] = {}
     for place in facts.places:
-        if name in origins(facts, place.names, (place.line,)):
-            for key in place.keys:
+        names = origins(facts, place.names, (place.line,))
+        if name in names:
+            asked = {
+                key
+                for part in names
+                for key, first, last in facts.asked.get(part, ())
+                if first <= place.line <= last
+            }
+            for key in asked.union(place.keys):
                 found.setdefault(key, set()).update(deck.by_name.get(place.labware, ()))
     return {key: tuple(labware) for key, labware in found.items() if len(labware) == 1}
 
 
 def _alike(deck: Deck, keys: Sequence[str], spots: Sequence[str]) -> tuple[str, ...]:
-    """Those in which all these wells are filled, if they are all of one kind."""
+    """Those in which all these wells are filled, if they are of one kind; or else all of them, if
+    they are of one kind and the run fills the same wells of each.
+    """
     filled = tuple(key for key in keys if all((key, spot) in deck.received for spot in spots))
-    kinds = {deck.trace.labware[key].load_name for key in filled}
-    return filled if len(kinds) == 1 else ()
+    given = {frozenset(name for key, name in deck.received if key == one) for one in keys}
+    meant = filled or (tuple(keys) if len(given) == 1 else ())
+    return meant if len({deck.trace.labware[key].load_name for key in meant}) == 1 else ()
 
 
 def called_alike(deck: Deck, name: str, common: Common) -> str:
@@ -115,8 +140,8 @@ def called_alike(deck: Deck, name: str, common: Common) -> str:
     return alike[0] if len(alike) == 1 else ""
 
 
-Entry = tuple[str, tuple[str, ...], "float | None"]
-"""What is said, of which wells, and their level."""
+Entry = tuple[str, tuple[str, ...], "float | None", str]
+"""What is said, of which wells, their level, and the column of a table that holds them."""
 
 
 class _Reader:
@@ -132,7 +157,7 @@ class _Reader:
             return
         if isinstance(value, str):
             if is_spot(value):
-                yield name, (value,), None
+                yield name, (value,), None, ""
         elif isinstance(value, Mapping):
             if depth > 0 and _is_record(value):
                 yield from self._record(name, value)
@@ -142,15 +167,15 @@ class _Reader:
                     yield from self._beside(name, (key,), item)
                 else:
                     level = float(key) if is_number(key) else None
-                    for text, wells, own in self.entries(f"{name} {key}", item, depth + 1):
-                        yield text, wells, level if own is None else own
+                    for text, wells, own, column in self.entries(f"{name} {key}", item, depth + 1):
+                        yield text, wells, level if own is None else own, column
         elif isinstance(value, (list, tuple)):
             yield from self._listed(name, value, depth)
 
     def _listed(self, name: str, value: Sequence[Any], depth: int) -> Iterator[Entry]:
         wells = tuple(item for item in value if is_spot(item))
         if wells and len(wells) == len(value):
-            yield name, wells, None
+            yield name, wells, None, ""
         elif wells and depth > 0:
             yield from self._beside(name, wells, [item for item in value if item not in wells])
         else:
@@ -160,15 +185,16 @@ class _Reader:
 
     def _record(self, name: str, item: Mapping[Any, Any]) -> Iterator[Entry]:
         """A row of a table: ``{"well": "A1", "type": "NTC", "conc": 0}``."""
-        wells = tuple(v for v in item.values() if is_spot(v))
-        texts = [v for v in item.values() if isinstance(v, str) and v not in wells]
+        held = {str(key): spots for key, value in item.items() if (spots := _spots(value))}
+        texts = [v for v in item.values() if isinstance(v, str) and not is_spot(v)]
         numbers = {str(key): float(v) for key, v in item.items() if is_number(v)}
         amounts = [number for key, number in numbers.items() if self._amounts.find(key)]
         if not amounts and self._amounts.find(name):
             amounts = [number for key, number in numbers.items() if not self._counts.find(key)]
         level = amounts[0] if len(amounts) == 1 else None
         for text in texts or [name]:
-            yield text, wells, level
+            for column, wells in held.items():
+                yield text, wells, level, column
 
     def _beside(self, name: str, wells: tuple[str, ...], said: Any) -> Iterator[Entry]:
         """What stands beside wells: ``"A1": "NTC"``, ``("A1", "NTC", 5)``."""
@@ -180,7 +206,13 @@ class _Reader:
         numbers = [float(item) for item in listed if is_number(item)]
         level = numbers[0] if len(numbers) == 1 else None
         for text in texts or ([name] if numbers else []):
-            yield text, wells, level
+            yield text, wells, level, ""
+
+
+def _spots(value: Any) -> tuple[str, ...]:
+    """The wells that a cell of a table names."""
+    listed = tuple(value) if isinstance(value, (list, tuple)) else (value,)
+    return listed if all(map(is_spot, listed)) else ()
 
 
 def _is_record(value: Mapping[Any, Any]) -> bool:

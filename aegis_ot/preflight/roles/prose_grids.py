@@ -70,11 +70,17 @@ def _grid(
 
 
 def _cells(written: str, count: int = 0) -> list[str]:
-    """The cells of a line; those of several words stand apart by two spaces or by bars."""
+    """The cells of a line; those of several words stand apart by two spaces or by bars.
+
+    What stands further right than the last of them is a remark: "<- gene 1", "uM".
+    """
+    written = re.sub(r"\s*(?:<[-=]|#).*", "", written)
     words = written.replace("|", " ").split()
     if len(words) == count or not count:
         return words
-    return [cell.strip() for cell in re.split(r"\s{2,}|\|", written.strip(" |"))]
+    cells = [cell.strip() for cell in re.split(r"\s{2,}|\|", written.strip(" |"))]
+    begun = re.match(rf"((?:\S+\s+){{{count - 1}}}\S+)\s{{2,}}", written.replace("|", " ").strip())
+    return begun[1].split() if len(cells) != count and begun else cells
 
 
 class _Table(NamedTuple):

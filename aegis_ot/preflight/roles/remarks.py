@@ -9,7 +9,7 @@ from dataclasses import replace
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, comment_blocks, direction_in, lexicon_of, tokens
+from ..text import SourceFacts, comment_blocks, direction_in, lexicon_of, listed_levels, tokens
 from ..trace import Trace, row_column
 from .clauses import Part, parts_of
 from .clues import Clue, Strength, shortened
@@ -30,17 +30,26 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     for line, text in texts:
         heading: frozenset[str] = frozenset()
         last: frozenset[str] = frozenset()
-        for number, written in enumerate(with_rows(text, common).splitlines() or [text]):
+        lines = _whole_lines(with_rows(text, common).splitlines() or [text], common)
+        for number, written in lines:
             headed = nouns.heading(written)
             of_line = nouns.named(written) or headed
-            if of_line and _heads(written, common):
+            begun, colon, _ = written.partition(":")
+            if colon and len(tokens(begun)) <= _LONGEST_HEADING and nouns.named(begun):
+                heading = nouns.named(begun)  # and of the lines below: "strips: column 1 blank"
+            elif of_line and _heads(written, common):
                 heading = of_line
             elif not written.strip():
                 heading = last = frozenset()
-            parts = [part for part in parts_of(written, common) if part.wells]
+            parts, more = _with_what_follows(written, common)
             own = [nouns.before(part) for part in parts]
+            if colon and not of_line and parts and _is_headed(parts[0], begun):
+                heading = last = frozenset()  # "cells: column 1 ..." goes on with something else
+            in_line: frozenset[str] = frozenset()
             for at, (part, before) in enumerate(zip(parts, own, strict=True)):
-                last = before or last
+                last, in_line = before or last, before or in_line
+                if nouns.heading(part.text):  # "drug plate: A1 vehicle" is no drug
+                    part = part._replace(words=part.words.partition(":")[2])
                 if len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
                     continue
                 keys = (
@@ -48,6 +57,7 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
                     or nouns.named(part.text)
                     or before
                     or noted.get(written)
+                    or (in_line if len(in_line) == 1 else frozenset())
                     or of_line
                     or heading
                     or last
@@ -55,9 +65,45 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
                 )
                 # "col 3  1 nM     tube A2": the column is not one of the tubes'.
                 others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
-                placed = 1 in (len(headed), len(before))
+                placed = 1 in (len(headed), len(in_line))
                 for clue in _spoken(deck, part, line + number, keys - others, others, common):
-                    yield replace(clue, placed=placed)
+                    levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
+                    yield replace(clue, placed=placed, levels=levels)
+
+
+def _is_headed(part: Part, begun: str) -> bool:
+    """Whether a line has a heading without wells of its own before its first columns."""
+    return 0 < len(tokens(begun)) <= _LONGEST_HEADING and (
+        part.text.strip().startswith(begun.strip())
+        and _axis(part) == 1
+        and part.text.find(part.wells[0].group()) > len(begun.strip())
+    )
+
+
+def _whole_lines(lines: Sequence[str], common: Common) -> Iterator[tuple[int, str]]:
+    """Lines by number; one that ends with "in" or the like goes on in the next."""
+    leading = {w for phrase in (*common.joints, *common.toward) for w in tokens(phrase)}
+    begun, first = "", 0
+    for number, line in enumerate(lines):
+        first = first if begun else number
+        begun = f"{begun} {line.strip()}" if begun else line
+        last = begun.rstrip().rpartition(" ")[2].lower()
+        if last not in leading or number + 1 == len(lines):
+            yield first, begun
+            begun = ""
+
+
+def _with_what_follows(line: str, common: Common) -> tuple[list[Part], list[str]]:
+    """The parts of a line that name wells, and for each what follows without wells of its own."""
+    parts: list[Part] = []
+    more: list[str] = []
+    for part in parts_of(line, common):
+        if part.wells:
+            parts.append(part)
+            more.append("")
+        elif more:
+            more[-1] += f" {part.words}"
+    return parts, more
 
 
 def _only_one_with(deck: Deck, parts: Sequence[Part], common: Common) -> frozenset[str]:
@@ -107,10 +153,12 @@ def _spoken(
     ranges = any(match["last"] for match in part.wells)
     outright = ranges or _ALL.search(part.words) or all(match["first"] for match in part.wells)
     axis = _axis(part)
+    filled = {key for key, _ in deck.received} if _goes_there(part, common) else None
     having = {
         info.key: named
         for info in deck.plates()
         if info.key not in others
+        and (filled is None or info.key in filled)
         and (named := [name for match in part.wells for name in names.meant(match, info)])
     }
     if not keys.isdisjoint(having):  # else it names that labware in passing
@@ -143,15 +191,27 @@ def _spoken(
             line,
             f"'{shortened(part.text)}' at line {line}",
             subject=False,
-            levels=_across(part, wells, common),
         )
 
 
-def _across(part: Part, wells: Sequence[WellRef], common: Common) -> tuple[float, ...]:
-    """Levels that rise or fall from column to column, or from row to row, if it says so."""
-    direction, axis = direction_in(part.words, common), _axis(part)
+def _goes_there(part: Part, common: Common) -> bool:
+    """Whether a part says what goes into its wells: "diluent to columns 2-12"."""
+    before = part.text[: part.text.find(part.wells[0].group())].split()
+    return bool(before) and before[-1].lower() in common.toward
+
+
+def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> tuple[float, ...]:
+    """Levels that a part gives column by column or row by row: one for each, or a direction."""
+    axis = _axis(part)
     at = [] if axis is None else [row_column(ref.name)[axis] for ref in wells]
-    return tuple(float(direction * place) for place in at) if len(set(at)) > 1 and direction else ()
+    places = sorted(set(at))
+    if len(places) < 2:
+        return ()
+    listed = listed_levels(said)
+    if len(listed) == len(set(listed)) == len(places):
+        return tuple(listed[places.index(place)] for place in at)
+    direction = direction_in(said, common)
+    return tuple(float(direction * place) for place in at) if direction else ()
 
 
 def _axis(part: Part) -> int | None:

@@ -14,6 +14,7 @@ from ..text import SourceFacts, lexicon_of
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import number_in
+from .names import numeric_keys
 from .plate_maps import labware_of_map, refs_of
 from .well_names import plain_name
 from .work_lists import is_work_list, labware_in
@@ -24,22 +25,27 @@ def spotted_names(
 ) -> Iterator[Clue]:
     """Names that held well names in the run: ``CONTROLS = [f"{row}12" for row in "ABCD"]``."""
     loose = {name for _, name in facts.loose}
+    keyed = numeric_keys(names)
+    decks = lexicon_of({"deck": common.decks})
     for binding in names:
         base = binding.name.split("[", 1)[0]
-        if not binding.spots or base in facts.constants or base in loose:
-            continue
+        if not binding.spots or base in facts.constants or base in loose or decks.find(base):
+            continue  # "A4" in a list of slots is none of a plate
         record, dot, _ = base.partition(".")
         if dot and (binding.function, record) in facts.loops:
             continue  # the field of the last row only; see tabled_wells
         labware = labware_of_map(deck, facts, base, binding.spots, common)
         if labware:
             line = facts.assigned.get(base, binding.line)
+            wells = tuple(refs_of(deck, labware, binding.spots))
+            level = keyed.get(binding.name)
             yield Clue(
                 Strength.NAME,
                 binding.name,
-                tuple(refs_of(deck, labware, binding.spots)),
+                wells,
                 line,
                 f"plate map `{binding.name}` at line {line}",
+                levels=() if level is None else (level,) * len(wells),
             )
 
 

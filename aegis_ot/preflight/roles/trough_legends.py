@@ -13,7 +13,7 @@ from .clues import Clue, Strength, shortened
 from .deck import Deck
 
 _ENTRY = re.compile(
-    r"(?:^|[,;/|])\s*(?:col(?:umn)?s?\.?\s*|#)?(\d{1,2})\s*(?:[:=.)]|->|[-–](?=\s))?\s*"
+    r"(?:^|[,;/|])\s*#?(\d{1,2})\s*(?:[:=.)]|->|[-–](?=\s))?\s*"
     r"([^\W\d][^,;/|]{2,40}?)(?=\s*(?:[,;/|]|$))"
 )
 _FEWEST = 3
@@ -32,9 +32,14 @@ def trough_legends(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
         return
     words = {word for phrase in common.labware.get("reservoir", ()) for word in tokens(phrase)}
     words |= set(tokens(troughs[0].label)) & set(tokens(troughs[0].load_name))
+    called = {
+        word for kind in ("trough", "column", "columns") for word in common.layout.get(kind, ())
+    }
+    words_of = "|".join(map(re.escape, called)) or "(?!)"
+    number_of = re.compile(rf"(?im)((?:^|[,;/|])\s*)(?:{words_of})\.?\s*(?=\d)")
     for line, text in _blocks(facts):
         if not words.isdisjoint(tokens(text)):
-            yield from _legend(deck, troughs[0], line, text)
+            yield from _legend(deck, troughs[0], line, number_of.sub(r"\1", text))
 
 
 def _blocks(facts: SourceFacts) -> Iterator[tuple[int, str]]:

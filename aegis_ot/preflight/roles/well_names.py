@@ -24,6 +24,7 @@ class WellNames:
         between: What may stand between two wells of one list.
         of: What joins rows to columns: "columns 1-6 of row H".
         first_word_of: For ``column`` and ``row`` the word that is put where one is left out.
+        plural_columns: The same for several columns.
         spec: A well, a range of them, or columns and rows; only a plural lists several:
             "columns 1 and 2".
     """
@@ -32,14 +33,15 @@ class WellNames:
         self.column, self.columns, self.row, self.rows = (
             f"(?i:{_any(layout.get(kind, ()))})" for kind in ("column", "columns", "row", "rows")
         )
-        self.to = rf"\s*(?:-|–|—|\b(?:{_any(layout.get('to', ()))})\b)\s*"
+        self.to = rf"\s*(?:-|–|—|…|\.\.+|\b(?:{_any(layout.get('to', ()))})\b)\s*"
         self.conjunction = rf"\s*(?:,|/|&|\+|\b(?:{_any(layout.get('and', ()))})\b)\s*"
         self.of = _any(layout.get("of", ()))
         self.first_word_of = {kind: (*layout.get(kind, ()), kind)[0] for kind in ("column", "row")}
+        self.plural_columns = (*layout.get("columns", ()), "columns")[0]
         numbers = rf"(?:1\d|2[0-4]|[1-9])(?!\d)(?:{self.to}\d{{1,2}}(?!\d))?"
         letters = rf"[A-P](?![A-Za-z0-9])(?:{self.to}[A-P](?![A-Za-z0-9]))?"
         self.spec = re.compile(
-            rf"\b(?:(?P<first>{_WELL})(?:(?:{self.to}|\s*(?:\.\.+|:)\s*)(?P<last>{_WELL}))?"
+            rf"\b(?:(?P<first>{_WELL})(?:(?:{self.to}|\s*:\s*)(?P<last>{_WELL}))?"
             rf"|{self.columns}\.?\s*(?P<columns>{numbers}(?:{self.conjunction}{numbers})*)"
             rf"|{self.column}\.?\s*(?P<column>{numbers})"
             rf"|{self.rows}\s+(?P<rows>{letters}(?:{self.conjunction}{letters})*)"

@@ -4,7 +4,16 @@ from .comments import comment_blocks
 from .facts import Loop, Numbered, Place, SourceFacts, Values
 from .flow import origins
 from .legends import legend_of
-from .levels import concentration_in, direction_in, level_in, name_without_level, numbers_in_order
+from .levels import (
+    amounts_in,
+    concentration_in,
+    concentrations_in,
+    direction_in,
+    level_in,
+    listed_levels,
+    name_without_level,
+    numbers_in_order,
+)
 from .lines import source_lines
 from .reading import read_source
 from .words import Lexicon, Match, lexicon_of, tokens
@@ -17,12 +26,15 @@ __all__ = [
     "Place",
     "SourceFacts",
     "Values",
+    "amounts_in",
     "comment_blocks",
     "concentration_in",
+    "concentrations_in",
     "direction_in",
     "legend_of",
     "level_in",
     "lexicon_of",
+    "listed_levels",
     "name_without_level",
     "numbers_in_order",
     "origins",

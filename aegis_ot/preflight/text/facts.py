@@ -117,6 +117,8 @@ class SourceFacts:
         liquids: Description of each liquid defined in the text, by its name.
         comes_from: For each name, the names that its values are made of, with the first and the
             last line on which that holds.
+        asked: For each name, the keys in what its values are made of, with the lines as above.
+        called_at: For each parameter of a function, the lines that call it.
         runs: Loops over literals and over names.
         unpacked: The names of each target that takes a row apart: ``well, (kind, source) = ...``.
         draws: By line, all names in what a call draws from.
@@ -142,6 +144,8 @@ class SourceFacts:
     arguments: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
     liquids: dict[str, str] = field(default_factory=dict)
     comes_from: dict[str, set[tuple[str, int, int]]] = field(default_factory=dict)
+    asked: dict[str, set[tuple[str, int, int]]] = field(default_factory=dict)
+    called_at: dict[str, set[int]] = field(default_factory=dict)
     runs: list[Loop] = field(default_factory=list)
     unpacked: list[tuple[str, ...]] = field(default_factory=list)
     draws: dict[int, set[str]] = field(default_factory=dict)

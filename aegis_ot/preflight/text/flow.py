@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any
 
 from .facts import Loop, SourceFacts, Values
-from .literals import names_in
+from .literals import fields_in, names_in, plain_text
 
 _DRAWN = {
     "aspirate": (1, "location"),
@@ -47,37 +48,51 @@ def read_flow(tree: ast.Module, facts: SourceFacts) -> None:
                 _loop(facts, generator.target, generator.iter, span, ())
         elif isinstance(node, ast.Call):
             if isinstance(node.func, ast.Name) and node.func.id in parameters:
-                for name, argument in zip(parameters[node.func.id], node.args, strict=False):
+                given = [*zip(parameters[node.func.id], node.args, strict=False)]
+                given += [(word.arg, word.value) for word in node.keywords if word.arg]
+                for name, argument in given:
                     _comes(facts, name, argument, _ANYWHERE)
+                    facts.called_at.setdefault(name, set()).add(node.lineno)
             elif isinstance(node.func, ast.Attribute) and node.func.attr in _DRAWN:
                 _draw(facts, node, *_DRAWN[node.func.attr])
 
 
 def origins(facts: SourceFacts, names: Iterable[str], lines: Collection[int]) -> set[str]:
-    """These names and all that their values come from, in loops around one of these lines."""
+    """These names and all that their values come from, in loops around one of these lines.
+
+    Or around any call that gives a parameter among them its value, if no such call is one of them.
+    """
     found: set[str] = set()
     open_ = list(names)
+    calls: set[int] = set()
     while open_:
         name = open_.pop()
         if name in found:
             continue
         found.add(name)
+        called = facts.called_at.get(name, set())
+        calls |= called if called.isdisjoint(lines) else set()
         for other, first, last in facts.comes_from.get(name, ()):
-            if any(first <= line <= last for line in lines):
+            if any(first <= line <= last for line in chain(lines, calls)):
                 open_.append(other)
     return found
 
 
 def _comes(facts: SourceFacts, name: str, value: ast.expr, span: tuple[int, int]) -> None:
     known = facts.comes_from.setdefault(name, set())
-    known.update((other, *span) for other in names_in(value) if other != name)
+    named = (*names_in(value), *fields_in(value))
+    known.update((other, *span) for other in named if other != name)
+    for inner in ast.walk(value):
+        if isinstance(inner, ast.Subscript) and plain_text(inner.slice):
+            facts.asked.setdefault(name, set()).add((plain_text(inner.slice), *span))
 
 
 def _assigned(facts: SourceFacts, targets: Iterable[ast.expr], value: ast.expr) -> None:
     for target in targets:
         _unpacks(facts, target)
-        for name in names_in(target):
-            _comes(facts, name, value, _ANYWHERE)
+        for part, given in _pairs(target, value):
+            for name in names_in(part):
+                _comes(facts, name, given, _ANYWHERE)
         if not isinstance(target, ast.Name):
             continue
         if not isinstance(value, (ast.ListComp, ast.GeneratorExp)) or len(value.generators) > 1:
@@ -85,6 +100,18 @@ def _assigned(facts: SourceFacts, targets: Iterable[ast.expr], value: ast.expr) 
         made = value.generators[0]
         if not made.ifs:
             _loop(facts, made.target, made.iter, _ANYWHERE, (target.id,))
+
+
+def _pairs(target: ast.expr, value: ast.expr) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """What each part of a target is given: ``tube, well = row["tube"], row["well"]``."""
+    if (
+        isinstance(target, ast.Tuple)
+        and isinstance(value, ast.Tuple)
+        and len(target.elts) == len(value.elts)
+    ):
+        yield from zip(target.elts, value.elts, strict=True)
+    else:
+        yield target, value
 
 
 def _unpacks(facts: SourceFacts, target: ast.expr) -> None:

@@ -8,6 +8,7 @@ known to be.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Sequence
 
 from ..rules import Common
 from .words import Lexicon, lexicon_of, tokens
@@ -51,9 +52,10 @@ def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | N
     Plain numbers count in names and liquids only: in a comment they may be anything.
     """
     plain = text.replace("µ", "u").replace("μ", "u").lower()
-    with_unit = {
-        _number(value) * _UNITS.get(_unit(unit), 1.0) for value, unit in _WITH_UNIT.findall(plain)
-    }
+    found = _WITH_UNIT.findall(plain)
+    # "3 uM (100x)" is 3 uM, and "1 mM in 0.5 % DMSO" is 1 mM.
+    found = [(v, unit) for v, unit in found if unit not in ("%", "x")] or found
+    with_unit = {_number(value) * _UNITS.get(_unit(unit), 1.0) for value, unit in found}
     if len(with_unit) == 1:
         return with_unit.pop()
     if with_unit:
@@ -74,13 +76,18 @@ def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | N
 
 def concentration_in(text: str) -> float | None:
     """The one concentration with a unit that a text states; per cent and "10x" are none."""
+    found = concentrations_in(text)
+    return found.pop() if len(found) == 1 else None
+
+
+def concentrations_in(text: str) -> set[float]:
+    """All concentrations with a unit that a text states; per cent and "10x" are none."""
     plain = text.replace("µ", "u").replace("μ", "u").lower()
-    found = {
+    return {
         _number(value) * _UNITS.get(_unit(unit), 1.0)
         for value, unit in _WITH_UNIT.findall(plain)
         if unit not in ("%", "x")
     }
-    return found.pop() if len(found) == 1 else None
 
 
 def name_without_level(text: str, common: Common) -> tuple[str, ...]:
@@ -113,7 +120,57 @@ def direction_in(text: str, common: Common) -> int:
         return 1
     if topics == {"falling"}:
         return -1
-    return 0
+    return 0 if topics else _direction_of_range(text)
+
+
+def listed_levels(text: str) -> tuple[float, ...]:
+    """The levels of the one list that a text holds, with a unit: "10, 3 and 1 uM"."""
+    lists = [amounts for amounts in _joined(text, _BETWEEN) if len(amounts) > 1]
+    return _in_units(lists[0]) if len(lists) == 1 else ()
+
+
+def _direction_of_range(text: str) -> int:
+    """As :func:`direction_in`, of the one range that a text holds: "10 uM down to 0.1 uM"."""
+    ranges = [_in_units(amounts) for amounts in _joined(text, _TO) if len(amounts) == 2]
+    first, last = ranges[0] if len(ranges) == 1 and ranges[0] else (0, 0)
+    return (last > first) - (last < first)
+
+
+_AMOUNT = re.compile(
+    r"(?<![\w.])(0,\d+(?![\d,])|\d+(?:\.\d+)?)\s?((?:pg|ng|ug|mg)/(?:ul|ml|l)|g/l|pm|nm|um|mm|m)?(?![\w.]*\w)",
+    re.IGNORECASE,
+)
+_BETWEEN = re.compile(r"\s*(?:[,;/&+]|\band\b|,\s*and\b)\s*")
+_TO = re.compile(r"\s*(?:-+>|→|(?:down|up) to\b)\s*")
+"""A plain "0.1-10 uM" says which doses there are, and not in which order they stand."""
+
+
+def _joined(text: str, joint: re.Pattern[str]) -> list[list[tuple[float, str]]]:
+    """Runs of amounts, each with its unit, that nothing but this joint stands between."""
+    plain = text.replace("µ", "u").replace("μ", "u")
+    runs: list[list[tuple[float, str]]] = []
+    end = -1
+    for match in _AMOUNT.finditer(plain):
+        amount = (_number(match[1]), (match[2] or "").lower())
+        if end >= 0 and joint.fullmatch(plain, end, match.start()):
+            runs[-1].append(amount)
+        else:
+            runs.append([amount])
+        end = match.end()
+    return runs
+
+
+def amounts_in(text: str) -> Iterator[tuple[re.Match[str], float]]:
+    """Each concentration with a unit, where it stands in a text."""
+    for match in _AMOUNT.finditer(text.replace("µ", "u").replace("μ", "u")):
+        if match[2]:
+            yield match, _number(match[1]) * _UNITS[match[2].lower()]
+
+
+def _in_units(amounts: Sequence[tuple[float, str]]) -> tuple[float, ...]:
+    """The levels of some amounts, of which the last one's unit holds for those without any."""
+    last = amounts[-1][1]
+    return tuple(n * _UNITS[unit or last] for n, unit in amounts) if last else ()
 
 
 def _level_words(common: Common) -> Lexicon:

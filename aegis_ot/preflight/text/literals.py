@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator, Mapping
+import copy
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
 
@@ -38,6 +39,33 @@ def index_value(node: ast.expr, constants: Mapping[str, Any]) -> Any:
 
 
 _LONGEST_RANGE = 400
+
+
+def literal_of(node: ast.expr, kinds: Collection[str]) -> Any:
+    """The value of a literal, in which members of the protocol's own Enums stand as their names.
+
+    Args:
+        node: The expression.
+        kinds: Names of the classes of the protocol: ``Arm.VEHICLE`` is ``"VEHICLE"``.
+
+    Raises:
+        ValueError: If it is no literal; and what ``ast.literal_eval`` raises besides.
+    """
+    if kinds and any(isinstance(inner, ast.Attribute) for inner in ast.walk(node)):
+        node = _Members(kinds).visit(copy.deepcopy(node))
+    return ast.literal_eval(node)
+
+
+class _Members(ast.NodeTransformer):
+    """Puts the name of a member in its place."""
+
+    def __init__(self, kinds: Collection[str]) -> None:
+        self._kinds = kinds
+
+    def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
+        if isinstance(node.value, ast.Name) and node.value.id in self._kinds:
+            return ast.Constant(node.attr)
+        return node
 
 
 def counted(node: ast.expr) -> list[int] | None:
@@ -134,6 +162,14 @@ def names_in(node: ast.AST) -> Iterator[str]:
     for inner in ast.walk(node):
         if isinstance(inner, ast.Name):
             yield inner.id
+
+
+def fields_in(node: ast.AST) -> Iterator[str]:
+    """Every attribute that an expression takes without a call: ``LAYOUT.vehicle``."""
+    called = {id(inner.func) for inner in ast.walk(node) if isinstance(inner, ast.Call)}
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Attribute) and id(inner) not in called:
+            yield inner.attr
 
 
 def keys_in(node: ast.AST) -> Iterator[str]:

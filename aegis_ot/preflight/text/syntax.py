@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import re
+from collections.abc import Iterator
 
 from .facts import Place, SourceFacts
 from .lines import without_gaps
@@ -11,6 +13,7 @@ from .literals import (
     index_value,
     keys_in,
     last_name,
+    literal_of,
     names_in,
     plain_text,
     rows_of,
@@ -27,6 +30,9 @@ _SIDES: dict[str, dict[int | str, str]] = {
 }
 
 
+_SPOT = re.compile(r"[A-P]\d{1,2}")
+
+
 class SyntaxReader:
     """Walks a parsed protocol and notes what it finds."""
 
@@ -34,10 +40,18 @@ class SyntaxReader:
         self._facts = facts
         self._documents: set[int] = set()
         self._in_part: set[int] = set()
+        self._kinds: set[str] = set()
+        self._assigning: set[int] = set()
 
     def visit_module(self, tree: ast.Module) -> None:
         """Note the facts of a whole module."""
         facts = self._facts
+        self._kinds = {
+            node.name
+            for node in ast.walk(tree)
+            if isinstance(node, ast.ClassDef) and not _names_places(node)
+        }
+        self._assigning = {node.lineno for node in ast.walk(tree) if isinstance(node, ast.Assign)}
         for node in ast.walk(tree):
             if isinstance(node, ast.Assign):
                 for target in node.targets:
@@ -100,7 +114,7 @@ class SyntaxReader:
             above = facts.comments[line - 1]
             # A comment above a block of assignments heads them all; one above a single
             # assignment speaks of it.
-            if line + 1 not in facts.assigned.values():
+            if line + 1 not in self._assigning:
                 note = above
         if note:
             facts.notes.setdefault(name, note)
@@ -108,17 +122,18 @@ class SyntaxReader:
         if rows:
             facts.tables.setdefault(name, rows)
         try:
-            literal = ast.literal_eval(value)
+            literal = literal_of(value, self._kinds)
         except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
             literal = counted(value)
-        if literal is not None:
+        if literal not in (None, {}, [], ()):  # what is filled in the run is no constant
             facts.constants.setdefault(name, literal)
 
     def _functions(self, node: ast.AST, function: str) -> None:
         for child in ast.iter_child_nodes(node):
             inside = child.name if isinstance(child, ast.FunctionDef) else function
             if isinstance(child, (ast.For, ast.AsyncFor)):
-                for name in names_in(child.target):
+                turning = set(names_in(child.target))
+                for name in (*turning, *_picked_by(child, turning)):
                     self._facts.loose.add((inside, name))
                     self._facts.loops.add((inside, name))
             elif isinstance(child, ast.comprehension):
@@ -199,6 +214,22 @@ class SyntaxReader:
                     partly,
                 )
             )
+
+
+def _names_places(kind: ast.ClassDef) -> bool:
+    """Whether the members of a class are wells, ``DILUENT = "A1"``: such a member is a place."""
+    values = [node.value for node in kind.body if isinstance(node, ast.Assign)]
+    return any(_SPOT.fullmatch(plain_text(value)) for value in values)
+
+
+def _picked_by(loop: ast.For | ast.AsyncFor, turning: set[str]) -> Iterator[str]:
+    """Names that a loop binds to another item in each turn: ``src = rack[spots[i]]``."""
+    for node in ast.walk(loop):
+        if isinstance(node, ast.Assign):
+            indices = (s.slice for s in ast.walk(node.value) if isinstance(s, ast.Subscript))
+            if any(not turning.isdisjoint(names_in(index)) for index in indices):
+                for target in node.targets:
+                    yield from (target.id,) if isinstance(target, ast.Name) else ()
 
 
 def _field(value: ast.expr) -> str:
