@@ -175,7 +175,7 @@ def _in_one_list(case: Case, one: Well, other: Well) -> bool:
     """Whether two wells have their role from one name, and may be doses of one compound."""
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
     if mine is None or theirs is None:
-        return False
+        return mine is theirs  # nothing is said of either
     kinds = lexicon_of({"distinct": case.common.distinct, "dosed": case.common.dose_words})
     said = {match.topic for match in kinds.find(mine.text)}
     same = name_without_level(mine.text, case.common) == name_without_level(

@@ -111,7 +111,7 @@ def read_recording(recording: Recording, database: Database, options: Options) -
         usage = usage_of(trace)
     for one in roles:
         settle_diluent(one, trace)
-        derive(one, trace, usage)
+        derive(one, trace, usage, common)
     return Reading(
         facts=facts,
         trace=trace,

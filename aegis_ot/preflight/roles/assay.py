@@ -92,6 +92,10 @@ def infer_families(
         for score, family, found in scored
     )
     inferences = []
+    # What the run's own shape speaks against comes after another that applies.
+    odd = {
+        family.family for _, family, found in scored if any(f.shape and f.worth < 0 for f in found)
+    }
     for score, family, found in scored:
         reasons = [one.said for one in found if one.worth > 0]
         if given:
@@ -110,7 +114,7 @@ def infer_families(
             Inference(family.family, score, round(confidence, 2), tuple(reasons[:6]), applies, sure)
         )
     if given or any(inference.applies for inference in inferences):
-        inferences.sort(key=lambda i: (not i.applies, -i.score))
+        inferences.sort(key=lambda i: (not i.applies, i.family in odd, -i.score))
         return inferences
     return [
         _as_default(inference) if _is_default(database, inference.family) else inference

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
 from ..rules import Common, Family
-from ..text import Lexicon, concentration_in, name_without_level
+from ..text import Lexicon, concentration_in, concentrations_in, name_without_level
 from ..trace import Trace
 from .channels import spread_over_channels
 from .choosing import A_FEW, Candidate, choose
@@ -66,6 +66,7 @@ def assign_roles(
     doubtful: set[WellRef] = set()
     for_controls: set[WellRef] = set()
     untold: list[Clue] = []
+    misplaced: list[Clue] = []
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
         if not named:
@@ -88,12 +89,14 @@ def assign_roles(
         ):
             worth = (float(Strength.LIQUID), 2.0, *worth[2:])
         passing = side_only and clue.strength is Strength.LOOSE_NAME
+        placed = False
         for ref, level in zip(clue.wells, levels_of(clue, common), strict=True):
             role = fitting_role(named, roles, sides(ref), clue, common)
             if role is None and not clue.whole and is_for_controls(named, sides(ref), roles):
                 for_controls.add(ref)
             if role is None or (passing and _is_trough(trace, ref)):
                 continue
+            placed = True
             if not clue.step and clue.strength >= Strength.DESCRIPTION and not clue.whole:
                 named_outright.add(role)
             elif clue.step and role in named_outright and family.roles[role].one_liquid:
@@ -109,9 +112,12 @@ def assign_roles(
             ):
                 level = family.roles[role].level  # that of the blank, not of all standards
             candidates.setdefault(ref, []).append((worth, role, clue, level))
+        if not placed:
+            misplaced.append(clue)
     _note_untold(roles, lexicon, untold)
     levels = _levels_beside(untold, common)
-    _add_dosed(roles, candidates, sides, untold, common)
+    roles.untold = [*untold, *misplaced]
+    _add_dosed(roles, candidates, sides, roles.untold, common)
     for first, group in trace.groups.items():
         if first in for_controls and first not in trace.singles:
             for_controls.update(group)
@@ -123,7 +129,7 @@ def assign_roles(
             if assignment.level is None and len(told) == 1:
                 assignment.level = told.pop()
     unsay_contents(roles, trace, _holding(roles, candidates))
-    spread_over_channels(roles, trace)
+    spread_over_channels(roles, trace, candidates)
     unsay_controls(roles, trace)
     spread_over_replicates(roles, trace)
     return roles
@@ -156,7 +162,7 @@ def _add_dosed(
     roles: Roles,
     candidates: dict[WellRef, list[Candidate]],
     sides: Sides,
-    untold: Sequence[Clue],
+    clues: Sequence[Clue],
     common: Common,
 ) -> None:
     """What is called by nothing but its concentration: "stauro 0.3 uM" beside "stauro 1 uM".
@@ -165,18 +171,18 @@ def _add_dosed(
     """
     told: list[tuple[WellRef, tuple[str, ...], Clue, float]] = []
     series: dict[tuple[str, tuple[str, ...]], set[float]] = {}
-    for clue in untold:
-        dose = concentration_in(clue.text)
-        if dose is None or clue.whole or clue.step:
+    for clue in clues:
+        if clue.whole or clue.step or not concentrations_in(clue.text):
             continue
         of_what = name_without_level(clue.text, common)
-        for ref in clue.wells:
-            if sides(ref)[0] == "source":
+        doses = clue.levels or (concentration_in(clue.text),) * len(clue.wells)
+        for ref, dose in zip(clue.wells, doses, strict=False):
+            if dose is not None:
                 told.append((ref, of_what, clue, dose))
                 series.setdefault((ref.labware, of_what), set()).add(dose)
-    for name in [name for name, spec in roles.family.roles.items() if spec.dosed]:
-        for ref, of_what, clue, dose in told:
-            if len(series[ref.labware, of_what]) >= _FEWEST_DOSES:
+    for name, spec in roles.family.roles.items():
+        for ref, of_what, clue, dose in told if spec.dosed else ():
+            if sides(ref)[0] == spec.side and len(series[ref.labware, of_what]) >= _FEWEST_DOSES:
                 worth = _worth(clue, False, False)
                 candidates.setdefault(ref, []).append((worth, name, clue, dose))
 

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 from ...vocabulary import WellRef
 from ..trace import Trace
+from .choosing import Candidate
+from .clues import Strength
 from .roles import Roles
 
 
-def spread_over_channels(roles: Roles, trace: Trace) -> None:
+def spread_over_channels(
+    roles: Roles, trace: Trace, candidates: Mapping[WellRef, Sequence[Candidate]]
+) -> None:
     """Give the other wells of a column the role of the one that is named.
 
     Only where the named well is never used alone, and the others have no better evidence.
@@ -31,10 +37,22 @@ def spread_over_channels(roles: Roles, trace: Trace) -> None:
                 other.strength <= assigned.strength
                 and assigned.role != other.role
                 and assigned.role not in roles.closure(other.role)
-                and other.whole
+                and not _has_its_own(candidates.get(ref, ()), first, assigned.role)
                 and not assigned.whole
             ):
                 roles.by_well[ref] = assigned.copied("same channel group")
+
+
+def _has_its_own(found: Sequence[Candidate], first: WellRef, role: str) -> bool:
+    """Whether another role is named for a well, and not just for its whole labware, nor by weak
+    evidence that speaks of the first well as well, where the name has overruled it.
+    """
+    return any(
+        other != role
+        and not clue.whole
+        and not (clue.strength <= Strength.LOOSE_NAME and first in clue.wells)
+        for _, other, clue, _ in found
+    )
 
 
 def _fed_by(roles: Roles, trace: Trace) -> dict[WellRef, set[str]]:

@@ -11,6 +11,9 @@ from .roles import Assignment, Roles
 A_FEW = 3
 """As many wells are named one by one; a layout's columns may be those of another plate."""
 
+_WIDER = 1.5
+"""A comment on a row may count wells at its edge that a list of the same wells leaves out."""
+
 Candidate = tuple[tuple[float, ...], str, Clue, "float | None"]
 """How much a clue is worth, the role that it names, the clue, and the level that it gives."""
 
@@ -33,6 +36,8 @@ def choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | N
         # Weaker evidence may say more exactly what the stronger leaves open: the liquid says
         # "cells", the name says "vehicle_controls".
         exact = not hint.whole and hint.strength is not Strength.LOOSE_NAME
+        if hint.strength is Strength.COMMENT and not clue.whole:
+            exact = len(set(hint.wells)) <= _WIDER * len(set(clue.wells))  # not of more than this
         said = exact or hint.strength == clue.strength
         if said and role != other and role in roles.closure(other):
             role, decisive = other, hint

@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Collection, Container, Mapping
 
 from ...vocabulary import WellRef
-from ..rules import RoleSpec
+from ..rules import Common, RoleSpec
 from ..trace import Trace
+from .called_alike import derive_called_alike
 from .roles import Roles
 from .usage import Usage
 
 
-def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
+def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: Common) -> None:
     """Roles that follow from what a well receives: a reaction is what template goes into.
 
     Wells that only pass liquid on (a dilution plate) are left out.
     """
     for name, spec in roles.family.roles.items():
+        if spec.called_alike_beside:
+            derive_called_alike(roles, name, spec, trace, common)
         if spec.feeds:
             _derive_source(roles, name, spec, trace)
         if spec.single_with:
@@ -30,6 +33,9 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
             _pass_on(roles, name, trace)
         if spec.receives:
             _derive_one(roles, name, spec, trace, usage)
+    for name, spec in roles.family.roles.items():
+        if spec.feeds and spec.dosed:
+            _derive_levels(roles, name, spec, trace)
 
 
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
@@ -39,8 +45,36 @@ def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
         if roles.of(ref):
             continue
         right = sum(roles.has(well, wanted) for well in wells)
-        if right * 2 > len(wells):
+        if right * 2 > len(wells) and not _is_for_all(roles, wells, wanted):
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+def _is_for_all(roles: Roles, wells: Collection[WellRef], wanted: frozenset[str]) -> bool:
+    """Whether a source also goes into most wells of another role: it is a reagent for them all."""
+    by_role: dict[str, set[WellRef]] = {}
+    for ref, assigned in roles.by_well.items():
+        if assigned.role not in wanted and not roles.has(ref, wanted):
+            by_role.setdefault(assigned.role, set()).add(ref)
+    others = {well for well in wells if not roles.has(well, wanted)}
+    return any(2 * len(others & alike) > len(alike) for alike in by_role.values())
+
+
+def _derive_levels(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
+    """Sources of which no level is said have that of the wells that each goes into."""
+    wanted, likes = frozenset(spec.feeds), frozenset({name})
+    served = {
+        ref: wells for ref, wells in trace.served(prefilled=True).items() if roles.has(ref, likes)
+    }
+    if any(roles.level(ref) is not None for ref in served):
+        return  # on another scale perhaps
+    levels = {
+        ref: {roles.level(well) for well in wells if roles.has(well, wanted)}
+        for ref, wells in served.items()
+    }
+    if all(len(told) == 1 and None not in told for told in levels.values()):
+        roles.derived_levels = {
+            ref: level for ref, told in levels.items() for level in told if level is not None
+        }
 
 
 _FEWEST_SINGLES = 3
@@ -49,7 +83,7 @@ _FEWEST_SINGLES = 3
 
 def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """Unnamed sources that each go into wells of their own, beside a liquid common to all."""
-    common = frozenset(spec.single_with)
+    common, beside = frozenset(spec.single_with), frozenset(spec.single_beside)
     likes = frozenset({name})
     served = trace.served()
     sources: dict[WellRef, set[WellRef]] = {}
@@ -57,24 +91,55 @@ def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
         for well in wells:
             sources.setdefault(well, set()).add(ref)
     fed = {ref for refs in served.values() for ref in refs}
-    own = {
+    single = {
         ref: wells
         for ref, wells in served.items()
         if not roles.of(ref)
         and ref not in fed
         and ref not in roles.denied.get(name, ())
         and all(
-            any(roles.has(source, common) for source in sources[well])
-            and not any(roles.has(source, likes) for source in sources[well])
+            not any(roles.has(source, likes) for source in sources[well])
             and sum(not roles.of(source) for source in sources[well]) == 1
+            and len(served.get(well, ())) < _SHARED  # no mix that is made in the run
             for well in wells
         )
         and 2 * sum(_is_control(roles, well) for well in wells) < len(wells)
     }
+    own = {
+        ref: wells
+        for ref, wells in single.items()
+        if all(any(roles.has(source, common) for source in sources[well]) for well in wells)
+    }
+    if beside:
+        own = _in_racks_of_their_own(roles, single, own, beside)
     known = {ref.labware for ref in roles.by_well if roles.has(ref, likes)}
     for ref in own:
         if len(own) >= _FEWEST_SINGLES or ref.labware in known:
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+def _in_racks_of_their_own(
+    roles: Roles,
+    single: Mapping[WellRef, set[WellRef]],
+    own: Mapping[WellRef, set[WellRef]],
+    beside: frozenset[str],
+) -> dict[WellRef, set[WellRef]]:
+    """Sources in labware of which nothing is said, where another one holds ``beside``.
+
+    Where most of such a rack go into wells with the common liquid, the others are none the less
+    of that kind: that liquid may have been forgotten there.
+    """
+    found: dict[WellRef, set[WellRef]] = {}
+    if not any(roles.has(ref, beside) for ref in roles.by_well):
+        return found
+    for rack in {ref.labware for ref in own} - {ref.labware for ref in roles.by_well}:
+        of_rack = {ref: wells for ref, wells in single.items() if ref.labware == rack}
+        if _MOST * len(of_rack) <= sum(ref.labware == rack for ref in own):
+            found |= of_rack
+    return found
+
+
+_MOST = 0.75
 
 
 def _is_control(roles: Roles, ref: WellRef) -> bool:
@@ -97,6 +162,8 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
             continue  # something else, or more than "destination", is said of it
         if ref not in served:
             use = "kept" if ref in topped_up else ""
+        elif any(len(served.get(well, ())) >= _SHARED for well in served[ref]):
+            use = "part"  # of a mix that is made in the run
         else:
             use = "shared" if len(served[ref]) >= _SHARED else "single"
         if use == kind:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from ...vocabulary import WellRef
 from ..rules import Family
-from .clues import Strength
+from .clues import Clue, Strength
 
 
 @dataclass
@@ -46,7 +46,9 @@ class Roles:
         by_well: The role of each well that has one.
         conflicts: Evidence that conflicts, in words, with the wells that it concerns.
         derived: Roles that follow from what a well gives and receives.
+        derived_levels: Levels that follow from the wells that a source goes into.
         unnamed: Wells with a loaded liquid whose name is none of the family's words.
+        untold: Clues that name no role which fits their wells.
         denied: For a role, the wells whose names or liquids speak against it.
         replicates: For the key of a labware, those of its replicates.
         apart: Unnamed wells that each serve one well of their own, and so hold different things.
@@ -56,8 +58,10 @@ class Roles:
     by_well: dict[WellRef, Assignment] = field(default_factory=dict)
     conflicts: dict[str, list[WellRef]] = field(default_factory=dict)
     derived: dict[WellRef, set[str]] = field(default_factory=dict)
+    derived_levels: dict[WellRef, float] = field(default_factory=dict)
     unnamed: set[WellRef] = field(default_factory=set)
     apart: set[WellRef] = field(default_factory=set)
+    untold: list[Clue] = field(default_factory=list)
     denied: dict[str, set[WellRef]] = field(default_factory=dict)
     replicates: dict[str, set[str]] = field(default_factory=dict)
     _closure: dict[str, frozenset[str]] = field(default_factory=dict)
@@ -83,11 +87,11 @@ class Roles:
     def level(self, ref: WellRef) -> float | None:
         """Concentration or dose of a well, if known."""
         assigned = self.by_well.get(ref)
-        if assigned is None:
-            return None
-        if assigned.level is not None:
+        if assigned is not None and assigned.level is not None:
             return assigned.level
-        return self.family.roles[assigned.role].level
+        if ref in self.derived_levels:
+            return self.derived_levels[ref]
+        return None if assigned is None else self.family.roles[assigned.role].level
 
     def closure(self, role: str) -> frozenset[str]:
         """A role and all roles above it."""

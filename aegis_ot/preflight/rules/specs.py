@@ -80,6 +80,8 @@ class RoleSpec:
         feeds: Derived: an unnamed source that mostly feeds wells of these roles.
         single_with: Derived: unnamed sources that each go into wells of their own which all get a
             liquid of these roles as well; three at least, or beside named ones of this role.
+        single_beside: For ``single_with``: only in labware of which nothing is said, and where
+            another one holds one of these roles.
         replicated: Whether plates that are filled alike and called alike have it in the same wells.
         one_liquid: Whether all wells of this role hold the same liquid unless named apart.
         one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
@@ -88,7 +90,10 @@ class RoleSpec:
             only adds to it.
         level: Value on the scale of concentrations or doses that this role has by itself.
         receives: Derived: a destination that is given liquid of one of these roles.
-        dosed: Derived: a source of which a concentration is said and no role, beside others.
+        dosed: Derived: a well on its side of which a concentration is said and no role, beside
+            others; a source that goes into wells of one level only, in ``feeds``, has that level.
+        called_alike_beside: Derived: a source without a role that is called by the same word as
+            the wells it goes into, on a plate with wells of these roles: "APAP" beside controls.
         passed_on: Derived: a well into which one of this role goes, unless that tops up many
             wells which have each a liquid of their own besides.
     """
@@ -103,12 +108,14 @@ class RoleSpec:
     feeds: tuple[str, ...] = ()
     one_to_one: bool = False
     single_with: tuple[str, ...] = ()
+    single_beside: tuple[str, ...] = ()
     replicated: bool = False
     loaded: str = ""
     one_liquid: bool = False
     level: float | None = None
     receives: tuple[str, ...] = ()
     dosed: bool = False
+    called_alike_beside: tuple[str, ...] = ()
     passed_on: bool = False
 
 
@@ -213,6 +220,7 @@ class Common:
     falling: tuple[str, ...] = ()
     amounts: tuple[str, ...] = ()
     countings: tuple[str, ...] = ()
+    decks: tuple[str, ...] = ()
     waste: tuple[str, ...] = ()
     negations: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
