@@ -25,6 +25,11 @@ COMMON = load_database().common
             [("ticks in", ["columns 1-6"]), ("NTCs ,", ["H3", "H6"])],
         ),
         ("columns 1-6. NTC in H3", [("", ["columns 1-6"]), ("NTC in", ["H3"])]),
+        (
+            "binding buffer (res A1), ethanol (trough A3)",
+            [("binding buffer (res )", ["A1"]), ("ethanol (trough )", ["A3"])],
+        ),
+        ("lysates (eluate in B2) A1", [("lysates", ["A1"]), ("eluate in", ["B2"])]),
         ("A1, B1 and C1: standards", [(", and : standards", ["A1", "B1", "C1"])]),
     ],
 )

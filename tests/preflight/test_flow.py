@@ -47,3 +47,38 @@ def test_a_comprehension_gives_its_result_the_values() -> None:
     facts = read_source("T = [('A1', 9), ('A2', 8)]\ntubes = [rack[t] for t, c in T]\n")
     (loop,) = [loop for loop in facts.runs if "tubes" in loop.names]
     assert {values.name: values.column for values in loop.values}["c"] == (9, 8)
+
+
+HELPER = """
+def fill(tube, spots):
+    for spot in spots:
+        use(rack[tube], plate[spot])
+for row in FIRST:
+    fill(row["vial"], row["wells"])
+for row in SECOND:
+    other(row)
+"""
+
+
+def test_a_parameter_comes_from_the_loop_around_the_call() -> None:
+    facts = read_source(HELPER)
+    assert "FIRST" in origins(facts, ["tube"], (4,))
+    assert "FIRST" in origins(facts, ["spot"], (4,))
+    assert "SECOND" not in origins(facts, ["tube"], (4,))
+
+
+def test_the_keys_that_give_a_parameter_its_value() -> None:
+    asked = read_source(HELPER).asked
+    assert {key for key, _, _ in asked["tube"]} == {"vial"}
+    assert {key for key, _, _ in asked["spots"]} == {"wells"}
+
+
+def test_a_parameter_given_by_name_comes_from_what_is_given() -> None:
+    facts = read_source(HELPER.replace('row["vial"], row', 'tube=row["vial"], spots=row'))
+    assert "FIRST" in origins(facts, ["tube"], (4,))
+
+
+def test_names_assigned_together_come_each_from_their_own() -> None:
+    facts = read_source("for row in ROWS:\n    tube, well = row['vial'], OTHER[row['at']]\n")
+    assert "OTHER" not in origins(facts, ["tube"], (2,))
+    assert {key for key, _, _ in facts.asked["tube"]} == {"vial"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from aegis_ot.preflight import load_database
-from aegis_ot.preflight.text import concentration_in, level_in
+from aegis_ot.preflight.text import concentration_in, direction_in, level_in, listed_levels
 
 COMMON = load_database().common
 
@@ -16,6 +16,8 @@ COMMON = load_database().common
         ("std_125", 125.0),
         ("0.5 mg/mL", 0.5),
         ("calibrator 2 ug/ml", 0.002),
+        ("staurosporine 3 uM (100x)", 3e-6),
+        ("1 mM in 0.5 % DMSO", 1e-3),
         ("blank", 0.0),
         ("std_3", None),
         ("CPD-007", None),
@@ -39,3 +41,39 @@ def test_the_level_that_a_name_states(text: str, level: float | None) -> None:
 )
 def test_only_a_concentration_is_one(text: str, molar: float | None) -> None:
     assert concentration_in(text) == (None if molar is None else pytest.approx(molar))
+
+
+@pytest.mark.parametrize(
+    ("text", "molar"),
+    [
+        ("bafilomycin 9, 3, 1 nM", (9e-9, 3e-9, 1e-9)),
+        ("30 nM, 300 nM and 3 uM", (30e-9, 300e-9, 3e-6)),
+        ("10 µM / 3 µM", (10e-6, 3e-6)),
+        ("1 uM, 24 h", ()),
+        ("3, 4 and 5", ()),
+        ("1 and 2 uM, then 5 and 6 uM", ()),
+        ("0,3 uM", ()),
+        ("0,1 / 0,3 uM", (0.1e-6, 0.3e-6)),
+    ],
+)
+def test_the_levels_of_the_one_list_of_a_text(text: str, molar: tuple[float, ...]) -> None:
+    assert listed_levels(text) == pytest.approx(molar)
+
+
+@pytest.mark.parametrize(
+    ("text", "direction"),
+    [
+        ("10 uM down to 0.1 uM", -1),
+        ("10 -> 0.1 uM", -1),
+        ("400 nM → 2 µM", 1),
+        ("5 ng/ml up to 1 ug/ml", 1),
+        ("drug, decreasing from left to right", -1),
+        ("0.1-10 uM", 0),
+        ("10-0.1 uM", 0),
+        ("0.1 to 10 uM", 0),
+        ("1 -> 3 uM, later 3 -> 1 uM", 0),
+        ("volume 5 -> 20", 0),
+    ],
+)
+def test_a_range_has_an_order_only_where_it_says_so(text: str, direction: int) -> None:
+    assert direction_in(text, COMMON) == direction

@@ -26,3 +26,19 @@ def test_the_head_of_a_name(family: str, text: str, role: str | None) -> None:
     lexicon = role_words(DATABASE.family(family), DATABASE.common)
     named = roles_named(lexicon, Clue(Strength.NAME, text, (), 1, text), DATABASE.common)
     assert (role in named) if role else not named
+
+
+@pytest.mark.parametrize(
+    ("text", "role"),
+    [
+        ("3 mM in DMSO", None),
+        ("40 ug/ml in PBS", None),
+        ("DMSO", "vehicle"),
+        ("in DMSO", "vehicle"),
+    ],
+)
+def test_a_concentration_in_a_solvent_is_not_the_solvent(text: str, role: str | None) -> None:
+    lexicon = role_words(DATABASE.family("cell_treatment"), DATABASE.common)
+    clue = Clue(Strength.COMMENT, text, (), 1, text, subject=False)
+    named = roles_named(lexicon, clue, DATABASE.common)
+    assert (role in named) if role else not named
