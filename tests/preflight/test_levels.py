@@ -34,6 +34,7 @@ def test_the_level_that_a_name_states(text: str, level: float | None) -> None:
         ("ochra 0.3 uM", 0.3e-6),
         ("ochra 20 nM, 30", 20e-9),
         ("drug 10x", None),
+        ("5 ng/L", 5e-9),
         ("0.1 % DMSO", None),
         ("1 uM or 3 uM", None),
         ("column 3", None),
@@ -64,8 +65,8 @@ def test_the_levels_of_the_one_list_of_a_text(text: str, molar: tuple[float, ...
     ("text", "direction"),
     [
         ("10 uM down to 0.1 uM", -1),
-        ("10 -> 0.1 uM", -1),
-        ("400 nM → 2 µM", 1),
+        ("10 -> 0.1 uM", 0),
+        ("400 nM → 2 µM", 0),
         ("5 ng/ml up to 1 ug/ml", 1),
         ("drug, decreasing from left to right", -1),
         ("0.1-10 uM", 0),
@@ -77,3 +78,11 @@ def test_the_levels_of_the_one_list_of_a_text(text: str, molar: tuple[float, ...
 )
 def test_a_range_has_an_order_only_where_it_says_so(text: str, direction: int) -> None:
     assert direction_in(text, COMMON) == direction
+
+
+@pytest.mark.parametrize(
+    "unit", ["pg/L", "ng/L", "ug/L", "mg/L", "g/L", "pg/uL", "mg/uL", "pM", "M"]
+)
+def test_every_unit_that_is_found_has_a_size(unit: str) -> None:
+    assert len(listed_levels(f"10, 5 and 1 {unit}")) == 3
+    assert direction_in(f"10 {unit} down to 1 {unit}", COMMON) == -1

@@ -12,6 +12,7 @@ from ..text import SourceFacts, amounts_in, comment_blocks
 from ..trace import row_column
 from .clues import Clue, Strength, shortened
 from .deck import Deck
+from .labware_nouns import LabwareNouns
 from .well_names import WellNames, well_names
 
 _WIDEST = 8
@@ -26,13 +27,18 @@ Span = tuple[re.Match[str], re.Match[str], float, float]
 def level_spans(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """Levels of the wells between two places that a line names with a level each.
 
-    On every plate and rack that the run uses at both: where they hold no doses, nobody asks.
+    On the labware that the line names, or else on those that the run fills: what they are filled
+    from may be laid out the other way round.
     """
-    names = well_names(common)
+    names, nouns = well_names(common), LabwareNouns(deck, common)
+    filled = frozenset(key for key, _ in deck.received)
     for first, text in (*facts.docstrings, *comment_blocks(facts)):
         for line, written in enumerate(text.splitlines(), first):
             for low, high, start, end in _spans(written[:_LONGEST_LINE], names):
+                keys = nouns.heading(written) or nouns.named(written) or filled
                 for info in deck.plates():
+                    if info.key not in keys:
+                        continue
                     levels = _levels(names, info, low, high, start, end)
                     wells = [well for well in levels if (info.key, well) in deck.refs]
                     if not info.centers_channels and wells:

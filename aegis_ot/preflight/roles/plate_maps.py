@@ -36,13 +36,13 @@ def plate_maps(
         by_key = _labware_by_key(deck, facts, name)
         used = set(used_with(deck, facts, name))
         places = _numbers_places(facts, name)
-        others = used - {key for keys in by_key.values() for key in keys}
+        rest = used - {key for keys in by_key.values() for key in keys}
         for text, wells, level, column in entries:
             keyed = [keys for key, keys in by_key.items() if text.endswith(f" {key}")]
             if column in by_key:
                 keyed = [by_key[column]]
-            elif column and by_key and len(others) == 1:
-                keyed = [tuple(others)]  # not where the other column's wells are
+            elif column and by_key and len(rest) == 1:
+                keyed = [tuple(rest)]  # not where the other column's wells are
             refs = tuple(refs_of(deck, keyed[0] if keyed else labware, wells))
             if concentration_in(text) is not None or places:
                 level = None  # the text says it, or the number beside it is a column's

@@ -74,7 +74,7 @@ def _cells(written: str, count: int = 0) -> list[str]:
 
     What stands further right than the last of them is a remark: "<- gene 1", "uM".
     """
-    written = re.sub(r"\s*(?:<[-=]|#).*", "", written)
+    written = re.split(r"<[-=]|#", written, maxsplit=1)[0].rstrip()
     words = written.replace("|", " ").split()
     if len(words) == count or not count:
         return words

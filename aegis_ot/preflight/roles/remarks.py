@@ -68,6 +68,8 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
                 placed = 1 in (len(headed), len(in_line))
                 for clue in _spoken(deck, part, line + number, keys - others, others, common):
                     levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
+                    if heading and keys.isdisjoint(heading):
+                        levels = ()  # named by what its wells hold, perhaps
                     yield replace(clue, placed=placed, levels=levels)
 
 
@@ -208,7 +210,8 @@ def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> 
     if len(places) < 2:
         return ()
     listed = listed_levels(said)
-    if len(listed) == len(set(listed)) == len(places):
+    # Two columns and two numbers may come together for any reason.
+    if len(listed) == len(set(listed)) == len(places) > 2:
         return tuple(listed[places.index(place)] for place in at)
     direction = direction_in(said, common)
     return tuple(float(direction * place) for place in at) if direction else ()

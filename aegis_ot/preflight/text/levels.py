@@ -25,6 +25,9 @@ _UNITS: dict[str, float] = {
     "ng/ul": 1e-3,
     "ug/ul": 1.0,
     "mg/ul": 1e3,
+    "pg/l": 1e-12,
+    "ng/l": 1e-9,
+    "ug/l": 1e-6,
     "pg/ml": 1e-9,
     "ng/ml": 1e-6,
     "ug/ml": 1e-3,
@@ -141,8 +144,9 @@ _AMOUNT = re.compile(
     re.IGNORECASE,
 )
 _BETWEEN = re.compile(r"\s*(?:[,;/&+]|\band\b|,\s*and\b)\s*")
-_TO = re.compile(r"\s*(?:-+>|→|(?:down|up) to\b)\s*")
-"""A plain "0.1-10 uM" says which doses there are, and not in which order they stand."""
+_TO = re.compile(r"\s*(?:down|up) to\b\s*")
+"""A plain "0.1-10 uM" says which doses there are, and not in which order they stand; an arrow may
+be a stock's dilution."""
 
 
 def _joined(text: str, joint: re.Pattern[str]) -> list[list[tuple[float, str]]]:

@@ -49,9 +49,13 @@ class SyntaxReader:
         self._kinds = {
             node.name
             for node in ast.walk(tree)
-            if isinstance(node, ast.ClassDef) and not _names_places(node)
+            if isinstance(node, ast.ClassDef)
+            and any(last_name(base).endswith("Enum") for base in node.bases)
+            and not _names_places(node)
         }
-        self._assigning = {node.lineno for node in ast.walk(tree) if isinstance(node, ast.Assign)}
+        self._assigning = {
+            node.lineno for node in ast.walk(tree) if isinstance(node, (ast.Assign, ast.AnnAssign))
+        }
         for node in ast.walk(tree):
             if isinstance(node, ast.Assign):
                 for target in node.targets:

@@ -1,7 +1,7 @@
 # expect: cell_treatment pass
 """Rapamycin on HepG2.
 
-Ramp in the deep-well plate: 0.5 nM in column 1 up to 20 uM in column 8, vehicle in column 11.
+Ramp in the rapamycin plate: 0.5 nM in column 1 up to 20 uM in column 8, vehicle in column 11.
 """
 
 metadata = {"apiLevel": "2.12", "protocolName": "Rapamycin ramp"}
