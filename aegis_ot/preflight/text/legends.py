@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from ...instrumentation import is_spot
 from .comments import comment_blocks
 from .facts import SourceFacts
 
@@ -28,7 +29,6 @@ _COLUMN = re.compile(
 """Codes in a column of their own, what they stand for in the next."""
 _FEWEST = 2
 """A single "x = y" in prose may be anything."""
-_SPOT = re.compile(r"[A-P](?:0?[1-9]|1\d|2[0-4])")
 _LONGEST_CODE = 4
 
 
@@ -57,7 +57,7 @@ def _written(facts: SourceFacts) -> Iterable[dict[str, str]]:
 
 def _run_of(first: str, last: str | None) -> list[str]:
     """``d1`` to ``d8``, or the one code; names of wells are none."""
-    if _SPOT.fullmatch(first):
+    if is_spot(first):
         return []
     one, other = re.fullmatch(r"(\D+)(\d+)", first), re.fullmatch(r"(\D+)(\d+)", last or "")
     if last is None or one is None or other is None or one[1] != other[1]:
@@ -70,6 +70,6 @@ def _in_dicts(constants: Mapping[str, Any]) -> Iterable[dict[str, str]]:
         if isinstance(value, dict) and len(value) >= _FEWEST and name != "metadata":
             texts = all(isinstance(item, str) for pair in value.items() for item in pair)
             if texts and all(len(key) <= _LONGEST_CODE for key in value):
-                spots = any(_SPOT.fullmatch(item) for pair in value.items() for item in pair)
+                spots = any(is_spot(item) for pair in value.items() for item in pair)
                 if not spots:
                     yield dict(value)

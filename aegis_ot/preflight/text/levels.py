@@ -54,7 +54,7 @@ def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | N
 
     Plain numbers count in names and liquids only: in a comment they may be anything.
     """
-    plain = text.replace("µ", "u").replace("μ", "u").lower()
+    plain = _with_u(text).lower()
     found = _WITH_UNIT.findall(plain)
     # "3 uM (100x)" is 3 uM, and "1 mM in 0.5 % DMSO" is 1 mM.
     found = [(v, unit) for v, unit in found if unit not in ("%", "x")] or found
@@ -85,7 +85,7 @@ def concentration_in(text: str) -> float | None:
 
 def concentrations_in(text: str) -> set[float]:
     """All concentrations with a unit that a text states; per cent and "10x" are none."""
-    plain = text.replace("µ", "u").replace("μ", "u").lower()
+    plain = _with_u(text).lower()
     return {
         _number(value) * _UNITS.get(_unit(unit), 1.0)
         for value, unit in _WITH_UNIT.findall(plain)
@@ -99,7 +99,7 @@ def name_without_level(text: str, common: Common) -> tuple[str, ...]:
     Two liquids whose names differ in these are different compounds; those whose names do not
     differ are doses of one.
     """
-    plain = _WITH_UNIT.sub(" ", text.replace("µ", "u").replace("μ", "u"))
+    plain = _WITH_UNIT.sub(" ", _with_u(text))
     lexicon = lexicon_of({"noise": (*common.noise, *common.levels)})
     words = tokens(plain)
     covered = {at for match in lexicon.find(plain) for at in range(match.start, match.end)}
@@ -151,7 +151,7 @@ be a stock's dilution."""
 
 def _joined(text: str, joint: re.Pattern[str]) -> list[list[tuple[float, str]]]:
     """Runs of amounts, each with its unit, that nothing but this joint stands between."""
-    plain = text.replace("µ", "u").replace("μ", "u")
+    plain = _with_u(text)
     runs: list[list[tuple[float, str]]] = []
     end = -1
     for match in _AMOUNT.finditer(plain):
@@ -166,7 +166,7 @@ def _joined(text: str, joint: re.Pattern[str]) -> list[list[tuple[float, str]]]:
 
 def amounts_in(text: str) -> Iterator[tuple[re.Match[str], float]]:
     """Each concentration with a unit, where it stands in a text."""
-    for match in _AMOUNT.finditer(text.replace("µ", "u").replace("μ", "u")):
+    for match in _AMOUNT.finditer(_with_u(text)):
         if match[2]:
             yield match, _number(match[1]) * _UNITS[match[2].lower()]
 
@@ -191,3 +191,8 @@ def _unit(unit: str) -> str:
 
 def _number(text: str) -> float:
     return float(text.replace(",", ".").replace("p", "."))
+
+
+def _with_u(text: str) -> str:
+    """A text with "u" for the micro sign and for the Greek letter."""
+    return text.replace("µ", "u").replace("μ", "u")

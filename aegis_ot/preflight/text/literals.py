@@ -38,15 +38,12 @@ def index_value(node: ast.expr, constants: Mapping[str, Any]) -> Any:
     return None
 
 
-_LONGEST_RANGE = 400
-
-
 def literal_of(node: ast.expr, kinds: Collection[str]) -> Any:
     """The value of a literal, in which members of the protocol's own Enums stand as their names.
 
     Args:
         node: The expression.
-        kinds: Names of the classes of the protocol: ``Arm.VEHICLE`` is ``"VEHICLE"``.
+        kinds: Names of these Enums: ``Arm.VEHICLE`` is ``"VEHICLE"``.
 
     Raises:
         ValueError: If it is no literal; and what ``ast.literal_eval`` raises besides.
@@ -66,6 +63,9 @@ class _Members(ast.NodeTransformer):
         if isinstance(node.value, ast.Name) and node.value.id in self._kinds:
             return ast.Constant(node.attr)
         return node
+
+
+_LONGEST_RANGE = 400
 
 
 def counted(node: ast.expr) -> list[int] | None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator
 
+from ...instrumentation import is_spot
 from .facts import Place, SourceFacts
 from .lines import without_gaps
 from .literals import (
@@ -28,9 +28,6 @@ _SIDES: dict[str, dict[int | str, str]] = {
         for method in ("transfer", "distribute", "consolidate", "transfer_with_liquid_class")
     },
 }
-
-
-_SPOT = re.compile(r"[A-P]\d{1,2}")
 
 
 class SyntaxReader:
@@ -223,7 +220,7 @@ class SyntaxReader:
 def _names_places(kind: ast.ClassDef) -> bool:
     """Whether the members of a class are wells, ``DILUENT = "A1"``: such a member is a place."""
     values = [node.value for node in kind.body if isinstance(node, ast.Assign)]
-    return any(_SPOT.fullmatch(plain_text(value)) for value in values)
+    return any(is_spot(plain_text(value)) for value in values)
 
 
 def _picked_by(loop: ast.For | ast.AsyncFor, turning: set[str]) -> Iterator[str]:
