@@ -26,6 +26,20 @@ COMMON = load_database().common
         ("columns 1-6 of row H: blank", "H1-H6: blank"),
         ("riga A, colonne 1-3: bianco", "A1-A3: bianco"),
         ("colonnes 1 à 3 témoin, 4 à 6 dilué", "colonnes 1 à 3 témoin, column 4 à 6 dilué"),
+        (
+            "cols: 1 = untreated, 2 = EtOH (vehicle), 3 = 1 nM",
+            "cols 1 = untreated, column 2 = EtOH (vehicle), column 3 = 1 nM",
+        ),
+        ("rows: A-E samples, F positive, G NTC", "rows A-E samples, row F positive, row G NTC"),
+        ("columns 1,3,5 = samples, 7 = NTC", "columns 1,3,5 = samples, column 7 = NTC"),
+        (
+            "column 6: A-D samples, E-F mock, G-H water (NTC)",
+            "column 6: A6-D6 samples, E6-F6 mock, G6-H6 water (NTC)",
+        ),
+        (
+            "column 2: A standard 1, B standard 2, ... G standard 7, H blank",
+            "column 2: A2 standard 1, B2 standard 2, ... G2 standard 7, H2 blank",
+        ),
     ],
 )
 def test_what_is_left_out_is_put_back(written: str, meant: str) -> None:
@@ -37,6 +51,9 @@ def test_what_is_left_out_is_put_back(written: str, meant: str) -> None:
     [
         "columns 1-3 standards, 8 samples",
         "columns 1-6 samples, 7 uL each",
+        "columns 1,3,5 samples, 7 ng NTC",  # no "=": an amount
+        "column 4: C-D samples, E-F mock",  # does not count on from A
+        "column 3: A, B and D stay empty",
         "Row A: standards",
         "add 5 uL, then 10 uL",
         "1 plate, 2 racks",

@@ -178,6 +178,9 @@ def _in_one_list(case: Case, one: Well, other: Well) -> bool:
         return mine is theirs  # nothing is said of either
     kinds = lexicon_of({"distinct": case.common.distinct, "dosed": case.common.dose_words})
     said = {match.topic for match in kinds.find(mine.text)}
+    labware = case.trace.labware.get(one.ref.labware)
+    beside = (*mine.evidence, labware.label if labware else "")
+    said |= {match.topic for text in beside for match in kinds.find(text)} & {"dosed"}
     same = name_without_level(mine.text, case.common) == name_without_level(
         theirs.text, case.common
     )

@@ -6,12 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import Imbalance
+from ..trace import Imbalance, Well
 from .base import Case, Check, Doubt, Result, Violation, at, place
 
-_FAR_SHORT = 4.0
-"""Where several times more is drawn than the run has put in, the plate was filled by hand."""
+_FAR_SHORT = 2.0
+"""Where so many times more is drawn than the run has put in, the plate was filled by hand."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class VolumeBookkeeping(Check):
         by_hand = {
             imbalance.well.ref.labware
             for imbalance in case.trace.imbalances
-            if not imbalance.overfilled and imbalance.limit * _FAR_SHORT < imbalance.volume
+            if not imbalance.overfilled and _is_far_short(imbalance.well)
         }
         seen: set[tuple[int, bool]] = set()
         for imbalance in case.trace.imbalances:
@@ -53,6 +54,14 @@ class VolumeBookkeeping(Check):
                 )
                 continue
             yield _violation(imbalance)
+
+
+def _is_far_short(well: Well) -> bool:
+    """Whether the run draws far more from a well than it puts there, mixing apart."""
+    moved = [visit for visit in well.visits if not visit.mixing]
+    given = sum(visit.volume for visit in moved if visit.kind is OperationKind.DISPENSE)
+    drawn = sum(visit.volume for visit in moved if visit.kind is OperationKind.ASPIRATE)
+    return given * _FAR_SHORT <= drawn
 
 
 def _is_mix(imbalance: Imbalance) -> bool:

@@ -24,7 +24,7 @@ from ..roles import (
     usage_of,
 )
 from ..rules import Common, Database, Family, RuleSpec
-from ..text import SourceFacts, lexicon_of, read_source
+from ..text import SourceFacts, lexicon_of, read_source, tokens
 from ..trace import Replacements, Trace, build_trace
 from .options import Options
 
@@ -106,6 +106,8 @@ def read_recording(recording: Recording, database: Database, options: Options) -
         prefilled |= implied_contents(one, trace)
     # Read again, now that roles say which wells held liquid before the run.
     prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
+    empty = _said_to_be_empty(clues, common)
+    prefilled -= empty
     if prefilled & usage.keys():
         trace = build_trace(recording.log, recording.labware, replacements, prefilled.__contains__)
         usage = usage_of(trace)
@@ -120,8 +122,11 @@ def read_recording(recording: Recording, database: Database, options: Options) -
         roles=tuple(roles),
         waste=_waste(clues, common, trace),
         loose_volumes=_loose_volumes(facts, common),
-        unsure=frozenset(_prefilled_by_words(clues, common))
-        | _implied_elsewhere(database, families, clues, usage, trace),
+        unsure=(
+            frozenset(_prefilled_by_words(clues, common))
+            | _implied_elsewhere(database, families, clues, usage, trace)
+        )
+        - empty,
         database=database,
     )
 
@@ -169,6 +174,23 @@ def _prefilled_by_words(clues: Iterable[Clue], common: Common) -> set[WellRef]:
         ref
         for clue in clues
         if clue.whole and clue.subject and lexicon.find(clue.text)
+        for ref in clue.wells
+    }
+
+
+def _said_to_be_empty(clues: Iterable[Clue], common: Common) -> set[WellRef]:
+    """Wells that are said to be empty at first: ``mix = rack["D1"]  # empty tube``.
+
+    Not those of an "empty vector", nor where it is said when they will be empty.
+    """
+    empty = {word for phrase in common.empty for word in tokens(phrase)}
+    nouns = {word for words in (*common.labware.values(), common.places) for word in words}
+    return {
+        ref
+        for clue in clues
+        if not clue.whole and not clue.step
+        for words in [set(tokens(clue.text))]
+        if not words.isdisjoint(empty) and words <= empty | nouns
         for ref in clue.wells
     }
 

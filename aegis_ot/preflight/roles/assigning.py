@@ -16,12 +16,11 @@ from ..trace import Trace
 from .channels import spread_over_channels
 from .choosing import A_FEW, Candidate, choose
 from .clues import Clue, Strength
+from .fitting import fitting_role, is_for_controls
 from .given_on import unsay_contents
 from .helpers import unsay_controls
 from .levels import levels_beside, levels_of
 from .phrases import (
-    fitting_role,
-    is_for_controls,
     is_outright,
     joins_others,
     names_several,
@@ -30,6 +29,7 @@ from .phrases import (
     roles_named,
     says_only_a_place,
     says_only_the_side,
+    what_all_are,
 )
 from .replicates import spread_over_replicates
 from .roles import Roles
@@ -67,6 +67,7 @@ def assign_roles(
     for_controls: set[WellRef] = set()
     untold: list[Clue] = []
     misplaced: list[Clue] = []
+    holding = _of_several(clues, lexicon, common, roles)
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
         if not named:
@@ -74,6 +75,10 @@ def assign_roles(
             continue
         if clue.lone and names_several(lexicon, clue, common, roles):
             continue
+        if clue.whole and any(not shared.isdisjoint(named) for shared in _shared(clue, holding)):
+            continue  # `bsa` holds "BSA strip + lysates"
+        if clue.lone and clue.whole:
+            named = what_all_are(named, roles)
         if clue.whole and joins_others(lexicon, clue.text, common):
             named = [role for role in named if not family.roles[role].implies_contents]
             if not named:
@@ -114,6 +119,8 @@ def assign_roles(
             candidates.setdefault(ref, []).append((worth, role, clue, level))
         if not placed:
             misplaced.append(clue)
+            if clue.strength is Strength.LIQUID:
+                roles.unnamed.update(clue.wells)
     _note_untold(roles, lexicon, untold)
     levels = _levels_beside(untold, common)
     roles.untold = [*untold, *misplaced]
@@ -121,8 +128,10 @@ def assign_roles(
     for first, group in trace.groups.items():
         if first in for_controls and first not in trace.singles:
             for_controls.update(group)
-    for ref, found in candidates.items():
-        assignment = choose(roles, ref, found)
+    # What other wells share their layout with first.
+    for ref in sorted(candidates, key=lambda ref: any(c[2].copied_from for c in candidates[ref])):
+        found = [c for c in candidates[ref] if _agrees_with_what_it_copies(roles, ref, c[2])]
+        assignment = choose(roles, ref, found) if found else None
         if assignment is not None and not (ref in for_controls and assignment.whole):
             roles.by_well[ref] = assignment
             told = levels.get(ref, set())
@@ -133,6 +142,37 @@ def assign_roles(
     unsay_controls(roles, trace)
     spread_over_replicates(roles, trace)
     return roles
+
+
+def _agrees_with_what_it_copies(roles: Roles, ref: WellRef, clue: Clue) -> bool:
+    """Whether evidence that is copied from other wells is what decided these, if anything did.
+
+    They may also hold the reagent that makes it: water makes an NTC.
+    """
+    specs = roles.family.roles
+    of = [one for one, copy in zip(clue.copied_from, clue.wells, strict=False) if copy == ref]
+    known = [roles.by_well[one] for one in of if one in roles.by_well]
+    return all(
+        specs[assigned.role].one_liquid or any(map(clue.said.startswith, assigned.evidence))
+        for assigned in known
+    )
+
+
+def _of_several(
+    clues: Sequence[Clue], lexicon: Lexicon, common: Common, roles: Roles
+) -> dict[str, set[str]]:
+    """Labware that its label says to hold several kinds of things, with the roles of these."""
+    return {
+        ref.labware: set(roles_named(lexicon, clue, common))
+        for clue in clues
+        if clue.whole and clue.lone and names_several(lexicon, clue, common, roles)
+        for ref in clue.wells[:1]
+    }
+
+
+def _shared(clue: Clue, holding: Mapping[str, set[str]]) -> list[set[str]]:
+    """What the labware of a clue hold that are known to hold several kinds of things."""
+    return [holding[key] for key in {ref.labware for ref in clue.wells} & holding.keys()]
 
 
 def _note_untold(roles: Roles, lexicon: Lexicon, untold: Sequence[Clue]) -> None:

@@ -39,7 +39,8 @@ def choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | N
         if hint.strength is Strength.COMMENT and not clue.whole:
             exact = len(set(hint.wells)) <= _WIDER * len(set(clue.wells))  # not of more than this
         said = exact or hint.strength == clue.strength
-        if said and role != other and role in roles.closure(other):
+        finer = role in roles.closure(other) or other in roles.family.roles[role].may_be
+        if said and role != other and finer:
             role, decisive = other, hint
     rivals = [
         candidate

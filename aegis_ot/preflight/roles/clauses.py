@@ -82,9 +82,13 @@ def _clauses(text: str, names: WellNames, nouns: frozenset[str]) -> Iterator[str
         for at in [match.span() for match in _BREAKS.finditer(whole)] + [(len(whole), len(whole))]:
             clause = whole[start : at[0]]
             goes_on = at[0] < len(whole) and whole[at[0]] != "."
-            if goes_on and (_is_list(clause, names, nouns) or _is_open(clause)):
+            rest = whole[at[1] :]
+            listed = _is_list(clause, names, nouns) and not _says_anew(clause, rest, names)
+            if at[0] < len(whole) and whole[at[0]] == ";" and not names.spec.match(rest.lstrip()):
+                listed = False  # "columns 1 and 2; fractions from C3 on"
+            if goes_on and (listed or _is_open(clause)):
                 continue  # "A1, B1 and C1: standards" is one, and "columns 1+2 (blank, standards)"
-            if goes_on and whole[at[0]] == "," and _is_begun(clause, whole[at[1] :], names):
+            if goes_on and whole[at[0]] == "," and _is_begun(clause, rest, names):
                 continue  # "NTCs H3, H6"
             if goes_on and whole[at[0]].isspace() and not names.spec.search(clause):
                 continue  # "vehicle     A3" is one entry of a layout
@@ -99,6 +103,19 @@ def _is_begun(clause: str, rest: str, names: WellNames) -> bool:
     if not groups or not tokens(clause[: groups[0][0]]) or tokens(clause[groups[-1][1] :]):
         return False
     return _is_list(_TO_THE_END.split(rest, maxsplit=1)[0], names, frozenset())
+
+
+def _says_anew(clause: str, rest: str, names: WellNames) -> bool:
+    """Whether one column or row follows several, by its own word: "columns 1-5, column 6 = NTC"."""
+    last, first = list(names.spec.finditer(clause))[-1:], names.spec.match(rest.lstrip())
+    return (
+        bool(last)
+        and first is not None
+        and any(
+            last[0][several] and first[one]
+            for several, one in (("columns", "column"), ("rows", "row"))
+        )
+    )
 
 
 def _is_open(clause: str) -> bool:

@@ -37,6 +37,8 @@ class Clue:
         step: For a comment beside a transfer: ``source`` or ``destination`` of the transfer.
         lone: Whether it speaks of its wells only if it names a single role.
         placed: Whether a comment says itself in which labware its wells are.
+        copied_from: For evidence on other wells that these share a layout with: those, in order;
+            it counts for those of them that it decided, or of which nothing is known.
     """
 
     strength: Strength
@@ -51,6 +53,7 @@ class Clue:
     step: str = ""
     lone: bool = False
     placed: bool = False
+    copied_from: tuple[WellRef, ...] = ()
 
 
 def shortened(text: str) -> str:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Sequence
 
 from ...instrumentation import LabwareInfo, NameBinding
 from ...vocabulary import WellRef
-from ..text import tokens
+from ..text import SourceFacts, tokens
 from ..trace import Trace, row_column
+
+_ITEM = re.compile(r"(\w+)\[([^\[\]]+)\]")
 
 LEFT_OUT = 2
 """As many wells of those that a layout names may have been left out by mistake."""
@@ -16,7 +19,7 @@ LEFT_OUT = 2
 class Deck:
     """Finds wells by the labware's name, label or slot and by well names."""
 
-    def __init__(self, trace: Trace, names: Sequence[NameBinding]) -> None:
+    def __init__(self, trace: Trace, names: Sequence[NameBinding], facts: SourceFacts) -> None:
         self.trace = trace
         self.refs: dict[tuple[str, str], WellRef] = {}
         for well in trace.wells.values():
@@ -28,6 +31,10 @@ class Deck:
                 self.by_name.setdefault(binding.name, set()).update(binding.labware)
             for ref in binding.wells:
                 self.of_wells.setdefault(binding.name, set()).add(ref.labware)
+        for name in [name for name in self.by_name if "." in name]:
+            self.by_name.setdefault(name.rpartition(".")[2], set()).update(self.by_name[name])
+        self.in_turn = self._taken_in_turn(facts)
+        self.keyed = self._by_key()
         self.by_label: dict[str, set[str]] = {}
         for info in self.plates():
             if info.label:
@@ -37,6 +44,30 @@ class Deck:
             for well in trace.wells.values()
             if any(True for _ in trace.deliveries(well))
         }
+
+    def _by_key(self) -> dict[str, dict[str, str]]:
+        """For each dict of several labware: its keys, as text, with what each holds."""
+        found: dict[str, dict[str, str]] = {}
+        for name, keys in self.by_name.items():
+            match = _ITEM.fullmatch(name)
+            if match and len(keys) == 1:
+                found.setdefault(match[1], {})[match[2].strip("'\"")] = next(iter(keys))
+        return {name: held for name, held in found.items() if len(held) > 1}
+
+    def _taken_in_turn(self, facts: SourceFacts) -> set[str]:
+        """Loop variables over several plates: each was all of them, not the last one only."""
+        lists: dict[str, set[str]] = {}
+        for name, keys in self.by_name.items():
+            lists.setdefault(name.split("[", 1)[0], set()).update(keys)
+        found: set[str] = set()
+        for _, name in facts.loops:
+            if name in facts.assigned:
+                continue  # it is something else as well, at another time
+            for source, _, _ in facts.comes_from.get(name, ()):
+                if name in self.by_name and len(lists.get(source, ())) > 1:
+                    self.by_name[name].update(lists[source])
+                    found.add(name)
+        return found
 
     def ref(self, labware: str, name: str) -> WellRef:
         """The reference of a well, made up where the run never used it."""
@@ -91,6 +122,10 @@ class Deck:
             for axis in (0, 1)
             for lines in [{row_column(name)[axis] for name in names}]
         )
+
+    def are_alike(self, keys: Collection[str]) -> bool:
+        """Whether these labware are all of one kind."""
+        return len({self.trace.labware[key].load_name for key in keys}) == 1
 
     def used_at(self, line: int) -> set[WellRef]:
         """The wells that the statement at a line uses, itself or through what it calls."""

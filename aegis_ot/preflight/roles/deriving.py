@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Container, Mapping
+from dataclasses import replace
 
 from ...vocabulary import WellRef
 from ..rules import Common, RoleSpec
@@ -34,19 +35,40 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: C
         if spec.receives:
             _derive_one(roles, name, spec, trace, usage)
     for name, spec in roles.family.roles.items():
-        if spec.feeds and spec.dosed:
+        if spec.feeds and (spec.dosed or spec.feeds_beside):
             _derive_levels(roles, name, spec, trace)
 
 
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """A source without a name that goes into named wells of ``spec.feeds``, mostly."""
-    wanted = frozenset(spec.feeds)
+    wanted, beside = frozenset(spec.feeds), frozenset(spec.feeds_beside)
+    given = {
+        well
+        for ref, wells in (trace.served() if beside else {}).items()
+        if roles.has(ref, beside)
+        for well in wells
+    }
+    specs, none_named = roles.family.roles, not roles.known(name)
     for ref, wells in trace.served(prefilled=True).items():
-        if roles.of(ref):
+        used_as = none_named and any(name in specs[role].may_be for role in roles.of(ref))
+        if (roles.of(ref) and not used_as) or (beside and not wells <= given):
             continue
-        right = sum(roles.has(well, wanted) for well in wells)
-        if right * 2 > len(wells) and not _is_for_all(roles, wells, wanted):
-            roles.derived.setdefault(ref, set()).update(roles.closure(name))
+        right = [well for well in wells if _is_telling(roles, well, wanted)]
+        if len(right) * 2 > len(wells) and not _is_for_all(roles, wells, wanted):
+            if all(map(roles.by_comment_only, right)) and ref not in roles.by_well:
+                # It rests on no more than theirs does.
+                roles.by_well[ref] = replace(
+                    roles.by_well[right[0]].copied("what it is given to"), role=name, level=None
+                )
+            else:
+                roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+def _is_telling(roles: Roles, ref: WellRef, wanted: frozenset[str]) -> bool:
+    """Whether a well has one of these roles; a blank alone does not tell what its liquid is."""
+    assigned = roles.by_well.get(ref)
+    blank = assigned is not None and roles.family.roles[assigned.role].level is not None
+    return roles.has(ref, wanted) and not blank
 
 
 def _is_for_all(roles: Roles, wells: Collection[WellRef], wanted: frozenset[str]) -> bool:

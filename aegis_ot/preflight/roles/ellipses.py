@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Iterable
+from itertools import pairwise
 
 from ..rules import Common
 from .well_names import WellNames, well_names
@@ -41,14 +42,19 @@ class Ellipses:
         self._plural = names.plural_columns
         to, listing = names.to, names.conjunction
         column, row = rf"(?:{names.columns}|{names.column})", rf"(?:{names.rows}|{names.row})"
-        goes_on = r"(?=\s*[:=]?\s+[^\W\d_]{3,})"
+        goes_on = (
+            r"(?=\s*[:=]?\s+[^\W\d_]{3,}|\s*=\s*\S"
+            r"|\s*[:=]?\s+\d+(?:[.,]\d+)?\s?(?:[pnuµμm]M\b|[pnuµμm]?g/))"  # "B 10 uM"
+        )
         self._next = re.compile(
             rf"[^,;]*[,;](?:{listing})?\s*(?P<of>(?P<low>\d{{1,2}}|[A-P])"
             rf"(?:{to}(?P<high>\d{{1,2}}|[A-P]))?){goes_on}"
         )
         self._numbered = re.compile(
-            rf"(?:^|[:,;(])\s*(?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?){goes_on}"
+            rf"(?:^|[:,;(])\s*(?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?)"
+            r"(?=\s*[:=]?\s+[^\W\d_]{3,})"
         )
+        self._headed = re.compile(rf"\b({column}|{row})\s*:\s*(?=(?:1|A)(?![\w.])\W*\w[^\n]*[,;])")
         self._bracketed = re.compile(rf"\((?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?)\)")
         self._lettered = re.compile(r"(?m)(?:^\s*|(?<=\s\s))([A-P])(?=\s{1,4}[:=]?\s*\w)")
         self._row_word = re.compile(rf"\b{row}\b")
@@ -58,10 +64,17 @@ class Ellipses:
         self._listed = re.compile(
             rf"(?m)^(\s*)({span_of_list}(?:{listing}{span_of_list})*)(?=\s*:\s|\s{{2,}}[^\W\d])"
         )
+        self._one_column = re.compile(rf"\b{names.column}\.?\s*\(?(\d{{1,2}})\b")
+        self._down = re.compile(
+            rf"(?P<lead>[:=(,;]|\.\.\.?|…)\s*(?P<low>[A-P])(?![\w.])"
+            rf"(?:{to}(?P<high>[A-P])(?!\w))?(?=\s*[:=]\s*\S|\s+[^\W\d_]{{2,}})"
+        )
         self._short = re.compile(rf"(?<![\w.])c(\d{{1,2}})(?:{to}c?(\d{{1,2}}))?(?!\w)")
         self._of_column = re.compile(
             rf"[^:]{{0,40}}?\b{names.column}\.?\s*\(?(\d{{1,2}})\b[^:\d]{{0,20}}:"
         )
+        self._row_head = re.compile(rf"\b{names.row}\s*\(?[A-P]\b[^:\d]{{0,20}}:")
+        self._column_head = re.compile(rf"\b{names.column}\.?\s*\(?\d{{1,2}}\b[^:\d]{{0,20}}:")
         self._of_row = re.compile(rf"[^:]{{0,40}}?\b{names.row}\s*\(?([A-P])\b[^:\d]{{0,20}}:")
         self._rows = re.compile(rf"\b{row}\s+([A-P])(?:{to}([A-P]))?\b")
         self._columns = re.compile(rf"\b{column}\.?\s*(\d{{1,2}})(?:{to}(\d{{1,2}}))?\b")
@@ -100,7 +113,8 @@ class Ellipses:
         """See :func:`spelled_out`."""
         if len(self._short.findall(text)) > 1:  # "c1 vehicle, c2-11 drug"
             text = self._short.sub(self._spelled, text)
-        text = self._with_columns(text)
+        text = self._headed.sub(r"\1 ", text)  # "cols: 1 = untreated, 2 = vehicle"
+        text = self._down_columns(self._with_columns(text))
         at = 0
         while match := self._names.spec.search(text, at):
             at = match.end()
@@ -110,9 +124,15 @@ class Ellipses:
                 continue
             ends = _ENDS.search(listed)
             follower = self._next.match(text, at)
-            if ends and follower and _follows(ends[1], follower["low"]):
+            if ends and follower and self._goes_on(text, ends[1], follower):
                 text = self._inserted(text, kind, follower.start("of"))
         return self._crossed(text)
+
+    def _goes_on(self, text: str, last: str, follower: re.Match[str]) -> bool:
+        """Whether a layout goes on there: with the next one, or with a later one and "="."""
+        low, after = follower["low"], text[follower.end("of") :].lstrip()
+        later = low.isdigit() and last.isdigit() and int(low) > int(last)
+        return _follows(last, low) or (later and after[:1] == "=")
 
     def _with_columns(self, text: str) -> str:
         """Bare numbers that count on from 1 are columns: "1-3 samples, 4 standard, 5 blank",
@@ -130,6 +150,23 @@ class Ellipses:
             text = self._inserted(text, "column", match.start("of"))
         return text
 
+    def _down_columns(self, text: str) -> str:
+        """Letters that count down one column are its wells: "column 6: A-D samples, E-H water"."""
+        heads = list(self._one_column.finditer(text))
+        ends = [*(head.start() for head in heads[1:]), len(text)]
+        for head, end in reversed([*zip(heads, ends, strict=False)]):
+            entries = list(self._down.finditer(text, head.end(), end))
+            if len(entries) < 2 or not _count_down(entries):
+                continue
+            between = text[head.end() : entries[0].start()].strip()
+            if "." in between or ":" in between:
+                continue  # "Column 1: tips. Tubes: A = vehicle"
+            for entry in reversed(entries):
+                low, high, number = entry["low"], entry["high"], head[1]
+                wells = f"{low}{number}" + (f"-{high}{number}" if high else "")
+                text = f"{text[: entry.start('low')]}{wells}{text[entry.end() :]}"
+        return text
+
     def _spelled(self, match: re.Match[str]) -> str:
         last = f"-{match[2]}" if match[2] else ""
         return f"{self._plural} {match[1]}{last}"
@@ -141,6 +178,12 @@ class Ellipses:
         """Rows and columns that stand together, or one under the other: "column 6: rows A-D"."""
         for both in self._both:
             text = both.sub(self._met, text)
+        heads = list(self._row_head.finditer(text)) or list(self._column_head.finditer(text))
+        bounds = [0, *(head.start() for head in heads[1:]), len(text)]
+        return "".join(self._under_its_head(text[one:other]) for one, other in pairwise(bounds))
+
+    def _under_its_head(self, text: str) -> str:
+        """The wells of one column or row that its rows or columns stand under."""
         if head := self._of_column.match(text):
             rest, number = text[head.end() :], head[1]
             wells, found = self._rows.subn(lambda m: f"{m[1]}{number}-{m[2] or m[1]}{number}", rest)
@@ -174,6 +217,17 @@ def _counting_on(matches: Iterable[re.Match[str]]) -> list[re.Match[str]]:
             return []
         found.append(match)
     return found
+
+
+def _count_down(entries: Iterable[re.Match[str]]) -> bool:
+    """Whether these letters go on from A, without a gap but where dots stand for the rest."""
+    last = "@"  # before A
+    for entry in entries:
+        gap = entry["lead"] not in ":=(,;" and entry["low"] > last > "@"
+        if not (gap or _follows(last, entry["low"])):
+            return False
+        last = entry["high"] or entry["low"]
+    return True
 
 
 def _follows(last: str, low: str) -> bool:

@@ -19,14 +19,16 @@ from .labels import labels
 from .legend_clues import explained
 from .level_spans import level_spans
 from .loop_levels import loop_levels
+from .mirrored import mirrored
 from .names import call_arguments, named_wells
 from .numbered_maps import numbered_maps
 from .places import indexing_names
 from .plate_maps import plate_maps
 from .prose_grids import maps_in_prose
-from .remarks import step_comments, written_wells
+from .remarks import written_wells
 from .run_maps import spotted_names, tabled_wells
 from .spoken import said_in_the_run
+from .step_comments import step_comments
 from .text_tables import read_tables, transfer_lists, written_tables
 from .trough_legends import trough_legends
 from .well_names import well_names
@@ -48,7 +50,7 @@ def gather(
         given: Roles given outright: role to places (``"4:H12"``, ``"PCR plate:A1-A8"``).
         common: Words for amounts.
     """
-    deck = Deck(trace, names)
+    deck = Deck(trace, names, facts)
     tables = read_tables(facts)
     clues = [
         *_given(deck, given, common),
@@ -75,6 +77,7 @@ def gather(
         *loop_levels(trace, names, facts, common),
     ]
     clues += explained(clues, facts)
+    clues += mirrored(deck, clues)
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
 
 

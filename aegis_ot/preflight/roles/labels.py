@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
 
 from ...instrumentation import LabwareInfo
 from ..rules import Common
+from ..text import amounts_in
 from .clauses import Part, parts_of
 from .clues import Clue, Strength
 from .deck import Deck
 from .well_names import well_names
+
+_JOINTS = frozenset(",;+/&")
 
 
 def labels(deck: Deck, common: Common) -> Iterator[Clue]:
@@ -17,6 +21,8 @@ def labels(deck: Deck, common: Common) -> Iterator[Clue]:
     for info in deck.plates():
         if not info.label:
             continue
+        if info.centers_channels:
+            yield from _of_troughs(deck, info)
         parts = list(parts_of(info.label, common))
         if len(parts) > 1 and any(part.wells for part in parts):
             yield from _of_wells(deck, info, parts, common)
@@ -31,14 +37,49 @@ def labels(deck: Deck, common: Common) -> Iterator[Clue]:
                 None,
                 f"label '{info.label}'",
                 whole=True,
-                lone="," in text or ";" in text,
+                lone=not _JOINTS.isdisjoint(text),
             )
+
+
+_TROUGH = re.compile(
+    r"(?:^|[,;:/|])\s*(?P<low>\d{1,2})(?:\s*(?:-|–|to)\s*(?P<high>\d{1,2}))?"
+    r"(?:\s*[:=]\s*|\s+)(?P<said>[^\W\d][^,;/|]*)"
+)
+_UNIT = re.compile(r"(?i:[munµμ]?[lmg]|x|h|min|ml|ul)\b")
+_FEWEST = 2
+"""A single number in a label may be an amount."""
+
+
+def _of_troughs(deck: Deck, info: LabwareInfo) -> Iterator[Clue]:
+    """What a reservoir's label says of its troughs by number: "1 PBS vehicle, 3-6 doxorubicin"."""
+    entries = list(_TROUGH.finditer(info.label))
+    names = list(info.wells)
+    spans = [range(int(entry["low"]), int(entry["high"] or entry["low"]) + 1) for entry in entries]
+    told = [number for span in spans for number in span]
+    amounts = any(True for entry in entries for _ in amounts_in(entry.group()))
+    if len(entries) < _FEWEST or len(set(told)) != len(told) or not set(told) <= _counted(names):
+        return
+    if amounts or any(_UNIT.match(entry["said"]) for entry in entries):
+        return  # "2 mL drug, 10 mL vehicle"
+    for entry, span in zip(entries, spans, strict=True):
+        yield Clue(
+            Strength.NAME,
+            entry["said"],
+            tuple(deck.ref(info.key, names[number - 1]) for number in span),
+            None,
+            f"'{entry.group().strip(' ,;:/|')}' on the label '{info.label}'",
+            subject=False,
+        )
+
+
+def _counted(names: Sequence[str]) -> set[int]:
+    return set(range(1, len(names) + 1))
 
 
 def _of_wells(deck: Deck, info: LabwareInfo, parts: list[Part], common: Common) -> Iterator[Clue]:
     names = well_names(common)
     for part in parts:
-        wells = [name for match in part.wells for name in names.meant(match, info)]
+        wells = names.meant_by(part.wells, info)
         used = tuple(deck.ref(info.key, name) for name in wells if (info.key, name) in deck.refs)
         yield Clue(
             Strength.NAME,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from ..rules import Common
-from ..text import tokens
+from ..text import lexicon_of, tokens
 from .clauses import Part
 from .deck import Deck
 
@@ -13,7 +13,14 @@ _HEADING = re.compile(r"\W*([^\W\d]\w*(?:[ -][^\W\d]\w*){0,3}[ -]?)\s*:")
 """A line that begins with what it speaks of: "tubes: A1 lowest ... B2 highest"."""
 
 
+_IN_BRACKETS = re.compile(r"\s*\([^()]*\)")
+
 _SLOT = re.compile(r"(?i:\bslot\s+)([A-Da-d][1-4]|1[01]|[1-9])\b")
+
+_SHORTEST = 3
+"""Fewer letters are short for many things."""
+
+_WORD = re.compile(r"\w+")
 
 _NEAR = 5
 """A noun so many words after a well still says where that is."""
@@ -29,7 +36,12 @@ class LabwareNouns:
             {word for phrase in words for word in tokens(phrase)}
             for words in common.labware.values()
         ]
+        self._nouns = {word for kind in self._kinds for word in kind}
+        self._on_deck = self._nouns | {word for phrase in common.tips for word in tokens(phrase)}
+        self._decks = lexicon_of({"deck": common.decks})
+        self._slots = {info.slot for info in deck.trace.labware.values()}
         self._origins = {word for phrase in common.origins for word in tokens(phrase)}
+        self._articles = {word for phrase in common.articles for word in tokens(phrase)}
         self._joints = {
             word for phrase in (*common.joints, *common.belonging) for word in tokens(phrase)
         }
@@ -42,19 +54,33 @@ class LabwareNouns:
         slots = {slot.lower() for slot in _SLOT.findall(text)}
         if len(slots) == 1:
             return frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
-        words = f" {' '.join(tokens(text))} "
-        found = {key for label, key in self._labels if label in words}
+        words = tokens(text)
+        found = {key for label, key in self._labels if self._is_called(tuple(label.split()), words)}
         if not found:
             for name, keys in self._deck.by_name.items():
                 telling = set(tokens(name)) - self._dull
-                if len(keys) == 1 and telling and f" {' '.join(tokens(name))} " in words:
+                if len(keys) == 1 and telling and self._is_called(tokens(name), words):
                     found |= keys
         return frozenset(found) if len(found) == 1 else frozenset()
 
+    def _is_called(self, name: tuple[str, ...], words: tuple[str, ...]) -> bool:
+        """Whether a text names a labware that is called so.
+
+        One word may be what is in it: "gDNA in column 13" is not the plate called ``dna``.
+        """
+        for at in range(len(words) - len(name) + 1):
+            if words[at : at + len(name)] == name:
+                before, after = words[at - 1 : at], words[at + len(name) : at + len(name) + 1]
+                leads = set(before) <= self._articles | self._joints
+                if len(name) > 1 or leads or any(set(after) & kind for kind in self._kinds):
+                    return True
+        return False
+
     def of_name(self, name: str) -> frozenset[str]:
-        """The one labware that a variable was, or whose wells it held."""
+        """The one labware that a variable was, or whose wells it held, or those in turn."""
         keys = self._deck.by_name.get(name) or self._deck.of_wells.get(name) or set()
-        return frozenset(keys) if len(keys) == 1 else frozenset()
+        in_turn = name in self._deck.in_turn
+        return frozenset(keys) if in_turn or len(keys) == 1 else frozenset()
 
     def kind_in(self, text: str) -> frozenset[str]:
         """The one labware of a kind that a text speaks of: "vials", "strip"."""
@@ -71,24 +97,54 @@ class LabwareNouns:
 
     def heading(self, line: str) -> frozenset[str]:
         """What a line speaks of that begins with a noun and a colon."""
-        match = _HEADING.match(line)
+        match = _HEADING.match(_IN_BRACKETS.sub("", line))
         return self._called(tokens(match[1])) if match else frozenset()
+
+    def ends_in_noun(self, text: str) -> bool:
+        """Whether a text ends with a word for labware: "3   compound rack"."""
+        return bool(tokens(text)) and _singular(tokens(text))[-1] in self._nouns
+
+    def is_of_deck(self, part: Part) -> bool:
+        """Whether a part says what stands in a slot that is called like a well: "D2 tips"."""
+        start = part.text.find(part.wells[0].group())
+        begun = part.text[:start].strip(" :,;-*")
+        words = set(tokens(part.words))
+        return (
+            (not begun or bool(list(self._decks.find(begun))))
+            and all(match.group() in self._slots for match in part.wells)
+            and not self._on_deck.isdisjoint(words | {word.removesuffix("s") for word in words})
+        )
 
     def before(self, part: Part) -> frozenset[str]:
         """What stands right before the first well: "strip columns 1 and 2", "tube A1"."""
         start = part.text.find(part.wells[0].group())
-        return self._called(tokens(part.text[:start])[-2:]) or self._after(part)
+        words = tokens(part.text[:start])[-2:]
+        return self._called(words) or self._after(part)
 
     def _after(self, part: Part) -> frozenset[str]:
         """What stands after the last well: "columns 2 and 3 of the source plate"."""
-        words = tokens(part.text.rpartition(part.wells[-1].group())[2])
-        if not words or words[0] not in self._joints:
-            return frozenset()
-        ends = [at for at, word in enumerate(words[:_NEAR]) if any(word in k for k in self._kinds)]
-        return self._called(words[1 : ends[0] + 1]) if ends else frozenset()
+        words = tokens(self._place(part))
+        return self._called(tuple(word for word in words[1:] if word not in self._articles))
+
+    def without_place(self, part: Part) -> Part:
+        """A part whose words are not those for where its wells are: "H12 on the DNA plate: NTC"."""
+        place = self._place(part)
+        return part._replace(words=part.words.replace(place, " ", 1)) if place else part
+
+    def _place(self, part: Part) -> str:
+        """What follows the last well and says where it is, as written, or ``""``."""
+        tail = part.text.rpartition(part.wells[-1].group())[2]
+        found = list(_WORD.finditer(tail))[:_NEAR]
+        if not found or found[0].group().lower() not in self._joints:
+            return ""
+        for word in found[1:]:
+            if any(word.group().lower() in kind for kind in self._kinds):
+                return tail[found[0].start() : word.end()]
+        return ""
 
     def _called(self, words: tuple[str, ...]) -> frozenset[str]:
         """The labware of this kind, the one of this very name if there is one."""
+        words = words[1:] if words[:1] and words[0] in self._articles else words
         if not words:
             return frozenset()
         kinds = [kind for kind in self._kinds if words[-1] in kind]
@@ -99,8 +155,10 @@ class LabwareNouns:
             if len(labelled) == 1:
                 return frozenset(labelled)
             for name in (*self._deck.by_name, *self._deck.of_wells):
-                if called and tokens(name) == called and self.of_name(name):
+                if called and _singular(tokens(name)) == _singular(called) and self.of_name(name):
                     return self.of_name(name)
+        if short := self._short_for(words[0]):
+            return short
         found = {
             info.key
             for info in self._deck.plates()
@@ -109,3 +167,20 @@ class LabwareNouns:
         if self._origins & set(words):
             found -= {key for key, _ in self._deck.received}
         return frozenset(found)
+
+    def _short_for(self, word: str) -> frozenset[str]:
+        """The one labware whose variable is called by the first letters of a word: ``lib``."""
+        keys = {
+            key
+            for name, held in self._deck.by_name.items()
+            if len(name) >= _SHORTEST
+            and len(held) == 1
+            and len(name) < len(word)
+            and word.startswith(name)
+            for key in held
+        }
+        return frozenset(keys) if len(keys) == 1 else frozenset()
+
+
+def _singular(words: tuple[str, ...]) -> tuple[str, ...]:
+    return (*words[:-1], words[-1].removesuffix("s")) if words else words

@@ -8,7 +8,7 @@ from contextlib import suppress
 from typing import Any
 
 from ..rules import Common
-from ..text import direction_in, level_in, numbers_in_order
+from ..text import concentration_in, direction_in, level_in, listed_levels, numbers_in_order
 from .clues import Clue, Strength
 
 
@@ -36,9 +36,16 @@ def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:
             return listed
         if clue.whole:
             return (None,) * count
-        direction = direction_in(clue.text, common)
+        # Beside a step the wells stand in the order of the run: whether they rise is the question.
+        direction = 0 if clue.step else direction_in(clue.text, common)
         if direction:
             return tuple(float(direction * position) for position in range(count))
+        several = listed_levels(clue.text)
+        if len(several) > 1:  # one for each, of these wells or of others
+            alike = len(several) == len(set(several)) == count
+            return several if alike else (None,) * count
+        if clue.step:  # "row H = blank" beside a loop is one of them
+            return (concentration_in(clue.text),) * count
     return (level_in(clue.text, common, plain_numbers=clue.subject),) * count
 
 

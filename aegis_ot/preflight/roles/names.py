@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -13,7 +12,15 @@ from ..text import SourceFacts, level_in, lexicon_of, tokens
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import LEFT_OUT, Deck
-from .levels import far_apart, is_number
+from .levels import is_number
+from .named_levels import (
+    NUMBERED,
+    amounts_in_names,
+    keyed_amounts,
+    listed_beside,
+    numeric_keys,
+)
+from .phrases import without_position
 from .well_names import well_names
 
 
@@ -23,8 +30,8 @@ def named_wells(
     """What variables were called that held wells or whole labware."""
     comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
     lists = _lists(names, facts, common)
-    amounts_named = _amounts_in_names(names)
-    keyed = {**_keyed_amounts(names, facts, common), **numeric_keys(names)}
+    amounts_named = amounts_in_names(names)
+    keyed = {**keyed_amounts(names, facts, common), **numeric_keys(names)}
     for binding in names:
         base = binding.name.split("[", 1)[0]
         loose = (binding.function, base) in facts.loose or (
@@ -38,7 +45,7 @@ def named_wells(
         counted = binding.name in keyed and keyed[binding.name] is None
         yield Clue(
             Strength.LOOSE_NAME if loose else Strength.NAME,
-            _NUMBERED.sub(r"\1\4", binding.name) if counted else binding.name,
+            NUMBERED.sub(r"\1\4", binding.name) if counted else binding.name,
             wells,
             line,
             f"name `{binding.name}` at line {line}",
@@ -58,6 +65,9 @@ def named_wells(
                 levels=(amounts_named[binding.name],) * len(wells),
             )
         note = facts.notes.get(base)
+        if levels := listed_beside(facts, line, wells) if not (loose or whole) else ():
+            said = f"levels listed beside `{binding.name}` at line {line}"
+            yield Clue(Strength.COMMENT, "", wells, line, said, subject=False, levels=levels)
         chosen = binding.name == base and not _is_all(deck, binding.wells)
         if note and not loose and chosen and _of_all(note, wells, common):
             yield Clue(
@@ -121,7 +131,11 @@ def call_arguments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator
     for (_, name), wells in used.items():
         line = at_line[name]
         yield Clue(
-            Strength.LOOSE_NAME, name, tuple(wells), line, f"name `{name}` used at line {line}"
+            Strength.LOOSE_NAME,
+            without_position(name, common),
+            tuple(wells),
+            line,
+            f"name `{name}` used at line {line}",
         )
 
 
@@ -137,75 +151,6 @@ def _looped_over(facts: SourceFacts, name: str, line: int) -> Iterator[str]:
 def _counts(facts: SourceFacts, name: str) -> bool:
     """Whether a name is a running number: it says which turn it is, not what the well holds."""
     return any(other in ("range", "len") for other, _, _ in facts.comes_from.get(name, ()))
-
-
-_NUMBERED = re.compile(r"(.*)\[(?P<quote>['\"]?)(-?\d+(?:\.\d+)?)(?P=quote)\]([^\[\]]*)")
-
-
-def numeric_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
-    """Level of each name like ``standards[125]``; ``None`` where the keys only count.
-
-    Keys that are text, ``tubes["1"]``, name something rather than count it.
-    """
-    groups: dict[tuple[str, str], dict[str, float]] = {}
-    for binding in names:
-        match = _NUMBERED.fullmatch(binding.name)
-        if match:
-            key = (match[1] + match[4], match["quote"])
-            groups.setdefault(key, {})[binding.name] = float(match[3])
-    found: dict[str, float | None] = {}
-    for (_, quote), group in groups.items():
-        values = sorted(group.values())
-        counting = values in (
-            [float(n) for n in range(len(values))],
-            [float(n + 1) for n in range(len(values))],
-        )
-        if not (counting and quote):
-            found.update({name: None if counting else value for name, value in group.items()})
-    return found
-
-
-def _amounts_in_names(names: Sequence[NameBinding]) -> dict[str, float]:
-    """Level of names like ``s_2000``, ``s_500``, ``s_0``: alike but for numbers too far apart to
-    count something. So many amounts of one thing are its standards.
-    """
-    groups: dict[str, dict[str, float]] = {}
-    for binding in names:
-        match = re.fullmatch(r"([A-Za-z]+?)_?(\d+(?:p\d+)?)", binding.name)
-        if match and len(binding.wells) == 1:
-            groups.setdefault(match[1], {})[binding.name] = float(match[2].replace("p", "."))
-    return {
-        name: value
-        for group in groups.values()
-        if far_apart(group.values())
-        for name, value in group.items()
-    }
-
-
-def _keyed_amounts(
-    names: Sequence[NameBinding], facts: SourceFacts, common: Common
-) -> dict[str, float | None]:
-    """Level of ``standards["s1"]`` where a dict of amounts has the same keys: ``CONC["s1"]``."""
-    groups: dict[str, dict[str, str]] = {}
-    for binding in names:
-        match = re.fullmatch(r"([^\[\]]+)\[(['\"])(.+)\2\]", binding.name)
-        if match:
-            groups.setdefault(match[1], {})[match[3]] = binding.name
-    amounts = lexicon_of({"amount": common.amounts})
-    found: dict[str, float | None] = {}
-    maps = [
-        (constant, {str(key): float(number) for key, number in value.items()})
-        for constant, value in facts.constants.items()
-        if isinstance(value, dict) and all(is_number(number) for number in value.values())
-    ]
-    maps += [(binding.name, dict(binding.numbers)) for binding in names if binding.numbers]
-    for constant, by_key in maps:
-        if not amounts.find(constant):
-            continue
-        for group in groups.values():
-            if len(group) > 1 and group.keys() <= by_key.keys():
-                found.update({name: by_key[key] for key, name in group.items()})
-    return found
 
 
 def _beside(binding: NameBinding, facts: SourceFacts, line: int) -> Iterator[Clue]:

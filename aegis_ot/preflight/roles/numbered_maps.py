@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
-from ...instrumentation import NameBinding
+from ...instrumentation import NameBinding, is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import Numbered, SourceFacts, lexicon_of, origins
@@ -29,12 +29,11 @@ def numbered_maps(
     deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
 ) -> Iterator[Clue]:
     """Constants whose numbers or letters the run turns into columns or rows of its labware."""
-    counts = lexicon_of({"count": common.countings})
     maps = _maps(names, facts)
     written = WrittenColumns(deck, facts, common)
     for name, listed in maps.items():
         value = _noted(facts, name, listed)
-        counting = bool(counts.find(name))
+        counting = _counts(name, common)
         of_entry: dict[tuple[str, float | None], dict[WellRef, None]] = {}
         for place in facts.numbered:
             if _comes_from(facts, maps, place, name):
@@ -66,6 +65,15 @@ def numbered_maps(
                 )
 
 
+def _counts(name: str, common: Common) -> bool:
+    """Whether the numbers of a map of this name are volumes or the like: not ``DOSE_OF_COLUMN``."""
+    of_places = set(common.places)
+    found = [m.phrase for m in lexicon_of({"count": common.countings}).find(name)]
+    if of_places.issuperset(found):
+        return bool(found) and not lexicon_of({"amount": common.amounts}).find(name)
+    return True
+
+
 def _noted(facts: SourceFacts, name: str, value: Any) -> Any:
     """A list whose comments say one thing of each item: beside it, or "10 uM, 1 uM, vehicle"."""
     line = facts.assigned.get(name, 0)
@@ -77,7 +85,17 @@ def _noted(facts: SourceFacts, name: str, value: Any) -> Any:
 
 
 def _column(facts: SourceFacts, place: Numbered, value: Any) -> Any:
-    """A map with that cell of each of its rows which the name of a place is unpacked from."""
+    """A map with that cell of each of its rows which the name of a place is unpacked from.
+
+    Rows that are dicts give what they say beside the place's key: ``{"col": 2, "cond": "mock"}``.
+    """
+    if place.key and isinstance(value, (list, tuple)):
+        rows = [row for row in value if isinstance(row, Mapping) and place.key in row]
+        said = [[item for item in row.values() if isinstance(item, str)] for row in rows]
+        if rows and all(len(texts) == 1 for texts in said):
+            return [(texts[0], row[place.key]) for texts, row in zip(said, rows, strict=True)]
+    if isinstance(value, Mapping) and all(_places_in(key) for key in value):
+        return value  # by column or row itself: its items are what is there
     at = {len(names): names.index(place.name) for names in facts.unpacked if place.name in names}
     return _narrowed(value, at) if at else value
 
@@ -121,14 +139,15 @@ def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
         for row in value:
             cells = row if isinstance(row, (list, tuple)) else ()
             columns = [cell for cell in cells if type(cell) is int]
-            said = [cell for cell in cells if isinstance(cell, str)]
-            if len(columns) == len(said) == 1 and len(cells) == 2:
+            said = [cell for cell in cells if isinstance(cell, str) and not is_spot(cell)]
+            if len(columns) == len(said) == 1:
                 yield said[0], (columns[0],), None
 
 
 def _are_amounts(value: Mapping[Any, Any]) -> bool:
     """Whether the numbers in a map from column to number are no columns themselves."""
-    return far_apart([item for item in value.values() if is_number(item)])
+    numbers = [item for item in value.values() if is_number(item)]
+    return far_apart(numbers) or any(float(number) % 1 for number in numbers)
 
 
 def _is_said(item: Any) -> bool:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Mapping, Sequence
+import re
+from collections.abc import Mapping, Sequence
 
 from ..rules import Common, Family
 from ..text import Lexicon, concentrations_in, lexicon_of, tokens
@@ -40,10 +41,16 @@ def names_several(lexicon: Lexicon, clue: Clue, common: Common, roles: Roles) ->
     """Whether two words of a clue name different things."""
     groups = [group for group in _named_by_words(lexicon, clue, common) if group]
     return any(
-        all(_unlike((role, another), roles) for role in one for another in other)
+        all(unlike((role, another), roles) for role in one for another in other)
         for one in groups
         for other in groups
     )
+
+
+def what_all_are(named: Sequence[str], roles: Roles) -> list[str]:
+    """The role that all of these are kinds of, if there is one: "DNA + controls" holds DNA."""
+    every = [role for role in named if all(role in roles.closure(other) for other in named)]
+    return every[:1] or list(named)
 
 
 def joins_others(lexicon: Lexicon, text: str, common: Common) -> bool:
@@ -70,6 +77,7 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
         places.setdefault(match.start, []).append(match.topic)
     words = lexicon.words(text)
     places = _without_additives(places, words, common)
+    places = _without_what_is_not(places, words, common)
     if clue.step == "source":
         places = _drawn(places, words, common)
     joints = [at for at, word in enumerate(words) if word in first_words(common.joints)]
@@ -89,7 +97,20 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
             places, key=lambda at: (words[at] in always, words[at] not in sides, at), reverse=True
         )
     ]
+    if joints:
+        ordered.append(_called_at_the_end(lexicon, text))
     return [[topic for topic in group if not topic.startswith("!")] for group in ordered]
+
+
+_IN_BRACKETS_AT_END = re.compile(r"\(([^()]+)\)\W*$")
+
+
+def _called_at_the_end(lexicon: Lexicon, text: str) -> list[str]:
+    """What a text says in brackets that it speaks of: "medium with DMSO only (vehicle)"."""
+    match = _IN_BRACKETS_AT_END.search(text)
+    if match is None or not is_outright(lexicon, match[1]):
+        return []
+    return [found.topic for found in lexicon.find(match[1])]
 
 
 _SHORTEST_NAME = 4
@@ -109,6 +130,15 @@ def _without_additives(
     found = lexicon_of({"additive": common.additives}).find(" ".join(words))
     added = {at for match in found for at in range(match.start, match.end)}
     return {at: topics for at, topics in places.items() if at not in added} or places
+
+
+def _without_what_is_not(
+    places: dict[int, list[str]], words: Sequence[str], common: Common
+) -> dict[int, list[str]]:
+    """What a text names apart from what this stands for: "water instead of DNA" is water."""
+    found = list(lexicon_of({"instead": common.instead}).find(" ".join(words)))
+    at = min((match.start for match in found), default=len(words))
+    return {place: topics for place, topics in places.items() if place < at}
 
 
 def _drawn(
@@ -151,6 +181,18 @@ def _telling_part(lexicon: Lexicon, clue: Clue) -> str:
     return field if across and not across & alone and lexicon.find(field) else clue.text
 
 
+def without_position(name: str, common: Common) -> str:
+    """A name that holds where something stands, without the word for that: ``LYSATE_POS``.
+
+    Only where it is the last of several: ``POS_WELL`` is a positive control's.
+    """
+    base, bracket, key = name.partition("[")
+    words = tokens(base)
+    if len(words) < 2 or words[-1] not in first_words(common.positions):
+        return name
+    return " ".join(words[:-1]) + bracket + key
+
+
 def says_only_the_side(clue: Clue, common: Common) -> bool:
     """Whether a name is no more than ``src``: it is given to whatever is drawn from."""
     return set(tokens(clue.text)) <= first_words(common.sides)
@@ -167,105 +209,10 @@ def says_only_a_place(clue: Clue, common: Common) -> bool:
     return set(tokens(clue.text)) <= first_words(common.places)
 
 
-def _joins(clue: Clue, common: Common) -> bool:
-    """Whether a word of a clue joins several things."""
-    return not first_words(common.joining).isdisjoint(tokens(clue.text))
-
-
-def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue, common: Common) -> bool:
-    """A text that joins several different things speaks of none of them in particular.
-
-    In a name the last word is the head, unless the name joins several with "and".
-    """
-    if clue.subject and not _joins(clue, common):
-        return False
-    return _unlike(fitting, roles)
-
-
-def _made_of_a_reagent(
-    fitting: Sequence[str], roles: Roles, clue: Clue, common: Common
-) -> str | None:
-    """The NTC in "H3: water (NTC)": what the well is, beside the reagent that it is made of."""
-    specs = roles.family.roles
-    passed_on = [role for role in fitting if specs[role].passed_on]
-    if clue.subject or clue.step or len(passed_on) != 1 or _joins(clue, common):
-        return None
-    reagents = all(specs[role].one_liquid for role in fitting if role not in passed_on)
-    return passed_on[0] if reagents else None
-
-
-def _unlike(named: Sequence[str], roles: Roles) -> bool:
+def unlike(named: Sequence[str], roles: Roles) -> bool:
     """Whether two of these are neither the same nor one a kind of the other."""
     return any(
         one not in roles.closure(other) and other not in roles.closure(one)
         for one in named
         for other in named
     )
-
-
-_A_PLATE = 6
-
-
-def _is_plate_of(clue: Clue) -> bool:
-    """Whether a liquid stood in so many wells before the run that it was in a plate, not tubes."""
-    return clue.strength is Strength.LIQUID and len(set(clue.wells)) >= _A_PLATE
-
-
-def fitting_role(
-    named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: Clue, common: Common
-) -> str | None:
-    """The first named role whose side agrees with how the run uses the well."""
-    named = list(dict.fromkeys(named))
-    if clue.strength is Strength.GIVEN:
-        return named[0]
-    specs = roles.family.roles
-    side, passes_on = sides
-    if clue.step and clue.step != side:
-        return None
-    fitting = [role for role in named if specs[role].side in ("any", side)]
-    if passes_on and not _is_plate_of(clue) and any(specs[role].side == "source" for role in named):
-        # A plate of doses that is made here and given on is no plate of treated cells; a plate
-        # of samples that is given on was one of samples before, and only gets buffer here.
-        fitting = [
-            role
-            for role in fitting
-            if not specs[role].implies_contents
-            or (specs[role].side == side and role in specs[role].filled_by)
-        ]
-    if not fitting and passes_on and not clue.whole and clue.strength is not Strength.COMMENT:
-        fitting = [role for role in named if specs[role].side == "source"]
-    if made_of := _made_of_a_reagent(fitting, roles, clue, common):
-        return made_of
-    if not fitting or _ambiguous(fitting, roles, clue, common):
-        return None
-    if clue.subject and is_for_controls(named, sides, roles) and _treats(fitting[0], roles):
-        return None
-    return _general(fitting, roles) if _is_of_a_series(clue) else fitting[0]
-
-
-def is_for_controls(named: Sequence[str], sides: tuple[str, bool], roles: Roles) -> bool:
-    """Whether a source is named as what controls are given: a control siRNA is no treatment."""
-    specs = roles.family.roles
-    return sides[0] == "source" and specs[named[0]].replicated and not specs[named[0]].receives
-
-
-def _treats(role: str, roles: Roles) -> bool:
-    """Whether wells that receive this are called after that."""
-    return any(role in spec.receives for spec in roles.family.roles.values() if spec.replicated)
-
-
-_A_SERIES = 3
-
-
-def _is_of_a_series(clue: Clue) -> bool:
-    """Whether a comment speaks of so many wells that they are not all its one blank."""
-    return clue.strength is Strength.COMMENT and len(set(clue.wells)) >= _A_SERIES
-
-
-def _general(fitting: Sequence[str], roles: Roles) -> str:
-    """The role that all of a series have: "standards, H1 = blank" are standards."""
-    first = fitting[0]
-    if roles.family.roles[first].level is None:
-        return first
-    above = [role for role in fitting[1:] if role in roles.closure(first) - {first}]
-    return above[0] if above else first

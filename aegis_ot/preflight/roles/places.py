@@ -10,6 +10,7 @@ from ..text import Place, SourceFacts, tokens
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
+from .phrases import without_position
 
 
 def indexing_names(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
@@ -17,19 +18,18 @@ def indexing_names(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
     positions = {word for phrase in common.positions for word in tokens(phrase)}
     for place in facts.places:
         keys = deck.by_name.get(place.labware, set())
-        if len(keys) != 1:
+        if len(keys) != 1 and not (place.labware in deck.in_turn and deck.are_alike(keys)):
             continue
-        key = next(iter(keys))
-        wells = tuple(_indexed(deck, key, place))
+        wells = tuple(ref for key in sorted(keys) for ref in _indexed(deck, key, place))
         if place.partly:
-            wells = tuple(ref for ref in wells if (key, ref.name) in deck.refs)
+            wells = tuple(ref for ref in wells if (ref.labware, ref.name) in deck.refs)
         for name in place.names:
             if positions >= set(tokens(name)):
                 continue
             if wells and ("<comprehension>", name) not in facts.loose:
                 yield Clue(
                     Strength.NAME,
-                    name,
+                    without_position(name, common),
                     wells,
                     place.line,
                     f"name `{name}` at line {place.line}",

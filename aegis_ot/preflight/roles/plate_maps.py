@@ -12,7 +12,8 @@ from ..text import SourceFacts, concentration_in, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import is_number
-from .well_names import plain_name
+from .phrases import without_position
+from .well_names import plain_name, wells_between
 from .work_lists import is_work_list
 
 
@@ -28,7 +29,7 @@ def plate_maps(
         if name == "metadata" or name in others or is_work_list(deck, value) or decks.find(name):
             continue
         line = facts.assigned.get(name)
-        entries = list(_Reader(common).entries(name, value))
+        entries = list(_Reader(common).entries(without_position(name, common), value))
         all_names = [well for _, wells, _, _ in entries for well in wells]
         if not all_names:
             continue
@@ -56,6 +57,9 @@ def plate_maps(
             )
 
 
+_MOST_TUBES = 24
+
+
 def labware_of_map(
     deck: Deck, facts: SourceFacts, name: str, spots: Sequence[str], common: Common
 ) -> tuple[str, ...]:
@@ -69,6 +73,10 @@ def labware_of_map(
         return tuple(called)
     used = used_with(deck, facts, name)
     if len(used) > 1:
+        in_all = all((key, spot) in deck.refs for key in used for spot in spots)
+        sizes = [len(deck.trace.labware[key].wells) for key in used]
+        if in_all and min(sizes) <= _MOST_TUBES < max(sizes):
+            return ()  # tubes, and wells of the same names
         used = _alike(deck, used, spots)
     one = () if used else (called_alike(deck, name, common) or deck.most_likely(spots),)
     return used or tuple(key for key in one if key)
@@ -129,7 +137,7 @@ def _alike(deck: Deck, keys: Sequence[str], spots: Sequence[str]) -> tuple[str, 
     filled = tuple(key for key in keys if all((key, spot) in deck.received for spot in spots))
     given = {frozenset(name for key, name in deck.received if key == one) for one in keys}
     meant = filled or (tuple(keys) if len(given) == 1 else ())
-    return meant if len({deck.trace.labware[key].load_name for key in meant}) == 1 else ()
+    return meant if deck.are_alike(meant) else ()
 
 
 def called_alike(deck: Deck, name: str, common: Common) -> str:
@@ -156,15 +164,15 @@ class _Reader:
         if depth > 3:
             return
         if isinstance(value, str):
-            if is_spot(value):
-                yield name, (value,), None, ""
+            if wells := wells_between(value):
+                yield name, wells, None, ""
         elif isinstance(value, Mapping):
             if depth > 0 and _is_record(value):
                 yield from self._record(name, value)
                 return
             for key, item in value.items():
-                if is_spot(key):
-                    yield from self._beside(name, (key,), item)
+                if isinstance(key, str) and (spanned := wells_between(key)):
+                    yield from self._beside(name, spanned, item)
                 else:
                     level = float(key) if is_number(key) else None
                     for text, wells, own, column in self.entries(f"{name} {key}", item, depth + 1):
@@ -174,8 +182,9 @@ class _Reader:
 
     def _listed(self, name: str, value: Sequence[Any], depth: int) -> Iterator[Entry]:
         wells = tuple(item for item in value if is_spot(item))
-        if wells and len(wells) == len(value):
-            yield name, wells, None, ""
+        spans = [wells_between(item) for item in value if isinstance(item, str)]
+        if spans and all(spans) and len(spans) == len(value):
+            yield name, tuple(well for span in spans for well in span), None, ""
         elif wells and depth > 0:
             yield from self._beside(name, wells, [item for item in value if item not in wells])
         else:
@@ -199,7 +208,7 @@ class _Reader:
     def _beside(self, name: str, wells: tuple[str, ...], said: Any) -> Iterator[Entry]:
         """What stands beside wells: ``"A1": "NTC"``, ``("A1", "NTC", 5)``."""
         if isinstance(said, Mapping):
-            yield from self._record(name, {"": wells[0], **said})
+            yield from self._record(name, {"": wells, **said})
             return
         listed = said if isinstance(said, (list, tuple)) else [said]
         texts = [item for item in listed if isinstance(item, str)]

@@ -43,8 +43,8 @@ def maps_in_prose(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
 def _grid(
     deck: Deck, nouns: LabwareNouns, lines: Sequence[str], at: int, line: int
 ) -> Iterator[Clue]:
-    """A line ``1 2 3``, and under it lines ``A x y z``, ``B ...``."""
-    numbers = _cells(lines[at])
+    """A line ``1 2 3`` or ``c1 c2 c3``, and under it lines ``A x y z``, ``B ...``."""
+    numbers = [re.sub(r"^(?:c|col)(?=\d)", "", cell.lower()) for cell in _cells(lines[at])]
     if len(numbers) < 2 or [str(n + 1) for n in range(len(numbers))] != list(numbers):
         return
     wells_of: dict[str, list[str]] = {}

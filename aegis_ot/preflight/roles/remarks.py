@@ -1,22 +1,24 @@
-"""What comments and docstrings say of wells, by name or beside a transfer."""
+"""What comments and docstrings say of wells by name."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
-from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, comment_blocks, direction_in, lexicon_of, listed_levels, tokens
-from ..trace import Trace, row_column
+from ..text import SourceFacts, comment_blocks, direction_in, listed_levels, tokens
+from ..trace import row_column
 from .clauses import Part, parts_of
 from .clues import Clue, Strength, shortened
 from .deck import LEFT_OUT, Deck
 from .ellipses import with_rows
 from .labware_nouns import LabwareNouns
 from .replicates import called_alike
+from .shared_words import Amount, with_shared_words
+from .topics import Topic, axis_of
 from .well_names import well_names
 
 
@@ -28,58 +30,31 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     nouns = LabwareNouns(deck, common)
     noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
     for line, text in texts:
-        heading: frozenset[str] = frozenset()
-        last: frozenset[str] = frozenset()
+        topic = Topic(nouns, common)
+        amount: Amount | None = None
         lines = _whole_lines(with_rows(text, common).splitlines() or [text], common)
         for number, written in lines:
-            headed = nouns.heading(written)
-            of_line = nouns.named(written) or headed
-            begun, colon, _ = written.partition(":")
-            if colon and len(tokens(begun)) <= _LONGEST_HEADING and nouns.named(begun):
-                heading = nouns.named(begun)  # and of the lines below: "strips: column 1 blank"
-            elif of_line and _heads(written, common):
-                heading = of_line
-            elif not written.strip():
-                heading = last = frozenset()
             parts, more = _with_what_follows(written, common)
+            topic.next_line(written, parts)
+            parts = [nouns.without_place(topic.without_heading(part)) for part in parts]
+            parts, amount = with_shared_words(parts, amount if written.strip() else None)
             own = [nouns.before(part) for part in parts]
-            if colon and not of_line and parts and _is_headed(parts[0], begun):
-                heading = last = frozenset()  # "cells: column 1 ..." goes on with something else
-            in_line: frozenset[str] = frozenset()
             for at, (part, before) in enumerate(zip(parts, own, strict=True)):
-                last, in_line = before or last, before or in_line
-                if nouns.heading(part.text):  # "drug plate: A1 vehicle" is no drug
-                    part = part._replace(words=part.words.partition(":")[2])
+                topic.next_part(before)
                 if len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
                     continue
-                keys = (
-                    (before if len(before) == 1 else frozenset())
-                    or nouns.named(part.text)
-                    or before
-                    or noted.get(written)
-                    or (in_line if len(in_line) == 1 else frozenset())
-                    or of_line
-                    or heading
-                    or last
-                    or _only_one_with(deck, parts, common)
-                )
+                if nouns.is_of_deck(part):
+                    continue
+                firm = topic.said(part, before, noted.get(written, frozenset()))
+                keys = firm or topic.above() or _only_one_with(deck, parts, common)
                 # "col 3  1 nM     tube A2": the column is not one of the tubes'.
                 others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
-                placed = 1 in (len(headed), len(in_line))
-                for clue in _spoken(deck, part, line + number, keys - others, others, common):
+                meant = _Meant(keys - others, bool(firm), others)
+                for clue in _spoken(deck, part, line + number, meant, common):
                     levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
-                    if heading and keys.isdisjoint(heading):
+                    if topic.heading and keys.isdisjoint(topic.heading):
                         levels = ()  # named by what its wells hold, perhaps
-                    yield replace(clue, placed=placed, levels=levels)
-
-
-def _is_headed(part: Part, begun: str) -> bool:
-    """Whether a line has a heading without wells of its own before its first columns."""
-    return 0 < len(tokens(begun)) <= _LONGEST_HEADING and (
-        part.text.strip().startswith(begun.strip())
-        and _axis(part) == 1
-        and part.text.find(part.wells[0].group()) > len(begun.strip())
-    )
+                    yield replace(clue, placed=topic.places(keys), levels=levels)
 
 
 def _whole_lines(lines: Sequence[str], common: Common) -> Iterator[tuple[int, str]]:
@@ -109,30 +84,24 @@ def _with_what_follows(line: str, common: Common) -> tuple[list[Part], list[str]
 
 
 def _only_one_with(deck: Deck, parts: Sequence[Part], common: Common) -> frozenset[str]:
-    """The one labware that all entries of a line can speak of: "A1 vehicle, A2 low, A3 high"."""
+    """The one labware that all entries of a line can speak of: "A1 vehicle, A2 low, A3 high".
+
+    A plate that is filled may lack one entry, the wells that are left untreated.
+    """
     names = well_names(common)
-    fitting = [
-        info.key
-        for info in deck.plates()
-        if all(
-            any((info.key, name) in deck.refs for name in names.meant(match, info))
+    filled = {key for key, _ in deck.received}
+    fitting = []
+    for info in deck.plates():
+        lacking = sum(
+            not all(
+                any((info.key, name) in deck.refs for name in names.meant(match, info))
+                for match in part.wells
+            )
             for part in parts
-            for match in part.wells
         )
-    ]
+        if not lacking or (lacking == 1 and len(parts) > 2 and info.key in filled):
+            fitting.append(info.key)
     return frozenset(fitting) if len(fitting) == 1 else frozenset()
-
-
-_LONGEST_HEADING = 6
-
-
-def _heads(line: str, common: Common) -> bool:
-    """Whether a line says which labware the next ones speak of: "rack in slot 5"."""
-    if line.rstrip().endswith(":"):
-        return True
-    return len(tokens(line)) <= _LONGEST_HEADING and not any(
-        p.wells for p in parts_of(line, common)
-    )
 
 
 _LONGEST_CLAUSE = 160
@@ -140,31 +109,40 @@ _LONGEST_CLAUSE = 160
 _ALL = re.compile(r"\ball\s+\d", re.IGNORECASE)
 
 
+class _Meant(NamedTuple):
+    """The labware that a part speaks of, whether it says so itself, and those it does not mean."""
+
+    keys: frozenset[str]
+    firm: bool
+    others: frozenset[str]
+
+
 def _spoken(
     deck: Deck,
     part: Part,
     line: int,
-    keys: frozenset[str],
-    others: frozenset[str],
+    labware: _Meant,
     common: Common,
 ) -> Iterator[Clue]:
     names = well_names(common)
+    keys, firm, others = labware
     meant: dict[str, list[WellRef]] = {}
     # "Column 2 = vehicle" may leave out the rows at the edge, if all of the plate does; "A2-H2"
     # and "all 8" do not.
     ranges = any(match["last"] for match in part.wells)
     outright = ranges or _ALL.search(part.words) or all(match["first"] for match in part.wells)
-    axis = _axis(part)
+    axis = axis_of(part)
     filled = {key for key, _ in deck.received} if _goes_there(part, common) else None
     having = {
         info.key: named
         for info in deck.plates()
         if info.key not in others
         and (filled is None or info.key in filled)
-        and (named := [name for match in part.wells for name in names.meant(match, info)])
+        and (named := names.meant_by(part.wells, info))
     }
-    if not keys.isdisjoint(having):  # else it names that labware in passing
-        having = {key: named for key, named in having.items() if key in keys}
+    called = {key: named for key, named in having.items() if key in keys}
+    if firm or any((key, name) in deck.refs for key, named in called.items() for name in named):
+        having = called or having  # it may name that labware in passing
     for key, named in having.items():
         used = [name for name in named if (key, name) in deck.refs]
         if outright and 0 < len(named) - len(used) <= min(LEFT_OUT, len(used) // 3):
@@ -173,7 +151,7 @@ def _spoken(
             used += deck.passed_over(key, named, axis)
         if used:
             meant[key] = [deck.ref(key, name) for name in used]
-    if len(meant) > 1:
+    if len(meant) > 1 and not (firm and meant.keys() == keys and deck.are_alike(keys)):
         # Of several labware that have such wells it speaks of the one that is filled in the run.
         meant = {
             key: wells
@@ -203,8 +181,14 @@ def _goes_there(part: Part, common: Common) -> bool:
 
 
 def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> tuple[float, ...]:
-    """Levels that a part gives column by column or row by row: one for each, or a direction."""
-    axis = _axis(part)
+    """Levels that a part gives column by column or row by row: one for each, or a direction;
+    or one for each well of a range along one row or one column.
+    """
+    axis = axis_of(part)
+    if axis is None and len(part.wells) == 1 and part.wells[0]["last"]:
+        axis = 1 if len({row_column(ref.name)[0] for ref in wells}) == 1 else 0
+        if len({row_column(ref.name)[1 - axis] for ref in wells}) != 1:
+            return ()
     at = [] if axis is None else [row_column(ref.name)[axis] for ref in wells]
     places = sorted(set(at))
     if len(places) < 2:
@@ -215,85 +199,3 @@ def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> 
         return tuple(listed[places.index(place)] for place in at)
     direction = direction_in(said, common)
     return tuple(float(direction * place) for place in at) if direction else ()
-
-
-def _axis(part: Part) -> int | None:
-    """1 where a part names nothing but columns, 0 where nothing but rows."""
-    for axis, kinds in ((1, ("column", "columns")), (0, ("row", "rows"))):
-        if all(any(match[kind] for kind in kinds) for match in part.wells):
-            return axis
-    return None
-
-
-_LONGEST_STEP_COMMENT = 14
-
-
-def step_comments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[Clue]:
-    """Comments beside or right above a transfer: "# distribute diluent".
-
-    They name what is drawn, if they name one thing only; short ones with nothing else in them
-    may name a single destination ("# NTC").
-    """
-    beside = _comment_of_line(facts)
-    unsaid = lexicon_of({"not": common.negations})
-    drawn: dict[str, dict[WellRef, None]] = {}
-    given: dict[str, dict[WellRef, None]] = {}
-    at_line: dict[str, int] = {}
-    for visit in trace.visits:
-        if visit.mixing:
-            continue
-        for line in visit.lines:
-            text = beside.get(line)
-            if text is None:
-                continue
-            at_line[text] = line
-            if visit.kind is OperationKind.ASPIRATE:
-                drawn.setdefault(text, {})[visit.well.ref] = None
-            elif visit.parts:
-                given.setdefault(text, {})[visit.well.ref] = None
-            break
-    for text, line in at_line.items():
-        count = len(tokens(text))
-        if count > _LONGEST_STEP_COMMENT or unsaid.find(text) or _is_layout(text, common):
-            continue
-        said = f"comment '{shortened(text)}' at line {line}"
-        sources = tuple(ref for ref in drawn.get(text, ()) if ref not in given.get(text, ()))
-        if sources:
-            yield Clue(Strength.COMMENT, text, sources, line, said, subject=False, step="source")
-        into = tuple(given.get(text, ()))
-        if into and count <= _LONGEST_STEP_COMMENT // 2 and len(into) <= 8:
-            yield Clue(
-                Strength.COMMENT,
-                text,
-                into,
-                line,
-                said,
-                subject=False,
-                step="destination",
-                lone=True,
-            )
-
-
-def _is_layout(text: str, common: Common) -> bool:
-    """Whether a comment lists wells of several kinds rather than say what is done next."""
-    return sum(bool(part.wells) for part in parts_of(text, common)) > 1
-
-
-def _comment_of_line(facts: SourceFacts) -> dict[int, str]:
-    """The comment that speaks of each line: beside it, or right above its block."""
-    found: dict[int, str] = {}
-    for line, text in facts.comments.items():
-        if line not in facts.own_line:
-            found[line] = text
-    for line in sorted(facts.own_line):
-        below = line + 1
-        if below in facts.own_line:
-            continue
-        text = facts.comments[line]
-        first = line
-        while first - 1 in facts.own_line:
-            first -= 1
-            text = f"{facts.comments[first]} {text}"
-        for covered in facts.blocks.get(below, (below,)):
-            found.setdefault(covered, text)
-    return found

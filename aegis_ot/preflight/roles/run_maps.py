@@ -10,14 +10,15 @@ from typing import Any
 from ...instrumentation import NameBinding, Row, is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, lexicon_of
+from ..text import SourceFacts, lexicon_of, tokens
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import number_in
-from .names import numeric_keys
+from .named_levels import numeric_keys
+from .phrases import without_position
 from .plate_maps import labware_of_map, refs_of
 from .well_names import plain_name
-from .work_lists import is_work_list, labware_in
+from .work_lists import is_work_list, labware_by_key, labware_in
 
 
 def spotted_names(
@@ -41,7 +42,7 @@ def spotted_names(
             level = keyed.get(binding.name)
             yield Clue(
                 Strength.NAME,
-                binding.name,
+                without_position(binding.name, common),
                 wells,
                 line,
                 f"plate map `{binding.name}` at line {line}",
@@ -76,6 +77,8 @@ def clues_of_rows(
     amounts = lexicon_of({"amount": common.amounts})
     counts = lexicon_of({"count": common.countings})
     labware = labware_of_columns(deck, facts, rows)
+    keyed = labware_by_key(deck, [row.cells for row in rows])
+    titles = _noted_titles(facts, name, rows)
     beside: dict[tuple[str, str], Counter[WellRef]] = {}
     of_column: dict[str, Counter[WellRef]] = {}
     levels: dict[WellRef, float] = {}
@@ -84,7 +87,7 @@ def clues_of_rows(
         wells = list(row.wells)
         named = ""
         for column, cell in row.cells:
-            named = labware_in(deck, cell) or named
+            named = keyed.get(column, {}).get(str(cell)) or labware_in(deck, cell) or named
             where = named or labware.get(column, "")
             if where and (listed := spots_in(cell)):
                 named = ""
@@ -104,9 +107,10 @@ def clues_of_rows(
         if len(found) == 1:
             levels.update(dict.fromkeys(wells, found[0]))
     for column, held in columns.items():
-        if not column.isdigit():
-            evidence = f"column `{column}` of `{name}` at line {line}"
-            yield Clue(Strength.NAME, column, tuple(held), line, evidence)
+        title = titles.get(column, column)
+        if not title.isdigit():
+            evidence = f"column `{title}` of `{name}` at line {line}"
+            yield Clue(Strength.NAME, title, tuple(held), line, evidence)
     said_of: dict[str, dict[WellRef, None]] = {}
     for (column, text), times in beside.items():
         # Of a source beside other words in as many of its rows, a row like this says nothing.
@@ -141,6 +145,21 @@ def spots_in(cell: Any) -> tuple[str, ...]:
     """The names of wells that a cell is or lists: ``"A1"``, ``"C4 C5"``."""
     words = re.split(r"[\s,;+/]+", cell.strip()) if isinstance(cell, str) else ()
     return tuple(map(plain_name, words)) if words and all(map(is_spot, words)) else ()
+
+
+_LONGEST_TITLE = 3
+
+
+def _noted_titles(facts: SourceFacts, name: str, rows: Sequence[Row]) -> dict[str, str]:
+    """Titles that a comment on a table gives: "# (source slot, source well, destination)"."""
+    note = facts.notes.get(name, "").strip(": ")
+    told = [part.strip() for part in note.strip("()[]").split(",")]
+    columns = [column for column, _ in rows[0].cells] if rows else []
+    short = all(len(tokens(part)) <= _LONGEST_TITLE for part in told)
+    listed = note.startswith(("(", "[")) or len(told) > 2
+    if len(told) != len(columns) or not (short and listed and all(told)):
+        return {}
+    return dict(zip(columns, told, strict=True))
 
 
 def _titles(facts: SourceFacts, name: str) -> dict[int, str]:

@@ -38,7 +38,10 @@ def trough_legends(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
     words_of = "|".join(map(re.escape, called)) or "(?!)"
     number_of = re.compile(rf"(?im)((?:^|[,;/|])\s*)(?:{words_of})\.?\s*(?=\d)")
     for line, text in _blocks(facts):
-        if not words.isdisjoint(tokens(text)):
+        # In a list of what is on the deck the reservoir is an entry itself.
+        entries = (said for written in text.splitlines() for _, said in _ENTRY.findall(written))
+        in_entries = {word for said in entries for word in tokens(said)}
+        if not words.isdisjoint(tokens(text)) and words.isdisjoint(in_entries):
             yield from _legend(deck, troughs[0], line, number_of.sub(r"\1", text))
 
 

@@ -12,7 +12,11 @@ from ..trace import Trace
 
 @dataclass
 class Usage:
-    """How the run uses a well: which came first, and whether it feeds others."""
+    """How the run uses a well: which came first, and whether it feeds others.
+
+    What is emptied into the waste feeds nothing, and a well that is emptied first and filled
+    then is none to draw from.
+    """
 
     first_drawn: bool = False
     received: bool = False
@@ -28,12 +32,36 @@ def usage_of(trace: Trace) -> dict[WellRef, Usage]:
         usage.prefilled = usage.prefilled or well.prefilled
         if well.visits and well.visits[0].kind is OperationKind.ASPIRATE:
             usage.first_drawn = True
+    served: dict[WellRef, set[WellRef]] = {}
     for visit in trace.visits:
         for source, volume, _, _ in visit.parts:
             if source is not None and source is not visit.well and volume > 0:
-                usages[source.ref].feeds = True
                 usages[visit.well.ref].received = True
+                served.setdefault(source.ref, set()).add(visit.well.ref)
+    drains = _drains(usages, served, trace)
+    for ref, wells in served.items():
+        usages[ref].feeds = not wells <= drains
+    for ref in served:
+        used = usages[ref]
+        used.first_drawn = used.first_drawn and used.feeds
     return usages
+
+
+_FEWEST_EMPTIED = 2
+"""One well that is tested before it is filled is not emptied."""
+
+
+def _drains(
+    usages: Mapping[WellRef, Usage], served: Mapping[WellRef, set[WellRef]], trace: Trace
+) -> set[WellRef]:
+    """Where old medium goes: what several wells are emptied into that are filled again."""
+    emptied: dict[WellRef, int] = {}
+    for ref, wells in served.items():
+        if usages[ref].first_drawn and usages[ref].received:
+            for well in wells:
+                emptied[well] = emptied.get(well, 0) + 1
+    drawn = {visit.well.ref for visit in trace.visits if visit.kind is OperationKind.ASPIRATE}
+    return {ref for ref, count in emptied.items() if count >= _FEWEST_EMPTIED and ref not in drawn}
 
 
 class Sides:

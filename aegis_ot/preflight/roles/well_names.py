@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from ...instrumentation import LabwareInfo
 from ..rules import Common
@@ -60,6 +60,19 @@ class WellNames:
             names.extend(name for name in self.meant(match, info) if name not in names)
         return names
 
+    def meant_by(self, matches: Iterable[re.Match[str]], info: LabwareInfo) -> list[str]:
+        """The wells that several matches stand for: where rows and columns meet, if both are named,
+        "column 2: vehicle (rows C-F)".
+        """
+        wells: list[str] = []
+        lines: dict[str, list[str]] = {}
+        for match in matches:
+            axis = "column" if match["column"] or match["columns"] else "row"
+            named = wells if match["first"] else lines.setdefault(axis, [])
+            named += self.meant(match, info)
+        one, *other = lines.values() or [[]]
+        return wells + [name for name in one if not other or name in other[0]]
+
     def meant(self, match: re.Match[str], info: LabwareInfo) -> list[str]:
         """The wells of this labware that a match of :attr:`spec` stands for."""
         parts = match.groupdict()
@@ -102,6 +115,25 @@ def _any(words: Sequence[str]) -> str:
 def _number(text: str) -> int:
     """Place of a column ``"12"`` or of a row ``"H"``, counted from 0."""
     return int(text) - 1 if text.isdigit() else row_column(text + "1")[0]
+
+
+_SPAN = re.compile(rf"({_WELL})\s*[:-]\s*({_WELL})")
+
+
+def wells_between(text: str) -> tuple[str, ...]:
+    """The names of wells that a constant is, or spans along one row or column: ``"A1:H1"``.
+
+    None of a wider span, which may go on row by row or column by column, nor of another text.
+    """
+    ends = _SPAN.fullmatch(text)
+    if ends is None:
+        return (plain_name(text),) if re.fullmatch(_WELL, text) else ()
+    (r1, c1), (r2, c2) = (row_column(plain_name(end)) for end in ends.groups())
+    if r1 == r2 and c1 < c2:
+        return tuple(f"{chr(ord('A') + r1)}{column + 1}" for column in range(c1, c2 + 1))
+    if c1 == c2 and r1 < r2:
+        return tuple(f"{chr(ord('A') + row)}{c1 + 1}" for row in range(r1, r2 + 1))
+    return ()
 
 
 def plain_name(name: str) -> str:

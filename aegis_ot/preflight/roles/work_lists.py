@@ -1,8 +1,8 @@
-"""Work lists: rows that say by its label where a well stands, ``("SP-7", "A4", "B1")``."""
+"""Work lists: rows that say in which labware a well stands, ``("SP-7", "A4", "B1")``."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ...instrumentation import is_spot
@@ -13,15 +13,11 @@ def is_work_list(deck: Deck, value: Any) -> bool:
     """Whether each row of a constant names a labware and a well."""
     if not isinstance(value, (list, tuple)) or len(value) < 2:
         return False
-    return all(_names_a_place(deck, row) for row in value)
-
-
-def _names_a_place(deck: Deck, row: Any) -> bool:
-    if isinstance(row, Mapping):
-        row = tuple(row.values())
-    if not isinstance(row, (list, tuple)):
+    rows = [tuple(row.values()) if isinstance(row, Mapping) else row for row in value]
+    if not all(isinstance(row, (list, tuple)) and any(map(is_spot, row)) for row in rows):
         return False
-    return any(map(is_spot, row)) and any(labware_in(deck, cell) for cell in row)
+    keyed = labware_by_key(deck, [list(enumerate(row)) for row in rows])
+    return all(any(labware_in(deck, cell) for cell in row) for row in rows) or bool(keyed)
 
 
 def labware_in(deck: Deck, cell: Any) -> str:
@@ -30,3 +26,24 @@ def labware_in(deck: Deck, cell: Any) -> str:
         return ""
     called = deck.by_label.get(cell.strip(), set())
     return next(iter(called)) if len(called) == 1 else ""
+
+
+def labware_by_key(
+    deck: Deck, rows: Sequence[Iterable[tuple[Any, Any]]]
+) -> dict[Any, Mapping[str, str]]:
+    """Columns whose cells are all keys of one dict of labware, ``plates[2]``, with that dict.
+
+    Args:
+        deck: For the labware that dicts of the run held.
+        rows: Each row's cells, as ``(column, cell)``.
+    """
+    columns: dict[Any, set[str]] = {}
+    for row in rows:
+        for column, cell in row:
+            columns.setdefault(column, set()).add(str(cell))
+    return {
+        column: held
+        for column, cells in columns.items()
+        for held in deck.keyed.values()
+        if len(cells) > 1 and cells <= held.keys()
+    }

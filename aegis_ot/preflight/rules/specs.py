@@ -78,6 +78,7 @@ class RoleSpec:
         implies_contents: Whether such a well held liquid before the run.
         filled_by: Roles whose liquid, given in the run, would make up those contents.
         feeds: Derived: an unnamed source that mostly feeds wells of these roles.
+        feeds_beside: For ``feeds``: only if these wells all get a liquid of these roles as well.
         single_with: Derived: unnamed sources that each go into wells of their own which all get a
             liquid of these roles as well; three at least, or beside named ones of this role.
         single_beside: For ``single_with``: only in labware of which nothing is said, and where
@@ -88,6 +89,8 @@ class RoleSpec:
         loaded: Derived: a well with a loaded liquid whose name says no role: ``shared`` where it
             serves several wells, ``single`` where it serves one or two, ``kept`` where the run
             only adds to it.
+        may_be: Roles that such a liquid is used as, if that is said as well: "PBS (vehicle)"; or
+            if it goes where they go, and none is named for them.
         level: Value on the scale of concentrations or doses that this role has by itself.
         receives: Derived: a destination that is given liquid of one of these roles.
         dosed: Derived: a well on its side of which a concentration is said and no role, beside
@@ -106,12 +109,14 @@ class RoleSpec:
     implies_contents: bool = False
     filled_by: tuple[str, ...] = ()
     feeds: tuple[str, ...] = ()
+    feeds_beside: tuple[str, ...] = ()
     one_to_one: bool = False
     single_with: tuple[str, ...] = ()
     single_beside: tuple[str, ...] = ()
     replicated: bool = False
     loaded: str = ""
     one_liquid: bool = False
+    may_be: tuple[str, ...] = ()
     level: float | None = None
     receives: tuple[str, ...] = ()
     dosed: bool = False
@@ -220,9 +225,13 @@ class Common:
     falling: tuple[str, ...] = ()
     amounts: tuple[str, ...] = ()
     countings: tuple[str, ...] = ()
+    tips: tuple[str, ...] = ()
     decks: tuple[str, ...] = ()
     waste: tuple[str, ...] = ()
     negations: tuple[str, ...] = ()
+    instead: tuple[str, ...] = ()
+    empty: tuple[str, ...] = ()
+    dried: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
     joining: tuple[str, ...] = ()
     additives: tuple[str, ...] = ()

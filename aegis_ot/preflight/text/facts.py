@@ -81,6 +81,7 @@ class Numbered:
         across: The name that gives it otherwise, or ``""``.
         across_first: What ``first`` is for that name.
         partly: Whether only some of these wells are taken: ``plate.columns()[c][:6]``.
+        key: Of a name that is a row of a table, the column that counts: ``row["col"]``.
     """
 
     labware: str
@@ -92,6 +93,7 @@ class Numbered:
     across: str = ""
     across_first: int = 0
     partly: bool = False
+    key: str = ""
 
 
 @dataclass

@@ -65,6 +65,23 @@ class _Members(ast.NodeTransformer):
         return node
 
 
+def fields_of(node: ast.expr, kinds: Collection[str]) -> dict[str, Any] | None:
+    """What is written down in ``SimpleNamespace(drug=[3, 4])`` or ``dict(drug=range(3, 9))``."""
+    if not isinstance(node, ast.Call) or node.args or not node.keywords:
+        return None
+    if last_name(node.func) not in ("SimpleNamespace", "dict"):
+        return None
+    found: dict[str, Any] = {}
+    for keyword in node.keywords:
+        try:
+            value = literal_of(keyword.value, kinds)
+        except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
+            value = counted(keyword.value)
+        if keyword.arg and value is not None:
+            found[keyword.arg] = value
+    return found
+
+
 _LONGEST_RANGE = 400
 
 

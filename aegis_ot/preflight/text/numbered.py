@@ -152,9 +152,10 @@ def _found(
     if listed is not None:
         name, added = _counted(index)
         if name:
-            yield Numbered(
+            place = Numbered(
                 listed.labware, listed.axis, name, listed.first - added, (line,), listed.fixed
             )
+            yield replace(place, key=_key_in(index))
         return
     if isinstance(base, ast.Call) and isinstance(base.func, ast.Attribute):
         if base.func.attr != "wells_by_name" or base.args:
@@ -169,7 +170,8 @@ def _found(
     number, added = _counted(column) if isinstance(column, ast.expr) else ("", 0)
     if number:
         fixed = _LETTERS.find(row) if isinstance(row, str) and row in _LETTERS else None
-        yield Numbered(labware, "column", number, 1 - added, (line,), fixed, letter)
+        place = Numbered(labware, "column", number, 1 - added, (line,), fixed, letter)
+        yield replace(place, key=_key_in(column) if isinstance(column, ast.expr) else "")
     if letter:
         fixed = int(column) - 1 if isinstance(column, str) and column.isdigit() else None
         yield Numbered(labware, "row", letter, 0, (line,), fixed, number, 1 - added)
@@ -183,17 +185,26 @@ def _held_in(node: ast.expr) -> str:
 
 
 def _counted(node: ast.expr) -> tuple[str, int]:
-    """The name in ``c``, ``str(c)``, ``c - 1`` or ``c + 1``, and what is added to it."""
+    """The name in ``c``, ``str(c)``, ``c - 1`` or ``row["c"] + 1``, and what is added to it."""
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "str":
         node = node.args[0] if node.args else node
     if held := _held_in(node):
         return held, 0
-    if not isinstance(node, ast.BinOp) or not isinstance(node.left, ast.Name):
+    held = _held_in(node.left) if isinstance(node, ast.BinOp) else ""
+    if not held or not isinstance(node, ast.BinOp):
         return "", 0
     added = node.right.value if isinstance(node.right, ast.Constant) else None
     if isinstance(added, int) and isinstance(node.op, (ast.Add, ast.Sub)):
-        return node.left.id, added if isinstance(node.op, ast.Add) else -added
+        return held, added if isinstance(node.op, ast.Add) else -added
     return "", 0
+
+
+def _key_in(node: ast.expr) -> str:
+    """The key in ``row["col"]``, ``row["col"] - 1`` and ``str(row["col"])``, or ``""``."""
+    for part in ast.walk(node):
+        if isinstance(part, ast.Subscript) and isinstance(part.slice, ast.Constant):
+            return part.slice.value if isinstance(part.slice.value, str) else ""
+    return ""
 
 
 def _pieces(node: ast.expr) -> list[str | ast.expr]:

@@ -10,6 +10,7 @@ from .facts import Place, SourceFacts
 from .lines import without_gaps
 from .literals import (
     counted,
+    fields_of,
     index_value,
     keys_in,
     last_name,
@@ -125,7 +126,7 @@ class SyntaxReader:
         try:
             literal = literal_of(value, self._kinds)
         except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
-            literal = counted(value)
+            literal = counted(value) or fields_of(value, self._kinds)
         if literal not in (None, {}, [], ()):  # what is filled in the run is no constant
             facts.constants.setdefault(name, literal)
 
@@ -226,11 +227,21 @@ def _names_places(kind: ast.ClassDef) -> bool:
 def _picked_by(loop: ast.For | ast.AsyncFor, turning: set[str]) -> Iterator[str]:
     """Names that a loop binds to another item in each turn: ``src = rack[spots[i]]``."""
     for node in ast.walk(loop):
-        if isinstance(node, ast.Assign):
-            indices = (s.slice for s in ast.walk(node.value) if isinstance(s, ast.Subscript))
+        for target, value in _bound(node) if isinstance(node, ast.Assign) else ():
+            indices = (s.slice for s in ast.walk(value) if isinstance(s, ast.Subscript))
             if any(not turning.isdisjoint(names_in(index)) for index in indices):
-                for target in node.targets:
-                    yield from (target.id,) if isinstance(target, ast.Name) else ()
+                yield target.id
+
+
+def _bound(node: ast.Assign) -> Iterator[tuple[ast.Name, ast.expr]]:
+    """Each name that an assignment binds, with what it is bound to: ``a, b = rack[i], row[i]``."""
+    for target in node.targets:
+        pairs = [(target, node.value)]
+        if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
+            pairs = list(zip(target.elts, node.value.elts, strict=False))
+        for one, value in pairs:
+            if isinstance(one, ast.Name):
+                yield one, value
 
 
 def _field(value: ast.expr) -> str:

@@ -1,0 +1,122 @@
+"""Which of the roles that a text names fits how the run uses a well."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ..rules import Common
+from ..text import lexicon_of, tokens
+from .clues import Clue, Strength
+from .phrases import first_words, unlike
+from .roles import Roles
+
+
+def _joins(clue: Clue, common: Common) -> bool:
+    """Whether a word of a clue joins several things."""
+    return not first_words(common.joining).isdisjoint(tokens(clue.text))
+
+
+def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue, common: Common) -> bool:
+    """A text that joins several different things speaks of none of them in particular.
+
+    In a name the last word is the head, unless the name joins several with "and".
+    """
+    if clue.subject and not _joins(clue, common):
+        return False
+    return unlike(fitting, roles)
+
+
+def _made_of_a_reagent(
+    fitting: Sequence[str], roles: Roles, clue: Clue, common: Common
+) -> str | None:
+    """The NTC in "H3: water (NTC)": what the well is, beside the reagent that it is made of."""
+    specs = roles.family.roles
+    passed_on = [role for role in fitting if specs[role].passed_on]
+    if clue.subject or clue.step or len(passed_on) != 1 or _joins(clue, common):
+        return None
+    reagents = all(specs[role].one_liquid for role in fitting if role not in passed_on)
+    return passed_on[0] if reagents else None
+
+
+_A_PLATE = 6
+
+
+def _is_plate_of(clue: Clue) -> bool:
+    """Whether a liquid stood in so many wells before the run that it was in a plate, not tubes."""
+    return clue.strength is Strength.LIQUID and len(set(clue.wells)) >= _A_PLATE
+
+
+def fitting_role(
+    named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: Clue, common: Common
+) -> str | None:
+    """The first named role whose side agrees with how the run uses the well."""
+    named = list(dict.fromkeys(named))
+    if clue.strength is Strength.GIVEN:
+        return named[0]
+    specs = roles.family.roles
+    side, passes_on = sides
+    if clue.step and clue.step != side:
+        return None
+    fitting = [role for role in named if specs[role].side in ("any", side)]
+    if passes_on and not _is_plate_of(clue) and any(specs[role].side == "source" for role in named):
+        # A plate of doses that is made here and given on is no plate of treated cells; a plate
+        # of samples that is given on was one of samples before, and only gets buffer here.
+        fitting = [
+            role
+            for role in fitting
+            if not specs[role].implies_contents
+            or (specs[role].side == side and role in specs[role].filled_by)
+        ]
+    of_wells = not clue.whole or _is_dried(clue, common)
+    if not fitting and passes_on and of_wells and clue.strength is not Strength.COMMENT:
+        fitting = [role for role in named if specs[role].side == "source"]
+    if made_of := _made_of_a_reagent(fitting, roles, clue, common):
+        return made_of
+    fitting = _finer(fitting, roles)
+    if not fitting or _ambiguous(fitting, roles, clue, common):
+        return None
+    if clue.subject and is_for_controls(named, sides, roles) and _treats(fitting[0], roles):
+        return None
+    return _general(fitting, roles) if _is_of_a_series(clue) else fitting[0]
+
+
+def _is_dried(clue: Clue, common: Common) -> bool:
+    """Whether a text speaks of what is there without liquid: "lyophilised oligos"."""
+    return any(True for _ in lexicon_of({"dried": common.dried}).find(clue.text))
+
+
+def is_for_controls(named: Sequence[str], sides: tuple[str, bool], roles: Roles) -> bool:
+    """Whether a source is named as what controls are given: a control siRNA is no treatment."""
+    specs = roles.family.roles
+    return sides[0] == "source" and specs[named[0]].replicated and not specs[named[0]].receives
+
+
+def _finer(fitting: list[str], roles: Roles) -> list[str]:
+    """The vehicle in "PBS (vehicle)": what a medium is used as, where both are said."""
+    for role in fitting:
+        for finer in roles.family.roles[role].may_be:
+            if finer in fitting:
+                return [finer, *(r for r in fitting if r not in (role, finer))]
+    return fitting
+
+
+def _treats(role: str, roles: Roles) -> bool:
+    """Whether wells that receive this are called after that."""
+    return any(role in spec.receives for spec in roles.family.roles.values() if spec.replicated)
+
+
+_A_SERIES = 3
+
+
+def _is_of_a_series(clue: Clue) -> bool:
+    """Whether a comment speaks of so many wells that they are not all its one blank."""
+    return clue.strength is Strength.COMMENT and len(set(clue.wells)) >= _A_SERIES
+
+
+def _general(fitting: Sequence[str], roles: Roles) -> str:
+    """The role that all of a series have: "standards, H1 = blank" are standards."""
+    first = fitting[0]
+    if roles.family.roles[first].level is None:
+        return first
+    above = [role for role in fitting[1:] if role in roles.closure(first) - {first}]
+    return above[0] if above else first

@@ -1,0 +1,57 @@
+"""What a list says once for all its entries: "A1 = 0.1, A2 = 0.4, A3 = 0.8 mg/ml BSA"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from ..text import amounts_in, tokens
+from .clauses import Part
+
+_NUMBER = re.compile(r"(?<![\w.])\d+(?:[.,]\d+)?(?![\w.])")
+
+
+def with_shared_words(
+    parts: Sequence[Part], above: Amount | None = None
+) -> tuple[list[Part], Amount | None]:
+    """The parts of a line, those that are no more than a number with the words of the one that
+    has a unit, and those with the same word and a number with its unit.
+
+    Args:
+        parts: The parts that name wells.
+        above: The amount with a unit that the lines above gave; returned for the lines below.
+    """
+    whole = [Amount(part.words) for part in parts if len([*amounts_in(part.words)]) == 1]
+    alike = len({(amount.before, amount.unit, amount.after) for amount in whole}) == 1
+    model = whole[0] if alike else above
+    if whole and not alike:
+        return list(parts), None
+    return [_like(model, part) if model else part for part in parts], model
+
+
+class Amount:
+    """An amount with its unit, and the words before and after it."""
+
+    def __init__(self, text: str) -> None:
+        match, _ = next(amounts_in(text))
+        self.before = tokens(text[: match.start()])
+        self.unit = match[2]
+        self.after = tokens(text[match.end() :])
+
+
+def _like(model: Amount, part: Part) -> Part:
+    """A part that says a number only, as the model says its own; no more than a nought has no
+    unit: "PBS (0)".
+    """
+    numbers = list(_NUMBER.finditer(part.words))
+    if len(numbers) != 1 or any(True for _ in amounts_in(part.words)):
+        return part
+    number = numbers[0]
+    before, after = tokens(part.words[: number.start()]), tokens(part.words[number.end() :])
+    if not before + after or (before == model.before and not after):
+        words = (*model.before, number.group(), model.unit, *model.after)
+    elif float(number.group().replace(",", ".")) == 0 and not after:
+        words = (*before, number.group(), model.unit)
+    else:
+        return part
+    return part._replace(words=" ".join(words))

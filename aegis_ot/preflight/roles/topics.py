@@ -1,0 +1,113 @@
+"""Which labware the lines of a text speak of, one after the other."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from ..rules import Common
+from ..text import tokens
+from .clauses import Part, parts_of
+from .labware_nouns import LabwareNouns
+
+_LONGEST_HEADING = 6
+
+_IN_BRACKETS = re.compile(r"\([^()]*\)")
+
+_NONE: frozenset[str] = frozenset()
+
+
+class Topic:
+    """What the lines and parts of one text, read in order, speak of: keys of labware.
+
+    Attributes:
+        heading: What a line above, or the begin of this one, says of all that follows.
+    """
+
+    def __init__(self, nouns: LabwareNouns, common: Common) -> None:
+        self._nouns = nouns
+        self._common = common
+        self.heading = _NONE
+        self._last = self._in_line = self._of_line = self._headed = _NONE
+        self._begins = _NONE
+        self._begun = ""
+
+    def next_line(self, written: str, parts: Sequence[Part]) -> None:
+        """Go on with a line, whose parts name wells."""
+        nouns = self._nouns
+        begun, colon, _ = written.partition(":")
+        short = bool(colon) and len(tokens(_IN_BRACKETS.sub(" ", begun))) <= _LONGEST_HEADING
+        named = nouns.named(begun) if short else _NONE
+        self._headed = nouns.heading(written) or named
+        # "cDNA plate, columns 1-5 samples": it begins with its labware.
+        opening = written.partition(",")[0]
+        opens = bool(parts) and parts[0].text not in opening
+        self._begins = nouns.named(opening) if opens else _NONE
+        self._begun = begun.strip() if self._headed else ""
+        self._of_line = nouns.named(written) or self._headed
+        self._in_line = _NONE
+        if named:
+            self.heading = named  # and of the lines below: "strips: column 1 blank"
+        elif self._of_line and _heads(written, self._common):
+            self.heading = self._of_line
+        elif not written.strip():
+            self.heading = self._last = _NONE
+        anew = bool(parts) and (_is_headed(parts[0], begun) or nouns.ends_in_noun(begun))
+        if colon and not self._of_line and anew:
+            self.heading = self._last = _NONE  # "cells: column 1 ..." goes on with something else
+
+    def next_part(self, before: frozenset[str]) -> None:
+        """Go on with a part, before whose wells this stands: "strip columns 1 and 2"."""
+        self._last, self._in_line = before or self._last, before or self._in_line
+
+    def without_heading(self, part: Part) -> Part:
+        """The part without what its line speaks of: "drug plate: A1 vehicle" is no drug."""
+        if not self._begun or not part.text.strip().startswith(self._begun):
+            return part
+        return part._replace(words=part.words.partition(":")[2])
+
+    def said(self, part: Part, before: frozenset[str], noted: frozenset[str]) -> frozenset[str]:
+        """The labware that a part or its line names, ``noted``: by the variable beside it."""
+        return (
+            (before if len(before) == 1 else _NONE)
+            or self._nouns.named(_IN_BRACKETS.sub(" ", part.text))
+            or before
+            or noted
+            or (self._in_line if len(self._in_line) == 1 else _NONE)
+            or self._of_line
+        )
+
+    def above(self) -> frozenset[str]:
+        """The labware that was named before, where a line names none."""
+        return self.heading or self._last
+
+    def places(self, keys: frozenset[str]) -> bool:
+        """Whether the text says itself that these are the labware of a part's wells."""
+        headed = 1 in (len(self._headed), len(self._in_line), len(self._begins))
+        return headed or (bool(keys) and keys == self.heading)
+
+
+def _is_headed(part: Part, begun: str) -> bool:
+    """Whether a line has a heading without wells of its own before its first columns."""
+    return 0 < len(tokens(begun)) <= _LONGEST_HEADING and (
+        part.text.strip().startswith(begun.strip())
+        and axis_of(part) == 1
+        and part.text.find(part.wells[0].group()) > len(begun.strip())
+    )
+
+
+def _heads(line: str, common: Common) -> bool:
+    """Whether a line says which labware the next ones speak of: "rack in slot 5"."""
+    if line.rstrip().endswith(":"):
+        return True
+    return len(tokens(line)) <= _LONGEST_HEADING and not any(
+        p.wells for p in parts_of(line, common)
+    )
+
+
+def axis_of(part: Part) -> int | None:
+    """1 where a part names nothing but columns, 0 where nothing but rows."""
+    for axis, kinds in ((1, ("column", "columns")), (0, ("row", "rows"))):
+        if all(any(match[kind] for kind in kinds) for match in part.wells):
+            return axis
+    return None
