@@ -183,14 +183,13 @@ def _said_to_be_empty(clues: Iterable[Clue], common: Common) -> set[WellRef]:
 
     Not those of an "empty vector", nor where it is said when they will be empty.
     """
-    empty = {word for phrase in common.empty for word in tokens(phrase)}
+    empty = set(common.empty)
     nouns = {word for words in (*common.labware.values(), common.places) for word in words}
     return {
         ref
         for clue in clues
         if not clue.whole and not clue.step
-        for words in [set(tokens(clue.text))]
-        if not words.isdisjoint(empty) and words <= empty | nouns
+        if empty & (words := set(tokens(clue.text))) and words <= empty | nouns
         for ref in clue.wells
     }
 

@@ -37,6 +37,14 @@ class Part(NamedTuple):
     wells: tuple[re.Match[str], ...]
 
 
+def axis_of(part: Part) -> int | None:
+    """1 where a part names nothing but columns, 0 where nothing but rows."""
+    for axis, kinds in ((1, ("column", "columns")), (0, ("row", "rows"))):
+        if all(any(match[kind] for kind in kinds) for match in part.wells):
+            return axis
+    return None
+
+
 def parts_of(text: str, common: Common) -> Iterator[Part]:
     """The parts of one line, in order; a part that names no wells has an empty ``wells``."""
     names = well_names(common)
@@ -81,16 +89,17 @@ def _clauses(text: str, names: WellNames, nouns: frozenset[str]) -> Iterator[str
         start = 0
         for at in [match.span() for match in _BREAKS.finditer(whole)] + [(len(whole), len(whole))]:
             clause = whole[start : at[0]]
-            goes_on = at[0] < len(whole) and whole[at[0]] != "."
+            mark = whole[at[0] : at[0] + 1]
+            goes_on = mark not in ("", ".")
             rest = whole[at[1] :]
             listed = _is_list(clause, names, nouns) and not _says_anew(clause, rest, names)
-            if at[0] < len(whole) and whole[at[0]] == ";" and not names.spec.match(rest.lstrip()):
+            if mark == ";" and not names.spec.match(rest.lstrip()):
                 listed = False  # "columns 1 and 2; fractions from C3 on"
             if goes_on and (listed or _is_open(clause)):
                 continue  # "A1, B1 and C1: standards" is one, and "columns 1+2 (blank, standards)"
-            if goes_on and whole[at[0]] == "," and _is_begun(clause, rest, names):
+            if mark == "," and _is_begun(clause, rest, names):
                 continue  # "NTCs H3, H6"
-            if goes_on and whole[at[0]].isspace() and not names.spec.search(clause):
+            if mark.isspace() and not names.spec.search(clause):
                 continue  # "vehicle     A3" is one entry of a layout
             if clause.strip():
                 yield clause
@@ -107,15 +116,11 @@ def _is_begun(clause: str, rest: str, names: WellNames) -> bool:
 
 def _says_anew(clause: str, rest: str, names: WellNames) -> bool:
     """Whether one column or row follows several, by its own word: "columns 1-5, column 6 = NTC"."""
-    last, first = list(names.spec.finditer(clause))[-1:], names.spec.match(rest.lstrip())
-    return (
-        bool(last)
-        and first is not None
-        and any(
-            last[0][several] and first[one]
-            for several, one in (("columns", "column"), ("rows", "row"))
-        )
-    )
+    mentions, first = list(names.spec.finditer(clause)), names.spec.match(rest.lstrip())
+    if not mentions or first is None:
+        return False
+    last = mentions[-1]
+    return bool((last["columns"] and first["column"]) or (last["rows"] and first["row"]))
 
 
 def _is_open(clause: str) -> bool:

@@ -12,6 +12,9 @@ from ..trace import Trace, row_column
 
 _ITEM = re.compile(r"(\w+)\[([^\[\]]+)\]")
 
+MOST_TUBES = 24
+"""Labware of no more wells is a rack of tubes, in which various things stand."""
+
 LEFT_OUT = 2
 """As many wells of those that a layout names may have been left out by mistake."""
 

@@ -82,7 +82,7 @@ def fitting_role(
 
 def _is_dried(clue: Clue, common: Common) -> bool:
     """Whether a text speaks of what is there without liquid: "lyophilised oligos"."""
-    return any(True for _ in lexicon_of({"dried": common.dried}).find(clue.text))
+    return bool(lexicon_of({"dried": common.dried}).find(clue.text))
 
 
 def is_for_controls(named: Sequence[str], sides: tuple[str, bool], roles: Roles) -> bool:

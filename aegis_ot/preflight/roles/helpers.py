@@ -15,6 +15,7 @@ from ..rules import Common
 from ..text import SourceFacts, tokens
 from ..trace import Trace
 from .clues import Clue, Strength
+from .deck import MOST_TUBES
 from .phrases import first_words
 from .roles import Roles
 
@@ -100,13 +101,10 @@ def unsay_controls(roles: Roles, trace: Trace) -> None:
             del roles.by_well[ref]
 
 
-_MOST_TUBES = 24
-
-
 def _is_of_tubes(trace: Trace, ref: WellRef) -> bool:
     """Whether a well is one of few, in a rack or a reservoir, which hold various things."""
     info = trace.labware.get(ref.labware)
-    return info is not None and (info.centers_channels or len(info.wells) <= _MOST_TUBES)
+    return info is not None and (info.centers_channels or len(info.wells) <= MOST_TUBES)
 
 
 def _is_set_apart(roles: Roles, ref: WellRef) -> bool:

@@ -13,7 +13,7 @@ _HEADING = re.compile(r"\W*([^\W\d]\w*(?:[ -][^\W\d]\w*){0,3}[ -]?)\s*:")
 """A line that begins with what it speaks of: "tubes: A1 lowest ... B2 highest"."""
 
 
-_IN_BRACKETS = re.compile(r"\s*\([^()]*\)")
+IN_BRACKETS = re.compile(r"\([^()]*\)")
 
 _SLOT = re.compile(r"(?i:\bslot\s+)([A-Da-d][1-4]|1[01]|[1-9])\b")
 
@@ -72,7 +72,7 @@ class LabwareNouns:
             if words[at : at + len(name)] == name:
                 before, after = words[at - 1 : at], words[at + len(name) : at + len(name) + 1]
                 leads = set(before) <= self._articles | self._joints
-                if len(name) > 1 or leads or any(set(after) & kind for kind in self._kinds):
+                if len(name) > 1 or leads or set(after) & self._nouns:
                     return True
         return False
 
@@ -84,8 +84,7 @@ class LabwareNouns:
 
     def kind_in(self, text: str) -> frozenset[str]:
         """The one labware of a kind that a text speaks of: "vials", "strip"."""
-        words = set(tokens(text))
-        words |= {word.removesuffix("s") for word in words}
+        words = _with_singulars(tokens(text))
         found = {
             info.key
             for kind in self._kinds
@@ -97,7 +96,7 @@ class LabwareNouns:
 
     def heading(self, line: str) -> frozenset[str]:
         """What a line speaks of that begins with a noun and a colon."""
-        match = _HEADING.match(_IN_BRACKETS.sub("", line))
+        match = _HEADING.match(IN_BRACKETS.sub("", line))
         return self._called(tokens(match[1])) if match else frozenset()
 
     def ends_in_noun(self, text: str) -> bool:
@@ -108,18 +107,16 @@ class LabwareNouns:
         """Whether a part says what stands in a slot that is called like a well: "D2 tips"."""
         start = part.text.find(part.wells[0].group())
         begun = part.text[:start].strip(" :,;-*")
-        words = set(tokens(part.words))
         return (
-            (not begun or bool(list(self._decks.find(begun))))
+            (not begun or bool(self._decks.find(begun)))
             and all(match.group() in self._slots for match in part.wells)
-            and not self._on_deck.isdisjoint(words | {word.removesuffix("s") for word in words})
+            and not self._on_deck.isdisjoint(_with_singulars(tokens(part.words)))
         )
 
     def before(self, part: Part) -> frozenset[str]:
         """What stands right before the first well: "strip columns 1 and 2", "tube A1"."""
         start = part.text.find(part.wells[0].group())
-        words = tokens(part.text[:start])[-2:]
-        return self._called(words) or self._after(part)
+        return self._called(tokens(part.text[:start])[-2:]) or self._after(part)
 
     def _after(self, part: Part) -> frozenset[str]:
         """What stands after the last well: "columns 2 and 3 of the source plate"."""
@@ -138,7 +135,7 @@ class LabwareNouns:
         if not found or found[0].group().lower() not in self._joints:
             return ""
         for word in found[1:]:
-            if any(word.group().lower() in kind for kind in self._kinds):
+            if word.group().lower() in self._nouns:
                 return tail[found[0].start() : word.end()]
         return ""
 
@@ -180,6 +177,10 @@ class LabwareNouns:
             for key in held
         }
         return frozenset(keys) if len(keys) == 1 else frozenset()
+
+
+def _with_singulars(words: tuple[str, ...]) -> set[str]:
+    return {*words, *(word.removesuffix("s") for word in words)}
 
 
 def _singular(words: tuple[str, ...]) -> tuple[str, ...]:

@@ -56,9 +56,9 @@ def _is_layout(deck: Deck, clue: Clue) -> bool:
     if clue.strength is Strength.LOOSE_NAME or clue.whole or clue.step or clue.role:
         return False
     wells = set(clue.wells)
-    return not any(
-        deck.trace.labware[key].centers_channels or wells.issuperset(deck.used_wells((key,)))
-        for key in {ref.labware for ref in wells}
+    keys = {ref.labware for ref in wells}
+    return not _is_trough(deck.trace, *keys) and not any(
+        wells.issuperset(deck.used_wells((key,))) for key in keys
     )
 
 

@@ -136,7 +136,7 @@ def _without_what_is_not(
     places: dict[int, list[str]], words: Sequence[str], common: Common
 ) -> dict[int, list[str]]:
     """What a text names apart from what this stands for: "water instead of DNA" is water."""
-    found = list(lexicon_of({"instead": common.instead}).find(" ".join(words)))
+    found = lexicon_of({"instead": common.instead}).find(" ".join(words))
     at = min((match.start for match in found), default=len(words))
     return {place: topics for place, topics in places.items() if place < at}
 

@@ -10,7 +10,7 @@ from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, concentration_in, lexicon_of, origins, tokens
 from .clues import Clue, Strength
-from .deck import Deck
+from .deck import MOST_TUBES, Deck
 from .levels import is_number
 from .phrases import without_position
 from .well_names import plain_name, wells_between
@@ -57,9 +57,6 @@ def plate_maps(
             )
 
 
-_MOST_TUBES = 24
-
-
 def labware_of_map(
     deck: Deck, facts: SourceFacts, name: str, spots: Sequence[str], common: Common
 ) -> tuple[str, ...]:
@@ -75,7 +72,7 @@ def labware_of_map(
     if len(used) > 1:
         in_all = all((key, spot) in deck.refs for key in used for spot in spots)
         sizes = [len(deck.trace.labware[key].wells) for key in used]
-        if in_all and min(sizes) <= _MOST_TUBES < max(sizes):
+        if in_all and min(sizes) <= MOST_TUBES < max(sizes):
             return ()  # tubes, and wells of the same names
         used = _alike(deck, used, spots)
     one = () if used else (called_alike(deck, name, common) or deck.most_likely(spots),)

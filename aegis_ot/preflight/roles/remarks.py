@@ -11,14 +11,14 @@ from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, comment_blocks, direction_in, listed_levels, tokens
 from ..trace import row_column
-from .clauses import Part, parts_of
+from .clauses import Part, axis_of, parts_of
 from .clues import Clue, Strength, shortened
 from .deck import LEFT_OUT, Deck
 from .ellipses import with_rows
 from .labware_nouns import LabwareNouns
 from .replicates import called_alike
 from .shared_words import Amount, with_shared_words
-from .topics import Topic, axis_of
+from .topics import Topic
 from .well_names import well_names
 
 

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 
 from ..rules import Common
 from ..text import tokens
-from .clauses import Part, parts_of
-from .labware_nouns import LabwareNouns
+from .clauses import Part, axis_of, parts_of
+from .labware_nouns import IN_BRACKETS, LabwareNouns
 
 _LONGEST_HEADING = 6
-
-_IN_BRACKETS = re.compile(r"\([^()]*\)")
 
 _NONE: frozenset[str] = frozenset()
 
@@ -36,7 +33,7 @@ class Topic:
         """Go on with a line, whose parts name wells."""
         nouns = self._nouns
         begun, colon, _ = written.partition(":")
-        short = bool(colon) and len(tokens(_IN_BRACKETS.sub(" ", begun))) <= _LONGEST_HEADING
+        short = bool(colon) and len(tokens(IN_BRACKETS.sub(" ", begun))) <= _LONGEST_HEADING
         named = nouns.named(begun) if short else _NONE
         self._headed = nouns.heading(written) or named
         # "cDNA plate, columns 1-5 samples": it begins with its labware.
@@ -70,7 +67,7 @@ class Topic:
         """The labware that a part or its line names, ``noted``: by the variable beside it."""
         return (
             (before if len(before) == 1 else _NONE)
-            or self._nouns.named(_IN_BRACKETS.sub(" ", part.text))
+            or self._nouns.named(IN_BRACKETS.sub(" ", part.text))
             or before
             or noted
             or (self._in_line if len(self._in_line) == 1 else _NONE)
@@ -103,11 +100,3 @@ def _heads(line: str, common: Common) -> bool:
     return len(tokens(line)) <= _LONGEST_HEADING and not any(
         p.wells for p in parts_of(line, common)
     )
-
-
-def axis_of(part: Part) -> int | None:
-    """1 where a part names nothing but columns, 0 where nothing but rows."""
-    for axis, kinds in ((1, ("column", "columns")), (0, ("row", "rows"))):
-        if all(any(match[kind] for kind in kinds) for match in part.wells):
-            return axis
-    return None
