@@ -6,6 +6,7 @@ import pytest
 
 from aegis_ot.preflight import load_database
 from aegis_ot.preflight.text import concentration_in, direction_in, level_in, listed_levels
+from aegis_ot.preflight.text.levels import unit_in
 
 COMMON = load_database().common
 
@@ -55,10 +56,34 @@ def test_only_a_concentration_is_one(text: str, molar: float | None) -> None:
         ("1 and 2 uM, then 5 and 6 uM", ()),
         ("0,3 uM", ()),
         ("0,1 / 0,3 uM", (0.1e-6, 0.3e-6)),
+        ("0 / 0,2 / 0,5 / 1,0 mg/ml", (0, 0.2, 0.5, 1)),
+        ("0; 0,25; 1,5 mg/ml BSA", (0, 0.25, 1.5)),
+        ("100,50,25 ug/ml", (0.1, 0.05, 0.025)),
+        ("BSA (mg/ml): 0, 0.1, 0.2", (0, 0.1, 0.2)),
+        ("(µg/mL): 40 / 80 / 160", (0.04, 0.08, 0.16)),
+        ("doses in nM: 30, 10, 3", (30e-9, 10e-9, 3e-9)),
+        ("(mg/ml): 0.1, 0.2, 400 ug/ml", (1e-4, 2e-4, 0.4)),
+        ("BSA (mg/ml): drug (nM): 1, 2, 3", ()),
+        ("columns: 1, 2, 3", ()),
     ],
 )
 def test_the_levels_of_the_one_list_of_a_text(text: str, molar: tuple[float, ...]) -> None:
     assert listed_levels(text) == pytest.approx(molar)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [
+        ("ug/mL  2000  1500  1000", "ug/ml"),
+        ("µg/ml: 3 2 1", "ug/ml"),
+        ("3 2 1 (nM)", "nm"),
+        ("mg/ml and ug/ml 1 2 3", ""),
+        ("mg/ml/min 1 2 3", ""),
+        ("number 1 2 3", ""),
+    ],
+)
+def test_the_unit_that_stands_apart_from_numbers(text: str, unit: str) -> None:
+    assert unit_in(text) == unit
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from typing import ClassVar
 
 from ...instrumentation import OperationKind
@@ -40,6 +41,7 @@ class Carry(Check):
         via_destination: ``only``: judge liquids met in wells that the run had put something
             into; ``not``: judge the others; empty: all.
         shared: Whether only wells that serve several destinations are judged.
+        unnamed: Whether sources of which nothing says what they hold are carried as well.
     """
 
     name: ClassVar[str] = "carry"
@@ -50,6 +52,7 @@ class Carry(Check):
     pooled: bool = False
     via_destination: str = ""
     shared: bool = False
+    unnamed: bool = False
     not_into: tuple[str, ...] = role_field(())
 
     def find(self, case: Case) -> Iterator[Result]:
@@ -57,6 +60,8 @@ class Carry(Check):
         carried, into = frozenset(self.carried), frozenset(self.into)
         not_into = frozenset(self.not_into)
         carriers = set(case.wells(carried))
+        if self.unnamed:
+            carriers.update(well for well in case.destinations if not case.of(well))
         once = not (self.stock or self.pooled)  # later visits are judged as the first
         judged: dict[tuple[Tip, Well], int] = {}
         let_be: dict[tuple[Tip, Well], list[tuple[Well, Met]]] = {}
@@ -86,7 +91,16 @@ class Carry(Check):
         if case.same_liquid(origin, well):
             return True
         if self.via_destination:
-            filled = origin is not met.well or _was_fed(case, met)
+            filled = (
+                origin is not met.well
+                or _was_fed(case, met)
+                # A sample's tip has been in its destination too; with buffers it matters less.
+                or (
+                    bool(case.of(origin))
+                    and not self._is_one_liquid(case, origin)
+                    and _brought_since(case, visit, origin)
+                )
+            )
             if filled != (self.via_destination == "only"):
                 return True
         brought = case.meant.get(well, {})
@@ -177,7 +191,8 @@ class Carry(Check):
         if met.well is origin:
             began = f"The tip that met {what} in {where}"
         else:
-            began = f"The tip that touched {where}, which holds {what} from {origin.ref.name},"
+            held = f"{what} from" if case.of(origin) else "the liquid of"
+            began = f"The tip that touched {where}, which holds {held} {origin.ref.name},"
         message = f"{began} entered the {case.title(well)} {place(well)} {at(visit.line)}."
         return Violation(
             message,
@@ -223,6 +238,14 @@ def _was_fed(case: Case, met: Met) -> bool:
     """Whether a well was a destination when the tip met it: something had been put into it."""
     first = next(iter(case.meant.get(met.well, {}).values()), None)
     return first is not None and first <= met.index
+
+
+def _brought_since(case: Case, visit: Visit, origin: Well) -> bool:
+    """Whether the tip has also touched a well that this liquid was brought to before."""
+    return any(
+        case.meant.get(other, {}).get(origin, visit.index) < visit.index
+        for other in islice(visit.tip.touched, visit.met)
+    )
 
 
 def _serves_its_well_alone(case: Case, stock: Well, origin: Well) -> bool:

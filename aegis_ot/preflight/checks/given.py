@@ -35,3 +35,12 @@ def sources_of(case: Case, well: Well) -> set[Well]:
         for part in visit.parts
         if part[0] is not None and part[0] is not well
     }
+
+
+def came_from(case: Case, well: Well, liquid: RoleSet) -> set[Well]:
+    """The wells that a liquid came into this one from.
+
+    Those that it stood in to begin with; where the run makes it, those that it is made in.
+    """
+    stood = {origin for origin in case.meant.get(well, {}) if case.has(origin, liquid)}
+    return stood or {source for source in sources_of(case, well) if case.has(source, liquid)}

@@ -9,7 +9,7 @@ from typing import ClassVar
 from ...vocabulary import Site
 from ..trace import Well
 from .base import Case, Check, Result, RoleSet, Violation, at, place, role_field
-from .given import filled, received
+from .given import came_from, filled, received
 
 Member = tuple[Well, float, float]
 """A well, the µL of the liquid that it received, and those that it received in all."""
@@ -70,12 +70,10 @@ class UniformVolume(Check):
     def _by_tube(
         case: Case, members: list[Member], liquid: RoleSet
     ) -> dict[frozenset[Well], list[Member]]:
-        """Members by the wells that their ``liquid`` stood in; one group if it is declared."""
+        """Members by the wells that their ``liquid`` came from; one group if it is declared."""
         found: dict[frozenset[Well], list[Member]] = {}
         for member in members:
-            tubes = frozenset(
-                origin for origin in case.meant.get(member[0], {}) if case.has(origin, liquid)
-            )
+            tubes = frozenset(came_from(case, member[0], liquid))
             if any(tube.liquids for tube in tubes):
                 return {frozenset(): members}
             found.setdefault(tubes, []).append(member)
@@ -86,11 +84,10 @@ class UniformVolume(Check):
 
     def _assay(self, case: Case, well: Well, liquid: RoleSet) -> tuple[str, ...]:
         names = set()
-        for origin in case.meant.get(well, {}):
-            if case.has(origin, liquid):
-                assigned = case.roles.by_well.get(origin.ref)
-                kind = assigned.text if assigned else ""
-                names.add(f"{kind or origin.ref.address}")
+        for tube in came_from(case, well, liquid):
+            assigned = case.roles.by_well.get(tube.ref)
+            kind = assigned.text if assigned else ""
+            names.add(f"{kind or tube.ref.address}")
         return (well.ref.labware, str(well.generation), *sorted(names))
 
     def _compare(self, case: Case, members: list[Member]) -> Iterator[Result]:

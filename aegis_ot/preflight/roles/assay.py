@@ -211,7 +211,10 @@ def _seen(
 
 def _named(family: Family, roles: Roles, said_by_words: float) -> Iterable[_Found]:
     """What the roles that wells are named for say of a family, beyond what their words said."""
-    named = {a.role for a in roles.by_well.values() if a.strength > Strength.COMMENT}
+    assigned = roles.by_well.values()
+    named = {a.role for a in assigned if a.strength > Strength.COMMENT} | {
+        a.named for a in assigned
+    }
     for signal in family.known_by:
         if all(named & set(either.split("|")) for either in signal.roles):
             titles = [family.roles[either.split("|")[0]].title for either in signal.roles]

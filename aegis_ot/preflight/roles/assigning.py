@@ -122,7 +122,7 @@ def assign_roles(
             if clue.strength is Strength.LIQUID:
                 roles.unnamed.update(clue.wells)
     _note_untold(roles, lexicon, untold)
-    levels = _levels_beside(untold, common)
+    roles.told_levels = _levels_beside(untold, common)
     roles.untold = [*untold, *misplaced]
     _add_dosed(roles, candidates, sides, roles.untold, common)
     for first, group in trace.groups.items():
@@ -134,9 +134,11 @@ def assign_roles(
         assignment = choose(roles, ref, found) if found else None
         if assignment is not None and not (ref in for_controls and assignment.whole):
             roles.by_well[ref] = assignment
-            told = levels.get(ref, set())
-            if assignment.level is None and len(told) == 1:
-                assignment.level = told.pop()
+            told = roles.told_levels.get(ref)
+            assignment.level = told if assignment.level is None else assignment.level
+            spec = family.roles[assignment.role]
+            if told and spec.level is not None and spec.parents:
+                assignment.role, assignment.level = spec.parents[0], told  # "S0 1.6 mg/ml"
     unsay_contents(roles, trace, _holding(roles, candidates))
     spread_over_channels(roles, trace, candidates)
     unsay_controls(roles, trace)
@@ -185,14 +187,20 @@ def _note_untold(roles: Roles, lexicon: Lexicon, untold: Sequence[Clue]) -> None
                 roles.denied.setdefault(denied, set()).update(clue.wells)
 
 
-def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, set[float]]:
-    """The levels that clues without a word for what they hold give their wells."""
-    levels: dict[WellRef, set[float]] = {}
+def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, float]:
+    """The one level that clues without a word for what they hold give each of their wells.
+
+    What is said of several at once ("11x A1-B1") gives way to what is said of each.
+    """
+    of_each: dict[WellRef, set[float]] = {}
+    of_several: dict[WellRef, set[float]] = {}
     for clue in untold:
+        levels = of_each if clue.levels or len(set(clue.wells)) == 1 else of_several
         for ref, level in zip(clue.wells, levels_beside(clue, common), strict=False):
             if level is not None:
                 levels.setdefault(ref, set()).add(level)
-    return levels
+    told = {**of_several, **of_each}
+    return {ref: levels.pop() for ref, levels in told.items() if len(levels) == 1}
 
 
 _FEWEST_DOSES = 2

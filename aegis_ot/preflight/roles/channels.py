@@ -31,7 +31,9 @@ def spread_over_channels(
                 continue  # water in the first channel, samples in the others
             other = roles.by_well.get(ref)
             if other is not None and other.role == assigned.role:
-                if other.level is None:
+                if other.whole and not assigned.whole:
+                    roles.by_well[ref] = assigned.copied("same channel group")
+                elif other.level is None:
                     other.level = assigned.level
             elif other is None or (
                 other.strength <= assigned.strength

@@ -66,13 +66,15 @@ def choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | N
         level,
         conflict,
         whole=all(c[2].whole for c in agreeing),
+        named=found[0][1] if clue.strength > Strength.COMMENT else "",
     )
 
 
 def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:
     """Of two lists that have a well in common by mistake, the one of controls says what it is.
 
-    The other one says what is given to it. A list within the other says more exactly.
+    The other one says what is given to it. A list within the other says more exactly, and so
+    does a comment that sets some of its wells apart as controls.
     """
     specs = roles.family.roles
     worth, role, clue, _ = found[0]
@@ -80,12 +82,9 @@ def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:
         return
     for at, (other_worth, other, hint, _) in enumerate(found[1:], 1):
         mine, theirs = set(clue.wells), set(hint.wells)
-        if (
-            other_worth[:-1] == worth[:-1]
-            and specs[other].parents
-            and not specs[other].receives
-            and not (mine <= theirs or theirs <= mine)
-        ):
+        listed = other_worth[:-1] == worth[:-1] and not (mine <= theirs or theirs <= mine)
+        set_apart = hint.strength is Strength.COMMENT and not hint.step and theirs < mine
+        if specs[other].parents and not specs[other].receives and (listed or set_apart):
             found.insert(0, found.pop(at))
             return
 
@@ -107,15 +106,20 @@ def _put_agreed_first(roles: Roles, found: list[Candidate]) -> bool:
 
 
 def _put_exact_first(roles: Roles, found: list[Candidate]) -> None:
-    """What a layout says of one well ("H3: water, NTC") goes before its labware's other name."""
+    """What a layout says of one well ("H3: water, NTC") goes before its labware's other name.
+
+    And before the name that a loop or a helper gives to several wells in turn.
+    """
     _, role, clue, _ = found[0]
-    if clue.whole:
+    in_turn = clue.strength is Strength.LOOSE_NAME and len(set(clue.wells)) > 1
+    if clue.whole or in_turn:
         other = [
             c
             for c in found
             if not (c[2].whole or c[2].step or c[1] in roles.closure(role))
             and role not in roles.closure(c[1])
             and (c[2].placed or len(set(c[2].wells)) <= A_FEW)
+            and (clue.whole or len(set(c[2].wells)) == 1)
         ]
         found[:] = other + [c for c in found if c not in other]
 

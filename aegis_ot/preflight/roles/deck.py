@@ -87,9 +87,9 @@ class Deck:
     def passed_over(self, labware: str, names: Collection[str], axis: int) -> list[str]:
         """Wells that the run does not fill, though it fills these places in all other columns.
 
-        A few of these ``names`` at most, or one of two columns: of more, the layout speaks of wells
-        for which there is nothing this time. Those that the other columns leave out as well are no
-        part of it.
+        A few of these ``names`` at most, one of two columns, or one between others: of more, the
+        layout speaks of wells for which there is nothing this time. Those that the other columns
+        leave out as well are no part of it.
 
         Args:
             labware: Key of the labware.
@@ -111,7 +111,13 @@ class Deck:
         # One of two columns, whole: the other one got what both were to get.
         one_of_two = len(lines) == 2 and len(missing) == len(empty) == len(names) // 2
         whole = one_of_two and len({row_column(name)[axis] for name in missing}) == 1
-        return missing if (few or whole) and len(others) > 1 else []
+        # One between those that are filled: the next one got what it was to get.
+        between = (
+            missing == list(names)
+            and len(lines) == 1
+            and any(line - 1 in others and line + 1 in others for line in lines)
+        )
+        return missing if (few or whole or between) and len(others) > 1 else []
 
     def are_whole_lines(self, wells: Collection[WellRef]) -> bool:
         """Whether these are all wells of some columns, or of some rows, of one labware."""

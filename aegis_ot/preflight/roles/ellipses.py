@@ -64,10 +64,14 @@ class Ellipses:
         self._listed = re.compile(
             rf"(?m)^(\s*)({span_of_list}(?:{listing}{span_of_list})*)(?=\s*:\s|\s{{2,}}[^\W\d])"
         )
+        self._one_of_several = re.compile(
+            rf"^(\W*){names.column}\.?(?=\s*{span_of_list}(?:{listing}{span_of_list})+"
+            r"(?:\s{2,}[^\W\d]|\s*[:=]))"
+        )
         self._one_column = re.compile(rf"\b{names.column}\.?\s*\(?(\d{{1,2}})\b")
         self._down = re.compile(
             rf"(?P<lead>[:=(,;]|\.\.\.?|…)\s*(?P<low>[A-P])(?![\w.])"
-            rf"(?:{to}(?P<high>[A-P])(?!\w))?(?=\s*[:=]\s*\S|\s+[^\W\d_]{{2,}})"
+            rf"(?:{to}(?P<high>[A-P])(?!\w))?(?=\s*[:=]\s*\S|\s+[^\W\d_]{{2,}}|\s+\d+(?:[.,]\d+)?(?!\w))"
         )
         self._short = re.compile(rf"(?<![\w.])c(\d{{1,2}})(?:{to}c?(\d{{1,2}}))?(?!\w)")
         self._of_column = re.compile(
@@ -113,6 +117,8 @@ class Ellipses:
         """See :func:`spelled_out`."""
         if len(self._short.findall(text)) > 1:  # "c1 vehicle, c2-11 drug"
             text = self._short.sub(self._spelled, text)
+        # "col 3, 11   vehicle"
+        text = self._one_of_several.sub(lambda match: f"{match[1]}{self._plural}", text)
         text = self._headed.sub(r"\1 ", text)  # "cols: 1 = untreated, 2 = vehicle"
         text = self._down_columns(self._with_columns(text))
         at = 0

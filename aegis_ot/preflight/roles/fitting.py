@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ..rules import Common
-from ..text import lexicon_of, tokens
+from ..text import lexicon_of, listed_levels, tokens
 from .clues import Clue, Strength
 from .phrases import first_words, unlike
 from .roles import Roles
@@ -77,7 +77,7 @@ def fitting_role(
         return None
     if clue.subject and is_for_controls(named, sides, roles) and _treats(fitting[0], roles):
         return None
-    return _general(fitting, roles) if _is_of_a_series(clue) else fitting[0]
+    return _general(fitting, roles, clue) if _is_of_a_series(clue) else fitting[0]
 
 
 def _is_dried(clue: Clue, common: Common) -> bool:
@@ -92,9 +92,13 @@ def is_for_controls(named: Sequence[str], sides: tuple[str, bool], roles: Roles)
 
 
 def _finer(fitting: list[str], roles: Roles) -> list[str]:
-    """The vehicle in "PBS (vehicle)": what a medium is used as, where both are said."""
+    """The vehicle in "PBS (vehicle)": what a medium is used as, where both are said.
+
+    And the vehicle control in "vehicle (mock)": of a kind and its parent, the kind.
+    """
     for role in fitting:
-        for finer in roles.family.roles[role].may_be:
+        kinds = [kind for kind in fitting if role in roles.closure(kind) - {kind}]
+        for finer in (*roles.family.roles[role].may_be, *(kinds if role == fitting[0] else ())):
             if finer in fitting:
                 return [finer, *(r for r in fitting if r not in (role, finer))]
     return fitting
@@ -113,10 +117,14 @@ def _is_of_a_series(clue: Clue) -> bool:
     return clue.strength is Strength.COMMENT and len(set(clue.wells)) >= _A_SERIES
 
 
-def _general(fitting: Sequence[str], roles: Roles) -> str:
-    """The role that all of a series have: "standards, H1 = blank" are standards."""
+def _general(fitting: Sequence[str], roles: Roles, clue: Clue) -> str:
+    """The role that all of a series have: "standards, H1 = blank" are standards, and so are
+    those of "BSA 0, 0.5, 1 mg/ml".
+    """
     first = fitting[0]
     if roles.family.roles[first].level is None:
         return first
     above = [role for role in fitting[1:] if role in roles.closure(first) - {first}]
+    if not above and len(listed_levels(clue.text)) > 1:
+        above = list(roles.family.roles[first].parents)
     return above[0] if above else first

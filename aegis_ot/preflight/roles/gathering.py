@@ -77,7 +77,7 @@ def gather(
         *loop_levels(trace, names, facts, common),
     ]
     clues += explained(clues, facts)
-    clues += mirrored(deck, clues)
+    clues += mirrored(deck, clues, facts, common)
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
 
 

@@ -23,7 +23,7 @@ def labels(deck: Deck, common: Common) -> Iterator[Clue]:
             continue
         if info.centers_channels:
             yield from _of_troughs(deck, info)
-        parts = list(parts_of(info.label, common))
+        parts = _parts(info.label, common)
         if len(parts) > 1 and any(part.wells for part in parts):
             yield from _of_wells(deck, info, parts, common)
             text = ", ".join(part.text for part in parts if not part.wells)
@@ -39,6 +39,17 @@ def labels(deck: Deck, common: Common) -> Iterator[Clue]:
                 whole=True,
                 lone=not _JOINTS.isdisjoint(text),
             )
+
+
+def _parts(label: str, common: Common) -> list[Part]:
+    """The parts of a label; in "clones + BSA col 1" only the second has wells of its own."""
+    parts = list(parts_of(label, common))
+    pieces = re.split(rf"\s*[{re.escape(''.join(_JOINTS))}]\s*", label)
+    if len(parts) == 1 and parts[0].wells and len(pieces) > 1:
+        apart = [part for piece in pieces for part in parts_of(piece, common)]
+        if sum(len(part.wells) for part in apart) == len(parts[0].wells):
+            return apart
+    return parts
 
 
 _TROUGH = re.compile(

@@ -75,15 +75,16 @@ def _turns_within(drawn: Drawn, loop: Loop) -> tuple[list[Turn], set[int]]:
 def _levels(
     loop: Loop, count: int, names: Sequence[NameBinding], common: Common
 ) -> tuple[float, ...]:
-    """The one column of numbers that speaks of amounts, as long as there are wells."""
+    """The one column of numbers that speaks of amounts, one for each well, again and again."""
     amounts = lexicon_of({"amount": common.amounts})
     counts = lexicon_of({"count": common.countings})
     named, listed = set(), set()
     for values in loop.values:
         for name, column in _columns(values, names):
             numbers = tuple(found for found in map(number_in, column) if found is not None)
-            if len(numbers) != count or len(column) != count or len(set(numbers)) < 2:
+            if len(numbers) != len(column) or len(set(numbers)) < 2 or count % len(numbers):
                 continue
+            numbers *= count // len(numbers)  # within another loop it begins anew
             if amounts.find(name):
                 named.add(numbers)
             elif amounts.find(values.source) and not counts.find(name):

@@ -13,15 +13,21 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from ...vocabulary import WellRef
+from ..rules import Common
+from ..text import SourceFacts, comment_blocks, lexicon_of, tokens
 from ..trace import Trace, row_column
 from .clues import Clue, Strength
 from .deck import Deck
+from .phrases import first_words
 
 _FEWEST = 8
 """So many wells of a plate, in line with those they go into, are no chance."""
 
 _MOST = 0.9
 """This share of them goes where the pattern says; one column of twelve may be a mistake."""
+
+_NEAR = 4
+"""So many words after "same columns as" say which plate, so many before it that it is not so."""
 
 _STEPS = (1, 2, 3, 4)
 """A column of samples in quadruplicate takes four columns."""
@@ -36,25 +42,52 @@ class _Stamp(NamedTuple):
     offsets: frozenset[Place]
 
 
-def mirrored(deck: Deck, clues: Iterable[Clue]) -> list[Clue]:
+_SAME = _Stamp((1, 1), frozenset({(0, 0)}))
+
+
+def mirrored(deck: Deck, clues: Iterable[Clue], facts: SourceFacts, common: Common) -> list[Clue]:
     """What is said of wells of a plate, for the wells that they are stamped into.
 
-    Only for wells of which no layout says anything, in plates that pass nothing on.
+    Only for wells of which no layout says anything, in plates that pass nothing on. Where the
+    text says that plates are laid out alike, the layout of the second holds for the first, too.
     """
     layouts = [clue for clue in clues if _is_layout(deck, clue)]
     said = {ref for clue in layouts for ref in clue.wells}
+    stamps = dict(_stamps(deck))
+    if _says_alike(facts, common):
+        alike = {pair: stamp for pair, stamp in stamps.items() if stamp == _SAME}
+        stamps |= {(target, source): stamp for (source, target), stamp in alike.items()}
     return [
         copy
-        for (source, target), stamp in _stamps(deck).items()
+        for (source, target), stamp in stamps.items()
         for clue in layouts
         for copy in _copied(deck, clue, source, target, stamp, said)
     ]
+
+
+def _says_alike(facts: SourceFacts, common: Common) -> bool:
+    """Whether a comment or a docstring says that one plate is laid out as another one."""
+    phrases = lexicon_of({"alike": common.alike})
+    nouns = {word for words in common.labware.values() for word in words} | {"slot"}
+    negations = first_words(common.negations)
+    texts = [text for _, text in (*facts.docstrings, *comment_blocks(facts))]
+    for line in (line for text in texts for line in text.splitlines()):
+        words = phrases.words(line)
+        for match in phrases.find(line):
+            before, after = words[: match.start][-_NEAR:], words[match.end :][:_NEAR]
+            if negations.isdisjoint(before) and not nouns.isdisjoint(after):
+                return True
+    return False
 
 
 def _is_layout(deck: Deck, clue: Clue) -> bool:
     """Whether a clue says of chosen wells of a plate what they hold."""
     if clue.strength is Strength.LOOSE_NAME or clue.whole or clue.step or clue.role:
         return False
+    if all(level is None for level in clue.levels) and all(
+        len(word) < 2 for word in tokens(clue.text)
+    ):
+        return False  # `D[2]`
     wells = set(clue.wells)
     keys = {ref.labware for ref in wells}
     return not _is_trough(deck.trace, *keys) and not any(

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, lexicon_of, listed_levels
+from ..text import SourceFacts, lexicon_of, listed_levels, unit_in
 from .levels import far_apart, is_number
 
 NUMBERED = re.compile(r"(.*)\[(?P<quote>['\"]?)(-?\d+(?:\.\d+)?)(?P=quote)\]([^\[\]]*)")
@@ -56,23 +56,22 @@ def amounts_in_names(names: Sequence[NameBinding]) -> dict[str, float]:
 
 def keyed_amounts(
     names: Sequence[NameBinding], facts: SourceFacts, common: Common
-) -> dict[str, float | None]:
+) -> dict[str, float]:
     """Level of ``standards["s1"]`` where a dict of amounts has the same keys: ``CONC["s1"]``."""
     groups: dict[str, dict[str, str]] = {}
     for binding in names:
         match = re.fullmatch(r"([^\[\]]+)\[(['\"])(.+)\2\]", binding.name)
         if match:
             groups.setdefault(match[1], {})[match[3]] = binding.name
-    amounts = lexicon_of({"amount": common.amounts})
-    found: dict[str, float | None] = {}
+    found: dict[str, float] = {}
     maps = [
         (constant, {str(key): float(number) for key, number in value.items()})
-        for constant, value in facts.constants.items()
+        for constant, value in (*facts.constants.items(), *facts.levels.items())
         if isinstance(value, dict) and all(is_number(number) for number in value.values())
     ]
     maps += [(binding.name, dict(binding.numbers)) for binding in names if binding.numbers]
     for constant, by_key in maps:
-        if not amounts.find(constant):
+        if not _speaks_of_amounts(constant, facts, common):
             continue
         for group in groups.values():
             if len(group) > 1 and group.keys() <= by_key.keys():
@@ -80,11 +79,23 @@ def keyed_amounts(
     return found
 
 
-def listed_beside(facts: SourceFacts, line: int, wells: Sequence[WellRef]) -> tuple[float, ...]:
+def _speaks_of_amounts(name: str, facts: SourceFacts, common: Common) -> bool:
+    """Whether a name, or the comment on it, says that its numbers are amounts: "kit, ug/mL"."""
+    amounts = lexicon_of({"amount": common.amounts})
+    return bool(amounts.find(name)) or bool(unit_in(facts.notes.get(name, "")))
+
+
+def listed_beside(
+    facts: SourceFacts, line: int, wells: Sequence[WellRef], common: Common
+) -> tuple[float, ...]:
     """One level for each well of a name that a comment beside it or right above it lists:
-    "BSA 0, 0.1, 0.2, 0.4 mg/ml: A1-A4 of the rack".
+    "BSA 0, 0.1, 0.2, 0.4 mg/ml: A1-A4 of the rack", "blank, 0.1, 0.2 mg/ml".
     """
     above = facts.comments.get(line - 1, "") if line - 1 in facts.own_line else ""
-    levels = listed_levels(facts.comments.get(line) or above)
-    alike = len(levels) == len(set(levels)) == len(set(wells)) == len(wells) > 2
-    return levels if alike else ()
+    note = facts.comments.get(line) or above
+    nothing = [word for word, level in common.levels.items() if level == 0]
+    counted = re.sub(rf"\b(?:{'|'.join(nothing)})\b", "0", note, flags=re.IGNORECASE)
+    for levels in map(listed_levels, dict.fromkeys((note, counted))):
+        if len(levels) == len(set(levels)) == len(set(wells)) == len(wells) > 2:
+            return levels
+    return ()

@@ -12,7 +12,7 @@ from ..text import SourceFacts, level_in, lexicon_of, tokens
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import LEFT_OUT, Deck
-from .levels import is_number
+from .levels import far_apart, is_number
 from .named_levels import (
     NUMBERED,
     amounts_in_names,
@@ -30,8 +30,9 @@ def named_wells(
     """What variables were called that held wells or whole labware."""
     comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
     lists = _lists(names, facts, common)
-    amounts_named = amounts_in_names(names)
-    keyed = {**keyed_amounts(names, facts, common), **numeric_keys(names)}
+    told = keyed_amounts(names, facts, common)
+    amounts_named = amounts_in_names(names) | (told if far_apart(told.values()) else {})
+    keyed = {**told, **numeric_keys(names)}
     for binding in names:
         base = binding.name.split("[", 1)[0]
         loose = (binding.function, base) in facts.loose or (
@@ -65,7 +66,7 @@ def named_wells(
                 levels=(amounts_named[binding.name],) * len(wells),
             )
         note = facts.notes.get(base)
-        if levels := listed_beside(facts, line, wells) if not (loose or whole) else ():
+        if levels := listed_beside(facts, line, wells, common) if not (loose or whole) else ():
             said = f"levels listed beside `{binding.name}` at line {line}"
             yield Clue(Strength.COMMENT, "", wells, line, said, subject=False, levels=levels)
         chosen = binding.name == base and not _is_all(deck, binding.wells)
@@ -87,11 +88,16 @@ def _meant(deck: Deck, wells: tuple[WellRef, ...]) -> tuple[WellRef, ...]:
 
     A few that the run leaves out may be a mistake, and so may all of them.
     """
-    used = tuple(ref for ref in wells if (ref.labware, ref.name) in deck.refs)
-    unused = len(wells) - len(used)
-    if not used or unused <= max(LEFT_OUT, len(used) // 3) or len(set(wells)) != len(wells):
+    if len(set(wells)) != len(wells):
         return wells
-    return used if deck.are_whole_lines(wells) else wells
+    meant = set(wells)
+    for key in {ref.labware for ref in wells}:
+        here = [ref for ref in wells if ref.labware == key]
+        used = [ref for ref in here if (ref.labware, ref.name) in deck.refs]
+        unused = len(here) - len(used)
+        if used and unused > max(LEFT_OUT, len(used) // 3) and deck.are_whole_lines(here):
+            meant -= set(here) - set(used)
+    return tuple(ref for ref in wells if ref in meant)
 
 
 def _is_all(deck: Deck, wells: Sequence[WellRef]) -> bool:
@@ -222,7 +228,7 @@ def _parallel(
     """A list of concentrations as long as the list of wells: ``standard_concs``."""
     amounts = lexicon_of({"amount": common.amounts})
     fitting = [
-        (len(set(tokens(name)) & set(tokens(binding.name))), name, levels)
+        (_words_shared(name, binding.name), name, levels)
         for name, levels in lists
         if len(levels) == len(binding.wells) and amounts.find(name)
     ]
@@ -241,3 +247,21 @@ def _parallel(
             f"`{name}` at line {line}",
             levels=levels,
         )
+
+
+_SHORTEST_BEGINNING = 3
+
+
+def _words_shared(one: str, other: str) -> int:
+    """How many words of a name the other one has as well, or begins with: ``cis``, ``CISPL_UM``."""
+    return sum(
+        any(
+            word == its
+            or (
+                min(len(word), len(its)) >= _SHORTEST_BEGINNING
+                and (word.startswith(its) or its.startswith(word))
+            )
+            for its in tokens(other)
+        )
+        for word in set(tokens(one))
+    )

@@ -89,20 +89,40 @@ def _column(facts: SourceFacts, place: Numbered, value: Any) -> Any:
 
     Rows that are dicts give what they say beside the place's key: ``{"col": 2, "cond": "mock"}``.
     """
-    if place.key and isinstance(value, (list, tuple)):
-        rows = [row for row in value if isinstance(row, Mapping) and place.key in row]
-        said = [[item for item in row.values() if isinstance(item, str)] for row in rows]
+    key = place.key or _field(facts, place, value)
+    if key and isinstance(value, (list, tuple)):
+        rows = [row for row in value if isinstance(row, Mapping) and key in row]
+        said = [[item for item in row.values() if _is_word(item)] for row in rows]
         if rows and all(len(texts) == 1 for texts in said):
-            return [(texts[0], row[place.key]) for texts, row in zip(said, rows, strict=True)]
+            return [(texts[0], row[key]) for texts, row in zip(said, rows, strict=True)]
     if isinstance(value, Mapping) and all(_places_in(key) for key in value):
         return value  # by column or row itself: its items are what is there
     at = {len(names): names.index(place.name) for names in facts.unpacked if place.name in names}
     return _narrowed(value, at) if at else value
 
 
+def _field(facts: SourceFacts, place: Numbered, value: Any) -> str:
+    """The one field of a table's rows that a place takes its numbers from: ``zone.columns``."""
+    rows = value if isinstance(value, (list, tuple)) else ()
+    if not rows or not all(isinstance(row, Mapping) for row in rows):
+        return ""
+    names = origins(facts, (place.name,), place.lines)
+    of_places = {key for row in rows for key, cell in row.items() if _places_in(cell)}
+    found = of_places & names
+    return found.pop() if len(found) == 1 else ""
+
+
+def _is_word(item: Any) -> bool:
+    return isinstance(item, str) and bool(item) and not is_spot(item)
+
+
 def _narrowed(value: Any, at: Mapping[int, int]) -> Any:
     if isinstance(value, Mapping):
         return {key: _narrowed(item, at) for key, item in value.items()}
+    if isinstance(value, list) and all(
+        isinstance(item, tuple) and all(map(_places_in, item)) for item in value
+    ):
+        return [_narrowed(item, at) for item in value]
     if isinstance(value, tuple) and len(value) in at:
         return value[at[len(value)]]
     return value
@@ -115,7 +135,7 @@ def _maps(names: Sequence[NameBinding], facts: SourceFacts) -> dict[str, Any]:
         for binding in names
         if binding.name in facts.assigned and (binding.numbers or binding.values)
     }
-    return {**made, **facts.constants}
+    return {**made, **facts.records, **facts.constants}
 
 
 def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
@@ -128,7 +148,9 @@ def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
                 elif not counts and (isinstance(key, str) or _are_amounts(value)):
                     yield name, _places_in(key), float(item)
             elif isinstance(item, Mapping):
-                yield from _entries(f"{name} {key}", item, counts)
+                # Beside a tube of its own, a column is where a row goes, not what the map lists.
+                tubes = any(is_spot(cell) for cell in item.values())
+                yield from _entries(str(key) if tubes else f"{name} {key}", item, counts)
             elif isinstance(key, str) and _places_in(item):
                 yield f"{name} {key}", _places_in(item), number_in(key)
             elif is_number(key) and isinstance(item, (list, tuple)) and _places_in(item):
@@ -138,10 +160,10 @@ def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
     elif isinstance(value, (list, tuple)):
         for row in value:
             cells = row if isinstance(row, (list, tuple)) else ()
-            columns = [cell for cell in cells if type(cell) is int]
-            said = [cell for cell in cells if isinstance(cell, str) and not is_spot(cell)]
-            if len(columns) == len(said) == 1:
-                yield said[0], (columns[0],), None
+            said = [cell for cell in cells if _is_word(cell)]
+            places = [found for cell in cells if cell not in said and (found := _places_in(cell))]
+            if len(places) == len(said) == 1:
+                yield said[0], places[0], None
 
 
 def _are_amounts(value: Mapping[Any, Any]) -> bool:

@@ -80,7 +80,12 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
     places = _without_what_is_not(places, words, common)
     if clue.step == "source":
         places = _drawn(places, words, common)
-    joints = [at for at, word in enumerate(words) if word in first_words(common.joints)]
+    apart = first_words(common.replicates)  # "lysates in triplicate + BSA curve" is two things
+    joints = [
+        at
+        for at, word in enumerate(words)
+        if word in first_words(common.joints) and apart.isdisjoint(words[at + 1 : at + 2])
+    ]
     before = text.lower().partition(f" {words[joints[0]]} ")[0] if joints else ""
     if joints and any(at < joints[0] for at in places):
         # "drug in medium" is a drug.

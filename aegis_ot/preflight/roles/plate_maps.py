@@ -11,7 +11,7 @@ from ..rules import Common
 from ..text import SourceFacts, concentration_in, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import MOST_TUBES, Deck
-from .levels import is_number
+from .levels import is_number, number_in
 from .phrases import without_position
 from .well_names import plain_name, wells_between
 from .work_lists import is_work_list
@@ -167,11 +167,12 @@ class _Reader:
             if depth > 0 and _is_record(value):
                 yield from self._record(name, value)
                 return
+            levels = _levels_of_keys(value)
             for key, item in value.items():
                 if isinstance(key, str) and (spanned := wells_between(key)):
                     yield from self._beside(name, spanned, item)
                 else:
-                    level = float(key) if is_number(key) else None
+                    level = levels.get(key)
                     for text, wells, own, column in self.entries(f"{name} {key}", item, depth + 1):
                         yield text, wells, level if own is None else own, column
         elif isinstance(value, (list, tuple)):
@@ -213,6 +214,16 @@ class _Reader:
         level = numbers[0] if len(numbers) == 1 else None
         for text in texts or ([name] if numbers else []):
             yield text, wells, level, ""
+
+
+def _levels_of_keys(value: Mapping[Any, Any]) -> dict[Any, float]:
+    """The levels that the keys of a map are: numbers, or texts of numbers that do not count."""
+    found = {key: number for key in value if (number := number_in(key)) is not None}
+    texts = sorted(found[key] for key in found if isinstance(key, str))
+    counts = texts in ([*range(len(texts))], [*range(1, len(texts) + 1)])
+    if counts or len(found) < len(value):
+        found = {key: number for key, number in found.items() if not isinstance(key, str)}
+    return found
 
 
 def _spots(value: Any) -> tuple[str, ...]:

@@ -150,16 +150,13 @@ def _spoken(
         elif axis is not None:
             used += deck.passed_over(key, named, axis)
         if used:
-            meant[key] = [deck.ref(key, name) for name in used]
+            meant[key] = [deck.ref(key, name) for name in dict.fromkeys(used)]
     if len(meant) > 1 and not (firm and meant.keys() == keys and deck.are_alike(keys)):
-        # Of several labware that have such wells it speaks of the one that is filled in the run.
-        meant = {
-            key: wells
-            for key, wells in meant.items()
-            if all(
-                (key, ref.name) in deck.received for ref in wells if (key, ref.name) in deck.refs
-            )
-        }
+        # Of several labware that have such wells it speaks of those that the run fills there, or
+        # else of those that it fills at all: what is untreated gets nothing.
+        here = {key: wells for key, wells in meant.items() if _is_mostly_filled(deck, wells)}
+        filled_at_all = {key for key, _ in deck.received}
+        meant = here or {key: wells for key, wells in meant.items() if key in filled_at_all}
     plates = [deck.trace.labware[key] for key in meant]
     if not all(plate.label and called_alike(plate, plates[0]) for plate in plates[1:]):
         return
@@ -174,6 +171,12 @@ def _spoken(
         )
 
 
+def _is_mostly_filled(deck: Deck, wells: Sequence[WellRef]) -> bool:
+    """Whether the run fills half of these wells at least, of those that it uses."""
+    used = [(ref.labware, ref.name) for ref in wells if (ref.labware, ref.name) in deck.refs]
+    return 2 * sum(place in deck.received for place in used) >= len(used)
+
+
 def _goes_there(part: Part, common: Common) -> bool:
     """Whether a part says what goes into its wells: "diluent to columns 2-12"."""
     before = part.text[: part.text.find(part.wells[0].group())].split()
@@ -184,18 +187,23 @@ def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> 
     """Levels that a part gives column by column or row by row: one for each, or a direction;
     or one for each well of a range along one row or one column.
     """
-    axis = axis_of(part)
+    axis, listed = axis_of(part), listed_levels(said)
     if axis is None and len(part.wells) == 1 and part.wells[0]["last"]:
-        axis = 1 if len({row_column(ref.name)[0] for ref in wells}) == 1 else 0
-        if len({row_column(ref.name)[1 - axis] for ref in wells}) != 1:
-            return ()
+        axis = _axis_along(wells, len(listed))
     at = [] if axis is None else [row_column(ref.name)[axis] for ref in wells]
     places = sorted(set(at))
     if len(places) < 2:
         return ()
-    listed = listed_levels(said)
     # Two columns and two numbers may come together for any reason.
     if len(listed) == len(set(listed)) == len(places) > 2:
         return tuple(listed[places.index(place)] for place in at)
     direction = direction_in(said, common)
     return tuple(float(direction * place) for place in at) if direction else ()
+
+
+def _axis_along(wells: Sequence[WellRef], count: int) -> int | None:
+    """1 where so many levels are those of the columns of a range of wells, 0 of its rows."""
+    rows, columns = (len({row_column(ref.name)[axis] for ref in wells}) for axis in (0, 1))
+    if min(rows, columns) == 1:
+        return 1 if rows == 1 else 0
+    return {columns: 1, rows: 0}.get(count) if rows != columns else None

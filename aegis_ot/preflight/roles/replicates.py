@@ -43,7 +43,7 @@ def _replicates(trace: Trace) -> Iterator[tuple[LabwareInfo, LabwareInfo]]:
     for source, well, _ in trace.feedings():
         by_name = given.setdefault(well.ref.labware, {})
         by_name.setdefault(well.ref.name, set()).add(source.ref)
-    plates = [info for key, info in trace.labware.items() if key in given and info.label]
+    plates = [info for key, info in trace.labware.items() if key in given]
     for one in plates:
         for other in plates:
             if one is other or not called_alike(one, other):

@@ -21,6 +21,7 @@ class Assignment:
         level: Concentration or dose, if known, on a scale within the family.
         conflict: What contradicts it, in words; empty if nothing.
         whole: Whether nothing but the name or the label of a whole labware says so.
+        named: The role that the strongest evidence names, which weaker may say more exactly.
     """
 
     role: str
@@ -30,6 +31,7 @@ class Assignment:
     level: float | None = None
     conflict: str = ""
     whole: bool = False
+    named: str = ""
 
     def copied(self, why: str) -> Assignment:
         """The same for a well that shares this one's part, which the evidence then says."""
@@ -46,6 +48,7 @@ class Roles:
         by_well: The role of each well that has one.
         conflicts: Evidence that conflicts, in words, with the wells that it concerns.
         derived: Roles that follow from what a well gives and receives.
+        told_levels: Levels that are said of a well apart from what it holds.
         derived_levels: Levels that follow from the wells that a source goes into.
         unnamed: Wells with a loaded liquid whose name is none of the family's words.
         untold: Clues that name no role which fits their wells.
@@ -58,6 +61,7 @@ class Roles:
     by_well: dict[WellRef, Assignment] = field(default_factory=dict)
     conflicts: dict[str, list[WellRef]] = field(default_factory=dict)
     derived: dict[WellRef, set[str]] = field(default_factory=dict)
+    told_levels: dict[WellRef, float] = field(default_factory=dict)
     derived_levels: dict[WellRef, float] = field(default_factory=dict)
     unnamed: set[WellRef] = field(default_factory=set)
     apart: set[WellRef] = field(default_factory=set)
@@ -89,9 +93,8 @@ class Roles:
         assigned = self.by_well.get(ref)
         if assigned is not None and assigned.level is not None:
             return assigned.level
-        if ref in self.derived_levels:
-            return self.derived_levels[ref]
-        return None if assigned is None else self.family.roles[assigned.role].level
+        own = None if assigned is None else self.family.roles[assigned.role].level
+        return self.told_levels.get(ref, self.derived_levels.get(ref, own))
 
     def closure(self, role: str) -> frozenset[str]:
         """A role and all roles above it."""

@@ -88,10 +88,10 @@ def clues_of_rows(
         named = ""
         for column, cell in row.cells:
             named = keyed.get(column, {}).get(str(cell)) or labware_in(deck, cell) or named
-            where = named or labware.get(column, "")
+            where = (named,) if named else labware.get(column, ())
             if where and (listed := spots_in(cell)):
                 named = ""
-                spots = list(refs_of(deck, (where,), listed))
+                spots = list(refs_of(deck, where, listed))
                 columns.setdefault(column, {}).update(dict.fromkeys(spots))
                 wells += spots
         said = [(column, cell, number_in(cell)) for column, cell in row.said]
@@ -111,6 +111,9 @@ def clues_of_rows(
         if not title.isdigit():
             evidence = f"column `{title}` of `{name}` at line {line}"
             yield Clue(Strength.NAME, title, tuple(held), line, evidence)
+        yield Clue(
+            Strength.LOOSE_NAME, name, tuple(held), line, f"`{name}` at line {line} lists it"
+        )
     said_of: dict[str, dict[WellRef, None]] = {}
     for (column, text), times in beside.items():
         # Of a source beside other words in as many of its rows, a row like this says nothing.
@@ -181,17 +184,19 @@ def _titled(row: Row, titles: Mapping[int, str]) -> Row:
     )
 
 
-def labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Row]) -> dict[str, str]:
+def labware_of_columns(
+    deck: Deck, facts: SourceFacts, rows: Sequence[Row]
+) -> dict[str, tuple[str, ...]]:
     """In which labware the well names of each column stand, where that is plain.
 
-    It is the one that is indexed by that column's name, else the only one in which the run uses
-    all these wells, or most: those of "untreated" get nothing.
+    It is the one that is indexed by that column's name, or several of one kind, else the only one
+    in which the run uses all these wells, or most: those of "untreated" get nothing.
     """
     spots: dict[str, dict[str, None]] = {}
     for row in rows:
         for column, cell in row.cells:
             spots.setdefault(column, {}).update(dict.fromkeys(spots_in(cell)))
-    found: dict[str, str] = {}
+    found: dict[str, tuple[str, ...]] = {}
     for column, listed in spots.items():
         if not listed:
             continue
@@ -199,8 +204,8 @@ def labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Row]) -> d
         for place in facts.places:
             if column and (column in place.keys or column in place.names):
                 indexed |= deck.by_name.get(place.labware, set())
-        if len(indexed) == 1:
-            found[column] = next(iter(indexed))
+        if indexed and deck.are_alike(indexed):
+            found[column] = tuple(sorted(indexed))
             continue
         used = {
             info.key: sum((info.key, spot) in deck.refs for spot in listed)
@@ -209,5 +214,5 @@ def labware_of_columns(deck: Deck, facts: SourceFacts, rows: Sequence[Row]) -> d
         wholly = [key for key, count in used.items() if count == len(listed)]
         using = wholly or [key for key, count in used.items() if 2 * count > len(listed)]
         if len(using) == 1:
-            found[column] = using[0]
+            found[column] = (using[0],)
     return found

@@ -56,7 +56,7 @@ def _rows(facts: SourceFacts, name: str) -> list[Row]:
     else:
         titles, cells = (), _transfers(value)
     if cells and not titles:
-        titles = _unpacked_to(facts, name, len(cells[0]))
+        titles = _unpacked_to(facts, name, len(cells[0]), keyed=isinstance(value, Mapping))
     return [Row(tuple(zip(titles, row, strict=True))) for row in cells]
 
 
@@ -98,9 +98,13 @@ def _flat(row: Iterable[Any]) -> Iterator[Any]:
             yield " ".join(cell) if isinstance(cell, (list, tuple)) else cell
 
 
-def _unpacked_to(facts: SourceFacts, name: str, width: int) -> Sequence[str]:
-    """What the run calls the columns where it takes the rows apart, or else their places."""
+def _unpacked_to(facts: SourceFacts, name: str, width: int, keyed: bool) -> Sequence[str]:
+    """What the run calls the columns where it takes the rows apart, or else their places.
+
+    Of a dict the key may be left out: ``for tube, wells in TREATMENTS.values()``.
+    """
     for names in facts.unpacked:
-        if width == len(names) and name in origins(facts, names, _EVERYWHERE):
-            return names
+        whole = len(names) == width or (keyed and len(names) + 1 == width)
+        if whole and name in origins(facts, names, _EVERYWHERE):
+            return (*("0",) * (width - len(names)), *names)
     return [str(at) for at in range(width)]

@@ -4,10 +4,9 @@ Nothing here knows what a protocol is. The files themselves are loaded, and held
 checks that they name, in :mod:`aegis_ot.preflight.database`.
 """
 
+from .common import SCHEMA_VERSION, Common
 from .reading import json_schema, read_dataclass
 from .specs import (
-    SCHEMA_VERSION,
-    Common,
     Database,
     Example,
     Examples,

@@ -13,6 +13,7 @@ from .levels import (
     listed_levels,
     name_without_level,
     numbers_in_order,
+    unit_in,
 )
 from .lines import source_lines
 from .reading import read_source
@@ -41,4 +42,5 @@ __all__ = [
     "read_source",
     "source_lines",
     "tokens",
+    "unit_in",
 ]

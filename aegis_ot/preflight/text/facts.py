@@ -114,6 +114,7 @@ class SourceFacts:
         item_notes: For names bound to a list of a line for each item, the comments beside these.
         assigned: Line of the first assignment of each name.
         tables: For names bound to a list of rows or to a dict, the constants of each row.
+        records: For names bound to a list of objects or ``dict(...)``, the fields of each.
         blocks: For the first line of a run of statements without a gap, all lines of it.
         arguments: By line, the names that calls draw from and give to, as ``(side, name)``.
         liquids: Description of each liquid defined in the text, by its name.
@@ -124,6 +125,7 @@ class SourceFacts:
         runs: Loops over literals and over names.
         unpacked: The names of each target that takes a row apart: ``well, (kind, source) = ...``.
         draws: By line, all names in what a call draws from.
+        levels: By unit, the amounts that a text lists under the names of what holds them.
         within: By line, the function that it belongs to, with the function's first line.
         names: Every identifier of the text, once.
         strings: Every other string of the text, with its line.
@@ -142,6 +144,7 @@ class SourceFacts:
     item_notes: dict[str, tuple[str, ...]] = field(default_factory=dict)
     assigned: dict[str, int] = field(default_factory=dict)
     tables: dict[str, list[tuple[Any, ...]]] = field(default_factory=dict)
+    records: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
     blocks: dict[int, tuple[int, ...]] = field(default_factory=dict)
     arguments: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
     liquids: dict[str, str] = field(default_factory=dict)
@@ -151,6 +154,7 @@ class SourceFacts:
     runs: list[Loop] = field(default_factory=list)
     unpacked: list[tuple[str, ...]] = field(default_factory=list)
     draws: dict[int, set[str]] = field(default_factory=dict)
+    levels: dict[str, dict[str, float]] = field(default_factory=dict)
     within: dict[int, tuple[str, int]] = field(default_factory=dict)
     names: set[str] = field(default_factory=set)
     strings: list[tuple[int, str]] = field(default_factory=list)

@@ -49,6 +49,7 @@ def read_flow(tree: ast.Module, facts: SourceFacts) -> None:
         elif isinstance(node, ast.Call):
             if isinstance(node.func, ast.Name) and node.func.id in parameters:
                 given = [*zip(parameters[node.func.id], node.args, strict=False)]
+                given += _spread_out(facts, parameters[node.func.id], node.args)
                 given += [(word.arg, word.value) for word in node.keywords if word.arg]
                 for name, argument in given:
                     _comes(facts, name, argument, _ANYWHERE)
@@ -76,6 +77,18 @@ def origins(facts: SourceFacts, names: Iterable[str], lines: Collection[int]) ->
             if any(first <= line <= last for line in chain(lines, calls)):
                 open_.append(other)
     return found
+
+
+def _spread_out(
+    facts: SourceFacts, parameters: Sequence[str], arguments: Sequence[ast.expr]
+) -> Iterator[tuple[str, ast.expr]]:
+    """What a row gives to the parameters that it is spread over: ``give(*TREATMENTS[dose])``."""
+    for at, argument in enumerate(arguments):
+        if isinstance(argument, ast.Starred):
+            taking = tuple(parameters[at:])
+            facts.unpacked.append(taking)
+            yield from ((name, argument.value) for name in taking)
+            return
 
 
 def _comes(facts: SourceFacts, name: str, value: ast.expr, span: tuple[int, int]) -> None:
@@ -150,15 +163,19 @@ def _loop(
     for part, iterable in _parts(target, over):
         _unpacks(facts, part)
         if span != _ANYWHERE:
-            for name in names_in(part):
-                _comes(facts, name, iterable, span)
+            for each, given in _by_column(part, iterable):
+                for name in names_in(each):
+                    _comes(facts, name, given, span)
         rows = _sequence(iterable, facts.constants)
         beside = " ".join(names_in(iterable))
         if rows is not None:
             places = dict(_unread(part))
             for name, column in _columns(part, rows):
                 values.append(Values(name, beside, column, places.get(name)))
-                values += [Values(n, n, c) for n, c in _looked_up(column, facts.constants)]
+                values += [
+                    Values(n, n, c)
+                    for n, c in _looked_up(column, {**facts.constants, **facts.levels})
+                ]
         elif isinstance(iterable, ast.Name):
             values += [Values(name, beside, None, at) for name, at in _unread(part)]
     carriers = frozenset(names)
@@ -176,6 +193,19 @@ def _parts(target: ast.expr, over: ast.expr) -> Iterator[tuple[ast.expr, ast.exp
             return
         if called == "enumerate" and over.args and len(target.elts) == 2:
             yield from _parts(target.elts[1], over.args[0])
+            return
+    yield target, over
+
+
+def _by_column(target: ast.expr, over: ast.expr) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """Which part of a target takes its values from where in rows that stand in the loop itself."""
+    rows = over.elts if isinstance(over, (ast.Tuple, ast.List)) else []
+    cells = [row.elts for row in rows if isinstance(row, (ast.Tuple, ast.List))]
+    if isinstance(target, ast.Tuple) and rows and len(cells) == len(rows):
+        width = len(target.elts)
+        if all(len(row) == width for row in cells):
+            for at, part in enumerate(target.elts):
+                yield from _by_column(part, ast.Tuple([row[at] for row in cells], ast.Load()))
             return
     yield target, over
 

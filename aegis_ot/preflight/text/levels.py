@@ -127,9 +127,24 @@ def direction_in(text: str, common: Common) -> int:
 
 
 def listed_levels(text: str) -> tuple[float, ...]:
-    """The levels of the one list that a text holds, with a unit: "10, 3 and 1 uM"."""
+    """The levels of the one list that a text holds, with a unit: "10, 3 and 1 uM".
+
+    The unit may stand before them: "BSA (mg/ml): 0, 0.1, 0.2".
+    """
     lists = [amounts for amounts in _joined(text, _BETWEEN) if len(amounts) > 1]
-    return _in_units(lists[0]) if len(lists) == 1 else ()
+    lists = lists or [amounts for amounts in _joined(text, _SPACES) if len(amounts) > 2]
+    if len(lists) != 1:
+        return ()
+    ahead = {unit.lower() for unit in _UNIT_AHEAD.findall(_plain(text))}
+    if len(ahead) == 1 and not any(unit for _, unit in lists[0]):
+        lists[0][-1] = (lists[0][-1][0], ahead.pop())
+    return _in_units(lists[0])
+
+
+def unit_in(text: str) -> str:
+    """The unit of concentration that stands apart from numbers in a text, ``""`` without one."""
+    found = {match[1].lower() for match in _UNIT_APART.finditer(_plain(text))}
+    return found.pop() if len(found) == 1 else ""
 
 
 def _direction_of_range(text: str) -> int:
@@ -140,10 +155,17 @@ def _direction_of_range(text: str) -> int:
 
 
 _AMOUNT = re.compile(
-    r"(?<![\w.])(0,\d+(?![\d,])|\d+(?:\.\d+)?)\s?((?:pg|ng|ug|mg)/(?:ul|ml|l)|g/l|pm|nm|um|mm|m)?(?![\w.]*\w)",
+    r"(?<![\w.])(\d+(?:\.\d+)?)\s?((?:pg|ng|ug|mg)/(?:ul|ml|l)|g/l|pm|nm|um|mm|m)?(?![\w.]*\w)",
     re.IGNORECASE,
 )
+_UNIT_APART = re.compile(
+    r"(?<![\w/])((?:pg|ng|ug|mg)/(?:ul|ml|l)|g/l|pm|nm|um)(?![\w/])", re.IGNORECASE
+)
+_UNIT_AHEAD = re.compile(
+    r"(?<![\d.\s])\s*[(\[ ]((?:pg|ng|ug|mg)/(?:ul|ml|l)|g/l|pm|nm|um)[)\]]?\s*:", re.IGNORECASE
+)
 _BETWEEN = re.compile(r"\s*(?:[,;/&+]|\band\b|,\s*and\b)\s*")
+_SPACES = re.compile(r"\s+")
 _TO = re.compile(r"\s*(?:down|up) to\b\s*")
 """A plain "0.1-10 uM" says which doses there are, and not in which order they stand; an arrow may
 be a stock's dilution."""
@@ -151,7 +173,7 @@ be a stock's dilution."""
 
 def _joined(text: str, joint: re.Pattern[str]) -> list[list[tuple[float, str]]]:
     """Runs of amounts, each with its unit, that nothing but this joint stands between."""
-    plain = _with_u(text)
+    plain = _plain(text)
     runs: list[list[tuple[float, str]]] = []
     end = -1
     for match in _AMOUNT.finditer(plain):
@@ -166,7 +188,7 @@ def _joined(text: str, joint: re.Pattern[str]) -> list[list[tuple[float, str]]]:
 
 def amounts_in(text: str) -> Iterator[tuple[re.Match[str], float]]:
     """Each concentration with a unit, where it stands in a text."""
-    for match in _AMOUNT.finditer(_with_u(text)):
+    for match in _AMOUNT.finditer(_plain(text)):
         if match[2]:
             yield match, _number(match[1]) * _UNITS[match[2].lower()]
 
@@ -196,3 +218,17 @@ def _number(text: str) -> float:
 def _with_u(text: str) -> str:
     """A text with "u" for the micro sign and for the Greek letter."""
     return text.replace("µ", "u").replace("μ", "u")
+
+
+_DECIMAL_COMMA = re.compile(r"(?<![\d.,])(\d+),(\d+)(?![\d,])")
+
+
+def _plain(text: str) -> str:
+    """A text of the same length with "u" for micro, and decimal points where "0,2" is one number.
+
+    One such number tells that a comma is no separator in the others: "0,5 / 1,0 mg/ml".
+    """
+    plain = _with_u(text)
+    if any(match[1] == "0" for match in _DECIMAL_COMMA.finditer(plain)):
+        plain = _DECIMAL_COMMA.sub(r"\1.\2", plain)
+    return plain

@@ -178,9 +178,12 @@ def _found(
 
 
 def _held_in(node: ast.expr) -> str:
-    """The name in ``c``, ``layout.c`` or ``LAYOUT["c"]``: a constant, a field or a dict."""
-    if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant):
-        node = node.value if isinstance(node.slice.value, str) else node
+    """The name in ``c``, ``layout.c``, ``LAYOUT["c"]`` or ``COLUMN[arm]``: a constant, a field or
+    a dict.
+    """
+    if isinstance(node, ast.Subscript):
+        key = node.slice.value if isinstance(node.slice, ast.Constant) else node.slice
+        node = node.value if isinstance(key, (str, ast.Name)) else node
     return last_name(node) if isinstance(node, (ast.Name, ast.Attribute)) else ""
 
 

@@ -9,7 +9,9 @@ from .facts import SourceFacts
 from .flow import read_flow
 from .functions import read_functions
 from .numbered import read_numbered
+from .records import read_records
 from .syntax import SyntaxReader
+from .written_levels import read_written_levels
 
 
 def read_source(text: str) -> SourceFacts:
@@ -21,6 +23,8 @@ def read_source(text: str) -> SourceFacts:
     except (SyntaxError, ValueError):
         return facts
     SyntaxReader(facts).visit_module(tree)
+    read_records(tree, facts)
+    read_written_levels(facts)
     read_flow(tree, facts)
     read_numbered(tree, facts)
     read_blocks(text, tree, facts)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ...instrumentation import is_spot
 from .facts import Place, SourceFacts
@@ -225,12 +225,28 @@ def _names_places(kind: ast.ClassDef) -> bool:
 
 
 def _picked_by(loop: ast.For | ast.AsyncFor, turning: set[str]) -> Iterator[str]:
-    """Names that a loop binds to another item in each turn: ``src = rack[spots[i]]``."""
+    """Names that a loop binds to another item in each turn: ``src = rack[spots[i]]``.
+
+    Or to one of two: ``dye = trough["A1"] if i < 6 else trough["A2"]``.
+    """
     for node in ast.walk(loop):
         for target, value in _bound(node) if isinstance(node, ast.Assign) else ():
             indices = (s.slice for s in ast.walk(value) if isinstance(s, ast.Subscript))
-            if any(not turning.isdisjoint(names_in(index)) for index in indices):
+            either = isinstance(value, ast.IfExp)
+            if either or any(not turning.isdisjoint(names_in(index)) for index in indices):
                 yield target.id
+        if isinstance(node, ast.If):
+            yield from _bound_in(node.body) & _bound_in(node.orelse)
+
+
+def _bound_in(branch: Iterable[ast.stmt]) -> set[str]:
+    """The names that the statements of a branch bind."""
+    return {
+        target.id
+        for statement in branch
+        for node in ast.walk(statement)
+        for target, _ in (_bound(node) if isinstance(node, ast.Assign) else ())
+    }
 
 
 def _bound(node: ast.Assign) -> Iterator[tuple[ast.Name, ast.expr]]:
