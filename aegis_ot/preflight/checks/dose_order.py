@@ -137,8 +137,8 @@ class DoseOrder(Check):
                 break
             left -= 1
             there = doses.get(other, {})
-            if other is visit.well or not there or visit.well in case.destinations.get(other, {}):
-                continue
+            if other is visit.well or not there or case.destinations.get(other):
+                continue  # what is given on is a dilution rather than a dosed well
             if set(there) != set(here):
                 continue
             first = min(case.meant[other].get(origin, met.index + 1) for origin in there)
@@ -171,6 +171,9 @@ def _compound(case: Case, well: Well) -> tuple[str, ...]:
     return name_without_level(assigned.text, case.common) if assigned else ()
 
 
+_SHORTEST_NAME = 3
+
+
 def _in_one_list(case: Case, one: Well, other: Well) -> bool:
     """Whether two wells have their role from one name, and may be doses of one compound."""
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
@@ -184,4 +187,10 @@ def _in_one_list(case: Case, one: Well, other: Well) -> bool:
     same = name_without_level(mine.text, case.common) == name_without_level(
         theirs.text, case.common
     )
-    return same and ("dosed" in said or "distinct" not in said)
+    if not same:
+        return False
+    # `INHIBITORS gefitinib 3` and `... 4`: a compound has a name beside its numbers.
+    kind = {match.phrase for match in kinds.find(mine.text) if match.topic == "distinct"}
+    own = [word for word in name_without_level(mine.text, case.common) if word not in kind]
+    of_one_name = mine.text != theirs.text and any(len(word) > _SHORTEST_NAME for word in own)
+    return "dosed" in said or "distinct" not in said or of_one_name

@@ -40,7 +40,8 @@ def sources_of(case: Case, well: Well) -> set[Well]:
 def came_from(case: Case, well: Well, liquid: RoleSet) -> set[Well]:
     """The wells that a liquid came into this one from.
 
-    Those that it stood in to begin with; where the run makes it, those that it is made in.
+    Those that it stood in to begin with; where the run makes it, those of what it is made of.
     """
     stood = {origin for origin in case.meant.get(well, {}) if case.has(origin, liquid)}
-    return stood or {source for source in sources_of(case, well) if case.has(source, liquid)}
+    made_in = {source for source in sources_of(case, well) if case.has(source, liquid)}
+    return stood or {part for made in made_in for part in case.meant.get(made, {made: 0})}

@@ -137,7 +137,8 @@ def assign_roles(
             told = roles.told_levels.get(ref)
             assignment.level = told if assignment.level is None else assignment.level
             spec = family.roles[assignment.role]
-            if told and spec.level is not None and spec.parents:
+            counted = any(map(str.isdigit, assignment.text))
+            if told and counted and spec.level is not None and spec.parents:
                 assignment.role, assignment.level = spec.parents[0], told  # "S0 1.6 mg/ml"
     unsay_contents(roles, trace, _holding(roles, candidates))
     spread_over_channels(roles, trace, candidates)

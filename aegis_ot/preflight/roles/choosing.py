@@ -83,7 +83,7 @@ def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:
     for at, (other_worth, other, hint, _) in enumerate(found[1:], 1):
         mine, theirs = set(clue.wells), set(hint.wells)
         listed = other_worth[:-1] == worth[:-1] and not (mine <= theirs or theirs <= mine)
-        set_apart = hint.strength is Strength.COMMENT and not hint.step and theirs < mine
+        set_apart = hint.strength is Strength.COMMENT and hint.placed and theirs < mine
         if specs[other].parents and not specs[other].receives and (listed or set_apart):
             found.insert(0, found.pop(at))
             return

@@ -72,6 +72,8 @@ def fitting_role(
         fitting = [role for role in named if specs[role].side == "source"]
     if made_of := _made_of_a_reagent(fitting, roles, clue, common):
         return made_of
+    if blank := _said_before_brackets(fitting, roles, clue):
+        return blank
     fitting = _finer(fitting, roles)
     if not fitting or _ambiguous(fitting, roles, clue, common):
         return None
@@ -91,16 +93,27 @@ def is_for_controls(named: Sequence[str], sides: tuple[str, bool], roles: Roles)
     return sides[0] == "source" and specs[named[0]].replicated and not specs[named[0]].receives
 
 
+def _said_before_brackets(fitting: Sequence[str], roles: Roles, clue: Clue) -> str | None:
+    """The blank in "blank (elution buffer)", which says in brackets what it is made of."""
+    head, bracket, _ = clue.text.partition("(")
+    for role in fitting if bracket else ():
+        spec = roles.family.roles[role]
+        if spec.level is not None and tokens(head) in map(tokens, spec.words):
+            return role
+    return None
+
+
 def _finer(fitting: list[str], roles: Roles) -> list[str]:
     """The vehicle in "PBS (vehicle)": what a medium is used as, where both are said.
 
     And the vehicle control in "vehicle (mock)": of a kind and its parent, the kind.
     """
-    for role in fitting:
-        kinds = [kind for kind in fitting if role in roles.closure(kind) - {kind}]
-        for finer in (*roles.family.roles[role].may_be, *(kinds if role == fitting[0] else ())):
-            if finer in fitting:
-                return [finer, *(r for r in fitting if r not in (role, finer))]
+    kinds = [role for role in fitting[1:] if fitting[0] in roles.closure(role)]
+    uses = [
+        (role, use) for role in fitting for use in roles.family.roles[role].may_be if use in fitting
+    ]
+    for role, finer in (*uses, *((fitting[0], kind) for kind in kinds)):
+        return [finer, *(r for r in fitting if r not in (role, finer))]
     return fitting
 
 

@@ -6,13 +6,13 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ...instrumentation import LabwareInfo
+from ...instrumentation import LabwareInfo, is_spot
 from ..rules import Common
 from ..text import SourceFacts
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
-from .plate_maps import called_alike, used_with
+from .plate_maps import called_alike, labware_of_map, refs_of, used_with
 
 _SMALLEST = 6
 """The wells of the smallest plate that anyone draws."""
@@ -23,6 +23,7 @@ Grid = Sequence[Sequence[str]]
 def drawn_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """What each code of a grid stands beside."""
     for name, value in facts.constants.items():
+        yield from _part_drawn(deck, facts, name, value, common)
         grid = _grid(value)
         if not grid or len(grid) * len(grid[0]) < _SMALLEST:
             continue
@@ -39,6 +40,34 @@ def drawn_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]
                 yield Clue(
                     Strength.NAME, code, wells, line, f"`{code}` in the map `{name}` at line {line}"
                 )
+
+
+def _part_drawn(
+    deck: Deck, facts: SourceFacts, name: str, value: Any, common: Common
+) -> Iterator[Clue]:
+    """Part of a plate as a spreadsheet exports it: ``,4,5,6`` and under it ``B,drug,drug,DMSO``."""
+    if not isinstance(value, str):
+        return
+    head, *rows = [re.split(r"[,;|\t]", line.strip()) for line in value.strip().splitlines()] or [
+        []
+    ]
+    numbers = [cell.strip() for cell in head[1:]]
+    even = len(rows) > 1 and all(len(row) == len(head) for row in rows)
+    letters = [row[0].strip() for row in rows]
+    if not numbers or not even or not all(map(str.isdigit, numbers)) or head[0].strip().isdigit():
+        return
+    wells_of: dict[str, list[str]] = {}
+    for letter, row in zip(letters, rows, strict=True):
+        for number, cell in zip(numbers, row[1:], strict=True):
+            wells_of.setdefault(cell.strip(), []).append(f"{letter}{int(number)}")
+    spots = [well for wells in wells_of.values() for well in wells]
+    labware = labware_of_map(deck, facts, name, spots, common) if all(map(is_spot, spots)) else ()
+    line = facts.assigned.get(name)
+    for code, wells in wells_of.items():
+        if re.search(r"[^\W\d]", code):
+            found = tuple(refs_of(deck, labware, wells))
+            said = f"`{code}` in the map `{name}` at line {line}"
+            yield Clue(Strength.NAME, code, found, line, said)
 
 
 def _plates_drawn(

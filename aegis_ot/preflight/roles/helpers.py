@@ -81,24 +81,33 @@ def unsay_controls(roles: Roles, trace: Trace) -> None:
     """Forget what only a function's name says of a source that goes into controls alone.
 
     ``add_template(tube, ntc)`` gives the control what stands in the template's place. So does a
-    tube in a rack of "drugs": the vehicle stands beside them.
+    tube in a rack of "drugs": the vehicle stands beside them. And a well of a plate of "drugs",
+    where nothing says of any other well that it holds what these controls are to get.
     """
     only = {
         ref
         for ref, assigned in roles.by_well.items()
-        if (
-            all(said.startswith(_SAID) for said in assigned.evidence)
-            or (assigned.whole and _is_of_tubes(trace, ref))
-        )
+        if (all(said.startswith(_SAID) for said in assigned.evidence) or assigned.whole)
         and not roles.family.roles[assigned.role].one_liquid
     }
     fed: dict[WellRef, set[WellRef]] = {}
     for source, well, _ in trace.feedings() if only else ():
         if source.ref in only:
             fed.setdefault(source.ref, set()).add(well.ref)
+    awaited = _awaited(roles)
     for ref, wells in fed.items():
-        if all(_is_set_apart(roles, well) for well in wells):
+        of_tubes = not roles.by_well[ref].whole or _is_of_tubes(trace, ref)
+        if all(
+            _is_set_apart(roles, well) and (of_tubes or roles.by_well[well].role in awaited)
+            for well in wells
+        ):
             del roles.by_well[ref]
+
+
+def _awaited(roles: Roles) -> set[str]:
+    """Roles of wells that have a liquid of their own, of which nothing says where it stands."""
+    feeders = {name: spec.feeds for name, spec in roles.family.roles.items() if spec.one_liquid}
+    return {role for name, feeds in feeders.items() if not roles.known(name) for role in feeds}
 
 
 def _is_of_tubes(trace: Trace, ref: WellRef) -> bool:

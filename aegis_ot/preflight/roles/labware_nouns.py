@@ -40,6 +40,7 @@ class LabwareNouns:
         self._on_deck = self._nouns | {word for phrase in common.tips for word in tokens(phrase)}
         self._decks = lexicon_of({"deck": common.decks})
         self._slots = {info.slot for info in deck.trace.labware.values()}
+        self._of = {word for phrase in common.layout.get("of", ()) for word in tokens(phrase)}
         self._origins = {word for phrase in common.origins for word in tokens(phrase)}
         self._articles = {word for phrase in common.articles for word in tokens(phrase)}
         self._joints = {
@@ -144,6 +145,8 @@ class LabwareNouns:
         words = words[1:] if words[:1] and words[0] in self._articles else words
         if not words:
             return frozenset()
+        if len(words) > 2 and words[0] in self._nouns and words[1] in self._of:
+            words = (*words[2:], words[0])  # "placa de ADN"
         kinds = [kind for kind in self._kinds if words[-1] in kind]
         if not kinds:
             return frozenset()
@@ -152,7 +155,8 @@ class LabwareNouns:
             if len(labelled) == 1:
                 return frozenset(labelled)
             for name in (*self._deck.by_name, *self._deck.of_wells):
-                if called and _singular(tokens(name)) == _singular(called) and self.of_name(name):
+                alike = sorted(_singular(tokens(name))) == sorted(_singular(called))
+                if called and alike and self.of_name(name):
                     return self.of_name(name)
         if short := self._short_for(words[0]):
             return short

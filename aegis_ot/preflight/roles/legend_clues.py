@@ -23,7 +23,7 @@ def explained(clues: Iterable[Clue], facts: SourceFacts) -> Iterator[Clue]:
         key = _KEY.search(clue.text)
         in_map = clue.said.startswith("plate map")  # `LAYOUT V` there is the map and its key
         code = key[2] if key else clue.text.rpartition(" ")[2] if in_map else clue.text
-        said = legend.get(code)
+        said = legend.get(code) or legend.get(code.rstrip("0123456789"))  # "U = urine", `U1`
         if said and said != clue.text:
             yield replace(
                 clue,

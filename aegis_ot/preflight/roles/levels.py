@@ -8,8 +8,18 @@ from contextlib import suppress
 from typing import Any
 
 from ..rules import Common
-from ..text import concentration_in, direction_in, level_in, listed_levels, numbers_in_order
+from ..text import (
+    concentration_in,
+    direction_in,
+    level_in,
+    lexicon_of,
+    listed_levels,
+    name_without_level,
+    numbers_in_order,
+    tokens,
+)
 from .clues import Clue, Strength
+from .phrases import first_words
 
 
 def levels_of(clue: Clue, common: Common) -> tuple[float | None, ...]:
@@ -20,9 +30,14 @@ def levels_of(clue: Clue, common: Common) -> tuple[float | None, ...]:
 
 
 def levels_beside(clue: Clue, common: Common) -> tuple[float | None, ...]:
-    """Levels that a clue gives its wells without a word for what they hold: ``"2 mg/ml"``."""
-    if clue.levels or clue.whole or clue.strength is not Strength.NAME:
+    """Levels that a clue gives its wells without a word for what they hold: ``"2 mg/ml"``.
+
+    A comment gives one only where it says nothing else.
+    """
+    if clue.levels or clue.whole or clue.step or clue.strength is Strength.LOOSE_NAME:
         return clue.levels
+    if clue.strength is Strength.COMMENT and name_without_level(clue.text, common):
+        return ()
     level = level_in(clue.text, common, plain_numbers=False)
     return () if level is None else (level,) * len(clue.wells)
 
@@ -47,6 +62,14 @@ def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:
         if clue.step:  # "row H = blank" beside a loop is one of them
             return (concentration_in(clue.text),) * count
     return (level_in(clue.text, common, plain_numbers=clue.subject),) * count
+
+
+def speaks_of_amounts(name: str, common: Common) -> bool:
+    """Whether a name says that its numbers are amounts: ``CONC``, or no more than ``std_curve``."""
+    amounts, curves = first_words(common.amounts), first_words(common.curves)
+    words = set(tokens(name))
+    of_a_curve = bool(words & curves) and words <= amounts | curves
+    return of_a_curve or bool(lexicon_of({"amount": common.amounts}).find(name))
 
 
 def is_number(value: Any) -> bool:

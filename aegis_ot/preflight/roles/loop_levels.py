@@ -10,7 +10,7 @@ from ..rules import Common
 from ..text import Loop, SourceFacts, Values, lexicon_of, origins
 from ..trace import Trace
 from .clues import Clue, Strength
-from .levels import number_in
+from .levels import number_in, speaks_of_amounts
 
 Turn = tuple[WellRef, ...]
 """The wells that one step draws from: one per channel."""
@@ -76,7 +76,6 @@ def _levels(
     loop: Loop, count: int, names: Sequence[NameBinding], common: Common
 ) -> tuple[float, ...]:
     """The one column of numbers that speaks of amounts, one for each well, again and again."""
-    amounts = lexicon_of({"amount": common.amounts})
     counts = lexicon_of({"count": common.countings})
     named, listed = set(), set()
     for values in loop.values:
@@ -85,9 +84,9 @@ def _levels(
             if len(numbers) != len(column) or len(set(numbers)) < 2 or count % len(numbers):
                 continue
             numbers *= count // len(numbers)  # within another loop it begins anew
-            if amounts.find(name):
+            if speaks_of_amounts(name, common):
                 named.add(numbers)
-            elif amounts.find(values.source) and not counts.find(name):
+            elif speaks_of_amounts(values.source, common) and not counts.find(name):
                 listed.add(numbers)
     for found in (named, listed):
         if found:

@@ -9,8 +9,9 @@ from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, lexicon_of, listed_levels, unit_in
-from .levels import far_apart, is_number
+from .levels import far_apart, is_number, speaks_of_amounts
 
+_IN_BRACKETS = re.compile(r"\([^()\d]*\)")
 NUMBERED = re.compile(r"(.*)\[(?P<quote>['\"]?)(-?\d+(?:\.\d+)?)(?P=quote)\]([^\[\]]*)")
 
 
@@ -71,7 +72,7 @@ def keyed_amounts(
     ]
     maps += [(binding.name, dict(binding.numbers)) for binding in names if binding.numbers]
     for constant, by_key in maps:
-        if not _speaks_of_amounts(constant, facts, common):
+        if not _has_amounts(constant, facts, common):
             continue
         for group in groups.values():
             if len(group) > 1 and group.keys() <= by_key.keys():
@@ -79,10 +80,11 @@ def keyed_amounts(
     return found
 
 
-def _speaks_of_amounts(name: str, facts: SourceFacts, common: Common) -> bool:
+def _has_amounts(name: str, facts: SourceFacts, common: Common) -> bool:
     """Whether a name, or the comment on it, says that its numbers are amounts: "kit, ug/mL"."""
-    amounts = lexicon_of({"amount": common.amounts})
-    return bool(amounts.find(name)) or bool(unit_in(facts.notes.get(name, "")))
+    counts = lexicon_of({"count": common.countings}).find(name)
+    noted = bool(unit_in(facts.notes.get(name, ""))) and not counts
+    return speaks_of_amounts(name, common) or noted
 
 
 def listed_beside(
@@ -95,7 +97,8 @@ def listed_beside(
     note = facts.comments.get(line) or above
     nothing = [word for word, level in common.levels.items() if level == 0]
     counted = re.sub(rf"\b(?:{'|'.join(nothing)})\b", "0", note, flags=re.IGNORECASE)
-    for levels in map(listed_levels, dict.fromkeys((note, counted))):
+    plain = _IN_BRACKETS.sub(" ", note)  # "0 (buffer blank), 25, 125 ug/ml"
+    for levels in map(listed_levels, dict.fromkeys((note, counted, plain))):
         if len(levels) == len(set(levels)) == len(set(wells)) == len(wells) > 2:
             return levels
     return ()

@@ -31,7 +31,9 @@ def named_wells(
     comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
     lists = _lists(names, facts, common)
     told = keyed_amounts(names, facts, common)
-    amounts_named = amounts_in_names(names) | (told if far_apart(told.values()) else {})
+    # Decimals count nothing, nor do numbers so far apart.
+    amounts = far_apart(told.values()) or any(level % 1 for level in told.values())
+    amounts_named = amounts_in_names(names) | (told if amounts else {})
     keyed = {**told, **numeric_keys(names)}
     for binding in names:
         base = binding.name.split("[", 1)[0]

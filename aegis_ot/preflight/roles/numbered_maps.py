@@ -120,9 +120,9 @@ def _narrowed(value: Any, at: Mapping[int, int]) -> Any:
     if isinstance(value, Mapping):
         return {key: _narrowed(item, at) for key, item in value.items()}
     if isinstance(value, list) and all(
-        isinstance(item, tuple) and all(map(_places_in, item)) for item in value
+        isinstance(item, (tuple, list)) and all(map(_places_in, item)) for item in value
     ):
-        return [_narrowed(item, at) for item in value]
+        return [_narrowed(tuple(item), at) for item in value]
     if isinstance(value, tuple) and len(value) in at:
         return value[at[len(value)]]
     return value

@@ -11,7 +11,7 @@ from ..rules import Common
 from ..text import SourceFacts, concentration_in, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import MOST_TUBES, Deck
-from .levels import is_number, number_in
+from .levels import far_apart, is_number, number_in
 from .phrases import without_position
 from .well_names import plain_name, wells_between
 from .work_lists import is_work_list
@@ -167,7 +167,7 @@ class _Reader:
             if depth > 0 and _is_record(value):
                 yield from self._record(name, value)
                 return
-            levels = _levels_of_keys(value)
+            levels = _levels_of_keys(value, bool(self._amounts.find(name)))
             for key, item in value.items():
                 if isinstance(key, str) and (spanned := wells_between(key)):
                     yield from self._beside(name, spanned, item)
@@ -216,12 +216,14 @@ class _Reader:
             yield text, wells, level, ""
 
 
-def _levels_of_keys(value: Mapping[Any, Any]) -> dict[Any, float]:
-    """The levels that the keys of a map are: numbers, or texts of numbers that do not count."""
+def _levels_of_keys(value: Mapping[Any, Any], of_amounts: bool) -> dict[Any, float]:
+    """The levels that the keys of a map are: numbers, or texts of decimals; texts of other numbers
+    where the map's name speaks ``of_amounts``.
+    """
     found = {key: number for key in value if (number := number_in(key)) is not None}
-    texts = sorted(found[key] for key in found if isinstance(key, str))
-    counts = texts in ([*range(len(texts))], [*range(1, len(texts) + 1)])
-    if counts or len(found) < len(value):
+    texts = {number for key, number in found.items() if isinstance(key, str)}
+    amounts = any(number % 1 for number in texts) or (of_amounts and far_apart(texts))
+    if not amounts or len(found) < len(value):
         found = {key: number for key, number in found.items() if not isinstance(key, str)}
     return found
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, comment_blocks, direction_in, listed_levels, tokens
+from ..text import SourceFacts, comment_blocks, direction_in, lexicon_of, listed_levels, tokens
 from ..trace import row_column
 from .clauses import Part, axis_of, parts_of
 from .clues import Clue, Strength, shortened
@@ -50,7 +50,8 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
                 # "col 3  1 nM     tube A2": the column is not one of the tubes'.
                 others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
                 meant = _Meant(keys - others, bool(firm), others)
-                for clue in _spoken(deck, part, line + number, meant, common):
+                said = f"{part.text}, {more[at]}"
+                for clue in _spoken(deck, part, said, line + number, meant, common):
                     levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
                     if topic.heading and keys.isdisjoint(topic.heading):
                         levels = ()  # named by what its wells hold, perhaps
@@ -120,12 +121,14 @@ class _Meant(NamedTuple):
 def _spoken(
     deck: Deck,
     part: Part,
+    said: str,
     line: int,
     labware: _Meant,
     common: Common,
 ) -> Iterator[Clue]:
     names = well_names(common)
     keys, firm, others = labware
+    by_hand = lexicon_of({"hand": common.by_hand}).find(said)
     meant: dict[str, list[WellRef]] = {}
     # "Column 2 = vehicle" may leave out the rows at the edge, if all of the plate does; "A2-H2"
     # and "all 8" do not.
@@ -147,7 +150,7 @@ def _spoken(
         used = [name for name in named if (key, name) in deck.refs]
         if outright and 0 < len(named) - len(used) <= min(LEFT_OUT, len(used) // 3):
             used = named  # more than a few are wells for which there is nothing this time
-        elif axis is not None:
+        elif axis is not None and not by_hand:
             used += deck.passed_over(key, named, axis)
         if used:
             meant[key] = [deck.ref(key, name) for name in dict.fromkeys(used)]
@@ -174,7 +177,7 @@ def _spoken(
 def _is_mostly_filled(deck: Deck, wells: Sequence[WellRef]) -> bool:
     """Whether the run fills half of these wells at least, of those that it uses."""
     used = [(ref.labware, ref.name) for ref in wells if (ref.labware, ref.name) in deck.refs]
-    return 2 * sum(place in deck.received for place in used) >= len(used)
+    return bool(used) and 2 * sum(place in deck.received for place in used) >= len(used)
 
 
 def _goes_there(part: Part, common: Common) -> bool:
@@ -194,11 +197,19 @@ def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> 
     places = sorted(set(at))
     if len(places) < 2:
         return ()
+    if _runs_backwards(part.wells[0].group()):
+        places.reverse()  # "col 8..3 = 30 10 3 1 0.3 0.1 uM"
     # Two columns and two numbers may come together for any reason.
     if len(listed) == len(set(listed)) == len(places) > 2:
         return tuple(listed[places.index(place)] for place in at)
     direction = direction_in(said, common)
-    return tuple(float(direction * place) for place in at) if direction else ()
+    return tuple(float(direction * places.index(place)) for place in at) if direction else ()
+
+
+def _runs_backwards(written: str) -> bool:
+    """Whether a range or a list of columns begins with a later one than it ends with."""
+    numbers = [int(number) for number in re.findall(r"\d+", written)]
+    return len(numbers) > 1 and numbers[0] > numbers[-1]
 
 
 def _axis_along(wells: Sequence[WellRef], count: int) -> int | None:

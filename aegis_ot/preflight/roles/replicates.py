@@ -50,6 +50,9 @@ def _replicates(trace: Trace) -> Iterator[tuple[LabwareInfo, LabwareInfo]]:
                 continue
             shared = given[one.key].keys() & given[other.key].keys()
             alike = sum(not given[one.key][n].isdisjoint(given[other.key][n]) for n in shared)
+            # Plates without a label must not differ in what goes into any well of both.
+            if not (one.label or alike == len(shared)):
+                continue
             if alike * 2 > max(len(given[one.key]), len(given[other.key])):
                 yield one, other
 

@@ -13,7 +13,7 @@ from .clues import Clue, Strength, shortened
 from .deck import Deck
 
 _ENTRY = re.compile(
-    r"(?:^|[,;/|])\s*#?(\d{1,2})\s*(?:[:=.)]|->|[-–](?=\s))?\s*"
+    r"(?:^|[,;/|])\s*#?(\d{1,2})(?!\w)\s*(?:[:=.)]|->|[-–](?=\s))?\s*"
     r"([^\W\d][^,;/|]{2,40}?)(?=\s*(?:[,;/|]|$))"
 )
 _FEWEST = 3

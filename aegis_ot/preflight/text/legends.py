@@ -7,6 +7,7 @@ a dict.
 from __future__ import annotations
 
 import re
+import string
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -27,6 +28,9 @@ _COLUMN = re.compile(
     rf"^\s*(?P<code>{_CODE})\s{{2,}}(?P<said>\S(?:[^\s=:|]| (?! )){{1,60}})$", re.MULTILINE
 )
 """Codes in a column of their own, what they stand for in the next."""
+_SPACED = re.compile(r"(?P<codes>[A-Z]{1,2}(?:/[A-Z]{1,2})*)\s+(?P<said>\S.{1,60})")
+"""Codes beside each other in one line: "U untreated   V DMSO   L/M/H 0.1, 1, 10 uM"."""
+_LETTERS = " %/" + string.ascii_letters + "µμ"
 _FEWEST = 2
 """A single "x = y" in prose may be anything."""
 _LONGEST_CODE = 4
@@ -51,8 +55,24 @@ def _written(facts: SourceFacts) -> Iterable[dict[str, str]]:
                 codes.setdefault(code, match["said"].strip())
         for match in _COLUMN.finditer(text):
             codes.setdefault(match["code"], match["said"].strip())
+        for line in text.splitlines():
+            for code, said in _side_by_side(line):
+                codes.setdefault(code, said)
         if len(codes) >= _FEWEST:
             yield codes
+
+
+def _side_by_side(line: str) -> Iterable[tuple[str, str]]:
+    """The entries of a line of codes that stand apart; a list of as many goes to one each."""
+    entries = [_SPACED.fullmatch(part) for part in re.split(r"\s{3,}", line.strip())]
+    if len(entries) < _FEWEST or not all(entries):
+        return
+    for entry in filter(None, entries):
+        codes = entry["codes"].split("/")
+        unit = entry["said"][len(entry["said"].rstrip(_LETTERS)) :]
+        listed = [part.strip() + unit for part in entry["said"].removesuffix(unit).split(",")]
+        for at, code in enumerate(codes):
+            yield code, listed[at] if len(listed) == len(codes) > 1 else entry["said"]
 
 
 def _run_of(first: str, last: str | None) -> list[str]:

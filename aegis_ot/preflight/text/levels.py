@@ -54,7 +54,7 @@ def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | N
 
     Plain numbers count in names and liquids only: in a comment they may be anything.
     """
-    plain = _with_u(text).lower()
+    plain = with_u(text).lower()
     found = _WITH_UNIT.findall(plain)
     # "3 uM (100x)" is 3 uM, and "1 mM in 0.5 % DMSO" is 1 mM.
     found = [(v, unit) for v, unit in found if unit not in ("%", "x")] or found
@@ -85,7 +85,7 @@ def concentration_in(text: str) -> float | None:
 
 def concentrations_in(text: str) -> set[float]:
     """All concentrations with a unit that a text states; per cent and "10x" are none."""
-    plain = _with_u(text).lower()
+    plain = with_u(text).lower()
     return {
         _number(value) * _UNITS.get(_unit(unit), 1.0)
         for value, unit in _WITH_UNIT.findall(plain)
@@ -99,7 +99,7 @@ def name_without_level(text: str, common: Common) -> tuple[str, ...]:
     Two liquids whose names differ in these are different compounds; those whose names do not
     differ are doses of one.
     """
-    plain = _WITH_UNIT.sub(" ", _with_u(text))
+    plain = _WITH_UNIT.sub(" ", with_u(text))
     lexicon = lexicon_of({"noise": (*common.noise, *common.levels)})
     words = tokens(plain)
     covered = {at for match in lexicon.find(plain) for at in range(match.start, match.end)}
@@ -154,16 +154,11 @@ def _direction_of_range(text: str) -> int:
     return (last > first) - (last < first)
 
 
-_AMOUNT = re.compile(
-    r"(?<![\w.])(\d+(?:\.\d+)?)\s?((?:pg|ng|ug|mg)/(?:ul|ml|l)|g/l|pm|nm|um|mm|m)?(?![\w.]*\w)",
-    re.IGNORECASE,
-)
-_UNIT_APART = re.compile(
-    r"(?<![\w/])((?:pg|ng|ug|mg)/(?:ul|ml|l)|g/l|pm|nm|um)(?![\w/])", re.IGNORECASE
-)
-_UNIT_AHEAD = re.compile(
-    r"(?<![\d.\s])\s*[(\[ ]((?:pg|ng|ug|mg)/(?:ul|ml|l)|g/l|pm|nm|um)[)\]]?\s*:", re.IGNORECASE
-)
+UNITS = r"(?:pg|ng|ug|mg)/(?:ul|ml|l)|g/l|pm|nm|um"
+"""Units of concentration that stand for nothing else, as a pattern."""
+_AMOUNT = re.compile(rf"(?<![\w.])(\d+(?:\.\d+)?)\s?({UNITS}|mm|m)?(?![\w.]*\w)", re.IGNORECASE)
+_UNIT_APART = re.compile(rf"(?<![\w/])(?<!\d\s)({UNITS})(?![\w/])", re.IGNORECASE)
+_UNIT_AHEAD = re.compile(rf"(?<![\d.\s])\s*[(\[ ]({UNITS})[)\]]?\s*:", re.IGNORECASE)
 _BETWEEN = re.compile(r"\s*(?:[,;/&+]|\band\b|,\s*and\b)\s*")
 _SPACES = re.compile(r"\s+")
 _TO = re.compile(r"\s*(?:down|up) to\b\s*")
@@ -215,7 +210,7 @@ def _number(text: str) -> float:
     return float(text.replace(",", ".").replace("p", "."))
 
 
-def _with_u(text: str) -> str:
+def with_u(text: str) -> str:
     """A text with "u" for the micro sign and for the Greek letter."""
     return text.replace("µ", "u").replace("μ", "u")
 
@@ -228,7 +223,7 @@ def _plain(text: str) -> str:
 
     One such number tells that a comma is no separator in the others: "0,5 / 1,0 mg/ml".
     """
-    plain = _with_u(text)
+    plain = with_u(text)
     if any(match[1] == "0" for match in _DECIMAL_COMMA.finditer(plain)):
         plain = _DECIMAL_COMMA.sub(r"\1.\2", plain)
     return plain

@@ -4,32 +4,61 @@ As a kit's leaflet does::
 
     Vial      A     B     C    D
     ug/mL  2000  1500  1000    0 (blank)
+
+    vials: A 2000, B 1500, C 1000 ug/ml, D = diluent only (0)
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from itertools import pairwise
 
+from ...instrumentation import is_spot
 from .comments import comment_blocks
 from .facts import SourceFacts
-from .levels import unit_in
+from .levels import UNITS, unit_in, with_u
 
 _FEWEST = 3
 _NOTES = re.compile(r"\([^()]*\)")
 _NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+_ENTRY = re.compile(
+    r"(?:^|[,;|:(]|\s{2})\s*([A-Za-z]\w{0,7})\s*[=:]?\s*(?:[^,;|\d]*\()?(\d+(?:\.\d+)?)"
+    rf"(?:\s?({UNITS}))?(?![\w.%])",
+    re.IGNORECASE,
+)
+"""``A 2000``, ``S1 = 0.5``, ``I = diluent only (0)``."""
+_LAST = re.compile(rf"\d\s?({UNITS})\s*(?:\(|$)", re.IGNORECASE)
 _NAME = re.compile(r"[A-Za-z][\w+-]{0,15}")
 
 
 def read_written_levels(facts: SourceFacts) -> None:
     """Note, by the unit that stands before or after them, the amount under each name."""
-    for _, text in (*facts.docstrings, *comment_blocks(facts)):
-        for upper, lower in pairwise(text.splitlines()):
-            for names, numbers in ((upper, lower), (lower, upper)):
-                unit = unit_in(numbers)
-                if unit and (levels := dict(_columns(names, numbers))):
-                    facts.levels.setdefault(unit, levels)
+    for first, text in (*facts.docstrings, *comment_blocks(facts)):
+        lines = with_u(text).splitlines()
+        for at, written in enumerate(lines):
+            below = lines[at + 1] if at + 1 < len(lines) else ""
+            for unit, levels in (
+                _entries(written),
+                (_unit_of_row(below), dict(_columns(written, below))),
+                (_unit_of_row(written), dict(_columns(below, written))),
+            ):
+                if unit and len(levels) >= _FEWEST:
+                    facts.levels[f"{unit} at line {first + at}"] = levels
+
+
+def _entries(written: str) -> tuple[str, dict[str, float]]:
+    """The unit of a list like "A 2000, B 1500, C 1000 ug/ml", and the amount of each name."""
+    entries = _ENTRY.findall(written)
+    levels = {name: float(amount) for name, amount, _ in entries}
+    units = {unit.lower() for _, _, unit in entries if unit} | {unit_in(written)} - {""}
+    placed = any(map(is_spot, levels))
+    return ("" if placed or len(units) != 1 else units.pop()), levels
+
+
+def _unit_of_row(written: str) -> str:
+    """The unit before a row of numbers, or right after the last: not the "nm" of "595 nm"."""
+    last = _LAST.search(written)
+    return unit_in(written) or (last[1].lower() if last else "")
 
 
 def _columns(names: str, numbers: str) -> Iterator[tuple[str, float]]:
