@@ -82,7 +82,8 @@ def unsay_controls(roles: Roles, trace: Trace) -> None:
 
     ``add_template(tube, ntc)`` gives the control what stands in the template's place. So does a
     tube in a rack of "drugs": the vehicle stands beside them. And a well of a plate of "drugs",
-    where nothing says of any other well that it holds what these controls are to get.
+    where nothing says of any other well that it holds what these controls are to get, and they
+    get nothing else.
     """
     only = {
         ref
@@ -91,14 +92,17 @@ def unsay_controls(roles: Roles, trace: Trace) -> None:
         and not roles.family.roles[assigned.role].one_liquid
     }
     fed: dict[WellRef, set[WellRef]] = {}
+    given: dict[WellRef, set[WellRef]] = {}
     for source, well, _ in trace.feedings() if only else ():
+        given.setdefault(well.ref, set()).add(source.ref)
         if source.ref in only:
             fed.setdefault(source.ref, set()).add(well.ref)
     awaited = _awaited(roles)
     for ref, wells in fed.items():
         of_tubes = not roles.by_well[ref].whole or _is_of_tubes(trace, ref)
         if all(
-            _is_set_apart(roles, well) and (of_tubes or roles.by_well[well].role in awaited)
+            _is_set_apart(roles, well)
+            and (of_tubes or (roles.by_well[well].role in awaited and given[well] == {ref}))
             for well in wells
         ):
             del roles.by_well[ref]
