@@ -45,6 +45,7 @@ def _check(head: str = "", doc: str = "What it does.") -> Report:
         "NOTHING = '\\n\\n'\nBARS = '|\\n|'\nHASH = '#\\n#'",
         "MANY = range(10000000000000000000000)",
         "LARGE = 'AF48 x\\nAE12 y\\nP24 z'",
+        "GRID = 'plate,1,²\\nA,water,dye\\nB,water,dye'\nCOLUMNS = {'²': 'A1', '1': 'A2'}",
         f"# columns 1-{'9' * 5000} water\n# A1-A{'9' * 12} x\n# columns 1-99999999 dye",
     ],
 )
@@ -64,6 +65,7 @@ def test_odd_constants_are_no_fault(head: str) -> None:
         ("", "\n".join(["A1 B1 C1"] * 1500)),
         ("", "\n".join(["of t A1 B1 C1", "is s x y z"] * 750)),
         ("", "\n".join(["1 2 3"] * 3000)),
+        (f"# {'x   ' * 8000}", ""),
     ],
 )
 def test_long_texts_are_read_in_no_time(head: str, doc: str) -> None:

@@ -137,7 +137,7 @@ class Ellipses:
     def _goes_on(self, text: str, last: str, follower: re.Match[str]) -> bool:
         """Whether a layout goes on there: with the next one, or with a later one and "="."""
         low, after = follower["low"], text[follower.end("of") :].lstrip()
-        later = low.isdigit() and last.isdigit() and int(low) > int(last)
+        later = low.isdecimal() and last.isdigit() and int(low) > int(last)
         return _follows(last, low) or (later and after[:1] == "=")
 
     def _with_columns(self, text: str) -> str:
@@ -238,6 +238,6 @@ def _count_down(entries: Iterable[re.Match[str]]) -> bool:
 
 def _follows(last: str, low: str) -> bool:
     """Whether a column's number or a row's letter is the one after the last."""
-    if last.isdigit() != low.isdigit():
+    if last.isdecimal() != low.isdigit():
         return False
-    return int(low) == int(last) + 1 if low.isdigit() else ord(low) == ord(last) + 1
+    return int(low) == int(last) + 1 if low.isdecimal() else ord(low) == ord(last) + 1

@@ -54,7 +54,7 @@ def _part_drawn(
     numbers = [cell.strip() for cell in head[1:]]
     even = len(rows) > 1 and all(len(row) == len(head) for row in rows)
     letters = [row[0].strip() for row in rows]
-    if not numbers or not even or not all(map(str.isdigit, numbers)) or head[0].strip().isdigit():
+    if not numbers or not even or not all(map(str.isdecimal, numbers)) or head[0].strip().isdecimal():
         return
     wells_of: dict[str, list[str]] = {}
     for letter, row in zip(letters, rows, strict=True):
@@ -103,7 +103,7 @@ def _grid(value: Any) -> Grid:
     else:
         return ()
     rows = [row for row in rows if row and all(isinstance(cell, str) for cell in row)]
-    if len(rows) > 1 and all(cell.isdigit() for cell in rows[0]):
+    if len(rows) > 1 and all(cell.isdecimal() for cell in rows[0]):
         rows = rows[1:]
     letters = [row[0].rstrip(":") for row in rows]
     if letters == [chr(ord("A") + at) for at in range(len(rows))] and len(rows) > 1:

@@ -180,9 +180,9 @@ def _is_said(item: Any) -> bool:
 def _places_in(value: Any) -> tuple[int | str, ...]:
     """The numbers of columns, or the letters of rows, that a value is or lists."""
     listed = value if isinstance(value, (list, tuple)) else [value]
-    if isinstance(value, str) and len(value) > 1 and not value.isdigit():
+    if isinstance(value, str) and len(value) > 1 and not value.isdecimal():
         listed = list(value)
-    listed = [int(item) if isinstance(item, str) and item.isdigit() else item for item in listed]
+    listed = [int(item) if isinstance(item, str) and item.isdecimal() else item for item in listed]
     if listed and all(isinstance(item, int) and not isinstance(item, bool) for item in listed):
         return tuple(listed)
     if listed and all(isinstance(i, str) and len(i) == 1 and i in _LETTERS for i in listed):

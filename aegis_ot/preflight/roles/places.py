@@ -55,10 +55,10 @@ def _indexed(deck: Deck, key: str, place: Place) -> Iterator[WellRef]:
     elif isinstance(value, slice) and value != slice(None, None):
         chosen = [name for group in groups[value] for name in group]
     elif isinstance(value, str) and place.kind in ("column", "row"):
-        if place.kind == "column" and not value.isdigit():
+        if place.kind == "column" and not value.isdecimal():
             return
         at = 1 if place.kind == "column" else 0
-        wanted = int(value) - 1 if value.isdigit() else row_column(value)[0]
+        wanted = int(value) - 1 if value.isdecimal() else row_column(value)[0]
         chosen = [name for name in names if row_column(name)[at] == wanted]
     elif isinstance(value, str) and value in info.wells:
         chosen = [value]

@@ -108,7 +108,7 @@ def clues_of_rows(
             levels.update(dict.fromkeys(wells, found[0]))
     for column, held in columns.items():
         title = titles.get(column, column)
-        if not title.isdigit():
+        if not title.isdecimal():
             evidence = f"column `{title}` of `{name}` at line {line}"
             yield Clue(Strength.NAME, title, tuple(held), line, evidence)
         yield Clue(

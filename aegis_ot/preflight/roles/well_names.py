@@ -114,7 +114,7 @@ def _any(words: Sequence[str]) -> str:
 
 def _number(text: str) -> int:
     """Place of a column ``"12"`` or of a row ``"H"``, counted from 0."""
-    return int(text) - 1 if text.isdigit() else row_column(text + "1")[0]
+    return int(text) - 1 if text.isdecimal() else row_column(text + "1")[0]
 
 
 _SPAN = re.compile(rf"({_WELL})\s*[:-]\s*({_WELL})")

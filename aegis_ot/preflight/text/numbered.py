@@ -173,7 +173,7 @@ def _found(
         place = Numbered(labware, "column", number, 1 - added, (line,), fixed, letter)
         yield replace(place, key=_key_in(column) if isinstance(column, ast.expr) else "")
     if letter:
-        fixed = int(column) - 1 if isinstance(column, str) and column.isdigit() else None
+        fixed = int(column) - 1 if isinstance(column, str) and column.isdecimal() else None
         yield Numbered(labware, "row", letter, 0, (line,), fixed, number, 1 - added)
 
 

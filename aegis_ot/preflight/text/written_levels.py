@@ -29,6 +29,8 @@ _ENTRY = re.compile(
 """``A 2000``, ``S1 = 0.5``, ``I = diluent only (0)``."""
 _LAST = re.compile(rf"\d\s?({UNITS})\s*(?:\(|$)", re.IGNORECASE)
 _NAME = re.compile(r"[A-Za-z][\w+-]{0,15}")
+_LONGEST_LINE = 400
+"""Characters; `_ENTRY` takes a time that grows with the square of a line's length."""
 
 
 def read_written_levels(facts: SourceFacts) -> None:
@@ -48,7 +50,7 @@ def read_written_levels(facts: SourceFacts) -> None:
 
 def _entries(written: str) -> tuple[str, dict[str, float]]:
     """The unit of a list like "A 2000, B 1500, C 1000 ug/ml", and the amount of each name."""
-    entries = _ENTRY.findall(written)
+    entries = _ENTRY.findall(written[:_LONGEST_LINE])
     levels = {name: float(amount) for name, amount, _ in entries}
     units = {unit.lower() for _, _, unit in entries if unit} | {unit_in(written)} - {""}
     placed = any(map(is_spot, levels))
