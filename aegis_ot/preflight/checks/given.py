@@ -43,5 +43,7 @@ def came_from(case: Case, well: Well, liquid: RoleSet) -> set[Well]:
     Those that it stood in to begin with; where the run makes it, those of what it is made of.
     """
     stood = {origin for origin in case.meant.get(well, {}) if case.has(origin, liquid)}
+    if stood:
+        return stood
     made_in = {source for source in sources_of(case, well) if case.has(source, liquid)}
-    return stood or {part for made in made_in for part in case.meant.get(made, {made: 0})}
+    return {part for made in made_in for part in case.meant.get(made, {made: 0})}

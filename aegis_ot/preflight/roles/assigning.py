@@ -33,7 +33,7 @@ from .phrases import (
 )
 from .replicates import spread_over_replicates
 from .roles import Roles
-from .usage import Sides, Usage
+from .usage import Sides, Usage, in_trough
 
 
 def assign_roles(
@@ -99,7 +99,7 @@ def assign_roles(
             role = fitting_role(named, roles, sides(ref), clue, common)
             if role is None and not clue.whole and is_for_controls(named, sides(ref), roles):
                 for_controls.add(ref)
-            if role is None or (passing and _is_trough(trace, ref)):
+            if role is None or (passing and in_trough(trace, ref.labware)):
                 continue
             placed = True
             if not clue.step and clue.strength >= Strength.DESCRIPTION and not clue.whole:
@@ -264,12 +264,6 @@ def _holding(roles: Roles, candidates: Mapping[WellRef, Sequence[Candidate]]) ->
             for _, role, clue, _ in found
         )
     }
-
-
-def _is_trough(trace: Trace, ref: WellRef) -> bool:
-    """Whether a well belongs to a reservoir, where reagents stand rather than samples."""
-    info = trace.labware.get(ref.labware)
-    return info is not None and info.centers_channels
 
 
 def _worth(clue: Clue, side_only: bool, of_the_labware: bool) -> tuple[float, ...]:

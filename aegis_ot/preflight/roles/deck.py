@@ -47,6 +47,7 @@ class Deck:
             for well in trace.wells.values()
             if any(True for _ in trace.deliveries(well))
         }
+        self.filled = frozenset(key for key, _ in self.received)
 
     def _by_key(self) -> dict[str, dict[str, str]]:
         """For each dict of several labware: its keys, as text, with what each holds."""

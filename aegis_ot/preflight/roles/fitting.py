@@ -112,9 +112,11 @@ def _finer(fitting: list[str], roles: Roles) -> list[str]:
     uses = [
         (role, use) for role in fitting for use in roles.family.roles[role].may_be if use in fitting
     ]
-    for role, finer in (*uses, *((fitting[0], kind) for kind in kinds)):
-        return [finer, *(r for r in fitting if r not in (role, finer))]
-    return fitting
+    pairs = (*uses, *((fitting[0], kind) for kind in kinds))
+    if not pairs:
+        return fitting
+    role, finer = pairs[0]
+    return [finer, *(r for r in fitting if r not in (role, finer))]
 
 
 def _treats(role: str, roles: Roles) -> bool:

@@ -48,13 +48,17 @@ def _part_drawn(
     """Part of a plate as a spreadsheet exports it: ``,4,5,6`` and under it ``B,drug,drug,DMSO``."""
     if not isinstance(value, str):
         return
-    head, *rows = [re.split(r"[,;|\t]", line.strip()) for line in value.strip().splitlines()] or [
-        []
-    ]
+    lines = value.strip().splitlines() or [""]
+    head, *rows = [re.split(r"[,;|\t]", line.strip()) for line in lines]
     numbers = [cell.strip() for cell in head[1:]]
     even = len(rows) > 1 and all(len(row) == len(head) for row in rows)
     letters = [row[0].strip() for row in rows]
-    if not numbers or not even or not all(map(str.isdecimal, numbers)) or head[0].strip().isdecimal():
+    if (
+        not numbers
+        or not even
+        or not all(map(str.isdecimal, numbers))
+        or head[0].strip().isdecimal()
+    ):
         return
     wells_of: dict[str, list[str]] = {}
     for letter, row in zip(letters, rows, strict=True):
@@ -81,10 +85,9 @@ def _plates_drawn(
     found = [info for info in plates if info.key in meant]
     if found:
         return found
-    received = {key for key, _ in deck.received}
-    kinds = {info.load_name for info in plates if info.key in received}
+    kinds = {info.load_name for info in plates if info.key in deck.filled}
     alike = [info for info in plates if info.load_name in kinds]
-    return alike if len(kinds) == 1 and all(info.key in received for info in alike) else []
+    return alike if len(kinds) == 1 and all(info.key in deck.filled for info in alike) else []
 
 
 def _shape(info: LabwareInfo) -> tuple[int, int]:

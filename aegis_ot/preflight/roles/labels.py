@@ -13,7 +13,7 @@ from .clues import Clue, Strength
 from .deck import Deck
 from .well_names import well_names
 
-_JOINTS = frozenset(",;+/&")
+_JOINT = re.compile(r"\s*[,;+/&]\s*")
 
 
 def labels(deck: Deck, common: Common) -> Iterator[Clue]:
@@ -37,14 +37,14 @@ def labels(deck: Deck, common: Common) -> Iterator[Clue]:
                 None,
                 f"label '{info.label}'",
                 whole=True,
-                lone=not _JOINTS.isdisjoint(text),
+                lone=bool(_JOINT.search(text)),
             )
 
 
 def _parts(label: str, common: Common) -> list[Part]:
     """The parts of a label; in "clones + BSA col 1" only the second has wells of its own."""
     parts = list(parts_of(label, common))
-    pieces = re.split(rf"\s*[{re.escape(''.join(_JOINTS))}]\s*", label)
+    pieces = _JOINT.split(label)
     if len(parts) == 1 and parts[0].wells and len(pieces) > 1:
         apart = [part for piece in pieces for part in parts_of(piece, common)]
         if sum(len(part.wells) for part in apart) == len(parts[0].wells):

@@ -166,7 +166,7 @@ class LabwareNouns:
             if any(kind & set(tokens(info.load_name)) for kind in kinds)
         }
         if self._origins & set(words):
-            found -= {key for key, _ in self._deck.received}
+            found -= self._deck.filled
         return frozenset(found)
 
     def _short_for(self, word: str) -> frozenset[str]:

@@ -31,11 +31,10 @@ def level_spans(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue
     from may be laid out the other way round.
     """
     names, nouns = well_names(common), LabwareNouns(deck, common)
-    filled = frozenset(key for key, _ in deck.received)
     for first, text in (*facts.docstrings, *comment_blocks(facts)):
         for line, written in enumerate(text.splitlines(), first):
             for low, high, start, end in _spans(written[:_LONGEST_LINE], names):
-                keys = nouns.heading(written) or nouns.named(written) or filled
+                keys = nouns.heading(written) or nouns.named(written) or deck.filled
                 for info in deck.plates():
                     if info.key not in keys:
                         continue

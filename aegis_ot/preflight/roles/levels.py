@@ -69,7 +69,17 @@ def speaks_of_amounts(name: str, common: Common) -> bool:
     amounts, curves = first_words(common.amounts), first_words(common.curves)
     words = set(tokens(name))
     of_a_curve = bool(words & curves) and words <= amounts | curves
-    return of_a_curve or bool(lexicon_of({"amount": common.amounts}).find(name))
+    return of_a_curve or names_amounts(name, common)
+
+
+def names_amounts(name: str, common: Common) -> bool:
+    """Whether a name has a word for concentrations or doses: ``CONC``, ``dose_of_column``."""
+    return bool(lexicon_of({"amount": common.amounts}).find(name))
+
+
+def names_counts(name: str, common: Common) -> bool:
+    """Whether a name has a word for volumes, places or numbers of times: ``VOLUMES``, ``reps``."""
+    return bool(lexicon_of({"count": common.countings}).find(name))
 
 
 def is_number(value: Any) -> bool:
@@ -99,3 +109,8 @@ _FAR = 10
 def far_apart(numbers: Collection[float]) -> bool:
     """Whether these are amounts of one thing: so many, and too far apart to count something."""
     return len(numbers) >= _FEWEST_AMOUNTS and max(numbers) >= _FAR * len(numbers)
+
+
+def are_amounts(numbers: Collection[float]) -> bool:
+    """Whether these count nothing and name no places: decimals, and numbers far apart."""
+    return far_apart(numbers) or any(number % 1 for number in numbers)

@@ -7,10 +7,10 @@ from collections.abc import Iterator, Sequence
 from ...instrumentation import NameBinding, OperationKind
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import Loop, SourceFacts, Values, lexicon_of, origins
+from ..text import Loop, SourceFacts, Values, origins
 from ..trace import Trace
 from .clues import Clue, Strength
-from .levels import number_in, speaks_of_amounts
+from .levels import names_counts, number_in, speaks_of_amounts
 
 Turn = tuple[WellRef, ...]
 """The wells that one step draws from: one per channel."""
@@ -76,7 +76,6 @@ def _levels(
     loop: Loop, count: int, names: Sequence[NameBinding], common: Common
 ) -> tuple[float, ...]:
     """The one column of numbers that speaks of amounts, one for each well, again and again."""
-    counts = lexicon_of({"count": common.countings})
     named, listed = set(), set()
     for values in loop.values:
         for name, column in _columns(values, names):
@@ -86,7 +85,7 @@ def _levels(
             numbers *= count // len(numbers)  # within another loop it begins anew
             if speaks_of_amounts(name, common):
                 named.add(numbers)
-            elif speaks_of_amounts(values.source, common) and not counts.find(name):
+            elif speaks_of_amounts(values.source, common) and not names_counts(name, common):
                 listed.add(numbers)
     for found in (named, listed):
         if found:

@@ -15,10 +15,11 @@ from typing import NamedTuple
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, comment_blocks, lexicon_of, tokens
-from ..trace import Trace, row_column
+from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
 from .phrases import first_words
+from .usage import in_trough
 
 _FEWEST = 8
 """So many wells of a plate, in line with those they go into, are no chance."""
@@ -90,7 +91,7 @@ def _is_layout(deck: Deck, clue: Clue) -> bool:
         return False  # `D[2]`
     wells = set(clue.wells)
     keys = {ref.labware for ref in wells}
-    return not _is_trough(deck.trace, *keys) and not any(
+    return not in_trough(deck.trace, *keys) and not any(
         wells.issuperset(deck.used_wells((key,))) for key in keys
     )
 
@@ -136,15 +137,11 @@ def _stamps(deck: Deck) -> Mapping[tuple[str, str], _Stamp]:
             pairs.setdefault((source.ref.labware, well.ref.labware), set()).add(places)
     found: dict[tuple[str, str], _Stamp] = {}
     for (source_key, target), made in pairs.items():
-        if target not in passing and not _is_trough(trace, source_key, target):
+        if target not in passing and not in_trough(trace, source_key, target):
             stamp = _stamp_of(made)
             if stamp is not None:
                 found[source_key, target] = stamp
     return found
-
-
-def _is_trough(trace: Trace, *keys: str) -> bool:
-    return any(trace.labware[key].centers_channels for key in keys)
 
 
 def _stamp_of(made: set[tuple[Place, Place]]) -> _Stamp | None:

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, lexicon_of, listed_levels, unit_in
-from .levels import far_apart, is_number, speaks_of_amounts
+from ..text import SourceFacts, listed_levels, unit_in
+from .levels import far_apart, is_number, names_counts, speaks_of_amounts
 
 _IN_BRACKETS = re.compile(r"\([^()\d]*\)")
 NUMBERED = re.compile(r"(.*)\[(?P<quote>['\"]?)(-?\d+(?:\.\d+)?)(?P=quote)\]([^\[\]]*)")
@@ -82,8 +82,7 @@ def keyed_amounts(
 
 def _has_amounts(name: str, facts: SourceFacts, common: Common) -> bool:
     """Whether a name, or the comment on it, says that its numbers are amounts: "kit, ug/mL"."""
-    counts = lexicon_of({"count": common.countings}).find(name)
-    noted = bool(unit_in(facts.notes.get(name, ""))) and not counts
+    noted = bool(unit_in(facts.notes.get(name, ""))) and not names_counts(name, common)
     return speaks_of_amounts(name, common) or noted
 
 
@@ -95,6 +94,8 @@ def listed_beside(
     """
     above = facts.comments.get(line - 1, "") if line - 1 in facts.own_line else ""
     note = facts.comments.get(line) or above
+    if not note:
+        return ()
     nothing = [word for word, level in common.levels.items() if level == 0]
     counted = re.sub(rf"\b(?:{'|'.join(nothing)})\b", "0", note, flags=re.IGNORECASE)
     plain = _IN_BRACKETS.sub(" ", note)  # "0 (buffer blank), 25, 125 ug/ml"

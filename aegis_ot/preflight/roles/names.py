@@ -12,7 +12,7 @@ from ..text import SourceFacts, level_in, lexicon_of, tokens
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import LEFT_OUT, Deck
-from .levels import far_apart, is_number
+from .levels import are_amounts, is_number, names_amounts
 from .named_levels import (
     NUMBERED,
     amounts_in_names,
@@ -31,9 +31,7 @@ def named_wells(
     comprehension = {name for function, name in facts.loose if function == "<comprehension>"}
     lists = _lists(names, facts, common)
     told = keyed_amounts(names, facts, common)
-    # Decimals count nothing, nor do numbers so far apart.
-    amounts = far_apart(told.values()) or any(level % 1 for level in told.values())
-    amounts_named = amounts_in_names(names) | (told if amounts else {})
+    amounts_named = amounts_in_names(names) | (told if are_amounts(told.values()) else {})
     keyed = {**told, **numeric_keys(names)}
     for binding in names:
         base = binding.name.split("[", 1)[0]
@@ -228,11 +226,10 @@ def _parallel(
     common: Common,
 ) -> Iterator[Clue]:
     """A list of concentrations as long as the list of wells: ``standard_concs``."""
-    amounts = lexicon_of({"amount": common.amounts})
     fitting = [
         (_words_shared(name, binding.name), name, levels)
         for name, levels in lists
-        if len(levels) == len(binding.wells) and amounts.find(name)
+        if len(levels) == len(binding.wells) and names_amounts(name, common)
     ]
     if not fitting:
         return

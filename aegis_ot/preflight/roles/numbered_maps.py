@@ -15,7 +15,7 @@ from ..text import Numbered, SourceFacts, lexicon_of, origins
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
-from .levels import far_apart, is_number, number_in
+from .levels import are_amounts, far_apart, is_number, names_amounts, number_in
 from .written_columns import WrittenColumns
 
 Entry: TypeAlias = "tuple[str, tuple[int | str, ...], float | None]"
@@ -70,7 +70,7 @@ def _counts(name: str, common: Common) -> bool:
     of_places = set(common.places)
     found = [m.phrase for m in lexicon_of({"count": common.countings}).find(name)]
     if of_places.issuperset(found):
-        return bool(found) and not lexicon_of({"amount": common.amounts}).find(name)
+        return bool(found) and not names_amounts(name, common)
     return True
 
 
@@ -168,8 +168,7 @@ def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
 
 def _are_amounts(value: Mapping[Any, Any]) -> bool:
     """Whether the numbers in a map from column to number are no columns themselves."""
-    numbers = [item for item in value.values() if is_number(item)]
-    return far_apart(numbers) or any(float(number) % 1 for number in numbers)
+    return are_amounts([float(item) for item in value.values() if is_number(item)])
 
 
 def _is_said(item: Any) -> bool:

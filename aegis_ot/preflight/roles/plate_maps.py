@@ -11,7 +11,7 @@ from ..rules import Common
 from ..text import SourceFacts, concentration_in, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import MOST_TUBES, Deck
-from .levels import far_apart, is_number, number_in
+from .levels import far_apart, is_number, names_amounts, names_counts, number_in
 from .phrases import without_position
 from .well_names import plain_name, wells_between
 from .work_lists import is_work_list
@@ -153,8 +153,7 @@ class _Reader:
     """Reads a constant that holds well names."""
 
     def __init__(self, common: Common) -> None:
-        self._amounts = lexicon_of({"amount": common.amounts})
-        self._counts = lexicon_of({"count": common.countings})
+        self._common = common
 
     def entries(self, name: str, value: Any, depth: int = 0) -> Iterator[Entry]:
         """Each group of wells with what is said of it."""
@@ -167,7 +166,7 @@ class _Reader:
             if depth > 0 and _is_record(value):
                 yield from self._record(name, value)
                 return
-            levels = _levels_of_keys(value, bool(self._amounts.find(name)))
+            levels = _levels_of_keys(value, names_amounts(name, self._common))
             for key, item in value.items():
                 if isinstance(key, str) and (spanned := wells_between(key)):
                     yield from self._beside(name, spanned, item)
@@ -195,9 +194,9 @@ class _Reader:
         held = {str(key): spots for key, value in item.items() if (spots := _spots(value))}
         texts = [v for v in item.values() if isinstance(v, str) and not is_spot(v)]
         numbers = {str(key): float(v) for key, v in item.items() if is_number(v)}
-        amounts = [number for key, number in numbers.items() if self._amounts.find(key)]
-        if not amounts and self._amounts.find(name):
-            amounts = [number for key, number in numbers.items() if not self._counts.find(key)]
+        amounts = [number for key, number in numbers.items() if names_amounts(key, self._common)]
+        if not amounts and names_amounts(name, self._common):
+            amounts = [n for key, n in numbers.items() if not names_counts(key, self._common)]
         level = amounts[0] if len(amounts) == 1 else None
         for text in texts or [name]:
             for column, wells in held.items():

@@ -90,7 +90,6 @@ def _only_one_with(deck: Deck, parts: Sequence[Part], common: Common) -> frozens
     A plate that is filled may lack one entry, the wells that are left untreated.
     """
     names = well_names(common)
-    filled = {key for key, _ in deck.received}
     fitting = []
     for info in deck.plates():
         lacking = sum(
@@ -100,7 +99,7 @@ def _only_one_with(deck: Deck, parts: Sequence[Part], common: Common) -> frozens
             )
             for part in parts
         )
-        if not lacking or (lacking == 1 and len(parts) > 2 and info.key in filled):
+        if not lacking or (lacking == 1 and len(parts) > 2 and info.key in deck.filled):
             fitting.append(info.key)
     return frozenset(fitting) if len(fitting) == 1 else frozenset()
 
@@ -135,7 +134,7 @@ def _spoken(
     ranges = any(match["last"] for match in part.wells)
     outright = ranges or _ALL.search(part.words) or all(match["first"] for match in part.wells)
     axis = axis_of(part)
-    filled = {key for key, _ in deck.received} if _goes_there(part, common) else None
+    filled = deck.filled if _goes_there(part, common) else None
     having = {
         info.key: named
         for info in deck.plates()
@@ -158,8 +157,7 @@ def _spoken(
         # Of several labware that have such wells it speaks of those that the run fills there, or
         # else of those that it fills at all: what is untreated gets nothing.
         here = {key: wells for key, wells in meant.items() if _is_mostly_filled(deck, wells)}
-        filled_at_all = {key for key, _ in deck.received}
-        meant = here or {key: wells for key, wells in meant.items() if key in filled_at_all}
+        meant = here or {key: wells for key, wells in meant.items() if key in deck.filled}
     plates = [deck.trace.labware[key] for key in meant]
     if not all(plate.label and called_alike(plate, plates[0]) for plate in plates[1:]):
         return

@@ -13,7 +13,7 @@ from ..rules import Common
 from ..text import SourceFacts, lexicon_of, tokens
 from .clues import Clue, Strength
 from .deck import Deck
-from .levels import number_in
+from .levels import names_amounts, names_counts, number_in
 from .named_levels import numeric_keys
 from .phrases import without_position
 from .plate_maps import labware_of_map, refs_of
@@ -74,8 +74,6 @@ def clues_of_rows(
     line: int | None,
 ) -> Iterator[Clue]:
     """What the rows of one table, called ``name``, say of the wells in them."""
-    amounts = lexicon_of({"amount": common.amounts})
-    counts = lexicon_of({"count": common.countings})
     labware = labware_of_columns(deck, facts, rows)
     keyed = labware_by_key(deck, [row.cells for row in rows])
     titles = _noted_titles(facts, name, rows)
@@ -102,7 +100,9 @@ def clues_of_rows(
         found = [
             number
             for column, _, number in said
-            if number is not None and amounts.find(column) and not counts.find(column)
+            if number is not None
+            and names_amounts(column, common)
+            and not names_counts(column, common)
         ]
         if len(found) == 1:
             levels.update(dict.fromkeys(wells, found[0]))

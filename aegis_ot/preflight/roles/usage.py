@@ -24,6 +24,12 @@ class Usage:
     prefilled: bool = False
 
 
+def in_trough(trace: Trace, *keys: str) -> bool:
+    """Whether one of these labware is a reservoir, where reagents stand rather than samples."""
+    found = (trace.labware.get(key) for key in keys)
+    return any(info is not None and info.centers_channels for info in found)
+
+
 def usage_of(trace: Trace) -> dict[WellRef, Usage]:
     """How each well is used, generations of a plate taken together."""
     usages: dict[WellRef, Usage] = {}

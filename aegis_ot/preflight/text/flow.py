@@ -172,10 +172,7 @@ def _loop(
             places = dict(_unread(part))
             for name, column in _columns(part, rows):
                 values.append(Values(name, beside, column, places.get(name)))
-                values += [
-                    Values(n, n, c)
-                    for n, c in _looked_up(column, {**facts.constants, **facts.levels})
-                ]
+                values += [Values(n, n, c) for n, c in _looked_up(column, facts)]
         elif isinstance(iterable, ast.Name):
             values += [Values(name, beside, None, at) for name, at in _unread(part)]
     carriers = frozenset(names)
@@ -232,12 +229,12 @@ def _columns(target: ast.expr, rows: Sequence[Any]) -> Iterator[tuple[str, tuple
 
 
 def _looked_up(
-    column: tuple[Any, ...], constants: Mapping[str, Any]
+    column: tuple[Any, ...], facts: SourceFacts
 ) -> Iterator[tuple[str, tuple[Any, ...]]]:
     """What dicts hold for the values of a column: ``CONC[key]`` for each key."""
     keys = {item for item in column if isinstance(item, str)}
     if len(keys) == len(column) > 1:
-        for name, value in constants.items():
+        for name, value in (*facts.constants.items(), *facts.levels.items()):
             if isinstance(value, dict) and keys <= value.keys():
                 yield name, tuple(value[key] for key in column)
 

@@ -38,7 +38,7 @@ def index_value(node: ast.expr, constants: Mapping[str, Any]) -> Any:
     return None
 
 
-def literal_of(node: ast.expr, kinds: Collection[str]) -> Any:
+def _literal_of(node: ast.expr, kinds: Collection[str]) -> Any:
     """The value of a literal, in which members of the protocol's own Enums stand as their names.
 
     Args:
@@ -73,24 +73,31 @@ def fields_of(node: ast.expr, kinds: Collection[str]) -> dict[str, Any] | None:
         return None
     found: dict[str, Any] = {}
     for keyword in node.keywords:
-        try:
-            value = literal_of(keyword.value, kinds)
-        except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
-            value = counted(keyword.value)
+        value = written_value(keyword.value, kinds)
         if keyword.arg and value is not None:
             found[keyword.arg] = value
     return found
 
 
+def written_value(node: ast.expr, kinds: Collection[str] = ()) -> Any:
+    """What a literal or a range that is written down says, members of Enums by their names;
+    ``None`` for what the run computes.
+    """
+    try:
+        return _literal_of(node, kinds)
+    except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
+        return _counted(node)
+
+
 _LONGEST_RANGE = 400
 
 
-def counted(node: ast.expr) -> list[int] | None:
+def _counted(node: ast.expr) -> list[int] | None:
     """The numbers of ``range(2, 12)`` or ``list(range(2, 12))``, where they are written down."""
     if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name) or node.keywords:
         return None
     if node.func.id in ("list", "tuple") and len(node.args) == 1:
-        return counted(node.args[0])
+        return _counted(node.args[0])
     bounds = [index_value(argument, {}) for argument in node.args]
     if node.func.id != "range" or not 1 <= len(bounds) <= 3:
         return None

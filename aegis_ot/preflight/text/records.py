@@ -7,9 +7,12 @@ from collections.abc import Container, Iterator, Mapping, Sequence
 from typing import Any
 
 from .facts import SourceFacts
-from .literals import counted, last_name, plain_text
+from .literals import last_name, plain_text, written_value
 
 _FEWEST = 2
+
+_NAMED_TUPLE = ("namedtuple", 2)
+"""How they are made: of a name and of what lists the fields."""
 
 
 def read_records(tree: ast.Module, facts: SourceFacts) -> None:
@@ -31,13 +34,12 @@ def _classes(tree: ast.Module) -> Iterator[tuple[str, Sequence[str]]]:
         if isinstance(node, ast.ClassDef):
             stated = [part.target for part in node.body if isinstance(part, ast.AnnAssign)]
             yield node.name, [target.id for target in stated if isinstance(target, ast.Name)]
-        elif isinstance(node, ast.Call) and last_name(node.func) == "namedtuple":
-            name, listed = [*node.args, None, None][:2]
-            if name is not None and listed is not None:
-                yield plain_text(name), _named(listed)
+        elif isinstance(node, ast.Call) and (last_name(node.func), len(node.args)) == _NAMED_TUPLE:
+            name, listed = node.args
+            yield plain_text(name), _fields_listed(listed)
 
 
-def _named(node: ast.expr) -> Sequence[str]:
+def _fields_listed(node: ast.expr) -> Sequence[str]:
     """The fields in ``"kind columns"``, ``"kind, columns"`` or ``["kind", "columns"]``."""
     if isinstance(node, (ast.List, ast.Tuple)):
         return [plain_text(part) for part in node.elts]
@@ -65,7 +67,4 @@ def _value(node: ast.expr, classes: Container[str]) -> Any:
     """What a cell holds; a member of an Enum is its name, what the run computes is nothing."""
     if isinstance(node, ast.Attribute):
         return node.attr if last_name(node.value) in classes else None
-    try:
-        return ast.literal_eval(node)
-    except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
-        return counted(node)
+    return written_value(node)

@@ -9,16 +9,15 @@ from ...instrumentation import is_spot
 from .facts import Place, SourceFacts
 from .lines import without_gaps
 from .literals import (
-    counted,
     fields_of,
     index_value,
     keys_in,
     last_name,
-    literal_of,
     names_in,
     plain_text,
     rows_of,
     taken_in_part,
+    written_value,
 )
 
 _SIDES: dict[str, dict[int | str, str]] = {
@@ -123,10 +122,9 @@ class SyntaxReader:
         rows = list(rows_of(value))
         if rows:
             facts.tables.setdefault(name, rows)
-        try:
-            literal = literal_of(value, self._kinds)
-        except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
-            literal = counted(value) or fields_of(value, self._kinds)
+        literal = written_value(value, self._kinds)
+        if literal is None:
+            literal = fields_of(value, self._kinds)
         if literal not in (None, {}, [], ()):  # what is filled in the run is no constant
             facts.constants.setdefault(name, literal)
 
