@@ -22,7 +22,7 @@ COMMON = load_database().common
         ("Control column (6): rows A-D RNA, rows E-H water", " A6-D6 RNA, E6-H6 water"),
         ("Row H: columns 1-3 NTC, 4-6 control", " H1-H3 NTC, H4-H6 control"),
         ("row B, col 1-6 vehicle", "B1-B6 vehicle"),
-        ("rows A-C, columns 7 and 8: 5 uM", "A7-C7, A8-C8: 5 uM"),
+        ("rows A-C, columns 7 and 8: 5 uM", "A7-C8: 5 uM"),
         ("columns 1-6 of row H: blank", "H1-H6: blank"),
         ("riga A, colonne 1-3: bianco", "A1-A3: bianco"),
         ("colonnes 1 à 3 témoin, 4 à 6 dilué", "colonnes 1 à 3 témoin, column 4 à 6 dilué"),

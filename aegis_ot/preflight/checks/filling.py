@@ -69,9 +69,10 @@ class SeriesFilledFrom(Check):
         if not case.series:
             yield Doubt(NO_SERIES)
         diluent, stock = diluent_roles(case), stock_roles(case)
+        plates = {well.ref.labware for series in case.series for well in series.wells}
         known = any(
-            not diluent.isdisjoint(case.roles.closure(assigned.role))
-            for assigned in case.roles.by_well.values()
+            ref.labware not in plates and not diluent.isdisjoint(case.roles.closure(assigned.role))
+            for ref, assigned in case.roles.by_well.items()
         )
         for series in case.series:
             done: set[Well] = set()

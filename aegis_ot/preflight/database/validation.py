@@ -41,7 +41,16 @@ def _check_role(family: Family, name: str, role: RoleSpec, file: str) -> None:
         raise RuleError(
             f"{file}: roles.{name}.side: expected source, destination or any, found {role.side!r}"
         )
-    for other in (*role.parents, *role.receives, *role.filled_by, *role.feeds):
+    for other in (
+        *role.parents,
+        *role.receives,
+        *role.filled_by,
+        *role.feeds,
+        *role.used_like,
+        *role.gets,
+        *role.in_place_of,
+        *role.common_to,
+    ):
         _known(family, other, f"{file}: roles.{name}")
 
 

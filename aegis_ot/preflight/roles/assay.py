@@ -225,7 +225,10 @@ def _named(family: Family, roles: Roles, said_by_words: float) -> Iterable[_Foun
 
 def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> list[_Found]:
     lexicon = lexicon_of(
-        {str(n): signal.words for n, signal in enumerate(family.signals)},
+        {
+            str(n): (*signal.words, *(w for role in signal.roles for w in family.roles[role].words))
+            for n, signal in enumerate(family.signals)
+        },
         common.aliases,
         common.endings,
     )

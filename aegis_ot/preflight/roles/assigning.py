@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
 from ..rules import Common, Family
-from ..text import Lexicon, concentration_in, concentrations_in, name_without_level
+from ..text import Lexicon, concentration_in, concentrations_in, name_without_level, tokens
 from ..trace import Trace
 from .channels import spread_over_channels
 from .choosing import A_FEW, Candidate, choose
@@ -24,6 +24,7 @@ from .phrases import (
     is_outright,
     joins_others,
     names_several,
+    of_its_dict,
     role_words,
     roles_denied,
     roles_named,
@@ -73,6 +74,7 @@ def assign_roles(
         if not named:
             untold.append(clue)
             continue
+        named = of_its_dict(lexicon, clue, named, common, roles)
         if clue.lone and names_several(lexicon, clue, common, roles):
             continue
         if clue.whole and any(not shared.isdisjoint(named) for shared in _shared(clue, holding)):
@@ -133,10 +135,12 @@ def assign_roles(
         found = [c for c in candidates[ref] if _agrees_with_what_it_copies(roles, ref, c[2])]
         assignment = choose(roles, ref, found) if found else None
         if assignment is not None and not (ref in for_controls and assignment.whole):
-            roles.by_well[ref] = assignment
             told = roles.told_levels.get(ref)
             assignment.level = told if assignment.level is None else assignment.level
             spec = family.roles[assignment.role]
+            if spec.dosed and assignment.level == 0 and "0" in tokens(assignment.text):
+                continue  # "sorafenib 0 uM" is none
+            roles.by_well[ref] = assignment
             counted = any(map(str.isdigit, assignment.text))
             if told and counted and spec.level is not None and spec.parents:
                 assignment.role, assignment.level = spec.parents[0], told  # "S0 1.6 mg/ml"

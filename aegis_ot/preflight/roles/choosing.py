@@ -118,10 +118,15 @@ def _put_exact_first(roles: Roles, found: list[Candidate]) -> None:
             for c in found
             if not (c[2].whole or c[2].step or c[1] in roles.closure(role))
             and role not in roles.closure(c[1])
-            and (c[2].placed or len(set(c[2].wells)) <= A_FEW)
+            and (_is_described(c[2]) or c[2].placed or len(set(c[2].wells)) <= A_FEW)
             and (clue.whole or len(set(c[2].wells)) == 1)
         ]
         found[:] = other + [c for c in found if c not in other]
+
+
+def _is_described(clue: Clue) -> bool:
+    """Whether the run itself says what stands in these very wells."""
+    return clue.strength is Strength.DESCRIPTION
 
 
 def _level(agreeing: Sequence[Candidate]) -> float | None:

@@ -17,8 +17,8 @@ from .phrases import first_words
 from .well_names import WellNames, well_names
 
 _BREAKS = re.compile(
-    r"[;|]|\.\s+(?=[A-Z])|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
-    r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|[A-Za-z]{3,}|[A-Za-z]{1,2}\.\s*\d))"
+    r"[;|]|\.\s+(?=[A-Z])|\.\s{2,}(?=\w)|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
+    r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|\d+(?:st|nd|rd|th)\b|[A-Za-z]{3,}|[A-Za-z]{1,2}\.\s*\d))"
     r"|(?<=\S)\s{3,}(?=(?:[a-z]+\s+)?[A-P]\d{1,2}\b)"
 )
 _TO_THE_END = re.compile(r"[;|()]|\.\s|\s{3,}")
@@ -54,8 +54,29 @@ def parts_of(text: str, common: Common) -> Iterator[Part]:
     for clause in _clauses(spelled_out(text, common), names, first_words(_nouns(common))):
         groups = _groups(clause, names)
         for piece in _shares(clause, groups) if len(groups) > 1 else [clause]:
-            words = names.spec.sub(" ", piece)
-            yield Part(piece.strip(), words, _innermost(names.spec.finditer(piece)))
+            wells = _without_codes(piece, _innermost(names.spec.finditer(piece)))
+            if wells and _is_left_out(piece[: wells[0].start()], common):
+                wells = ()  # "PBS everywhere except column 1" says nothing of column 1
+            yield Part(piece.strip(), names.spec.sub(" ", piece), wells)
+
+
+def _without_codes(piece: str, wells: tuple[re.Match[str], ...]) -> tuple[re.Match[str], ...]:
+    """Without what numbers things by their first letter: "A2-F2 = milk fractions F1-F6"."""
+    named = [
+        match
+        for match in wells[1:]
+        if match["first"]
+        and (word := tokens(piece[: match.start()])[-1:])
+        and len(word[0]) > 1
+        and word[0][0].upper() == match["first"][0]
+    ]
+    return tuple(match for match in wells if match not in named)
+
+
+def _is_left_out(before: str, common: Common) -> bool:
+    """Whether the words before some wells end by leaving them out."""
+    words = [word for word in tokens(before) if word not in first_words(common.articles)]
+    return words[-1:] != [] and words[-1] in common.exceptions
 
 
 def _nouns(common: Common) -> tuple[str, ...]:

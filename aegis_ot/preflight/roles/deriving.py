@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Container, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 
 from ...vocabulary import WellRef
 from ..rules import Common, RoleSpec
-from ..trace import Trace
+from ..trace import Trace, row_column
 from .called_alike import derive_called_alike
+from .in_place import derive_common, derive_given_instead, derive_used_like, given_by
 from .roles import Roles
 from .usage import Usage
 
@@ -30,10 +31,18 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: C
         if spec.loaded:
             _derive_loaded(roles, name, spec.loaded, trace)
     for name, spec in roles.family.roles.items():
+        if spec.used_like:
+            derive_used_like(roles, name, spec, trace, usage)
+    for name, spec in roles.family.roles.items():
         if spec.passed_on:
             _pass_on(roles, name, trace)
         if spec.receives:
             _derive_one(roles, name, spec, trace, usage)
+        if spec.in_place_of:
+            derive_given_instead(roles, name, spec, trace)
+    for name, spec in roles.family.roles.items():
+        if spec.common_to:
+            derive_common(roles, name, spec, trace)
     for name, spec in roles.family.roles.items():
         if spec.feeds and (spec.dosed or spec.feeds_beside):
             _derive_levels(roles, name, spec, trace)
@@ -194,13 +203,16 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
 
 _FEWEST_PAIRS = 3
 
+_REPLICATES = 4
+
 _SMALLEST_PLATE = 24
 
 
 def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
     """Wells of a plate that each serve one well of their own hold each something of its own.
 
-    A liquid that stands in several wells (a strip of master mix) serves several wells each.
+    Or each as many replicates; of a few columns only where they serve one: a liquid that stands
+    in several wells (a strip of master mix) serves several each.
     """
     served = trace.served(prefilled=True)
     plates: dict[str, list[WellRef]] = {}
@@ -210,9 +222,18 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
             continue
         plates.setdefault(ref.labware, []).append(ref)
     for refs in plates.values():
-        pairs = all(len(served[ref]) == 1 and not roles.of(ref) for ref in refs)
+        counts = {len(served[ref]) for ref in refs}
         into = {well for ref in refs for well in served[ref]}
-        if pairs and len(refs) >= _FEWEST_PAIRS and len(into) == len(refs):
+        columns = {row_column(ref.name)[1] for ref in refs}
+        alone = counts == {1} or (max(counts) <= _REPLICATES and len(columns) >= _FEWEST_PAIRS)
+        unnamed = not any(map(roles.of, refs))
+        if (
+            unnamed
+            and len(counts) == 1
+            and alone
+            and len(refs) >= _FEWEST_PAIRS
+            and len(into) == sum(len(served[ref]) for ref in refs)
+        ):
             roles.apart.update(refs)
             for ref in refs:
                 roles.derived.setdefault(ref, set()).update(roles.closure(name))
@@ -240,7 +261,7 @@ def _pass_on(roles: Roles, name: str, trace: Trace) -> None:
         if ref not in givers and wells <= given
         for well in wells
     }
-    volumes = _given_by(trace, givers)
+    volumes = given_by(trace)
     for ref, assigned in givers.items():
         most = max(volumes[ref].values())
         few = len(served[ref]) <= _MOST_FILLED
@@ -249,17 +270,6 @@ def _pass_on(roles: Roles, name: str, trace: Trace) -> None:
             before = roles.by_well.get(well)
             if before is None or before.role in roles.closure(name) - {name}:
                 roles.by_well[well] = assigned.copied("drawn from there")
-
-
-def _given_by(trace: Trace, refs: Container[WellRef]) -> dict[WellRef, dict[WellRef, float]]:
-    """µL that each of these sources gives to each well, rounded."""
-    found: dict[WellRef, dict[WellRef, float]] = {}
-    for visit in trace.visits:
-        for source, volume, _, _ in visit.parts:
-            if source is not None and source is not visit.well and source.ref in refs:
-                given = found.setdefault(source.ref, {})
-                given[visit.well.ref] = round(given.get(visit.well.ref, 0.0) + volume, 3)
-    return found
 
 
 def _derive_one(

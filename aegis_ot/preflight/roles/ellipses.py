@@ -8,6 +8,9 @@ from collections.abc import Iterable
 from itertools import pairwise
 
 from ..rules import Common
+from ..text import tokens
+from .headed_columns import under_columns
+from .in_turn import in_turn
 from .well_names import WellNames, well_names
 
 _ENDS = re.compile(r"(\d+|[A-P])$")
@@ -29,7 +32,8 @@ def with_rows(text: str, common: Common) -> str:
 
     And with "columns" before the numbers of its lists of columns, one on a line.
     """
-    read = _ellipses(well_names(common))
+    names = well_names(common)
+    read, text = _ellipses(names), under_columns(text, names)
     paragraphs = re.split(r"(\n\s*\n)", text)
     return "".join(read.with_columns(read.with_rows(paragraph)) for paragraph in paragraphs)
 
@@ -47,16 +51,26 @@ class Ellipses:
             r"|\s*[:=]?\s+\d+(?:[.,]\d+)?\s?(?:[pnuµμm]M\b|[pnuµμm]?g/))"  # "B 10 uM"
         )
         self._next = re.compile(
-            rf"[^,;]*[,;](?:{listing})?\s*(?P<of>(?P<low>\d{{1,2}}|[A-P])"
-            rf"(?:{to}(?P<high>\d{{1,2}}|[A-P]))?){goes_on}"
+            rf"(?:[^,;|]*[,;|]){{1,3}}?(?:{listing})?\s*(?P<of>(?P<low>\d{{1,2}}|[A-P])"
+            rf"(?:(?:{to}|/)(?P<high>\d{{1,2}}|[A-P]))?){goes_on}"
         )
         self._numbered = re.compile(
             rf"(?:^|[:,;(])\s*(?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?)"
             r"(?=\s*[:=]?\s+[^\W\d_]{3,})"
         )
-        self._headed = re.compile(rf"\b({column}|{row})\s*:\s*(?=(?:1|A)(?![\w.])\W*\w[^\n]*[,;])")
+        self._headed = re.compile(
+            rf"\b({column}|{row})\s*:\s*(?=(?:1|A)(?![\w.])\W*\w[^\n]*[,;|]|\d{{1,2}}\s*=\s*[^\W\d])"
+        )
         self._bracketed = re.compile(rf"\((?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?)\)")
         self._lettered = re.compile(r"(?m)(?:^\s*|(?<=\s\s))([A-P])(?=\s{1,4}[:=]?\s*\w)")
+        self._every_other = re.compile(
+            rf"\b(?:(?P<odd>{names.odd})|{names.even})\s+(?P<columns>{names.columns})(?!\.?\s*\d)"
+            rf"(?:\s*\((?P<listed>\d{{1,2}}(?:{listing}\d{{1,2}})+)\))?"
+        )
+        self._cell = re.compile(
+            rf"\b{column}\.?\s*(?P<columns>\d{{1,2}})\s+(?P<row>[A-P])(?:{to}(?P<row2>[A-P]))?(?=\s*[=:](?!\w))"
+        )
+        self._strip = re.compile(rf"\b({names.strips})\s+(?=\d{{1,2}}\b)")
         self._row_word = re.compile(rf"\b{row}\b")
         self._column_word = re.compile(rf"\b{column}\b")
         self._all_columns = re.compile(rf"(?m)^\W*1{to}(?:\d{{1,2}})\W*$")
@@ -68,21 +82,21 @@ class Ellipses:
             rf"^(\W*){names.column}\.?(?=\s*{span_of_list}(?:{listing}{span_of_list})+"
             r"(?:\s{2,}[^\W\d]|\s*[:=]))"
         )
-        self._one_column = re.compile(rf"\b{names.column}\.?\s*\(?(\d{{1,2}})\b")
+        numbered = rf"\(?(?P<columns>{span_of_list}(?:{listing}{span_of_list})*)(?!\w)"
+        self._numbered_head = re.compile(rf"\b{column}\.?\s*{numbered}")
         self._down = re.compile(
-            rf"(?P<lead>[:=(,;]|\.\.\.?|…)\s*(?P<low>[A-P])(?![\w.])"
-            rf"(?:{to}(?P<high>[A-P])(?!\w))?(?=\s*[:=]\s*\S|\s+[^\W\d_]{{2,}}|\s+\d+(?:[.,]\d+)?(?!\w))"
+            rf"(?P<lead>[:=(,;]|\.\.\.?|…|\b(?:{names.of}))\s*(?P<low>[A-P])(?![\w.])(?:{to}(?P<high>[A-P])(?!\w))?"
+            r"(?=\s*[:=]\s*\S|\s+[^\W\d_]{2,}|\s+\d+(?:[.,]\d+)?(?!\w)|\s*[,;)])"
         )
         self._short = re.compile(rf"(?<![\w.])c(\d{{1,2}})(?:{to}c?(\d{{1,2}}))?(?!\w)")
-        self._of_column = re.compile(
-            rf"[^:]{{0,40}}?\b{names.column}\.?\s*\(?(\d{{1,2}})\b[^:\d]{{0,20}}:"
-        )
+        self._of_column = re.compile(rf"[^:]{{0,40}}?\b{column}\.?\s*{numbered}[^:\d]{{0,20}}:")
         self._row_head = re.compile(rf"\b{names.row}\s*\(?[A-P]\b[^:\d]{{0,20}}:")
-        self._column_head = re.compile(rf"\b{names.column}\.?\s*\(?\d{{1,2}}\b[^:\d]{{0,20}}:")
+        self._column_head = re.compile(rf"\b{column}\.?\s*{numbered}[^:\d]{{0,20}}:")
         self._of_row = re.compile(rf"[^:]{{0,40}}?\b{names.row}\s*\(?([A-P])\b[^:\d]{{0,20}}:")
-        self._rows = re.compile(rf"\b{row}\s+([A-P])(?:{to}([A-P]))?\b")
+        self._rows = re.compile(
+            rf"\b{row}\s+(?P<row>[A-P])(?:(?:{to}|[/&+])(?P<row2>[A-P]))?\b(?P<alone>(?=\s*(?:[,;.)]|$)))?"
+        )
         self._columns = re.compile(rf"\b{column}\.?\s*(\d{{1,2}})(?:{to}(\d{{1,2}}))?\b")
-        self._span = re.compile(rf"(\d+)(?:{to}(\d+))?")
         letters = rf"(?P<row>[A-P])(?![A-Za-z0-9])(?:{to}(?P<row2>[A-P])(?![A-Za-z0-9]))?"
         span = rf"\d{{1,2}}(?:{to}\d{{1,2}})?"
         numbers = rf"(?P<columns>{span}(?:{listing}{span})*)"
@@ -115,8 +129,12 @@ class Ellipses:
 
     def spelled_out(self, text: str) -> str:
         """See :func:`spelled_out`."""
+        text = in_turn(text, self._names)
+        text = self._strip.sub(lambda match: f"{match[1]} {self._plural} ", text)
+        text = self._every_other.sub(self._others, text)
         if len(self._short.findall(text)) > 1:  # "c1 vehicle, c2-11 drug"
             text = self._short.sub(self._spelled, text)
+        text = self._cell.sub(self._met, text)  # "c2 H = NTC"
         # "col 3, 11   vehicle"
         text = self._one_of_several.sub(lambda match: f"{match[1]}{self._plural}", text)
         text = self._headed.sub(r"\1 ", text)  # "cols: 1 = untreated, 2 = vehicle"
@@ -158,20 +176,24 @@ class Ellipses:
 
     def _down_columns(self, text: str) -> str:
         """Letters that count down one column are its wells: "column 6: A-D samples, E-H water"."""
-        heads = list(self._one_column.finditer(text))
+        heads = list(self._numbered_head.finditer(text))
         ends = [*(head.start() for head in heads[1:]), len(text)]
         for head, end in reversed([*zip(heads, ends, strict=False)]):
-            entries = list(self._down.finditer(text, head.end(), end))
+            entries = [m for m in self._down.finditer(text, head.end(), end) if _is_entry(m)]
             if len(entries) < 2 or not _count_down(entries):
                 continue
-            between = text[head.end() : entries[0].start()].strip()
+            between = text[head.end() : entries[0].start()].strip().removeprefix(":")
             if "." in between or ":" in between:
                 continue  # "Column 1: tips. Tubes: A = vehicle"
             for entry in reversed(entries):
-                low, high, number = entry["low"], entry["high"], head[1]
-                wells = f"{low}{number}" + (f"-{high}{number}" if high else "")
+                wells = self._names.crossed(entry["low"], entry["high"] or "", head["columns"])
                 text = f"{text[: entry.start('low')]}{wells}{text[entry.end() :]}"
         return text
+
+    def _others(self, match: re.Match[str]) -> str:
+        """The columns in "odd columns", where they are not listed behind it."""
+        listed = match["listed"] or ",".join(map(str, range(1 if match["odd"] else 2, 25, 2)))
+        return f"{match['columns']} {listed}"
 
     def _spelled(self, match: re.Match[str]) -> str:
         last = f"-{match[2]}" if match[2] else ""
@@ -191,22 +213,36 @@ class Ellipses:
     def _under_its_head(self, text: str) -> str:
         """The wells of one column or row that its rows or columns stand under."""
         if head := self._of_column.match(text):
-            rest, number = text[head.end() :], head[1]
-            wells, found = self._rows.subn(lambda m: f"{m[1]}{number}-{m[2] or m[1]}{number}", rest)
-        elif head := self._of_row.match(text):
+            return self._of_columns(text, head)
+        if head := self._of_row.match(text):
             rest, letter = text[head.end() :], head[1]
             wells, found = self._columns.subn(
                 lambda m: f"{letter}{m[1]}-{letter}{m[2] or m[1]}", rest
             )
-        else:
+            return wells if found else text
+        return text
+
+    def _of_columns(self, text: str, head: re.Match[str]) -> str:
+        """The same under columns: "columns 1-3: standards, row H blank" names H1-H3 besides.
+
+        And "column 11: vehicle, rows B-G" names B11-G11 alone.
+        """
+        rest, numbers = text[head.end() :], head["columns"]
+        rows = list(self._rows.finditer(rest))
+        if not rows:
             return text
-        return wells if found else text
+        between = rest[: rows[0].start()]
+        if len(rows) == 1 and rows[0]["alone"] is not None and tokens(between):
+            wells = self._names.crossed(rows[0]["row"], rows[0]["row2"] or "", numbers)
+            return f"{wells}: {between.strip(' ,;')}{rest[rows[0].end() :]}"
+        kept = text[: head.end()] if tokens(between) else ""
+        return kept + self._rows.sub(
+            lambda match: self._names.crossed(match["row"], match["row2"] or "", numbers), rest
+        )
 
     def _met(self, match: re.Match[str]) -> str:
         """The wells where rows and columns meet, as a list: "row B, col 1-6" is B1-B6."""
-        first, last = match["row"], match["row2"] or match["row"]
-        spans = self._span.findall(match["columns"])
-        return ", ".join(f"{first}{low}-{last}{high or low}" for low, high in spans)
+        return self._names.crossed(match["row"], match["row2"] or "", match["columns"])
 
 
 @functools.lru_cache(maxsize=8)
@@ -223,6 +259,12 @@ def _counting_on(matches: Iterable[re.Match[str]]) -> list[re.Match[str]]:
             return []
         found.append(match)
     return found
+
+
+def _is_entry(match: re.Match[str]) -> bool:
+    """Whether a letter is followed by what is there, or follows it: "samples (A-F)"."""
+    bare = match.string[match.end() :].lstrip()[:1] in (",", ";", ")")
+    return not bare or match["lead"] == "(" or match["lead"].isalpha()
 
 
 def _count_down(entries: Iterable[re.Match[str]]) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from ...instrumentation import LabwareInfo
 from ..rules import Common
-from ..text import amounts_in
+from ..text import amounts_in, tokens
 from .clauses import Part, parts_of
 from .clues import Clue, Strength
 from .deck import Deck
@@ -25,8 +25,9 @@ def labels(deck: Deck, common: Common) -> Iterator[Clue]:
             yield from _of_troughs(deck, info)
         parts = _parts(info.label, common)
         if len(parts) > 1 and any(part.wells for part in parts):
+            head, parts = _headed(parts)
             yield from _of_wells(deck, info, parts, common)
-            text = ", ".join(part.text for part in parts if not part.wells)
+            text = ", ".join(filter(None, [head, *(p.text for p in parts if not p.wells)]))
         else:
             text = info.label
         if text:
@@ -50,6 +51,18 @@ def _parts(label: str, common: Common) -> list[Part]:
         if sum(len(part.wells) for part in apart) == len(parts[0].wells):
             return apart
     return parts
+
+
+def _headed(parts: Sequence[Part]) -> tuple[str, list[Part]]:
+    """What a label says of all its wells, and the parts without that: "mixes A1 KPC, A2 NDM"."""
+    first, *others = parts
+    begun = first.text.partition(first.wells[0].group())[0] if first.wells else ""
+    head, colon, _ = begun.partition(":")
+    alone = all(p.text.startswith(p.wells[0].group()) for p in others if p.wells)
+    if not (tokens(head) and (colon or (alone and tokens(first.words[len(begun) :])))):
+        return "", list(parts)
+    kept = first._replace(text=first.text[len(head + colon) :].strip())
+    return head.strip(), [kept._replace(words=first.words[len(head + colon) :]), *others]
 
 
 _TROUGH = re.compile(

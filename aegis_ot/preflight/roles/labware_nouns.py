@@ -38,6 +38,7 @@ class LabwareNouns:
         ]
         self._nouns = {word for kind in self._kinds for word in kind}
         self._on_deck = self._nouns | {word for phrase in common.tips for word in tokens(phrase)}
+        self._strips = {w for phrase in common.labware.get("strip", ()) for w in tokens(phrase)}
         self._decks = lexicon_of({"deck": common.decks})
         self._slots = {info.slot for info in deck.trace.labware.values()}
         self._of = {word for phrase in common.layout.get("of", ()) for word in tokens(phrase)}
@@ -113,6 +114,11 @@ class LabwareNouns:
             and all(match.group() in self._slots for match in part.wells)
             and not self._on_deck.isdisjoint(_with_singulars(tokens(part.words)))
         )
+
+    def is_elsewhere(self, part: Part) -> bool:
+        """Whether a part speaks of strips, as columns, where none are on the deck."""
+        begun = tokens(part.text[: part.text.find(part.wells[0].group())])[-1:]
+        return bool(self._strips & _with_singulars(begun)) and not self.before(part)
 
     def before(self, part: Part) -> frozenset[str]:
         """What stands right before the first well: "strip columns 1 and 2", "tube A1"."""

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 from ...instrumentation import NameBinding, is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import Numbered, SourceFacts, lexicon_of, origins
+from ..text import Numbered, SourceFacts, lexicon_of, origins, tokens
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
@@ -74,11 +74,16 @@ def _counts(name: str, common: Common) -> bool:
     return True
 
 
+_LONGEST_NOTE = 4
+
+
 def _noted(facts: SourceFacts, name: str, value: Any) -> Any:
     """A list whose comments say one thing of each item: beside it, or "10 uM, 1 uM, vehicle"."""
     line = facts.assigned.get(name, 0)
     note = facts.comments.get(line, facts.comments.get(line - 1, ""))
-    said = facts.item_notes.get(name) or [part.strip() for part in note.split(",")]
+    parts = [part.strip() for part in note.split(",")]
+    short = all(len(tokens(part)) <= _LONGEST_NOTE for part in parts)
+    said = facts.item_notes.get(name) or (parts if short else [])
     if isinstance(value, (list, tuple)) and len(set(said)) == len(value) > 1 and all(said):
         return dict(zip(said, value, strict=True))
     return value

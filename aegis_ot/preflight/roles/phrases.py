@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from ..rules import Common, Family
 from ..text import Lexicon, concentrations_in, lexicon_of, tokens
@@ -55,12 +56,15 @@ def what_all_are(named: Sequence[str], roles: Roles) -> list[str]:
 
 def joins_others(lexicon: Lexicon, text: str, common: Common) -> bool:
     """Whether a name joins what it names with something else: "sample and dilution strips"."""
-    words = tokens(text)
-    joints = [at for at, word in enumerate(words) if word in first_words(common.joining)]
-    if not joints:
+    joining = first_words(common.joining)
+    parts = [""]
+    for piece in re.split(r"(\W+)", text):
+        if piece.strip() in ("/", "+", "&") or {*tokens(piece)} & joining:
+            parts.append("")
+        else:
+            parts[-1] += piece
+    if len(parts) == 1:
         return False
-    starts, ends = [0, *(at + 1 for at in joints)], [*joints, len(words)]
-    parts = [" ".join(words[a:b]) for a, b in zip(starts, ends, strict=True)]
     named = [_names_any(lexicon, part) for part in parts]
     return any(named) and not all(named)
 
@@ -118,7 +122,7 @@ def _called_at_the_end(lexicon: Lexicon, text: str) -> list[str]:
     return [found.topic for found in lexicon.find(match[1])]
 
 
-_SHORTEST_NAME = 4
+_SHORTEST_NAME = 3
 
 
 def _is_telling(word: str) -> bool:
@@ -184,6 +188,24 @@ def _telling_part(lexicon: Lexicon, clue: Clue) -> str:
     across = {m.topic for m in lexicon.find(clue.text) if m.start < ends < m.end}
     alone = {m.topic for m in lexicon.find(record)}
     return field if across and not across & alone and lexicon.find(field) else clue.text
+
+
+_ITEM = re.compile(r"(\w+)\[.*\]")
+
+
+def of_its_dict(
+    lexicon: Lexicon, clue: Clue, named: list[str], common: Common, roles: Roles
+) -> list[str]:
+    """The roles that a name of a dict's item names: ``mixes["neg. desert"]`` is a mix.
+
+    A dict of one liquid tells what its items are, unless the key names another liquid.
+    """
+    match = _ITEM.fullmatch(clue.text)
+    specs = roles.family.roles
+    if match is None or specs[named[0]].one_liquid:
+        return named
+    base = roles_named(lexicon, replace(clue, text=match[1]), common)
+    return base if base and specs[base[0]].one_liquid else named
 
 
 def without_position(name: str, common: Common) -> str:

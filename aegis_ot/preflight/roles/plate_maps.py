@@ -73,10 +73,24 @@ def labware_of_map(
         in_all = all((key, spot) in deck.refs for key in used for spot in spots)
         sizes = [len(deck.trace.labware[key].wells) for key in used]
         if in_all and min(sizes) <= MOST_TUBES < max(sizes):
-            return ()  # tubes, and wells of the same names
+            # Tubes, and wells of the same names: of both where each goes into its namesake.
+            return used if _is_stamped(deck, used, spots) else ()
         used = _alike(deck, used, spots)
     one = () if used else (called_alike(deck, name, common) or deck.most_likely(spots),)
     return used or tuple(key for key in one if key)
+
+
+def _is_stamped(deck: Deck, keys: Sequence[str], spots: Sequence[str]) -> bool:
+    """Whether each of these places of one labware is drawn into the same place of another."""
+    names = set(map(plain_name, spots))
+    copied = {
+        source.ref.name
+        for source, well, _ in deck.trace.feedings()
+        if source.ref.name == well.ref.name
+        and source.ref.labware != well.ref.labware
+        and {source.ref.labware, well.ref.labware} <= set(keys)
+    }
+    return names <= copied
 
 
 def refs_of(deck: Deck, labware: Sequence[str], spots: Iterable[str]) -> Iterator[WellRef]:

@@ -12,6 +12,7 @@ from ..rules import Common
 from ..text import SourceFacts, comment_blocks, level_in
 from .clues import Clue, Strength, shortened
 from .deck import Deck
+from .drawn_grids import drawn_grid
 from .labware_nouns import LabwareNouns
 from .levels import far_apart, number_in
 from .plate_maps import refs_of
@@ -21,9 +22,6 @@ _FEWEST = 3
 
 _HEADING_LINES = 2
 """A drawing's heading stands so near above it."""
-
-_MOST_ROWS = 16
-"""As many rows have the plates that people draw."""
 
 
 def maps_in_prose(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
@@ -43,18 +41,7 @@ def maps_in_prose(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
 def _grid(
     deck: Deck, nouns: LabwareNouns, lines: Sequence[str], at: int, line: int
 ) -> Iterator[Clue]:
-    """A line ``1 2 3`` or ``c1 c2 c3``, and under it lines ``A x y z``, ``B ...``."""
-    numbers = [re.sub(r"^(?:c|col)(?=\d)", "", cell.lower()) for cell in _cells(lines[at])]
-    if len(numbers) < 2 or [str(n + 1) for n in range(len(numbers))] != list(numbers):
-        return
-    wells_of: dict[str, list[str]] = {}
-    for row, written in enumerate(lines[at + 1 : at + 1 + _MOST_ROWS]):
-        letter, *codes = _cells(written, len(numbers) + 1) or [""]
-        if letter.rstrip(":") != chr(ord("A") + row) or len(codes) != len(numbers):
-            break
-        for number, code in zip(numbers, codes, strict=True):
-            if re.search(r"[^\W\d_]", code):
-                wells_of.setdefault(code, []).append(f"{chr(ord('A') + row)}{number}")
+    wells_of = drawn_grid(lines, at).wells_of
     heading = _above(lines, at)
     named = nouns.named(heading) or nouns.kind_in(heading)
     key = _labware(deck, named, [well for wells in wells_of.values() for well in wells])
@@ -67,20 +54,6 @@ def _grid(
             line,
             f"`{code}` in the map '{shortened(heading)}' at line {line}",
         )
-
-
-def _cells(written: str, count: int = 0) -> list[str]:
-    """The cells of a line; those of several words stand apart by two spaces or by bars.
-
-    What stands further right than the last of them is a remark: "<- gene 1", "uM".
-    """
-    written = re.split(r"<[-=]|#", written, maxsplit=1)[0].rstrip()
-    words = written.replace("|", " ").split()
-    if len(words) == count or not count:
-        return words
-    cells = [cell.strip() for cell in re.split(r"\s{2,}|\|", written.strip(" |"))]
-    begun = re.match(rf"((?:\S+\s+){{{count - 1}}}\S+)\s{{2,}}", written.replace("|", " ").strip())
-    return begun[1].split() if len(cells) != count and begun else cells
 
 
 class _Table(NamedTuple):

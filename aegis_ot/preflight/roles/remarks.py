@@ -14,7 +14,9 @@ from ..trace import row_column
 from .clauses import Part, axis_of, parts_of
 from .clues import Clue, Strength, shortened
 from .deck import LEFT_OUT, Deck
+from .drawn_grids import drawn_lines
 from .ellipses import with_rows
+from .in_turn import items_after
 from .labware_nouns import LabwareNouns
 from .replicates import called_alike
 from .shared_words import Amount, with_shared_words
@@ -27,13 +29,17 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     texts = list(facts.docstrings)
     texts += comment_blocks(facts)
     texts += [(1, text) for text in facts.metadata.values()]
+    texts += _laid_out_in_the_run(deck, common)
     nouns = LabwareNouns(deck, common)
     noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
     for line, text in texts:
         topic = Topic(nouns, common)
         amount: Amount | None = None
         lines = _whole_lines(with_rows(text, common).splitlines() or [text], common)
+        drawn = drawn_lines(text.splitlines())
         for number, written in lines:
+            if number in drawn:
+                continue  # "E1" may be a code there
             parts, more = _with_what_follows(written, common)
             topic.next_line(written, parts)
             parts = [nouns.without_place(topic.without_heading(part)) for part in parts]
@@ -43,7 +49,7 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
                 topic.next_part(before)
                 if len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
                     continue
-                if nouns.is_of_deck(part):
+                if nouns.is_of_deck(part) or nouns.is_elsewhere(part):
                     continue
                 firm = topic.said(part, before, noted.get(written, frozenset()))
                 keys = firm or topic.above() or _only_one_with(deck, parts, common)
@@ -55,7 +61,32 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
                     levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
                     if topic.heading and keys.isdisjoint(topic.heading):
                         levels = ()  # named by what its wells hold, perhaps
-                    yield replace(clue, placed=topic.places(keys), levels=levels)
+                    clue = replace(clue, placed=topic.places(keys), levels=levels)
+                    yield from _one_by_one(part, said, clue, common) or [clue]
+
+
+def _one_by_one(part: Part, said: str, clue: Clue, common: Common) -> list[Clue]:
+    """Each well of a row or column with its own item: "row A: ethanol, 1 uM, 3 uM"."""
+    last = part.wells[-1]
+    if len(part.wells) > 1 or last["first"]:
+        return []
+    end = said.find(last.group()) + len(last.group())
+    items = items_after(said.rstrip(" ,"), end, len(clue.wells), well_names(common))
+    return [
+        replace(clue, text=item, wells=(ref,), levels=())
+        for item, ref in zip(items, clue.wells, strict=False)
+    ]
+
+
+def _laid_out_in_the_run(deck: Deck, common: Common) -> list[tuple[int, str]]:
+    """Comments of the run that are lines of a layout: ``f"column {n}: {dose} uM"``."""
+    spec = well_names(common).spec
+    return [
+        (said.line or 1, said.text)
+        for said in dict.fromkeys(deck.trace.comments)
+        if (match := spec.match(said.text.strip()))
+        and said.text.strip()[match.end() :].lstrip()[:1] in (":", "=")
+    ]
 
 
 def _whole_lines(lines: Sequence[str], common: Common) -> Iterator[tuple[int, str]]:

@@ -114,9 +114,8 @@ class Roles:
 
     def title(self, ref: WellRef) -> str:
         """What a well is, for a message: "no-template control"."""
-        assigned = self.by_well.get(ref)
-        if assigned is not None:
-            return self.family.roles[assigned.role].title
-        for role in sorted(self.derived.get(ref, ())):
-            return self.family.roles[role].title
-        return "well"
+        assigned, derived = self.by_well.get(ref), sorted(self.derived.get(ref, ()))
+        if assigned is None:
+            return self.family.roles[derived[0]].title if derived else "well"
+        finer = [role for role in derived if assigned.role in self.closure(role) - {role}]
+        return self.family.roles[finer[0] if finer else assigned.role].title

@@ -55,8 +55,14 @@ def _rows(facts: SourceFacts, name: str) -> list[Row]:
         titles, cells = _table(value)
     else:
         titles, cells = (), _transfers(value)
+    keyed = isinstance(value, Mapping)
     if cells and not titles:
-        titles = _unpacked_to(facts, name, len(cells[0]), keyed=isinstance(value, Mapping))
+        titles = _unpacked_to(facts, name, len(cells[0]), keyed)
+        titles = titles or [str(at) for at in range(len(cells[0]))]
+    elif not cells and (apart := _transfers(value, pairs=True)):
+        # `for name, (tube, well) in PLAN.items()`: no list of wells, if the run takes it apart.
+        titles = _unpacked_to(facts, name, len(apart[0]), keyed)
+        cells = apart if titles else []
     return [Row(tuple(zip(titles, row, strict=True))) for row in cells]
 
 
@@ -75,31 +81,34 @@ def _table(text: str) -> tuple[Sequence[str], list[list[Any]]]:
     return (), []
 
 
-def _transfers(value: Any) -> list[list[Any]]:
-    """The cells of literal rows, if two columns of them or more hold the names of wells."""
+def _transfers(value: Any, pairs: bool = False) -> list[list[Any]]:
+    """The cells of literal rows, if two columns of them or more hold the names of wells.
+
+    Several wells in brackets are one cell, or as many, if these are ``pairs``.
+    """
     if isinstance(value, Mapping):
         value = list(value.items())
     if not isinstance(value, (list, tuple)) or len(value) < _FEWEST_ROWS:
         return []
     if not all(isinstance(row, (list, tuple)) for row in value):
         return []
-    rows = [list(_flat(row)) for row in value]
+    rows = [list(_flat(row, pairs)) for row in value]
     even = all(len(row) == len(rows[0]) for row in rows)
     columns = list(zip(*rows, strict=True)) if even else []
     placed = [column for column in columns if all(spots_in(cell) for cell in column)]
     return rows if len(placed) > 1 else []
 
 
-def _flat(row: Iterable[Any]) -> Iterator[Any]:
+def _flat(row: Iterable[Any], pairs: bool) -> Iterator[Any]:
     for cell in row:
-        if isinstance(cell, (list, tuple)) and not all(map(is_spot, cell)):
-            yield from _flat(cell)
+        if isinstance(cell, (list, tuple)) and (pairs or not all(map(is_spot, cell))):
+            yield from _flat(cell, pairs)
         else:
             yield " ".join(cell) if isinstance(cell, (list, tuple)) else cell
 
 
 def _unpacked_to(facts: SourceFacts, name: str, width: int, keyed: bool) -> Sequence[str]:
-    """What the run calls the columns where it takes the rows apart, or else their places.
+    """What the run calls the columns where it takes the rows apart, if it does.
 
     Of a dict the key may be left out: ``for tube, wells in TREATMENTS.values()``.
     """
@@ -107,4 +116,4 @@ def _unpacked_to(facts: SourceFacts, name: str, width: int, keyed: bool) -> Sequ
         whole = len(names) == width or (keyed and len(names) + 1 == width)
         if whole and name in origins(facts, names, _EVERYWHERE):
             return (*("0",) * (width - len(names)), *names)
-    return [str(at) for at in range(width)]
+    return ()

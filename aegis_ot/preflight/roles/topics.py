@@ -41,7 +41,7 @@ class Topic:
         opens = bool(parts) and parts[0].text not in opening
         self._begins = nouns.named(opening) if opens else _NONE
         self._begun = begun.strip() if self._headed else ""
-        self._of_line = nouns.named(written) or self._headed
+        self._of_line = nouns.named(written.partition("->")[0]) or self._headed
         self._in_line = _NONE
         if named:
             self.heading = named  # and of the lines below: "strips: column 1 blank"
@@ -67,10 +67,10 @@ class Topic:
         """The labware that a part or its line names, ``noted``: by the variable beside it."""
         return (
             (before if len(before) == 1 else _NONE)
-            or self._nouns.named(IN_BRACKETS.sub(" ", part.text))
+            or self._nouns.named(IN_BRACKETS.sub(" ", _here(part)))
             or before
-            or noted
             or (self._in_line if len(self._in_line) == 1 else _NONE)
+            or noted
             or self._of_line
         )
 
@@ -82,6 +82,13 @@ class Topic:
         """Whether the text says itself that these are the labware of a part's wells."""
         headed = 1 in (len(self._headed), len(self._in_line), len(self._begins))
         return headed or (bool(keys) and keys == self.heading)
+
+
+def _here(part: Part) -> str:
+    """A part without where an arrow leads after it: "H1 water -> every H well of the plate"."""
+    here, arrow, _ = part.text.partition("->")
+    start = part.wells[-1].group()
+    return here if arrow and start in here and tokens(here.rpartition(start)[2]) else part.text
 
 
 def _is_headed(part: Part, begun: str) -> bool:

@@ -23,6 +23,8 @@ class WellNames:
         to, conjunction: What stands between the ends of a range, and between members of a list.
         between: What may stand between two wells of one list.
         of: What joins rows to columns: "columns 1-6 of row H".
+        strips: What people call strips of tubes, of which each is a column.
+        odd, even: What people call every other column: "odd columns".
         first_word_of: For ``column`` and ``row`` the word that is put where one is left out.
         plural_columns: The same for several columns.
         spec: A well, a range of them, or columns and rows; only a plural lists several:
@@ -36,6 +38,8 @@ class WellNames:
         self.to = rf"\s*(?:-|–|—|…|\.\.+|\b(?:{_any(layout.get('to', ()))})\b)\s*"
         self.conjunction = rf"\s*(?:,|/|&|\+|\b(?:{_any(layout.get('and', ()))})\b)\s*"
         self.of = _any(layout.get("of", ()))
+        self.strips = f"(?i:(?:{_any(layout.get('strip', ()))})s?)"
+        self.odd, self.even = (f"(?i:{_any(layout.get(kind, ()))})" for kind in ("odd", "even"))
         self.first_word_of = {kind: (*layout.get(kind, ()), kind)[0] for kind in ("column", "row")}
         self.plural_columns = (*layout.get("columns", ()), "columns")[0]
         numbers = rf"(?:1\d|2[0-4]|[1-9])(?!\d)(?:{self.to}\d{{1,2}}(?!\d))?"
@@ -43,9 +47,9 @@ class WellNames:
         self.spec = re.compile(
             rf"\b(?:(?P<first>{_WELL})(?:(?:{self.to}|\s*:\s*)(?P<last>{_WELL}))?"
             rf"|{self.columns}\.?\s*(?P<columns>{numbers}(?:{self.conjunction}{numbers})*)"
-            rf"|{self.column}\.?\s*(?P<column>{numbers})"
+            rf"|{self.column}\.?\s*(?P<column>{numbers}(?:[/&+]{numbers})*)"
             rf"|{self.rows}\s+(?P<rows>{letters}(?:{self.conjunction}{letters})*)"
-            rf"|{self.row}\s+(?P<row>{letters}))\b"
+            rf"|{self.row}\s+(?P<row>{letters}(?:[/&+]{letters})*))\b"
         )
         self.between = re.compile(rf"[\s,/&+]*(?:\b(?:{_any(layout.get('and', ()))})\b[\s,]*)?")
         self._conjunction = re.compile(self.conjunction)
@@ -90,16 +94,38 @@ class WellNames:
             ]
         listed = parts["columns"] or parts["column"]
         axis = 1 if listed else 0
-        wanted: set[int] = set()
-        for text in self._conjunction.split(listed or parts["rows"] or parts["row"]):
-            low, high = self._range.findall(text)[0]
-            wanted.update(range(_number(low), _number(high or low) + 1))
+        wanted = set(self._counted(listed or parts["rows"] or parts["row"]))
         return [name for name in info.wells if row_column(name)[axis] in wanted]
+
+    def numbers(self, listed: str) -> list[str]:
+        """The columns or rows of a list, as they are written: "1-3, 5" are 1, 2, 3 and 5."""
+        letters = listed[:1].isalpha()
+        return [chr(ord("A") + at) if letters else str(at + 1) for at in self._counted(listed)]
+
+    def crossed(self, first: str, last: str, columns: str) -> str:
+        """The wells of rows, ``first`` to ``last`` if that is given, in columns: "A1-C2, A5-C5"."""
+        spans: list[list[int]] = []
+        for at in self._counted(columns):
+            if spans and spans[-1][1] == at - 1:
+                spans[-1][1] = at
+            else:
+                spans.append([at, at])
+        wells = [(f"{first}{low + 1}", f"{last or first}{high + 1}") for low, high in spans]
+        return ", ".join(one if one == other else f"{one}-{other}" for one, other in wells)
+
+    def _counted(self, listed: str) -> list[int]:
+        """Places of a list of columns or rows, counted from 0, in its order."""
+        found: list[int] = []
+        for text in self._conjunction.split(listed):
+            low, high = self._range.findall(text)[0]
+            found += range(_number(low), _number(high or low) + 1)
+        return found
 
 
 def well_names(common: Common) -> WellNames:
     """Well names in the words of the rule files, made once for equal lists."""
-    return _made(tuple((kind, tuple(words)) for kind, words in common.layout.items()))
+    layout = {**common.layout, "strip": common.labware.get("strip", ())}
+    return _made(tuple((kind, tuple(words)) for kind, words in layout.items()))
 
 
 @functools.lru_cache(maxsize=8)

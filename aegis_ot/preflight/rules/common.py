@@ -25,6 +25,7 @@ class Common:
     decks: tuple[str, ...] = ()
     waste: tuple[str, ...] = ()
     negations: tuple[str, ...] = ()
+    exceptions: tuple[str, ...] = ()
     by_hand: tuple[str, ...] = ()
     instead: tuple[str, ...] = ()
     empty: tuple[str, ...] = ()

@@ -24,12 +24,14 @@ class Signal:
         once: Whether the signal counts once, however often it is mentioned.
         defining: Whether it can make the family known. Words that other assays use as well only
             add to what defines it.
+        roles: Roles of the family whose words count as well.
     """
 
-    words: tuple[str, ...]
+    words: tuple[str, ...] = ()
     weight: float = 1.0
     once: bool = True
     defining: bool = True
+    roles: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -96,6 +98,13 @@ class RoleSpec:
             others; a source that goes into wells of one level only, in ``feeds``, has that level.
         called_alike_beside: Derived: a source without a role that is called by the same word as
             the wells it goes into, on a plate with wells of these roles: "APAP" beside controls.
+        used_like: Derived: unnamed sources that each go into wells of their own on the labware, and
+            in the volume, where a source of one of these roles goes into others.
+        gets: Derived, with ``in_place_of``: where no well is named for this role, those that get a
+            liquid of these roles in the volume in which more wells get one of those.
+        in_place_of: See ``gets``.
+        common_to: Derived, where no well is named for this role: unnamed sources of which nearly
+            all wells of these roles get one, in the same volume.
         passed_on: Derived: a well into which one of this role goes, unless that tops up many
             wells which have each a liquid of their own besides.
     """
@@ -120,6 +129,10 @@ class RoleSpec:
     receives: tuple[str, ...] = ()
     dosed: bool = False
     called_alike_beside: tuple[str, ...] = ()
+    used_like: tuple[str, ...] = ()
+    gets: tuple[str, ...] = ()
+    in_place_of: tuple[str, ...] = ()
+    common_to: tuple[str, ...] = ()
     passed_on: bool = False
 
 

@@ -44,6 +44,8 @@ _WITH_UNIT = re.compile(
     re.IGNORECASE,
 )
 
+_GLUED = re.compile(r"(?<=[A-Za-z])(\d+(?:\.\d+)?)(?=[pnum]M\b)")
+
 _LONG_NUMBER = re.compile(r"(?<![\d.])((?!0\d)\d{2,}(?:\.\d+)?|\d+\.\d+|0)(?![\d.])")
 
 _RATIO = re.compile(r"\b1\s*(?::|/|to|in)\s*(\d+)\b", re.IGNORECASE)
@@ -211,8 +213,8 @@ def _number(text: str) -> float:
 
 
 def with_u(text: str) -> str:
-    """A text with "u" for the micro sign and for the Greek letter."""
-    return text.replace("µ", "u").replace("μ", "u")
+    """A text with "u" for the micro sign and the Greek letter, and ``R10nM`` as "R 10nM"."""
+    return _GLUED.sub(r" \1", text.replace("µ", "u").replace("μ", "u"))
 
 
 _DECIMAL_COMMA = re.compile(r"(?<![\d.,])(\d+),(\d+)(?![\d,])")

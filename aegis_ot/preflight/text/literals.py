@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import copy
+import json
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
@@ -80,13 +81,23 @@ def fields_of(node: ast.expr, kinds: Collection[str]) -> dict[str, Any] | None:
 
 
 def written_value(node: ast.expr, kinds: Collection[str] = ()) -> Any:
-    """What a literal or a range that is written down says, members of Enums by their names;
-    ``None`` for what the run computes.
+    """What a literal, a range or a JSON text that is written down says, members of Enums by their
+    names; ``None`` for what the run computes.
     """
     try:
         return _literal_of(node, kinds)
     except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
-        return _counted(node)
+        return _counted(node) or _loaded(node)
+
+
+def _loaded(node: ast.expr) -> Any:
+    """What ``json.loads(\"\"\"...\"\"\")`` makes of a text that is written down."""
+    if not isinstance(node, ast.Call) or last_name(node.func) != "loads" or len(node.args) != 1:
+        return None
+    try:
+        return json.loads(plain_text(node.args[0]))
+    except (ValueError, RecursionError):
+        return None
 
 
 _LONGEST_RANGE = 400

@@ -1,0 +1,170 @@
+"""Roles that follow from whose place a liquid takes: the volume and the company tell.
+
+What goes into wells of its own, in the volume in which the vehicle goes into the others, is a
+drug. A well that gets water, in the volume in which the others get template, is a no-template
+control (PCR-6: the NTC gets water in the template's place).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Mapping
+
+from ...vocabulary import WellRef
+from ..rules import RoleSpec
+from ..trace import Trace
+from .roles import Roles
+from .usage import Usage
+
+Given = Mapping[WellRef, Mapping[WellRef, float]]
+"""µL that each source gives to each well, in the whole run."""
+
+_FEWEST_SHARING = 4
+_FEWEST_SERVED = 3
+_NEARLY_ALL = 0.8
+"""One of five may have been forgotten."""
+
+_ALIKE = 0.02
+"""Volumes that differ by less, as a share of the smaller, are one."""
+
+
+def derive_used_like(
+    roles: Roles, name: str, spec: RoleSpec, trace: Trace, usage: Mapping[WellRef, Usage]
+) -> None:
+    """Unnamed sources that go, each into wells of its own, where one of ``spec.used_like`` goes
+    into the others: onto the same labware, in the same volume.
+
+    Not those that go into most of the others' wells as well (a reagent for all), nor into
+    controls, nor what shares a tip with liquids that differ (standards): it may be one of them.
+    """
+    likes = frozenset(spec.used_like)
+    given = given_by(trace)
+    models = {ref: wells for ref, wells in given.items() if roles.has(ref, likes)}
+    others = {well for wells in models.values() for well in wells}
+    volumes = {volume for wells in models.values() for volume in wells.values()}
+    plates = {well.labware for well in others}
+    unnamed = {ref: wells for ref, wells in given.items() if not roles.of(ref)}
+    different = [like for like in spec.used_like if not roles.family.roles[like].one_liquid]
+    series = {ref for ref in models if roles.has(ref, frozenset(different))}
+    in_series = _in_one_tip_with(trace, series)
+    for ref, wells in unnamed.items():
+        own = wells.keys() - others
+        alone = all(
+            sum(well in into for into in unnamed.values()) == 1 and well.labware in plates
+            for well in own
+        )
+        if (
+            alone
+            and own
+            and 2 * len(own) >= len(wells)
+            and 2 * len(others & wells.keys()) < len(others)
+            and all(_is_one_of(volume, volumes) for volume in wells.values())
+            and 2 * sum(_is_set_apart(roles, well) for well in own) < len(own)
+            and ref not in in_series
+            and ref not in roles.denied.get(name, ())
+            and not any(well in usage and usage[well].feeds for well in own)
+        ):
+            roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+def derive_given_instead(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
+    """Wells that get ``spec.gets`` in the volume in which more wells get ``spec.in_place_of``.
+
+    Only where no well is named for this role, and nothing that has no name goes into them.
+    """
+    if roles.known(name):
+        return
+    given = given_by(trace)
+    taken = _given_of(roles, given, spec.in_place_of)
+    instead = _given_of(roles, given, spec.gets)
+    volumes, plates = set(taken.values()), {well.labware for well in taken}
+    unknown = {well for ref, wells in given.items() if not roles.of(ref) for well in wells}
+    found = {
+        well
+        for well, volume in instead.items()
+        if well not in taken
+        and well not in unknown
+        and well not in given
+        and well.labware in plates
+        and _is_one_of(volume, volumes)
+        and roles.of(well) <= roles.closure(name)
+    }
+    if len(found) < len(taken):
+        for well in found:
+            roles.derived.setdefault(well, set()).update(roles.closure(name))
+
+
+def derive_common(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
+    """Unnamed sources of which nearly all wells of ``spec.common_to`` get one, and as much of it.
+
+    Only where no well is named for this role.
+    """
+    wanted = frozenset(spec.common_to)
+    if roles.known(name):
+        return
+    given = given_by(trace)
+    filled = {well for wells in given.values() for well in wells} - given.keys()
+    wells = {well for well in filled if roles.has(well, wanted)}
+    unnamed = {
+        ref: into for ref, into in given.items() if into.keys() & wells and not roles.of(ref)
+    }
+    fed = Counter(well for into in unnamed.values() for well in into)
+    usual = sum(_usual(into) for into in unnamed.values())
+    if (
+        len(wells) >= _FEWEST_SHARING
+        and all(fed[well] <= 1 for well in wells)
+        and all(len(into) >= _FEWEST_SERVED for into in unnamed.values())
+        and _NEARLY_ALL * len(wells) <= sum(fed[well] for well in wells)
+        and _NEARLY_ALL * fed.total() <= usual
+    ):
+        for ref in unnamed:
+            roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+def _usual(wells: Mapping[WellRef, float]) -> int:
+    """How many of these wells get the volume that most of them get."""
+    return max(Counter(wells.values()).values(), default=0)
+
+
+def given_by(trace: Trace) -> dict[WellRef, dict[WellRef, float]]:
+    """µL that each well that is drawn from gives to each other one, rounded."""
+    found: dict[WellRef, dict[WellRef, float]] = {}
+    for visit in trace.visits:
+        for source, volume, _, _ in visit.parts:
+            if source is not None and source is not visit.well and volume > 0:
+                given = found.setdefault(source.ref, {})
+                given[visit.well.ref] = round(given.get(visit.well.ref, 0.0) + volume, 3)
+    return found
+
+
+def _given_of(roles: Roles, given: Given, wanted: Collection[str]) -> dict[WellRef, float]:
+    """µL that each well gets from the sources of these roles."""
+    found: dict[WellRef, float] = {}
+    for ref, wells in given.items():
+        if roles.has(ref, frozenset(wanted)):
+            for well, volume in wells.items():
+                found[well] = found.get(well, 0.0) + volume
+    return found
+
+
+def _is_one_of(volume: float, volumes: Collection[float]) -> bool:
+    return any(abs(volume - other) <= _ALIKE * min(volume, other) for other in volumes)
+
+
+def _is_set_apart(roles: Roles, ref: WellRef) -> bool:
+    """Whether a well is named for something that does not follow from what it receives."""
+    assigned = roles.by_well.get(ref)
+    if assigned is None:
+        return False
+    spec = roles.family.roles[assigned.role]
+    return bool(spec.parents) and not spec.receives
+
+
+def _in_one_tip_with(trace: Trace, refs: Collection[WellRef]) -> set[WellRef]:
+    """Wells that a tip touched which touched one of these as well."""
+    found: set[WellRef] = set()
+    for tip in trace.tips if refs else ():
+        touched = {well.ref for well in tip.touched}
+        if not touched.isdisjoint(refs):
+            found |= touched
+    return found
