@@ -40,6 +40,49 @@ COMMON = load_database().common
             "column 2: A standard 1, B standard 2, ... G standard 7, H blank",
             "column 2: A2 standard 1, B2 standard 2, ... G2 standard 7, H2 blank",
         ),
+        (
+            "Controls in columns 10-12: row A/B positive, row D/E NTC",
+            " A10-B12 positive, D10-E12 NTC",
+        ),
+        (
+            "columns 1-3: standards, row H blank",
+            " standards, H1-H3 blank",
+        ),
+        (
+            "col 11: vehicle control, rows B-G, gets the DMF",
+            "B11-G11: vehicle control, gets the DMF",
+        ),
+        (
+            "Column 1: samples (A-F), G = positive control, H = NTC",
+            "Column 1: samples (A1-F1), G1 = positive control, H1 = NTC",
+        ),
+        ("rows A/B = ctrl, C/D = 2 mM", "rows A/B = ctrl, row C/D = 2 mM"),
+        ("odd columns -> DMSO", f"columns {','.join(map(str, range(1, 25, 2)))} -> DMSO"),
+        ("even columns: drug", f"columns {','.join(map(str, range(2, 25, 2)))}: drug"),
+        ("odd columns (1, 3, 5): DMSO", "columns 1, 3, 5: DMSO"),
+        (
+            "Last three columns: 10 = vehicle, 11 = drug, 12 = untreated",
+            "Last three columns 10 = vehicle, column 11 = drug, column 12 = untreated",
+        ),
+        ("c1 A-H = leaf, c2 H = NTC", "A1-H1 = leaf, H2 = NTC"),
+        ("col 2 H: NTC", "H2: NTC"),
+        (
+            "rows: A-F = IP1..5, input; G = empty; H = NTC.",
+            "rows A-F = IP1..5, input; row G = empty; row H = NTC.",
+        ),
+        (
+            "columns 1-4: untreated, vehicle, low dose, high dose",
+            "column 1: untreated, column 2: vehicle, column 3: low dose, column 4: high dose",
+        ),
+        (
+            "columns 1, 2 and 3: untreated, vehicle and drug",
+            "column 1: untreated, column 2: vehicle, column 3: drug",
+        ),
+        ("rows A-C = mock, siRNA 1, siRNA 2", "row A: mock, row B: siRNA 1, row C: siRNA 2"),
+        ("tubes A1-A3: medium / DMSO / compound", "tubes A1: medium, A2: DMSO, A3: compound"),
+        ("strip 2: master mix", "strip columns 2: master mix"),
+        ("strips 1 and 2: primers", "strips columns 1 and 2: primers"),
+        ("Streifen 3: Wasser", "Streifen columns 3: Wasser"),
     ],
 )
 def test_what_is_left_out_is_put_back(written: str, meant: str) -> None:
@@ -57,6 +100,16 @@ def test_what_is_left_out_is_put_back(written: str, meant: str) -> None:
         "Row A: standards",
         "add 5 uL, then 10 uL",
         "1 plate, 2 racks",
+        "c2 H = NTC",  # "c2" alone may be anything
+        "columns 1-3 are odd",
+        "columns 1-3: 10, 20, 30",  # amounts
+        "columns 1-2: untreated, drug",  # two: the second may say more about the first
+        "columns 1-4: untreated, vehicle, drug",  # fewer than places
+        "columns 1-3: samples, as in D1, blank",
+        "columns 1-3: a long word about what stands here, vehicle, drug",
+        "columns 1-3: siRNA (one, two, three)",
+        "two strips of tubes",
+        "strip the lids",
     ],
 )
 def test_other_numbers_are_left_alone(written: str) -> None:

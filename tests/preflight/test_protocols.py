@@ -22,6 +22,9 @@ def test_verdict_family_and_rules(path: Path, database: Database) -> None:
     text = path.read_text(encoding="utf-8")
     expected, _, rest = text.partition("\n")
     family, verdict, *rules = expected.removeprefix("# expect:").split()
+    # "PCR-4!": judged to the end, and not found.
+    judged = {rule.rstrip("!") for rule in rules if rule.endswith("!")}
+    rules = [rule for rule in rules if not rule.endswith("!")]
     # What is expected must not tell the assay.
     report = _check(f"\n{rest}", path.name, database)
     found = {finding.rule for finding in report.findings}
@@ -29,6 +32,8 @@ def test_verdict_family_and_rules(path: Path, database: Database) -> None:
     assert report.verdict.value == verdict, report.findings
     assert {rule for rule in rules if not rule.endswith("?")} <= found
     assert found <= {rule.rstrip("?") for rule in rules}
+    assert judged <= set(report.judged)
+    assert judged.isdisjoint(undecided.rule for undecided in report.undecided)
     for finding in report.findings:
         assert finding.lines
         assert finding.wells

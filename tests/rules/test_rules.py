@@ -75,6 +75,10 @@ def test_a_sixth_family_needs_no_code() -> None:
         (lambda d: d["roles"]["stop"].update(words="stop"), "roles.stop: words: expected a list"),
         (lambda d: d.update(shapes=[{"shape": "star", "weight": 1}]), "no shape 'star'"),
         (lambda d: d.update(known_by=[{"roles": ["stop|nobody"]}]), "no role 'nobody'"),
+        (lambda d: d["roles"]["stop"].update(used_like=["nobody"]), "roles.stop: there is no"),
+        (lambda d: d["roles"]["stop"].update(gets=["nobody"]), "roles.stop: there is no role"),
+        (lambda d: d["roles"]["stop"].update(in_place_of=["nobody"]), "no role 'nobody'"),
+        (lambda d: d["signals"][1].update(roles=["nobody"]), "signals[1]: roles: there is no role"),
         (lambda d: d.update(schema=9), "schema: expected 1, found 9"),
     ],
 )

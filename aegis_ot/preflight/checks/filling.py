@@ -70,8 +70,10 @@ class SeriesFilledFrom(Check):
             yield Doubt(NO_SERIES)
         diluent, stock = diluent_roles(case), stock_roles(case)
         plates = {well.ref.labware for series in case.series for well in series.wells}
+        served = case.trace.served()
         known = any(
-            ref.labware not in plates and not diluent.isdisjoint(case.roles.closure(assigned.role))
+            (ref.labware not in plates or len(served.get(ref, ())) > 1)
+            and not diluent.isdisjoint(case.roles.closure(assigned.role))
             for ref, assigned in case.roles.by_well.items()
         )
         for series in case.series:

@@ -155,6 +155,9 @@ class Receives(Check):
                 )
                 continue
             total, line = filled(case, well)
+            if case.roles.by_plate_only(well.ref):
+                yield Doubt(f"nothing but its plate's name says what {place(well)} is for")
+                continue
             if self._is_filled_otherwise(case, well, total, served):
                 yield Doubt(f"{place(well)} may be a blank of the instrument: it is filled up")
                 continue

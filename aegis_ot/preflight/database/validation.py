@@ -22,6 +22,9 @@ def check_family(family: Family, file: str) -> None:
     """
     for name, role in family.roles.items():
         _check_role(family, name, role, file)
+    for number, spoken in enumerate(family.signals):
+        for name in spoken.roles:
+            _known(family, name, f"{file}: signals[{number}]: roles")
     for signal in family.shapes:
         for shape in (signal.shape, *signal.unless):
             if shape not in SHAPES:

@@ -21,6 +21,9 @@ SURE = 4.0
 LONE = 3.0
 """A signal of less weight makes no family known unless another one agrees."""
 
+_OUTRIGHT = 0.8
+"""A family that is defined by signals of less worth, for their weight, is no second one."""
+
 AGREEING = 1.0
 """Nor does one of less weight than this count as another."""
 
@@ -104,7 +107,7 @@ def infer_families(
             sure = score >= SURE and _defines(found)
             applies = (
                 sure
-                and (score == best or score >= ALSO * best)
+                and (score == best or (score >= ALSO * best and _said_outright(found)))
                 and not (family.default and (score < best or outdone))
             )
             if family.default and not known:
@@ -183,6 +186,11 @@ def _defines(found: Sequence[_Found]) -> bool:
     """Whether some signal makes the family known: a telling one alone, another one in company."""
     company = sum(one.weight >= AGREEING for one in found) > 1
     return any(one.defining and (one.weight >= LONE or company) for one in found)
+
+
+def _said_outright(found: Sequence[_Found]) -> bool:
+    """Whether more than a text of the run defines the family: "seal it for the PCR" does not."""
+    return _defines([one for one in found if one.worth >= _OUTRIGHT * one.weight])
 
 
 def _shown(found: Sequence[_Found]) -> bool:

@@ -74,7 +74,8 @@ def assign_roles(
         if not named:
             untold.append(clue)
             continue
-        named = of_its_dict(lexicon, clue, named, common, roles)
+        if all(sides(ref)[0] == "source" for ref in clue.wells):
+            named = of_its_dict(lexicon, clue, named, common, roles)
         if clue.lone and names_several(lexicon, clue, common, roles):
             continue
         if clue.whole and any(not shared.isdisjoint(named) for shared in _shared(clue, holding)):
@@ -200,7 +201,7 @@ def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, floa
     of_each: dict[WellRef, set[float]] = {}
     of_several: dict[WellRef, set[float]] = {}
     for clue in untold:
-        levels = of_each if clue.levels or len(set(clue.wells)) == 1 else of_several
+        levels = of_each if clue.levels or len(clue.places) == 1 else of_several
         for ref, level in zip(clue.wells, levels_beside(clue, common), strict=False):
             if level is not None:
                 levels.setdefault(ref, set()).add(level)
@@ -242,7 +243,7 @@ def _add_dosed(
 
 def _is_of_a_layout(clue: Clue) -> bool:
     """Whether this lists what stands where: "A2: stop solution"."""
-    few = len(set(clue.wells)) <= A_FEW
+    few = len(clue.places) <= A_FEW
     return few and clue.strength is Strength.COMMENT and not clue.whole and not clue.step
 
 
@@ -275,5 +276,5 @@ def _worth(clue: Clue, side_only: bool, of_the_labware: bool) -> tuple[float, ..
         float(clue.strength),
         0.0 if of_the_labware else 1.0,
         0.0 if side_only else 1.0,
-        -float(len(set(clue.wells))),
+        -float(len(clue.places)),
     )

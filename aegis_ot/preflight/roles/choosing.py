@@ -37,7 +37,7 @@ def choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | N
         # "cells", the name says "vehicle_controls".
         exact = not hint.whole and hint.strength is not Strength.LOOSE_NAME
         if hint.strength is Strength.COMMENT and not clue.whole:
-            exact = len(set(hint.wells)) <= _WIDER * len(set(clue.wells))  # not of more than this
+            exact = len(hint.places) <= _WIDER * len(clue.places)  # not of more than this
         said = exact or hint.strength == clue.strength
         finer = role in roles.closure(other) or other in roles.family.roles[role].may_be
         if said and role != other and finer:
@@ -74,17 +74,22 @@ def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:
     """Of two lists that have a well in common by mistake, the one of controls says what it is.
 
     The other one says what is given to it. A list within the other says more exactly, and so
-    does a comment that sets some of its wells apart as controls.
+    does a comment that sets some of its wells apart as controls; doses of rows give way to a
+    column of controls across them.
     """
     specs = roles.family.roles
     worth, role, clue, _ = found[0]
     if not specs[role].receives or clue.strength < Strength.NAME:
         return
     for at, (other_worth, other, hint, _) in enumerate(found[1:], 1):
-        mine, theirs = set(clue.wells), set(hint.wells)
+        if not specs[other].parents or specs[other].receives:
+            continue  # no control
+        mine, theirs = clue.places, hint.places
         listed = other_worth[:-1] == worth[:-1] and not (mine <= theirs or theirs <= mine)
-        set_apart = hint.strength is Strength.COMMENT and hint.placed and theirs < mine
-        if specs[other].parents and not specs[other].receives and (listed or set_apart):
+        remark = hint.strength is Strength.COMMENT and not hint.step
+        set_apart = remark and hint.placed and theirs < mine
+        across = remark and bool(clue.levels) and not (mine <= theirs or theirs <= mine)
+        if listed or set_apart or across:
             found.insert(0, found.pop(at))
             return
 
@@ -111,15 +116,15 @@ def _put_exact_first(roles: Roles, found: list[Candidate]) -> None:
     And before the name that a loop or a helper gives to several wells in turn.
     """
     _, role, clue, _ = found[0]
-    in_turn = clue.strength is Strength.LOOSE_NAME and len(set(clue.wells)) > 1
+    in_turn = clue.strength is Strength.LOOSE_NAME and len(clue.places) > 1
     if clue.whole or in_turn:
         other = [
             c
             for c in found
             if not (c[2].whole or c[2].step or c[1] in roles.closure(role))
             and role not in roles.closure(c[1])
-            and (_is_described(c[2]) or c[2].placed or len(set(c[2].wells)) <= A_FEW)
-            and (clue.whole or len(set(c[2].wells)) == 1)
+            and (_is_described(c[2]) or c[2].placed or len(c[2].places) <= A_FEW)
+            and (clue.whole or len(c[2].places) == 1)
         ]
         found[:] = other + [c for c in found if c not in other]
 
@@ -135,5 +140,5 @@ def _level(agreeing: Sequence[Candidate]) -> float | None:
     What is said of several wells at once ("vemurafenib 10x") gives way to what is said of each.
     """
     known = [(clue, level) for _, _, clue, level in agreeing if level is not None]
-    each = [level for clue, level in known if clue.levels or len(set(clue.wells)) == 1]
+    each = [level for clue, level in known if clue.levels or len(clue.places) == 1]
     return next(iter(each or [level for _, level in known]), None)

@@ -51,7 +51,11 @@ def parts_of(text: str, common: Common) -> Iterator[Part]:
     if len(text) > _LONGEST_LINE:
         yield Part(text, text, ())
         return
-    for clause in _clauses(spelled_out(text, common), names, first_words(_nouns(common))):
+    text = spelled_out(text, common)
+    if len(text) > _LONGEST_LINE:
+        yield Part(text, text, ())
+        return
+    for clause in _clauses(text, names, first_words(_nouns(common))):
         groups = _groups(clause, names)
         for piece in _shares(clause, groups) if len(groups) > 1 else [clause]:
             wells = _without_codes(piece, _innermost(names.spec.finditer(piece)))
@@ -76,7 +80,7 @@ def _without_codes(piece: str, wells: tuple[re.Match[str], ...]) -> tuple[re.Mat
 def _is_left_out(before: str, common: Common) -> bool:
     """Whether the words before some wells end by leaving them out."""
     words = [word for word in tokens(before) if word not in first_words(common.articles)]
-    return words[-1:] != [] and words[-1] in common.exceptions
+    return bool(words) and words[-1] in common.exceptions and words[-2:-1] != ["nothing"]
 
 
 def _nouns(common: Common) -> tuple[str, ...]:
@@ -160,7 +164,7 @@ def _is_list(clause: str, names: WellNames, nouns: frozenset[str]) -> bool:
 def _groups(clause: str, names: WellNames) -> list[tuple[int, int]]:
     """Start and end of each list of wells in a clause: of "A1, B1 and C1"."""
     found: list[tuple[int, int]] = []
-    for match in names.spec.finditer(clause):
+    for match in _without_codes(clause, tuple(names.spec.finditer(clause))):
         if found and names.between.fullmatch(clause, found[-1][1], match.start()):
             found[-1] = (found[-1][0], match.end())
         else:

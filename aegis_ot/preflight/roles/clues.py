@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import cached_property
 
 from ...vocabulary import WellRef
 
@@ -54,6 +55,11 @@ class Clue:
     lone: bool = False
     placed: bool = False
     copied_from: tuple[WellRef, ...] = ()
+
+    @cached_property
+    def places(self) -> frozenset[WellRef]:
+        """Each of its wells once; made once, for tables of thousands of rows."""
+        return frozenset(self.wells)
 
 
 def shortened(text: str) -> str:

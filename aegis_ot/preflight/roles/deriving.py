@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ...vocabulary import WellRef
 from ..rules import Common, RoleSpec
-from ..trace import Trace, row_column
+from ..trace import Trace
 from .called_alike import derive_called_alike
 from .in_place import derive_common, derive_given_instead, derive_used_like, given_by
 from .roles import Roles
@@ -203,16 +203,13 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
 
 _FEWEST_PAIRS = 3
 
-_REPLICATES = 4
-
 _SMALLEST_PLATE = 24
 
 
 def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
     """Wells of a plate that each serve one well of their own hold each something of its own.
 
-    Or each as many replicates; of a few columns only where they serve one: a liquid that stands
-    in several wells (a strip of master mix) serves several each.
+    A liquid that stands in several wells (a strip of master mix) serves several wells each.
     """
     served = trace.served(prefilled=True)
     plates: dict[str, list[WellRef]] = {}
@@ -222,18 +219,9 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
             continue
         plates.setdefault(ref.labware, []).append(ref)
     for refs in plates.values():
-        counts = {len(served[ref]) for ref in refs}
+        pairs = all(len(served[ref]) == 1 and not roles.of(ref) for ref in refs)
         into = {well for ref in refs for well in served[ref]}
-        columns = {row_column(ref.name)[1] for ref in refs}
-        alone = counts == {1} or (max(counts) <= _REPLICATES and len(columns) >= _FEWEST_PAIRS)
-        unnamed = not any(map(roles.of, refs))
-        if (
-            unnamed
-            and len(counts) == 1
-            and alone
-            and len(refs) >= _FEWEST_PAIRS
-            and len(into) == sum(len(served[ref]) for ref in refs)
-        ):
+        if pairs and len(refs) >= _FEWEST_PAIRS and len(into) == len(refs):
             roles.apart.update(refs)
             for ref in refs:
                 roles.derived.setdefault(ref, set()).update(roles.closure(name))

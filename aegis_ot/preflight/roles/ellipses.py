@@ -24,7 +24,7 @@ def spelled_out(text: str, common: Common) -> str:
 
     Only there: in "columns 1-3 standards, 8 samples" the eight are samples.
     """
-    return _ellipses(well_names(common)).spelled_out(text)
+    return _ellipses(well_names(common)).spelled_out(in_turn(text, common))
 
 
 def with_rows(text: str, common: Common) -> str:
@@ -64,8 +64,9 @@ class Ellipses:
         self._bracketed = re.compile(rf"\((?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?)\)")
         self._lettered = re.compile(r"(?m)(?:^\s*|(?<=\s\s))([A-P])(?=\s{1,4}[:=]?\s*\w)")
         self._every_other = re.compile(
-            rf"\b(?:(?P<odd>{names.odd})|{names.even})\s+(?P<columns>{names.columns})(?!\.?\s*\d)"
-            rf"(?:\s*\((?P<listed>\d{{1,2}}(?:{listing}\d{{1,2}})+)\))?"
+            rf"\b(?:(?P<odd>{names.odd})|{names.even})\s+(?P<columns>{names.columns})"
+            rf"(?:\.?\s*(?P<low>\d{{1,2}}){to}(?P<high>\d{{1,2}})|(?!\.?\s*(?:\d|(?:{names.of})\b)))"
+            rf"(?:\s*\((?P<listed>\d{{1,2}}(?:{listing}\d{{1,2}})+)\)|(?!\s*\())"
         )
         self._cell = re.compile(
             rf"\b{column}\.?\s*(?P<columns>\d{{1,2}})\s+(?P<row>[A-P])(?:{to}(?P<row2>[A-P]))?(?=\s*[=:](?!\w))"
@@ -129,7 +130,6 @@ class Ellipses:
 
     def spelled_out(self, text: str) -> str:
         """See :func:`spelled_out`."""
-        text = in_turn(text, self._names)
         text = self._strip.sub(lambda match: f"{match[1]} {self._plural} ", text)
         text = self._every_other.sub(self._others, text)
         if len(self._short.findall(text)) > 1:  # "c1 vehicle, c2-11 drug"
@@ -155,6 +155,9 @@ class Ellipses:
     def _goes_on(self, text: str, last: str, follower: re.Match[str]) -> bool:
         """Whether a layout goes on there: with the next one, or with a later one and "="."""
         low, after = follower["low"], text[follower.end("of") :].lstrip()
+        passed = re.findall(r"[,;|]", text[follower.start() : follower.start("of")])
+        if len(passed) > 1 and after[:1] not in ("=", ":"):
+            return False  # "columns 1-3: samples 1-3, one column each, 4 NTC wells follow"
         later = low.isdecimal() and last.isdigit() and int(low) > int(last)
         return _follows(last, low) or (later and after[:1] == "=")
 
@@ -192,8 +195,10 @@ class Ellipses:
 
     def _others(self, match: re.Match[str]) -> str:
         """The columns in "odd columns", where they are not listed behind it."""
-        listed = match["listed"] or ",".join(map(str, range(1 if match["odd"] else 2, 25, 2)))
-        return f"{match['columns']} {listed}"
+        low, high = int(match["low"] or 1), int(match["high"] or 24)
+        odd = 1 if match["odd"] else 0
+        others = ",".join(str(at) for at in range(low, min(high, 24) + 1) if at % 2 == odd)
+        return f"{match['columns']} {match['listed'] or others}"
 
     def _spelled(self, match: re.Match[str]) -> str:
         last = f"-{match[2]}" if match[2] else ""
@@ -232,10 +237,11 @@ class Ellipses:
         if not rows:
             return text
         between = rest[: rows[0].start()]
-        if len(rows) == 1 and rows[0]["alone"] is not None and tokens(between):
+        one_thing = between.rstrip().endswith((",", "("))
+        if len(rows) == 1 and rows[0]["alone"] is not None and tokens(between) and one_thing:
             wells = self._names.crossed(rows[0]["row"], rows[0]["row2"] or "", numbers)
             return f"{wells}: {between.strip(' ,;')}{rest[rows[0].end() :]}"
-        kept = text[: head.end()] if tokens(between) else ""
+        kept = text[: head.end()] if tokens(between) and len(rows) > 1 else ""
         return kept + self._rows.sub(
             lambda match: self._names.crossed(match["row"], match["row2"] or "", numbers), rest
         )

@@ -43,7 +43,7 @@ _A_PLATE = 6
 
 def _is_plate_of(clue: Clue) -> bool:
     """Whether a liquid stood in so many wells before the run that it was in a plate, not tubes."""
-    return clue.strength is Strength.LIQUID and len(set(clue.wells)) >= _A_PLATE
+    return clue.strength is Strength.LIQUID and len(clue.places) >= _A_PLATE
 
 
 def fitting_role(
@@ -129,7 +129,7 @@ _A_SERIES = 3
 
 def _is_of_a_series(clue: Clue) -> bool:
     """Whether a comment speaks of so many wells that they are not all its one blank."""
-    return clue.strength is Strength.COMMENT and len(set(clue.wells)) >= _A_SERIES
+    return clue.strength is Strength.COMMENT and len(clue.places) >= _A_SERIES
 
 
 def _general(fitting: Sequence[str], roles: Roles, clue: Clue) -> str:

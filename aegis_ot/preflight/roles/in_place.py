@@ -14,7 +14,7 @@ from ...vocabulary import WellRef
 from ..rules import RoleSpec
 from ..trace import Trace
 from .roles import Roles
-from .usage import Usage
+from .usage import Usage, in_trough
 
 Given = Mapping[WellRef, Mapping[WellRef, float]]
 """µL that each source gives to each well, in the whole run."""
@@ -23,6 +23,8 @@ _FEWEST_SHARING = 4
 _FEWEST_SERVED = 3
 _NEARLY_ALL = 0.8
 """One of five may have been forgotten."""
+
+_MOSTLY = 0.5
 
 _ALIKE = 0.02
 """Volumes that differ by less, as a share of the smaller, are one."""
@@ -34,33 +36,38 @@ def derive_used_like(
     """Unnamed sources that go, each into wells of its own, where one of ``spec.used_like`` goes
     into the others: onto the same labware, in the same volume.
 
-    Not those that go into most of the others' wells as well (a reagent for all), nor into
-    controls, nor what shares a tip with liquids that differ (standards): it may be one of them.
+    Where some are named, only a drug in the same rack as these is one more. Not those that go
+    into most of the others' wells as well (a reagent for all), nor into controls; what stands in
+    a trough is a drug, but no sample.
     """
-    likes = frozenset(spec.used_like)
     given = given_by(trace)
-    models = {ref: wells for ref, wells in given.items() if roles.has(ref, likes)}
-    others = {well for wells in models.values() for well in wells}
-    volumes = {volume for wells in models.values() for volume in wells.values()}
+    models = {ref: into for ref, into in given.items() if roles.has(ref, frozenset(spec.used_like))}
+    others = {well for into in models.values() for well in into}
+    volumes = {volume for into in models.values() for volume in into.values()}
     plates = {well.labware for well in others}
-    unnamed = {ref: wells for ref, wells in given.items() if not roles.of(ref)}
-    different = [like for like in spec.used_like if not roles.family.roles[like].one_liquid]
-    series = {ref for ref in models if roles.has(ref, frozenset(different))}
-    in_series = _in_one_tip_with(trace, series)
-    for ref, wells in unnamed.items():
-        own = wells.keys() - others
-        alone = all(
-            sum(well in into for into in unnamed.values()) == 1 and well.labware in plates
-            for well in own
-        )
+    named = {ref: into for ref, into in given.items() if roles.has(ref, frozenset({name}))}
+    racks = {ref.labware for ref in named} if spec.dosed else set()
+    taken = {well for into in named.values() for well in into}
+    unnamed = {ref: into for ref, into in given.items() if not roles.of(ref)}
+    fed = Counter(well for into in unnamed.values() for well in into)
+    # What shares a tip with liquids that differ, as standards do, may be one of them.
+    differing = frozenset(
+        like for like in spec.used_like if not roles.family.roles[like].one_liquid
+    )
+    in_series = _in_one_tip_with(trace, {ref for ref in models if roles.has(ref, differing)})
+    for ref, into in unnamed.items():
+        own = into.keys() - others
         if (
-            alone
-            and own
-            and 2 * len(own) >= len(wells)
-            and 2 * len(others & wells.keys()) < len(others)
-            and all(_is_one_of(volume, volumes) for volume in wells.values())
-            and 2 * sum(_is_set_apart(roles, well) for well in own) < len(own)
+            own
+            and (not named or ref.labware in racks)
+            and own.isdisjoint(taken)
+            and all(fed[well] == 1 and well.labware in plates for well in own)
+            and _MOSTLY * len(into) <= len(own)
+            and len(others & into.keys()) < _MOSTLY * len(others)
+            and all(_is_one_of(volume, volumes) for volume in into.values())
+            and sum(_is_set_apart(roles, well) for well in own) < _MOSTLY * len(own)
             and ref not in in_series
+            and (spec.dosed or not in_trough(trace, ref.labware))
             and ref not in roles.denied.get(name, ())
             and not any(well in usage and usage[well].feeds for well in own)
         ):
@@ -70,7 +77,8 @@ def derive_used_like(
 def derive_given_instead(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """Wells that get ``spec.gets`` in the volume in which more wells get ``spec.in_place_of``.
 
-    Only where no well is named for this role, and nothing that has no name goes into them.
+    Only where no well is named for this role, where nothing that has no name goes into them, and
+    where another liquid goes into all of these wells.
     """
     if roles.known(name):
         return
@@ -79,11 +87,19 @@ def derive_given_instead(roles: Roles, name: str, spec: RoleSpec, trace: Trace) 
     instead = _given_of(roles, given, spec.gets)
     volumes, plates = set(taken.values()), {well.labware for well in taken}
     unknown = {well for ref, wells in given.items() if not roles.of(ref) for well in wells}
+    either = frozenset((*spec.gets, *spec.in_place_of))
+    shared = {
+        well
+        for ref, wells in given.items()
+        if not roles.has(ref, either) and not taken.keys().isdisjoint(wells)
+        for well in wells
+    }
     found = {
         well
         for well, volume in instead.items()
         if well not in taken
         and well not in unknown
+        and well in shared
         and well not in given
         and well.labware in plates
         and _is_one_of(volume, volumes)

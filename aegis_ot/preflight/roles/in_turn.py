@@ -3,46 +3,52 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
-from .well_names import WellNames, wells_between
+from ..rules import Common
+from ..text import tokens
+from .phrases import first_words
+from .well_names import WellNames, well_names, wells_between
 
 _FEWEST = 3
 """Of two things after two wells, the second may only say more about the first."""
 
-_LONGEST_ITEM = 6
+_LONGEST_ITEM = 4
 """Words; more are a sentence."""
 
 _LIST = re.compile(r"\s*(?::|=|->|=>|→)\s*(?P<items>[^;:=\n]+?)\s*(?=$|[;\n]|\.(?!\d))")
 _ASIDE = re.compile(r"^\s*,?\s*\(?\d+x\)?")
 """Of what strength they all are: ", 100x"."""
 _COMMA = re.compile(r"\s*,\s*(?![^()]*\))")
+_BRACKETS = re.compile(r"\([^()]*\)")
 _SLASH = re.compile(r"\s+/\s+")
 
 
-def in_turn(text: str, names: WellNames) -> str:
+def in_turn(text: str, common: Common) -> str:
     """The text with each place before its item: "column 1: untreated, column 2: vehicle, ...".
 
     Where as many items follow as places, and each is more than a number.
     """
+    names = well_names(common)
     for start, end, places in reversed([*_lists(text, names)]):
         match = _LIST.match(text, end)
         if match is None or names.spec.search(match["items"]):
             continue
         items = _items(match["items"], len(places), names)
-        if len(items) == len(places) and all(map(_tells, items)):
+        if len(items) == len(places) and _tell(items, common):
             entries = ", ".join(f"{at}: {item}" for at, item in zip(places, items, strict=True))
             text = text[:start] + entries + text[match.end() :]
     return text
 
 
-def items_after(text: str, end: int, count: int, names: WellNames) -> list[str]:
+def items_after(text: str, end: int, count: int, common: Common) -> list[str]:
     """As many items as wells of a row or column, in the list that follows it; else none."""
+    names = well_names(common)
     match = _LIST.match(_ASIDE.sub("", text[end:], count=1))
     if match is None or count < _FEWEST or names.spec.search(match["items"]):
         return []
     items = _items(match["items"], count, names)
-    return items if len(items) == count and all(map(_tells, items)) else []
+    return items if len(items) == count and _tell(items, common) else []
 
 
 def _lists(text: str, names: WellNames) -> Iterator[tuple[int, int, list[str]]]:
@@ -79,5 +85,32 @@ def _items(listed: str, count: int, names: WellNames) -> list[str]:
     return items
 
 
-def _tells(item: str) -> bool:
-    return bool(re.search(r"[^\W\d]", item)) and len(item.split()) <= _LONGEST_ITEM
+def _tell(items: Sequence[str], common: Common) -> bool:
+    """Whether each says what is there, more than a number, and none goes on about the others:
+    "drug in triplicate, vehicle last, fresh tips".
+    """
+    further = _further(common)
+    bare = [_BRACKETS.sub(" ", item) for item in items]
+    return all(
+        re.search(r"[^\W\d]", item)
+        and len(item.split()) <= _LONGEST_ITEM
+        and further.isdisjoint(tokens(item))
+        for item in bare
+    )
+
+
+def _further(common: Common) -> set[str]:
+    """Words with which a sentence goes on, rather than name one more thing."""
+    phrases = (
+        *common.joints,
+        *common.toward,
+        *common.partly,
+        *common.negations,
+        *common.tips,
+        *common.handling,
+        *common.replicates,
+        *common.articles,
+        *common.giving,
+        *common.places,
+    )
+    return {word for word in first_words(phrases) if len(word) > 1} - first_words(common.controls)

@@ -59,7 +59,8 @@ def _headed(parts: Sequence[Part]) -> tuple[str, list[Part]]:
     begun = first.text.partition(first.wells[0].group())[0] if first.wells else ""
     head, colon, _ = begun.partition(":")
     alone = all(p.text.startswith(p.wells[0].group()) for p in others if p.wells)
-    if not (tokens(head) and (colon or (alone and tokens(first.words[len(begun) :])))):
+    plural = head.rstrip().endswith("s") and alone and tokens(first.words[len(begun) :])
+    if not (tokens(head) and (colon or plural)):
         return "", list(parts)
     kept = first._replace(text=first.text[len(head + colon) :].strip())
     return head.strip(), [kept._replace(words=first.words[len(head + colon) :]), *others]

@@ -196,13 +196,13 @@ _ITEM = re.compile(r"(\w+)\[.*\]")
 def of_its_dict(
     lexicon: Lexicon, clue: Clue, named: list[str], common: Common, roles: Roles
 ) -> list[str]:
-    """The roles that a name of a dict's item names: ``mixes["neg. desert"]`` is a mix.
+    """The roles that the name of a source in a dict names: ``mixes["neg. desert"]`` is a mix.
 
     A dict of one liquid tells what its items are, unless the key names another liquid.
     """
     match = _ITEM.fullmatch(clue.text)
     specs = roles.family.roles
-    if match is None or specs[named[0]].one_liquid:
+    if match is None or specs[named[0]].one_liquid or specs[named[0]].dosed:
         return named
     base = roles_named(lexicon, replace(clue, text=match[1]), common)
     return base if base and specs[base[0]].one_liquid else named

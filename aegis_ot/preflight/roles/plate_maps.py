@@ -63,9 +63,8 @@ def labware_of_map(
     """The labware that a plate map of this name speaks of: the one that is called so, several
     plates where the run uses it on all alike, none where that is not plain.
     """
-    called = {
-        key for own, keys in deck.by_name.items() if tokens(own) == tokens(name) for key in keys
-    }
+    owners = (*deck.by_name.items(), *deck.by_label.items())
+    called = {key for own, keys in owners if tokens(own) == tokens(name) for key in keys}
     if len(called) == 1:
         return tuple(called)
     used = used_with(deck, facts, name)
@@ -74,7 +73,10 @@ def labware_of_map(
         sizes = [len(deck.trace.labware[key].wells) for key in used]
         if in_all and min(sizes) <= MOST_TUBES < max(sizes):
             # Tubes, and wells of the same names: of both where each goes into its namesake.
-            return used if _is_stamped(deck, used, spots) else ()
+            if _is_stamped(deck, used, spots):
+                return used
+            alike = called_alike(deck, name, common)
+            return (alike,) if alike in used else ()
         used = _alike(deck, used, spots)
     one = () if used else (called_alike(deck, name, common) or deck.most_likely(spots),)
     return used or tuple(key for key in one if key)

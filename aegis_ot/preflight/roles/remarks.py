@@ -71,7 +71,7 @@ def _one_by_one(part: Part, said: str, clue: Clue, common: Common) -> list[Clue]
     if len(part.wells) > 1 or last["first"]:
         return []
     end = said.find(last.group()) + len(last.group())
-    items = items_after(said.rstrip(" ,"), end, len(clue.wells), well_names(common))
+    items = items_after(said.rstrip(" ,"), end, len(clue.wells), common)
     return [
         replace(clue, text=item, wells=(ref,), levels=())
         for item, ref in zip(items, clue.wells, strict=False)

@@ -88,6 +88,11 @@ class Roles:
             return False
         return assigned.strength <= Strength.COMMENT
 
+    def by_plate_only(self, ref: WellRef) -> bool:
+        """Whether neither its own name nor what it receives says what a well is for."""
+        assigned = self.by_well.get(ref)
+        return assigned is not None and assigned.whole and not self.derived.get(ref)
+
     def level(self, ref: WellRef) -> float | None:
         """Concentration or dose of a well, if known."""
         assigned = self.by_well.get(ref)

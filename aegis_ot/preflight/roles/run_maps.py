@@ -10,7 +10,7 @@ from typing import Any
 from ...instrumentation import NameBinding, Row, is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, lexicon_of, tokens
+from ..text import SourceFacts, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import names_amounts, names_counts, number_in
@@ -74,7 +74,7 @@ def clues_of_rows(
     line: int | None,
 ) -> Iterator[Clue]:
     """What the rows of one table, called ``name``, say of the wells in them."""
-    labware = labware_of_columns(deck, facts, rows)
+    labware = labware_of_columns(deck, facts, rows, name)
     keyed = labware_by_key(deck, [row.cells for row in rows])
     titles = _noted_titles(facts, name, rows)
     beside: dict[tuple[str, str], Counter[WellRef]] = {}
@@ -185,11 +185,12 @@ def _titled(row: Row, titles: Mapping[int, str]) -> Row:
 
 
 def labware_of_columns(
-    deck: Deck, facts: SourceFacts, rows: Sequence[Row]
+    deck: Deck, facts: SourceFacts, rows: Sequence[Row], name: str = ""
 ) -> dict[str, tuple[str, ...]]:
     """In which labware the well names of each column stand, where that is plain.
 
-    It is the one that is indexed by that column's name, or several of one kind, else the only one
+    It is the one that is indexed by that column's name, as taken from the table's rows if any is,
+    or several of one kind, else the only one
     in which the run uses all these wells, or most: those of "untreated" get nothing.
     """
     spots: dict[str, dict[str, None]] = {}
@@ -201,9 +202,14 @@ def labware_of_columns(
         if not listed:
             continue
         indexed: set[str] = set()
-        for place in facts.places:
-            if column and (column in place.keys or column in place.names):
-                indexed |= deck.by_name.get(place.labware, set())
+        places = [
+            place
+            for place in facts.places
+            if column and (column in place.keys or column in place.names)
+        ]
+        own = [p for p in places if name and name in origins(facts, p.names, (p.line,))]
+        for place in own or places:
+            indexed |= deck.by_name.get(place.labware, set())
         if indexed and deck.are_alike(indexed):
             found[column] = tuple(sorted(indexed))
             continue
