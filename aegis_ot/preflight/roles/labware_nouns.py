@@ -17,6 +17,9 @@ IN_BRACKETS = re.compile(r"\([^()]*\)")
 
 _SLOT = re.compile(r"(?i:\bslot\s+)([A-Da-d][1-4]|1[01]|[1-9])\b")
 
+_LISTED_SLOT = re.compile(r"\W*([A-D][1-4]|1[01]|[1-9])\s+((?:[^\W\d]\w*\W+){1,3})")
+"""How a line of a list of the deck begins: "C2  tube rack"."""
+
 _SHORTEST = 3
 """Fewer letters are short for many things."""
 
@@ -37,6 +40,8 @@ class LabwareNouns:
             for words in common.labware.values()
         ]
         self._nouns = {word for kind in self._kinds for word in kind}
+        tubes = {word for phrase in common.labware.get("tube", ()) for word in tokens(phrase)}
+        self._racks = {word for word in self._nouns if word not in tubes or "rack" in word}
         self._on_deck = self._nouns | {word for phrase in common.tips for word in tokens(phrase)}
         self._strips = {w for phrase in common.labware.get("strip", ()) for w in tokens(phrase)}
         self._decks = lexicon_of({"deck": common.decks})
@@ -53,7 +58,7 @@ class LabwareNouns:
 
     def named(self, text: str) -> frozenset[str]:
         """The one labware that a text calls by its label or by the telling name of a variable."""
-        slots = {slot.lower() for slot in _SLOT.findall(text)}
+        slots = {slot.lower() for slot in _SLOT.findall(text)} or self._listed_slot(text)
         if len(slots) == 1:
             return frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
         words = tokens(text)
@@ -64,6 +69,13 @@ class LabwareNouns:
                 if len(keys) == 1 and telling and self._is_called(tokens(name), words):
                     found |= keys
         return frozenset(found) if len(found) == 1 else frozenset()
+
+    def _listed_slot(self, text: str) -> set[str]:
+        """The slot at the begin of a line of the deck's list: "C2  tube rack", no well's "tube"."""
+        match = _LISTED_SLOT.match(f"{text} ")
+        if match is None or match[1] not in self._slots or self._racks.isdisjoint(tokens(match[2])):
+            return set()
+        return {match[1].lower()}
 
     def _is_called(self, name: tuple[str, ...], words: tuple[str, ...]) -> bool:
         """Whether a text names a labware that is called so.

@@ -115,10 +115,12 @@ def used_with(deck: Deck, facts: SourceFacts, name: str) -> tuple[str, ...]:
 
 
 def _numbers_places(facts: SourceFacts, name: str) -> bool:
-    """Whether the run takes the numbers of a map's rows for those of columns or rows."""
+    """Whether the run takes the numbers of a map's rows for those of columns."""
     taken = {part for names in facts.unpacked for part in names}
     return any(
-        place.name in taken and name in origins(facts, (place.name,), place.lines)
+        place.axis == "column"
+        and place.name in taken
+        and name in origins(facts, (place.name,), place.lines)
         for place in facts.numbered
     )
 
