@@ -78,14 +78,21 @@ def _one_by_one(part: Part, said: str, clue: Clue, common: Common) -> list[Clue]
     ]
 
 
+_VOLUME = re.compile(r"\d\s*[uµμm]l\b", re.IGNORECASE)
+
+
 def _laid_out_in_the_run(deck: Deck, common: Common) -> list[tuple[int, str]]:
-    """Comments of the run that are lines of a layout: ``f"column {n}: {dose} uM"``."""
+    """Comments of the run that are lines of a layout: ``f"column {n}: {dose} uM"``.
+
+    Not those that say how much goes there: "B1: 16.2 uL DNA + 43.8 uL TE".
+    """
     spec = well_names(common).spec
     return [
         (said.line or 1, said.text)
         for said in dict.fromkeys(deck.trace.comments)
         if (match := spec.match(said.text.strip()))
         and said.text.strip()[match.end() :].lstrip()[:1] in (":", "=")
+        and not _VOLUME.search(said.text)
     ]
 
 
