@@ -56,22 +56,25 @@ def derive_used_like(
     )
     in_series = _in_one_tip_with(trace, {ref for ref in models if roles.has(ref, differing)})
     for ref, into in unnamed.items():
+        if named and ref.labware not in racks:
+            continue
+        if ref in in_series or ref in roles.denied.get(name, ()):
+            continue
+        if not spec.dosed and in_trough(trace, ref.labware):
+            continue
         own = into.keys() - others
-        if (
-            own
-            and (not named or ref.labware in racks)
-            and own.isdisjoint(taken)
-            and all(fed[well] == 1 and well.labware in plates for well in own)
-            and _MOSTLY * len(into) <= len(own)
-            and len(others & into.keys()) < _MOSTLY * len(others)
-            and all(_is_one_of(volume, volumes) for volume in into.values())
-            and sum(_is_set_apart(roles, well) for well in own) < _MOSTLY * len(own)
-            and ref not in in_series
-            and (spec.dosed or not in_trough(trace, ref.labware))
-            and ref not in roles.denied.get(name, ())
-            and not any(well in usage and usage[well].feeds for well in own)
-        ):
+        apart = sum(_is_set_apart(roles, well) for well in own)
+        mostly_own = len(own) >= _MOSTLY * len(into) and apart < _MOSTLY * len(own)
+        for_all = len(others & into.keys()) >= _MOSTLY * len(others)
+        alone = own.isdisjoint(taken) and all(fed[well] == 1 for well in own)
+        as_much = all(_is_one_of(volume, volumes) for volume in into.values())
+        there = all(well.labware in plates and not _feeds(usage, well) for well in own)
+        if own and mostly_own and not for_all and alone and as_much and there:
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+def _feeds(usage: Mapping[WellRef, Usage], ref: WellRef) -> bool:
+    return ref in usage and usage[ref].feeds
 
 
 def derive_given_instead(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
