@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...instrumentation import OperationKind
 from ..trace import Composition, Transfer, Well
 from .base import Case
 
@@ -51,8 +52,16 @@ def _is_made_diluent(case: Case, well: Well, source: Well, liquid: Composition) 
 def is_dilution(case: Case, step: Transfer) -> bool:
     """Whether a transfer is a dilution step.
 
-    Undiluted stock in an empty first well is none: that well never gets diluent.
+    Undiluted stock in an empty first well is none: that well never gets diluent, or only after it
+    was drawn from, when all wells are filled up for the reader.
     """
-    if not step.from_stock:
+    if not step.from_stock or case.has(step.well, diluent_roles(case)):
         return True
-    return bool(diluent_arrivals(case, step.well)) or case.has(step.well, diluent_roles(case))
+    drawn = [
+        visit.index
+        for visit in step.well.visits
+        if visit.kind is OperationKind.ASPIRATE and not visit.mixing
+    ]
+    then = min((index for index in drawn if index > step.visit.index), default=None)
+    arrivals = diluent_arrivals(case, step.well)
+    return any(then is None or index < then for index in arrivals)
