@@ -1,4 +1,4 @@
-# expect: cell_treatment pass
+# expect: cell_treatment pass CELL-3!
 """Paclitaxel, spheroids; a row for each dose.
 
 The vehicle control sits in column 10 of every row.

@@ -1,4 +1,4 @@
-# expect: cell_treatment pass
+# expect: cell_treatment pass CELL-1!
 """Niclosamide on MDCK cells, quadruplicates, two rows each."""
 
 metadata = {"protocolName": "Niclosamide MDCK", "apiLevel": "2.13"}

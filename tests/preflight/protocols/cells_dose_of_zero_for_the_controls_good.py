@@ -1,4 +1,4 @@
-# expect: cell_treatment pass
+# expect: cell_treatment pass CELL-1!
 """Metformin on myoblasts; the tube without any stands in A1."""
 
 metadata = {"protocolName": "Metformin, myoblasts", "apiLevel": "2.13"}

@@ -1,4 +1,4 @@
-# expect: cell_treatment pass
+# expect: cell_treatment pass CELL-3!
 """Colchicine, hepatocytes, one column for each concentration.
 
 rack row A, 100x: ethanol, 1 uM, 3 uM, 10 uM, 30 uM, 90 uM

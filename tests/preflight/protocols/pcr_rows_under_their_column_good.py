@@ -1,4 +1,4 @@
-# expect: pcr pass
+# expect: pcr pass PCR-2!
 """SYBR qPCR of barley cDNA.
 
 cDNA strip = column 1 of the cDNA plate:
