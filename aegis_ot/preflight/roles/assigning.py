@@ -139,7 +139,7 @@ def assign_roles(
             told = roles.told_levels.get(ref)
             assignment.level = told if assignment.level is None else assignment.level
             spec = family.roles[assignment.role]
-            if spec.dosed and assignment.level == 0 and "0" in tokens(assignment.text):
+            if spec.dosed and assignment.level == 0 and _is_said_to_be_none(found):
                 continue  # "sorafenib 0 uM" is none
             roles.by_well[ref] = assignment
             counted = any(map(str.isdigit, assignment.text))
@@ -239,6 +239,11 @@ def _add_dosed(
             if sides(ref)[0] == spec.side and len(series[ref.labware, of_what]) >= _FEWEST_DOSES:
                 worth = _worth(clue, False, False)
                 candidates.setdefault(ref, []).append((worth, name, clue, dose))
+
+
+def _is_said_to_be_none(found: Sequence[Candidate]) -> bool:
+    """Whether what speaks for a well says "0"; the first of a rising list counts from 0 as well."""
+    return any(level == 0 and "0" in tokens(clue.text) for _, _, clue, level in found)
 
 
 def _is_of_a_layout(clue: Clue) -> bool:
