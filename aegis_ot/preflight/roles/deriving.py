@@ -9,7 +9,7 @@ from ...vocabulary import WellRef
 from ..rules import Common, RoleSpec
 from ..trace import Trace
 from .called_alike import derive_called_alike
-from .in_place import derive_common, derive_given_instead, derive_used_like, given_by
+from .in_place import Given, derive_common, derive_given_instead, derive_used_like, given_by
 from .roles import Roles
 from .usage import Usage
 
@@ -30,19 +30,20 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: C
             _derive_one_to_one(roles, name, trace)
         if spec.loaded:
             _derive_loaded(roles, name, spec.loaded, trace)
+    given = given_by(trace)
     for name, spec in roles.family.roles.items():
         if spec.used_like:
-            derive_used_like(roles, name, spec, trace, usage)
+            derive_used_like(roles, name, spec, trace, given, usage)
     for name, spec in roles.family.roles.items():
         if spec.passed_on:
-            _pass_on(roles, name, trace)
+            _pass_on(roles, name, trace, given)
         if spec.receives:
             _derive_one(roles, name, spec, trace, usage)
         if spec.in_place_of:
-            derive_given_instead(roles, name, spec, trace)
+            derive_given_instead(roles, name, spec, given)
     for name, spec in roles.family.roles.items():
         if spec.common_to:
-            derive_common(roles, name, spec, trace)
+            derive_common(roles, name, spec, given)
     for name, spec in roles.family.roles.items():
         if spec.feeds and (spec.dosed or spec.feeds_beside):
             _derive_levels(roles, name, spec, trace)
@@ -231,7 +232,7 @@ _MOST_FILLED = 3
 """So few wells are not topped up where each gets as much: they are what the tube is for."""
 
 
-def _pass_on(roles: Roles, name: str, trace: Trace) -> None:
+def _pass_on(roles: Roles, name: str, trace: Trace, volumes: Given) -> None:
     """What is drawn from a tube called NTC makes an NTC, beside reagents that others get too.
 
     Not where many wells have each a liquid of their own besides: that tube only tops them up.
@@ -249,7 +250,6 @@ def _pass_on(roles: Roles, name: str, trace: Trace) -> None:
         if ref not in givers and wells <= given
         for well in wells
     }
-    volumes = given_by(trace)
     for ref, assigned in givers.items():
         most = max(volumes[ref].values())
         few = len(served[ref]) <= _MOST_FILLED

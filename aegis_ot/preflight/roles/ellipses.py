@@ -158,7 +158,7 @@ class Ellipses:
         passed = re.findall(r"[,;|]", text[follower.start() : follower.start("of")])
         if len(passed) > 1 and after[:1] not in ("=", ":"):
             return False  # "columns 1-3: samples 1-3, one column each, 4 NTC wells follow"
-        later = low.isdecimal() and last.isdigit() and int(low) > int(last)
+        later = low.isdecimal() and last.isdecimal() and int(low) > int(last)
         return _follows(last, low) or (later and after[:1] == "=")
 
     def _with_columns(self, text: str) -> str:
@@ -228,9 +228,10 @@ class Ellipses:
         return text
 
     def _of_columns(self, text: str, head: re.Match[str]) -> str:
-        """The same under columns: "columns 1-3: standards, row H blank" names H1-H3 besides.
+        """The same under columns: "column 6: rows A-D samples, rows E-H blank".
 
-        And "column 11: vehicle, rows B-G" names B11-G11 alone.
+        "columns 1-3: standards, row G blank, row H water" names G1-G3 and H1-H3 besides the
+        columns, "column 11: vehicle, rows B-G" only B11-G11.
         """
         rest, numbers = text[head.end() :], head["columns"]
         rows = list(self._rows.finditer(rest))
@@ -286,6 +287,6 @@ def _count_down(entries: Iterable[re.Match[str]]) -> bool:
 
 def _follows(last: str, low: str) -> bool:
     """Whether a column's number or a row's letter is the one after the last."""
-    if last.isdecimal() != low.isdigit():
+    if last.isdecimal() != low.isdecimal():
         return False
     return int(low) == int(last) + 1 if low.isdecimal() else ord(low) == ord(last) + 1

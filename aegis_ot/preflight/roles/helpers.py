@@ -101,7 +101,7 @@ def unsay_controls(roles: Roles, trace: Trace) -> None:
     for ref, wells in fed.items():
         of_tubes = not roles.by_well[ref].whole or _is_of_tubes(trace, ref)
         if all(
-            _is_set_apart(roles, well)
+            roles.is_set_apart(well)
             and (of_tubes or (roles.by_well[well].role in awaited and given[well] == {ref}))
             for well in wells
         ):
@@ -118,12 +118,3 @@ def _is_of_tubes(trace: Trace, ref: WellRef) -> bool:
     """Whether a well is one of few, in a rack or a reservoir, which hold various things."""
     info = trace.labware.get(ref.labware)
     return info is not None and (info.centers_channels or len(info.wells) <= MOST_TUBES)
-
-
-def _is_set_apart(roles: Roles, ref: WellRef) -> bool:
-    """Whether a well is called something that does not follow from what it receives."""
-    assigned = roles.by_well.get(ref)
-    if assigned is None:
-        return False
-    spec = roles.family.roles[assigned.role]
-    return bool(spec.parents) and not spec.receives

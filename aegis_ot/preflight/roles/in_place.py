@@ -31,7 +31,12 @@ _ALIKE = 0.02
 
 
 def derive_used_like(
-    roles: Roles, name: str, spec: RoleSpec, trace: Trace, usage: Mapping[WellRef, Usage]
+    roles: Roles,
+    name: str,
+    spec: RoleSpec,
+    trace: Trace,
+    given: Given,
+    usage: Mapping[WellRef, Usage],
 ) -> None:
     """Unnamed sources that go, each into wells of its own, where one of ``spec.used_like`` goes
     into the others: onto the same labware, in the same volume.
@@ -40,7 +45,6 @@ def derive_used_like(
     into most of the others' wells as well (a reagent for all), nor into controls; what stands in
     a trough is a drug, but no sample.
     """
-    given = given_by(trace)
     models = {ref: into for ref, into in given.items() if roles.has(ref, frozenset(spec.used_like))}
     others = {well for into in models.values() for well in into}
     volumes = {volume for into in models.values() for volume in into.values()}
@@ -63,7 +67,7 @@ def derive_used_like(
         if not spec.dosed and in_trough(trace, ref.labware):
             continue
         own = into.keys() - others
-        apart = sum(_is_set_apart(roles, well) for well in own)
+        apart = sum(roles.is_set_apart(well) for well in own)
         mostly_own = len(own) >= _MOSTLY * len(into) and apart < _MOSTLY * len(own)
         for_all = len(others & into.keys()) >= _MOSTLY * len(others)
         alone = own.isdisjoint(taken) and all(fed[well] == 1 for well in own)
@@ -77,7 +81,7 @@ def _feeds(usage: Mapping[WellRef, Usage], ref: WellRef) -> bool:
     return ref in usage and usage[ref].feeds
 
 
-def derive_given_instead(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
+def derive_given_instead(roles: Roles, name: str, spec: RoleSpec, given: Given) -> None:
     """Wells that get ``spec.gets`` in the volume in which more wells get ``spec.in_place_of``.
 
     Only where no well is named for this role, where nothing that has no name goes into them, and
@@ -85,7 +89,6 @@ def derive_given_instead(roles: Roles, name: str, spec: RoleSpec, trace: Trace) 
     """
     if roles.known(name):
         return
-    given = given_by(trace)
     taken = _given_of(roles, given, spec.in_place_of)
     instead = _given_of(roles, given, spec.gets)
     volumes, plates = set(taken.values()), {well.labware for well in taken}
@@ -113,7 +116,7 @@ def derive_given_instead(roles: Roles, name: str, spec: RoleSpec, trace: Trace) 
             roles.derived.setdefault(well, set()).update(roles.closure(name))
 
 
-def derive_common(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
+def derive_common(roles: Roles, name: str, spec: RoleSpec, given: Given) -> None:
     """Unnamed sources of which nearly all wells of ``spec.common_to`` get one, and as much of it.
 
     Only where no well is named for this role.
@@ -121,7 +124,6 @@ def derive_common(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None
     wanted = frozenset(spec.common_to)
     if roles.known(name):
         return
-    given = given_by(trace)
     filled = {well for wells in given.values() for well in wells} - given.keys()
     wells = {well for well in filled if roles.has(well, wanted)}
     unnamed = {
@@ -168,15 +170,6 @@ def _given_of(roles: Roles, given: Given, wanted: Collection[str]) -> dict[WellR
 
 def _is_one_of(volume: float, volumes: Collection[float]) -> bool:
     return any(abs(volume - other) <= _ALIKE * min(volume, other) for other in volumes)
-
-
-def _is_set_apart(roles: Roles, ref: WellRef) -> bool:
-    """Whether a well is named for something that does not follow from what it receives."""
-    assigned = roles.by_well.get(ref)
-    if assigned is None:
-        return False
-    spec = roles.family.roles[assigned.role]
-    return bool(spec.parents) and not spec.receives
 
 
 def _in_one_tip_with(trace: Trace, refs: Collection[WellRef]) -> set[WellRef]:

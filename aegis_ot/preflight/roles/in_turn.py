@@ -32,10 +32,7 @@ def in_turn(text: str, common: Common) -> str:
     names = well_names(common)
     for start, end, places in reversed([*_lists(text, names)]):
         match = _LIST.match(text, end)
-        if match is None or names.spec.search(match["items"]):
-            continue
-        items = _items(match["items"], len(places), names)
-        if len(items) == len(places) and _tell(items, common):
+        if match and (items := _items(match["items"], len(places), names, common)):
             entries = ", ".join(f"{at}: {item}" for at, item in zip(places, items, strict=True))
             text = text[:start] + entries + text[match.end() :]
     return text
@@ -45,10 +42,9 @@ def items_after(text: str, end: int, count: int, common: Common) -> list[str]:
     """As many items as wells of a row or column, in the list that follows it; else none."""
     names = well_names(common)
     match = _LIST.match(_ASIDE.sub("", text[end:], count=1))
-    if match is None or count < _FEWEST or names.spec.search(match["items"]):
+    if match is None or count < _FEWEST:
         return []
-    items = _items(match["items"], count, names)
-    return items if len(items) == count and _tell(items, common) else []
+    return _items(match["items"], count, names, common)
 
 
 def _lists(text: str, names: WellNames) -> Iterator[tuple[int, int, list[str]]]:
@@ -76,13 +72,16 @@ def _places(match: re.Match[str], names: WellNames) -> list[str]:
     return [f"{word} {place}" for place in names.numbers(listed or match["rows"] or match["row"])]
 
 
-def _items(listed: str, count: int, names: WellNames) -> list[str]:
+def _items(listed: str, count: int, names: WellNames, common: Common) -> list[str]:
+    """The items of a list of so many that each say what is there; of any other list, none."""
+    if names.spec.search(listed):
+        return []
     items = _COMMA.split(listed)
     if len(items) == 1:
         items = _SLASH.split(listed)
     if len(items) == count - 1:  # "untreated, vehicle and drug"
         items[-1:] = re.split(names.conjunction, items[-1], maxsplit=1)
-    return items
+    return items if len(items) == count and _tell(items, common) else []
 
 
 def _tell(items: Sequence[str], common: Common) -> bool:

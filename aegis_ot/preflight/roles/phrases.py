@@ -198,7 +198,7 @@ def of_its_dict(
 ) -> list[str]:
     """The roles that the name of a source in a dict names: ``mixes["neg. desert"]`` is a mix.
 
-    A dict of one liquid tells what its items are, unless the key names another liquid.
+    A dict of one liquid tells what its items are, unless the key names another liquid or a drug.
     """
     match = _ITEM.fullmatch(clue.text)
     specs = roles.family.roles

@@ -93,6 +93,14 @@ class Roles:
         assigned = self.by_well.get(ref)
         return assigned is not None and assigned.whole and not self.derived.get(ref)
 
+    def is_set_apart(self, ref: WellRef) -> bool:
+        """Whether a well is named for something that does not follow from what it receives."""
+        assigned = self.by_well.get(ref)
+        if assigned is None:
+            return False
+        spec = self.family.roles[assigned.role]
+        return bool(spec.parents) and not spec.receives
+
     def level(self, ref: WellRef) -> float | None:
         """Concentration or dose of a well, if known."""
         assigned = self.by_well.get(ref)
