@@ -14,7 +14,7 @@ from ...vocabulary import WellRef
 from ..roles import Roles
 from ..trace import Trace, Transfer, Well, chains_of, links_of
 from .series_links import along_series, first_from, is_copying
-from .series_order import best_order
+from .series_order import best_order, turned_to_fall
 
 
 @dataclass
@@ -125,26 +125,7 @@ def _series(
         for step in last.values():
             entries.append(well)
             steps.append(step)
-    directed = False
-    if entries:
-        # Where stock stands in the diluent's place too, only the well that no other feeds tells.
-        fed_within = {link.well for link in links}
-        unfed = [well for well in entries if well not in fed_within]
-        heads = [well for well in unfed if well in linked_set]
-        # Among the wells of the chain, if its head is one; others may stand beside it.
-        along = [well for well in order if well in linked_set] if heads else order
-        place = {well: number for number, well in enumerate(along)}
-        ends = [place[well] for well in heads or unfed or entries]
-        middle = sum(ends) / len(ends)
-        if middle != (len(along) - 1) / 2:
-            directed = True
-        if middle > (len(along) - 1) / 2:
-            order.reverse()
-    elif links:
-        position = {well: number for number, well in enumerate(order)}
-        up = sum(1 if position[s.well] > position[s.source] else -1 for s in links)
-        if up < 0:
-            order.reverse()
+    directed = turned_to_fall(order, entries, links, roles)
     position = {well: number for number, well in enumerate(order)}
     for link in sorted(links, key=lambda s: s.visit.index):
         if link.source in entered and entered[link.source] < link.visit.index:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
+from ..roles import Roles
 from ..trace import Transfer, Well
 
 
@@ -33,3 +35,43 @@ def _as_made(members: list[Well], links: Sequence[Transfer]) -> list[Well]:
             if well not in order:
                 order.append(well)
     return order + [well for well in members if well not in order]
+
+
+def turned_to_fall(
+    order: list[Well], entries: Sequence[Well], links: Sequence[Transfer], roles: Roles
+) -> bool:
+    """Turn an order, if need be, so that it runs away from the stock; whether its head is known.
+
+    ``entries`` are the wells that stock goes into. Where each well's level is said, the levels
+    tell better: somebody may have put the stock into the wrong end.
+    """
+    levels = [roles.level(well.ref) for well in order]
+    told = [level for level in levels if level is not None and level < 1]
+    if len(told) == len(order) >= _FEWEST_TOLD:
+        if all(one > other for one, other in pairwise(told)):
+            return True
+        if all(one < other for one, other in pairwise(told)):
+            order.reverse()
+            return True
+    if entries:
+        # Where stock stands in the diluent's place too, only the well that no other feeds tells.
+        linked = {well for link in links for well in (link.source, link.well)}
+        fed_within = {link.well for link in links}
+        unfed = [well for well in entries if well not in fed_within]
+        heads = [well for well in unfed if well in linked]
+        # Among the wells of the chain, if its head is one; others may stand beside it.
+        along = [well for well in order if well in linked] if heads else order
+        place = {well: number for number, well in enumerate(along)}
+        ends = [place[well] for well in heads or unfed or entries]
+        middle = sum(ends) / len(ends)
+        if middle > (len(along) - 1) / 2:
+            order.reverse()
+        return middle != (len(along) - 1) / 2
+    position = {well: number for number, well in enumerate(order)}
+    if sum(1 if position[s.well] > position[s.source] else -1 for s in links) < 0:
+        order.reverse()
+    return False
+
+
+_FEWEST_TOLD = 3
+"""Levels of fewer wells, or numbers of 1 and more, may be by how much each is diluted."""

@@ -31,6 +31,7 @@ from .phrases import (
     says_only_a_place,
     says_only_the_side,
     what_all_are,
+    without_differing,
 )
 from .replicates import spread_over_replicates
 from .roles import Roles
@@ -71,6 +72,8 @@ def assign_roles(
     holding = _of_several(clues, lexicon, common, roles)
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
+        if clue.whole or len(clue.wells) >= _SEVERAL:
+            named = without_differing(lexicon, clue, named, family)
         if not named:
             untold.append(clue)
             continue
@@ -208,6 +211,9 @@ def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, floa
     told = {**of_several, **of_each}
     return {ref: levels.pop() for ref, levels in told.items() if len(levels) == 1}
 
+
+_SEVERAL = 3
+"""Two wells may well hold one liquid."""
 
 _FEWEST_DOSES = 2
 

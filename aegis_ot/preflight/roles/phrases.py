@@ -38,6 +38,20 @@ def roles_denied(lexicon: Lexicon, text: str) -> set[str]:
     return {m.topic[1:] for m in lexicon.find(text) if m.topic.startswith("!")}
 
 
+def without_differing(
+    lexicon: Lexicon, clue: Clue, named: Sequence[str], family: Family
+) -> list[str]:
+    """Without roles that are named only by words that for many wells stand for various liquids."""
+    said: dict[str, set[str]] = {}
+    for match in lexicon.find(clue.text):
+        said.setdefault(match.topic, set()).add(match.phrase)
+    return [
+        role
+        for role in named
+        if role not in said or not said[role].issubset(family.roles[role].differing)
+    ]
+
+
 def names_several(lexicon: Lexicon, clue: Clue, common: Common, roles: Roles) -> bool:
     """Whether two words of a clue name different things."""
     groups = [group for group in _named_by_words(lexicon, clue, common) if group]

@@ -76,6 +76,8 @@ class RoleSpec:
             first, ``destination`` if only in wells that liquid is put into first, or ``any``.
         words: Phrases that name it.
         never: Phrases that hold one of the words and still do not name it.
+        differing: Those of its words that in the plural, or for a labware, stand for liquids which
+            differ, and so do not name it: a rack of "stocks".
         implies_contents: Whether such a well held liquid before the run.
         filled_by: Roles whose liquid, given in the run, would make up those contents.
         feeds: Derived: an unnamed source that mostly feeds wells of these roles.
@@ -114,6 +116,7 @@ class RoleSpec:
     side: str = "any"
     words: tuple[str, ...] = ()
     never: tuple[str, ...] = ()
+    differing: tuple[str, ...] = ()
     implies_contents: bool = False
     filled_by: tuple[str, ...] = ()
     feeds: tuple[str, ...] = ()

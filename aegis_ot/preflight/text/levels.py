@@ -51,6 +51,12 @@ _LONG_NUMBER = re.compile(r"(?<![\d.])((?!0\d)\d{2,}(?:\.\d+)?|\d+\.\d+|0)(?![\d
 _RATIO = re.compile(r"\b1\s*(?::|/|to|in)\s*(\d+)\b", re.IGNORECASE)
 
 
+_POWER = re.compile(r"(?<![\w.])(?:10\s?\^\s?\(?|10\*\*|1e)-\s?0?(\d)(?!\d)", re.IGNORECASE)
+"""A ten-fold series is told by powers of ten: "10^-3"."""
+_SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+_RAISED = re.compile("10([⁻][⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
+
+
 def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | None:
     """The one level that a text states: with a unit, in words, or as a plain number.
 
@@ -66,6 +72,7 @@ def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | N
     if with_unit:
         return None
     ratios = {1.0 / float(value) for value in _RATIO.findall(plain) if float(value) > 0}
+    ratios |= {10.0 ** -int(value) for value in _POWER.findall(_lowered(plain))}
     if len(ratios) == 1:
         return ratios.pop()
     words = {common.levels[match.topic] for match in _level_words(common).find(text)}
@@ -210,6 +217,11 @@ def _unit(unit: str) -> str:
 
 def _number(text: str) -> float:
     return float(text.replace(",", ".").replace("p", "."))
+
+
+def _lowered(text: str) -> str:
+    """A text with "10^-3" for "10⁻³"."""
+    return _RAISED.sub(lambda match: "10^" + match[1].translate(_SUPERSCRIPTS), text)
 
 
 def with_u(text: str) -> str:

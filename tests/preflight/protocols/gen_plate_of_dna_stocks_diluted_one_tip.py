@@ -1,4 +1,4 @@
-# expect: generic fail GEN-2
+# expect: generic fail GEN-1 GEN-2
 """DNA with fresh tips into a plate, then Tris into all of its wells with one tip."""
 
 metadata = {"apiLevel": "2.13", "protocolName": "DNA normalisation"}
