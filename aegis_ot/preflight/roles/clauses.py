@@ -58,20 +58,26 @@ def parts_of(text: str, common: Common) -> Iterator[Part]:
     for clause in _clauses(text, names, first_words(_nouns(common))):
         groups = _groups(clause, names)
         for piece in _shares(clause, groups) if len(groups) > 1 else [clause]:
-            wells = _without_codes(piece, _innermost(names.spec.finditer(piece)))
+            wells = _without_codes(piece, _innermost(names.spec.finditer(piece)), names)
             if wells and _is_left_out(piece[: wells[0].start()], common):
                 wells = ()  # "PBS everywhere except column 1" says nothing of column 1
             yield Part(piece.strip(), names.spec.sub(" ", piece), wells)
 
 
-def _without_codes(piece: str, wells: tuple[re.Match[str], ...]) -> tuple[re.Match[str], ...]:
-    """Without what numbers things by their first letter: "A2-F2 = milk fractions F1-F6"."""
+def _without_codes(
+    piece: str, wells: tuple[re.Match[str], ...], names: WellNames
+) -> tuple[re.Match[str], ...]:
+    """Without what numbers things by their first letter: "A2-F2 = milk fractions F1-F6".
+
+    Not after a word that joins wells: "A1 and A2".
+    """
     named = [
         match
         for match in wells[1:]
         if match["first"]
         and (word := tokens(piece[: match.start()])[-1:])
         and len(word[0]) > 1
+        and not names.between.fullmatch(word[0])
         and word[0][0].upper() == match["first"][0]
     ]
     return tuple(match for match in wells if match not in named)
@@ -164,7 +170,7 @@ def _is_list(clause: str, names: WellNames, nouns: frozenset[str]) -> bool:
 def _groups(clause: str, names: WellNames) -> list[tuple[int, int]]:
     """Start and end of each list of wells in a clause: of "A1, B1 and C1"."""
     found: list[tuple[int, int]] = []
-    for match in _without_codes(clause, tuple(names.spec.finditer(clause))):
+    for match in _without_codes(clause, tuple(names.spec.finditer(clause)), names):
         if found and names.between.fullmatch(clause, found[-1][1], match.start()):
             found[-1] = (found[-1][0], match.end())
         else:

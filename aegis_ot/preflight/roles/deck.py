@@ -88,9 +88,9 @@ class Deck:
     def passed_over(self, labware: str, names: Collection[str], axis: int) -> list[str]:
         """Wells that the run does not fill, though it fills these places in all other columns.
 
-        A few of these ``names`` at most, one of two columns, or one between others: of more, the
-        layout speaks of wells for which there is nothing this time. Those that the other columns
-        leave out as well are no part of it.
+        A few of these ``names`` at most, one of two columns, one between others, or the only one
+        of the plate: of more, the layout speaks of wells for which there is nothing this time.
+        Those that the other columns leave out as well are no part of it.
 
         Args:
             labware: Key of the labware.
@@ -118,7 +118,11 @@ class Deck:
             and len(lines) == 1
             and any(line - 1 in others and line + 1 in others for line in lines)
         )
-        return missing if (few or whole or between) and len(others) > 1 else []
+        # One of several, where all else of the plate is filled: a loop ended too early.
+        every = {row_column(name) for name in self.trace.labware[labware].wells}
+        at = {row_column(name)[axis] for name in missing}
+        last = len(at) == 1 < len(lines) and {one for one in every if one[axis] not in at} == filled
+        return missing if (few or whole or between or last) and len(others) > 1 else []
 
     def are_whole_lines(self, wells: Collection[WellRef]) -> bool:
         """Whether these are all wells of some columns, or of some rows, of one labware."""

@@ -52,6 +52,8 @@ class LabwareNouns:
         self._joints = {
             word for phrase in (*common.joints, *common.belonging) for word in tokens(phrase)
         }
+        toward = {word for phrase in common.toward for word in tokens(phrase)}
+        self._leading = self._articles | self._joints | toward
         self._labels = [
             (f" {' '.join(tokens(info.label))} ", info.key) for info in deck.plates() if info.label
         ]
@@ -160,7 +162,7 @@ class LabwareNouns:
 
     def _called(self, words: tuple[str, ...]) -> frozenset[str]:
         """The labware of this kind, the one of this very name if there is one."""
-        words = words[1:] if words[:1] and words[0] in self._articles else words
+        words = words[1:] if words[:1] and words[0] in self._leading else words
         if not words:
             return frozenset()
         if len(words) > 2 and words[0] in self._nouns and words[1] in self._of:

@@ -18,6 +18,7 @@ from ..text import (
     numbers_in_order,
     tokens,
 )
+from ..trace import row_column
 from .clues import Clue, Strength
 from .phrases import first_words
 
@@ -52,7 +53,7 @@ def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:
         if clue.whole:
             return (None,) * count
         # Beside a step the wells stand in the order of the run: whether they rise is the question.
-        direction = 0 if clue.step else direction_in(clue.text, common)
+        direction = 0 if clue.step or _is_block(clue) else direction_in(clue.text, common)
         if direction:
             return tuple(float(direction * position) for position in range(count))
         several = listed_levels(clue.text)
@@ -62,6 +63,13 @@ def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:
         if clue.step:  # "row H = blank" beside a loop is one of them
             return (concentration_in(clue.text),) * count
     return (level_in(clue.text, common, plain_numbers=clue.subject),) * count
+
+
+def _is_block(clue: Clue) -> bool:
+    """Whether a comment speaks of wells in several rows and columns: of which order is unsaid."""
+    places = [row_column(ref.name) for ref in clue.wells]
+    rows, columns = ({place[axis] for place in places} for axis in (0, 1))
+    return clue.strength is Strength.COMMENT and min(len(rows), len(columns)) > 1
 
 
 def speaks_of_amounts(name: str, common: Common) -> bool:

@@ -68,11 +68,19 @@ class Topic:
         return (
             (before if len(before) == 1 else _NONE)
             or self._nouns.named(IN_BRACKETS.sub(" ", _here(part)))
+            or self._one_of(before)
             or before
             or (self._in_line if len(self._in_line) == 1 else _NONE)
             or noted
             or self._of_line
         )
+
+    def _one_of(self, several: frozenset[str]) -> frozenset[str]:
+        """The one of these that the line or a heading names: "slot 2: tube A1 ..., tube A3 ..."
+        where two racks hold tubes.
+        """
+        known = (self._of_line & several, self.heading & several)
+        return next((keys for keys in known if len(keys) == 1), _NONE)
 
     def above(self) -> frozenset[str]:
         """The labware that was named before, where a line names none."""

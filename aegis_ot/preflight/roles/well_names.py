@@ -86,16 +86,16 @@ class WellNames:
                 return [first] if first in info.wells else []
             (r1, c1), (r2, c2) = row_column(first), row_column(plain_name(parts["last"]))
             rows, columns = sorted((r1, r2)), sorted((c1, c2))
-            return [
+            return _in_order(
                 name
                 for name in info.wells
                 if rows[0] <= row_column(name)[0] <= rows[1]
                 and columns[0] <= row_column(name)[1] <= columns[1]
-            ]
+            )
         listed = parts["columns"] or parts["column"]
         axis = 1 if listed else 0
         wanted = set(self._counted(listed or parts["rows"] or parts["row"]))
-        return [name for name in info.wells if row_column(name)[axis] in wanted]
+        return _in_order(name for name in info.wells if row_column(name)[axis] in wanted)
 
     def numbers(self, listed: str) -> list[str]:
         """The columns or rows of a list, as they are written: "1-3, 5" are 1, 2, 3 and 5."""
@@ -120,6 +120,11 @@ class WellNames:
             low, high = self._range.findall(text)[0]
             found += range(_number(low), _number(high or low) + 1)
         return found
+
+
+def _in_order(names: Iterable[str]) -> list[str]:
+    """Wells column by column; a labware's definition may list them from H1 to A1."""
+    return sorted(names, key=lambda name: row_column(name)[::-1])
 
 
 def well_names(common: Common) -> WellNames:
