@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from functools import cached_property
 
 from ...instrumentation import LabwareInfo, NameBinding
 from ...vocabulary import WellRef
@@ -48,6 +49,11 @@ class Deck:
             if any(True for _ in trace.deliveries(well))
         }
         self.filled = frozenset(key for key, _ in self.received)
+
+    @cached_property
+    def served(self) -> Mapping[WellRef, set[WellRef]]:
+        """For each well that is drawn from, those that its liquid came into."""
+        return self.trace.served()
 
     def _by_key(self) -> dict[str, dict[str, str]]:
         """For each dict of several labware: its keys, as text, with what each holds."""

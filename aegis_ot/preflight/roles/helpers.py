@@ -83,7 +83,7 @@ def unsay_controls(roles: Roles, trace: Trace) -> None:
     ``add_template(tube, ntc)`` gives the control what stands in the template's place. So does a
     tube in a rack of "drugs": the vehicle stands beside them. And a well of a plate of "drugs",
     where nothing says of any other well that it holds what these controls are to get, and they
-    get nothing else.
+    get nothing else of their own.
     """
     only = {
         ref
@@ -93,8 +93,11 @@ def unsay_controls(roles: Roles, trace: Trace) -> None:
     }
     fed: dict[WellRef, set[WellRef]] = {}
     given: dict[WellRef, set[WellRef]] = {}
+    for_others: set[WellRef] = set()
     for source, well, _ in trace.feedings() if only else ():
         given.setdefault(well.ref, set()).add(source.ref)
+        if not roles.is_set_apart(well.ref):
+            for_others.add(source.ref)
         if source.ref in only:
             fed.setdefault(source.ref, set()).add(well.ref)
     awaited = _awaited(roles)
@@ -102,7 +105,10 @@ def unsay_controls(roles: Roles, trace: Trace) -> None:
         of_tubes = not roles.by_well[ref].whole or _is_of_tubes(trace, ref)
         if all(
             roles.is_set_apart(well)
-            and (of_tubes or (roles.by_well[well].role in awaited and given[well] == {ref}))
+            and (
+                of_tubes
+                or (roles.by_well[well].role in awaited and given[well] - for_others <= {ref})
+            )
             for well in wells
         ):
             del roles.by_well[ref]

@@ -72,6 +72,13 @@ class LabwareNouns:
                     found |= keys
         return frozenset(found) if len(found) == 1 else frozenset()
 
+    def begun_by(self, line: str) -> frozenset[str]:
+        """The one labware that a line of the deck's list begins with: "slot 3   tube rack, ..."."""
+        first = _SLOT.match(line.strip(" \t#*-"))
+        slots = {first[1].lower()} if first else self._listed_slot(line)
+        found = frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
+        return found if len(found) == 1 else frozenset()
+
     def _listed_slot(self, text: str) -> set[str]:
         """The slot at the begin of a line of the deck's list: "C2  tube rack", no well's "tube"."""
         match = _LISTED_SLOT.match(f"{text} ")

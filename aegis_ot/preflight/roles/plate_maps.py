@@ -14,7 +14,7 @@ from .deck import MOST_TUBES, Deck
 from .levels import far_apart, is_number, names_amounts, names_counts, number_in
 from .phrases import without_position
 from .well_names import plain_name, wells_between
-from .work_lists import is_work_list
+from .work_lists import drawn_and_filled, is_work_list
 
 
 def plate_maps(
@@ -45,6 +45,8 @@ def plate_maps(
             elif column and by_key and len(rest) == 1:
                 keyed = [tuple(rest)]  # not where the other column's wells are
             refs = tuple(refs_of(deck, keyed[0] if keyed else labware, wells))
+            if not keyed:
+                refs = tuple(drawn_and_filled(deck, used, wells)) or refs
             if concentration_in(text) is not None or places:
                 level = None  # the text says it, or the number beside it is a column's
             yield Clue(

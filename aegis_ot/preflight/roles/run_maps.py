@@ -16,9 +16,9 @@ from .deck import Deck
 from .levels import names_amounts, names_counts, number_in
 from .named_levels import numeric_keys
 from .phrases import without_position
-from .plate_maps import labware_of_map, refs_of
+from .plate_maps import labware_of_map, refs_of, used_with
 from .well_names import plain_name
-from .work_lists import is_work_list, labware_by_key, labware_in
+from .work_lists import drawn_and_filled, is_work_list, labware_by_key, labware_in
 
 
 def spotted_names(
@@ -35,10 +35,12 @@ def spotted_names(
         record, dot, _ = base.partition(".")
         if dot and (binding.function, record) in facts.loops:
             continue  # the field of the last row only; see tabled_wells
-        labware = labware_of_map(deck, facts, base, binding.spots, common)
-        if labware:
-            line = facts.assigned.get(base, binding.line)
+        wells = tuple(drawn_and_filled(deck, used_with(deck, facts, base), binding.spots))
+        if not wells:
+            labware = labware_of_map(deck, facts, base, binding.spots, common)
             wells = tuple(refs_of(deck, labware, binding.spots))
+        if wells:
+            line = facts.assigned.get(base, binding.line)
             level = keyed.get(binding.name)
             yield Clue(
                 Strength.NAME,
@@ -54,7 +56,11 @@ def tabled_wells(
     deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
 ) -> Iterator[Clue]:
     """Rows that the run held: words and amounts beside wells, or beside names of wells."""
+    parameters = {name for _, name in facts.loose}
+    told = {binding.rows for binding in names if binding.name not in parameters}
     for binding in names:
+        if binding.name in parameters and binding.rows in told:
+            continue  # a helper's name for what has one of its own
         base = binding.name.split("[", 1)[0]
         written = facts.constants.get(base)
         if len(binding.rows) < 2 or (written is not None and not is_work_list(deck, written)):

@@ -45,6 +45,8 @@ class Topic:
         self._in_line = _NONE
         if named:
             self.heading = named  # and of the lines below: "strips: column 1 blank"
+        elif listed := nouns.begun_by(written):
+            self.heading, self._last = listed, _NONE
         elif self._of_line and _heads(written, self._common):
             self.heading = self._of_line
         elif not written.strip():
@@ -65,9 +67,10 @@ class Topic:
 
     def said(self, part: Part, before: frozenset[str], noted: frozenset[str]) -> frozenset[str]:
         """The labware that a part or its line names, ``noted``: by the variable beside it."""
+        named = self._nouns.named(IN_BRACKETS.sub(" ", _here(part)))
         return (
             (before if len(before) == 1 else _NONE)
-            or self._nouns.named(IN_BRACKETS.sub(" ", _here(part)))
+            or (_NONE if before and named.isdisjoint(before) else named)
             or self._one_of(before)
             or before
             or (self._in_line if len(self._in_line) == 1 else _NONE)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from itertools import permutations
 from typing import Any
 
 from ...instrumentation import is_spot
+from ...vocabulary import WellRef
 from .deck import Deck
+from .well_names import plain_name
 
 
 def is_work_list(deck: Deck, value: Any) -> bool:
@@ -47,3 +50,33 @@ def labware_by_key(
         for held in deck.keyed.values()
         if len(cells) > 1 and cells <= held.keys()
     }
+
+
+def drawn_and_filled(deck: Deck, keys: Collection[str], spots: Iterable[str]) -> list[WellRef]:
+    """The wells of one row that the run draws from and fills: ``("D1", "G4", "G5")``, a tube and
+    where it goes. None unless each of the row's places is one or the other, and only so.
+
+    Args:
+        deck: For the run.
+        keys: Labware that the run takes the row's places for.
+        spots: Names of wells.
+    """
+    names = set(map(plain_name, spots))
+    for one, other in permutations(sorted(keys), 2) if len(names) > 1 else ():
+        into = {
+            source: {well for well in wells if well.labware == other}
+            for source, wells in deck.served.items()
+            if source.labware == one
+        }
+        drawn = {
+            source: wells
+            for source, wells in into.items()
+            if source.name in names and wells and all(well.name in names for well in wells)
+        }
+        filled = {well for wells in drawn.values() for well in wells}
+        alone = all(
+            source in drawn for source, wells in into.items() if not wells.isdisjoint(filled)
+        )
+        if alone and names == {ref.name for ref in (*drawn, *filled)}:
+            return [*drawn, *sorted(filled, key=lambda ref: ref.name)]
+    return []
