@@ -72,7 +72,7 @@ def assign_roles(
     holding = _of_several(clues, lexicon, common, roles)
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
-        if clue.whole or len(clue.wells) >= _SEVERAL:
+        if len(clue.wells) >= (2 if clue.whole else _SEVERAL):
             named = without_differing(lexicon, clue, named, family)
         if not named:
             untold.append(clue)
