@@ -18,6 +18,10 @@ _MOST_LINES = 18
 """As many lines have the plates that people draw."""
 
 _NUMBER = re.compile(r"(?:c|col)?(\d{1,2})(?:\s*[-–]\s*(\d{1,2}))?")
+_COLUMN_WORD = re.compile(
+    r"\b(?:col(?:umn)?s?|spalten?|colonnes?|columnas?|kolom|sp)\.?\s+(?=\d)", re.IGNORECASE
+)
+_ROW_WORD = re.compile(r"^\s*(?:row|zeile|reihe|ligne|fila|riga|rij)\s+(?=[A-P]\b)", re.IGNORECASE)
 _LETTERS = re.compile(r"([A-P])(?:\s*[-–]\s*([A-P]))?:?")
 _DOTS = re.compile(r"\.{2,}|…")
 
@@ -43,13 +47,16 @@ def drawn_grid(lines: Sequence[str], at: int) -> Drawing:
     wells_of: dict[str, list[str]] = {}
     end, last, codes, repeated = at + 1, 0, list[str](), False
     for written in lines[at + 1 : at + 1 + _MOST_LINES] if columns else ():
-        first, *said = cells_of(written, len(columns) + 1) or [""]
+        first, *said = cells_of(_ROW_WORD.sub("", written), len(columns) + 1) or [""]
         if _DOTS.match(first) and codes:
             repeated, end = True, end + 1
             continue
         letters = _LETTERS.fullmatch(first)
         begin = ord(letters[1]) - ord("A") if letters else -1
         filled = _filled(said, len(columns))
+        if letters is None and end == at + 1 and written.strip():
+            end += 1  # of what each column gets
+            continue
         if letters is None or not filled or (begin != last and not (repeated and begin > last)):
             break
         stop = ord(letters[2] or letters[1]) - ord("A") + 1
@@ -85,7 +92,7 @@ def _columns(written: str) -> list[list[int]]:
     """The columns under each number of a line that counts on from 1: "1  2-11  12"."""
     columns: list[list[int]] = []
     last = 0
-    for cell in cells_of(written.lower()):
+    for cell in cells_of(_COLUMN_WORD.sub("", written).lower()):
         match = _NUMBER.fullmatch(cell)
         if match is None or int(match[1]) != last + 1:
             return []

@@ -47,7 +47,7 @@ class Ellipses:
         to, listing = names.to, names.conjunction
         column, row = rf"(?:{names.columns}|{names.column})", rf"(?:{names.rows}|{names.row})"
         goes_on = (
-            r"(?=\s*[:=]?\s+(?:[^\W\d_]{3,}|[^\W\d_]{2,}-\w)|\s*=\s*\S"
+            r"(?=\s*[:=]?\s+(?:[^\W\d_]{3,}|[^\W\d_]{2,}-\w|[A-Z]\s*(?:[,;|]|$))|\s*=\s*\S"
             r"|\s*[:=]?\s+\d+(?:[.,]\d+)?\s?(?:[pnuµμm]M\b|[pnuµμm]?g/))"  # "B 10 uM"
         )
         self._next = re.compile(

@@ -17,6 +17,8 @@ IN_BRACKETS = re.compile(r"\([^()]*\)")
 
 _SLOT = re.compile(r"(?i:\bslot\s+)([A-Da-d][1-4]|1[01]|[1-9])\b")
 
+_IN_SLOT = re.compile(rf"[^\W\d][^():,.]*\({_SLOT.pattern}\)")
+
 _LISTED_SLOT = re.compile(r"\W*([A-D][1-4]|1[01]|[1-9])\s+((?:[^\W\d]\w*\W+){1,3})")
 """How a line of a list of the deck begins: "C2  tube rack"."""
 
@@ -73,8 +75,11 @@ class LabwareNouns:
         return frozenset(found) if len(found) == 1 else frozenset()
 
     def begun_by(self, line: str) -> frozenset[str]:
-        """The one labware that a line of the deck's list begins with: "slot 3   tube rack, ..."."""
-        first = _SLOT.match(line.strip(" \t#*-"))
+        """The one labware that a line of the deck's list speaks of: "slot 3   tube rack, ...", or
+        "Tube rack (slot 3), 10x solutions".
+        """
+        plain = line.strip(" \t#*-")
+        first = _SLOT.match(plain) or _IN_SLOT.match(plain)
         slots = {first[1].lower()} if first else self._listed_slot(line)
         found = frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
         return found if len(found) == 1 else frozenset()

@@ -104,12 +104,13 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
         for at, word in enumerate(words)
         if word in first_words(common.joints) and apart.isdisjoint(words[at + 1 : at + 2])
     ]
+    whole = clue.subject or clue.strength is Strength.DESCRIPTION  # it says what that is
     before = text.lower().partition(f" {words[joints[0]]} ")[0] if joints else ""
     if joints and any(at < joints[0] for at in places):
         # "drug in medium" is a drug.
         places = {at: topics for at, topics in places.items() if at < joints[0]}
     elif joints and (
-        (clue.subject and any(map(_is_telling, words[: joints[0]]))) or concentrations_in(before)
+        (whole and any(map(_is_telling, words[: joints[0]]))) or concentrations_in(before)
     ):
         places = {}  # "insulin in DMEM" is no medium, whatever insulin may be, nor "3 mM in DMSO"
     always = first_words(common.heads) if clue.subject else frozenset()

@@ -34,7 +34,7 @@ def plate_maps(
         if not all_names:
             continue
         labware = labware_of_map(deck, facts, name, all_names, common)
-        by_key = _labware_by_key(deck, facts, name)
+        by_key = labware_by_field(deck, facts, name)
         used = set(used_with(deck, facts, name))
         places = _numbers_places(facts, name)
         rest = used - {key for keys in by_key.values() for key in keys}
@@ -127,7 +127,7 @@ def _numbers_places(facts: SourceFacts, name: str) -> bool:
     )
 
 
-def _labware_by_key(deck: Deck, facts: SourceFacts, name: str) -> dict[str, tuple[str, ...]]:
+def labware_by_field(deck: Deck, facts: SourceFacts, name: str) -> dict[str, tuple[str, ...]]:
     """For keys of a map the one labware that is indexed by them: ``tubes[layout["mix"]]``.
 
     Or by a name that such a key gives its value: ``tube = row["tube"]``, a helper's parameter.

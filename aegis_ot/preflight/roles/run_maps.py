@@ -16,7 +16,7 @@ from .deck import Deck
 from .levels import names_amounts, names_counts, number_in
 from .named_levels import numeric_keys
 from .phrases import without_position
-from .plate_maps import labware_of_map, refs_of, used_with
+from .plate_maps import labware_by_field, labware_of_map, refs_of, used_with
 from .well_names import plain_name
 from .work_lists import drawn_and_filled, is_work_list, labware_by_key, labware_in
 
@@ -32,10 +32,13 @@ def spotted_names(
         base = binding.name.split("[", 1)[0]
         if not binding.spots or base in facts.constants or base in loose or decks.find(base):
             continue  # "A4" in a list of slots is none of a plate
-        record, dot, _ = base.partition(".")
+        record, dot, field = base.partition(".")
         if dot and (binding.function, record) in facts.loops:
             continue  # the field of the last row only; see tabled_wells
-        wells = tuple(drawn_and_filled(deck, used_with(deck, facts, base), binding.spots))
+        standing = labware_by_field(deck, facts, record).get(field, ()) if dot else ()
+        wells = tuple(refs_of(deck, standing, binding.spots)) or tuple(
+            drawn_and_filled(deck, used_with(deck, facts, base), binding.spots)
+        )
         if not wells:
             labware = labware_of_map(deck, facts, base, binding.spots, common)
             wells = tuple(refs_of(deck, labware, binding.spots))
