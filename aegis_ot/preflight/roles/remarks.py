@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -11,6 +11,7 @@ from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, comment_blocks, direction_in, lexicon_of, listed_levels, tokens
 from ..trace import row_column
+from .bare_numbers import with_bare_numbers
 from .clauses import Part, axis_of, parts_of
 from .clues import Clue, Strength, shortened
 from .deck import LEFT_OUT, Deck
@@ -33,36 +34,48 @@ def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     nouns = LabwareNouns(deck, common)
     noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
     for line, text in texts:
-        topic = Topic(nouns, common)
-        amount: Amount | None = None
-        lines = _whole_lines(with_rows(text, common).splitlines() or [text], common)
-        drawn = drawn_lines(text.splitlines())
-        for number, written in lines:
-            if number in drawn:
-                continue  # "E1" may be a code there
-            parts, more = _with_what_follows(written, common)
-            topic.next_line(written, parts)
-            parts = [nouns.without_place(topic.without_heading(part)) for part in parts]
-            parts, amount = with_shared_words(parts, amount if written.strip() else None)
-            own = [nouns.before(part) for part in parts]
-            for at, (part, before) in enumerate(zip(parts, own, strict=True)):
-                topic.next_part(before)
-                if len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
-                    continue
-                if nouns.is_of_deck(part) or nouns.is_elsewhere(part):
-                    continue
-                firm = topic.said(part, before, noted.get(written, frozenset()))
-                keys = firm or topic.above() or _only_one_with(deck, parts, common)
-                # "col 3  1 nM     tube A2": the column is not one of the tubes'.
-                others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
-                meant = _Meant(keys - others, bool(firm), others)
-                said = f"{part.text}, {more[at]}"
-                for clue in _spoken(deck, part, said, line + number, meant, common):
-                    levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
-                    if topic.heading and keys.isdisjoint(topic.heading):
-                        levels = ()  # named by what its wells hold, perhaps
-                    clue = replace(clue, placed=topic.places(keys), levels=levels)
-                    yield from _one_by_one(part, said, clue, common) or [clue]
+        yield from with_bare_numbers([*_of_text(deck, nouns, noted, line, text, common)])
+
+
+def _of_text(
+    deck: Deck,
+    nouns: LabwareNouns,
+    noted: Mapping[str, frozenset[str]],
+    line: int,
+    text: str,
+    common: Common,
+) -> Iterator[Clue]:
+    """What one comment or docstring says, which begins at a line."""
+    topic = Topic(nouns, common)
+    amount: Amount | None = None
+    lines = _whole_lines(with_rows(text, common).splitlines() or [text], common)
+    drawn = drawn_lines(text.splitlines())
+    for number, written in lines:
+        if number in drawn:
+            continue  # "E1" may be a code there
+        parts, more = _with_what_follows(written, common)
+        topic.next_line(written, parts)
+        parts = [nouns.without_place(topic.without_heading(part)) for part in parts]
+        parts, amount = with_shared_words(parts, amount if written.strip() else None)
+        own = [nouns.before(part) for part in parts]
+        for at, (part, before) in enumerate(zip(parts, own, strict=True)):
+            topic.next_part(before)
+            if len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
+                continue
+            if nouns.is_of_deck(part) or nouns.is_elsewhere(part):
+                continue
+            firm = topic.said(part, before, noted.get(written, frozenset()))
+            keys = firm or topic.above() or _only_one_with(deck, parts, common)
+            # "col 3  1 nM     tube A2": the column is not one of the tubes'.
+            others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
+            meant = _Meant(keys - others, bool(firm), others)
+            said = f"{part.text}, {more[at]}"
+            for clue in _spoken(deck, part, said, line + number, meant, common):
+                levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
+                if topic.heading and keys.isdisjoint(topic.heading):
+                    levels = ()  # named by what its wells hold, perhaps
+                clue = replace(clue, placed=topic.places(keys), levels=levels)
+                yield from _one_by_one(part, said, clue, common) or [clue]
 
 
 def _one_by_one(part: Part, said: str, clue: Clue, common: Common) -> list[Clue]:
@@ -227,6 +240,10 @@ def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> 
     or one for each well of a range along one row or one column.
     """
     axis, listed = axis_of(part), listed_levels(said)
+    direction = direction_in(said, common)
+    if len(wells) == len(part.wells) > 2 and not any(match["last"] for match in part.wells):
+        # "tubes A1 B1 C1 A2 in rising order": in the order in which they are named.
+        return tuple(float(direction * at) for at in range(len(wells))) if direction else ()
     if axis is None and len(part.wells) == 1 and part.wells[0]["last"]:
         axis = _axis_along(wells, len(listed))
     at = [] if axis is None else [row_column(ref.name)[axis] for ref in wells]
@@ -238,7 +255,6 @@ def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> 
     # Two columns and two numbers may come together for any reason.
     if len(listed) == len(set(listed)) == len(places) > 2:
         return tuple(listed[places.index(place)] for place in at)
-    direction = direction_in(said, common)
     return tuple(float(direction * places.index(place)) for place in at) if direction else ()
 
 

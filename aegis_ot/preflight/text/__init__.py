@@ -5,6 +5,7 @@ from .facts import Loop, Numbered, Place, SourceFacts, Values
 from .flow import origins
 from .legends import legend_of
 from .levels import (
+    UNITS,
     amounts_in,
     concentration_in,
     concentrations_in,
@@ -14,12 +15,14 @@ from .levels import (
     name_without_level,
     numbers_in_order,
     unit_in,
+    with_u,
 )
 from .lines import source_lines
 from .reading import read_source
 from .words import Lexicon, Match, lexicon_of, tokens
 
 __all__ = [
+    "UNITS",
     "Lexicon",
     "Loop",
     "Match",
@@ -43,4 +46,5 @@ __all__ = [
     "source_lines",
     "tokens",
     "unit_in",
+    "with_u",
 ]
