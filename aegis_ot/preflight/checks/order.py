@@ -13,15 +13,30 @@ from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered,
 
 
 def arrivals(case: Case, well: Well, liquid: RoleSet) -> list[Visit]:
-    """Visits that brought a liquid of these roles to a well."""
+    """Visits that brought a liquid of these roles to a well.
+
+    Not with what another well of the assay was given it in: that goes to a reader's plate, say.
+    """
     return [
         visit
         for visit in case.trace.deliveries(well)
         if any(
-            volume > 0 and (case.has(source, liquid) or case.has(origin, liquid))
+            volume > 0
+            and (
+                case.has(source, liquid)
+                or (case.has(origin, liquid) and _serves_many(case, source))
+            )
             for origin, volume, source, _ in delivered(visit)
         )
     ]
+
+
+_MANY = 3
+
+
+def _serves_many(case: Case, source: Well) -> bool:
+    """Whether a well holds a reagent that the run makes, rather than one sample's reaction."""
+    return len(case.destinations.get(source, {})) >= _MANY
 
 
 @dataclass(frozen=True)
@@ -42,8 +57,7 @@ class MixedAfter(Check):
         for well in case.trace.wells.values():
             if case.has(well, liquid) or (wanted and not case.has(well, wanted)):
                 continue
-            usage = case.usage.get(well.ref)
-            if well.ref in case.waste or (usage is not None and usage.feeds and not wanted):
+            if well.ref in case.waste or (_serves_many(case, well) and not wanted):
                 continue
             came = arrivals(case, well, liquid)
             if not came or case.trace.mixed_since(well, came[-1].index, math.inf):

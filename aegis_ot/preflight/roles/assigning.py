@@ -74,6 +74,8 @@ def assign_roles(
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
         if len(clue.wells) >= (2 if clue.whole else _SEVERAL):
             named = without_differing(lexicon, clue, named, family)
+        if clue.step and len(clue.wells) > 1:  # "standards, blank upwards" are not all blanks
+            named = [r for r in named if not any(o in roles.closure(r) - {r} for o in named)]
         if not named:
             untold.append(clue)
             continue

@@ -38,5 +38,8 @@ def with_bare_numbers(clues: Sequence[Clue]) -> Iterator[Clue]:
             worth = concentration_in(f"1 {units.pop()}") if units else 1.0
             levels.update((at, number * (worth or 1.0)) for at, number in numbers.items())
     for at, clue in enumerate(clues):
-        told = (levels[at],) * len(clue.wells) if at in levels else clue.levels
-        yield replace(clue, levels=told)
+        if at in levels:
+            clue = replace(clue, levels=(levels[at],) * len(clue.wells))
+            if "(" in clue.text:  # "0 (PBS)" is a level, and says what that is made of
+                yield replace(clue, text="")
+        yield clue
