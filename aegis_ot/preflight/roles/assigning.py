@@ -19,6 +19,7 @@ from .clues import Clue, Strength
 from .fitting import fitting_role, is_for_controls
 from .given_on import unsay_contents
 from .helpers import unsay_controls
+from .labware_roles import called_after, of_several, shared
 from .levels import levels_beside, levels_of
 from .phrases import (
     is_outright,
@@ -69,7 +70,8 @@ def assign_roles(
     for_controls: set[WellRef] = set()
     untold: list[Clue] = []
     misplaced: list[Clue] = []
-    holding = _of_several(clues, lexicon, common, roles)
+    holding = of_several(clues, lexicon, common, roles)
+    holding_of = called_after(clues, lexicon, common)
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
         if len(clue.wells) >= (2 if clue.whole else _SEVERAL):
@@ -83,7 +85,7 @@ def assign_roles(
             named = of_its_dict(lexicon, clue, named, common, roles)
         if clue.lone and names_several(lexicon, clue, common, roles):
             continue
-        if clue.whole and any(not shared.isdisjoint(named) for shared in _shared(clue, holding)):
+        if clue.whole and any(not held.isdisjoint(named) for held in shared(clue, holding)):
             continue  # `bsa` holds "BSA strip + lysates"
         if clue.lone and clue.whole:
             named = what_all_are(named, roles)
@@ -104,7 +106,8 @@ def assign_roles(
         passing = side_only and clue.strength is Strength.LOOSE_NAME
         placed = False
         for ref, level in zip(clue.wells, levels_of(clue, common), strict=True):
-            role = fitting_role(named, roles, sides(ref), clue, common)
+            of_plate = holding_of.get(ref.labware, frozenset())
+            role = fitting_role(named, roles, sides(ref), clue, common, of_plate)
             if role is None and not clue.whole and is_for_controls(named, sides(ref), roles):
                 for_controls.add(ref)
             if role is None or (passing and in_trough(trace, ref.labware)):
@@ -169,23 +172,6 @@ def _agrees_with_what_it_copies(roles: Roles, ref: WellRef, clue: Clue) -> bool:
         specs[assigned.role].one_liquid or any(map(clue.said.startswith, assigned.evidence))
         for assigned in known
     )
-
-
-def _of_several(
-    clues: Sequence[Clue], lexicon: Lexicon, common: Common, roles: Roles
-) -> dict[str, set[str]]:
-    """Labware that its label says to hold several kinds of things, with the roles of these."""
-    return {
-        ref.labware: set(roles_named(lexicon, clue, common))
-        for clue in clues
-        if clue.whole and clue.lone and names_several(lexicon, clue, common, roles)
-        for ref in clue.wells[:1]
-    }
-
-
-def _shared(clue: Clue, holding: Mapping[str, set[str]]) -> list[set[str]]:
-    """What the labware of a clue hold that are known to hold several kinds of things."""
-    return [holding[key] for key in {ref.labware for ref in clue.wells} & holding.keys()]
 
 
 def _note_untold(roles: Roles, lexicon: Lexicon, untold: Sequence[Clue]) -> None:

@@ -47,9 +47,17 @@ def _is_plate_of(clue: Clue) -> bool:
 
 
 def fitting_role(
-    named: Iterable[str], roles: Roles, sides: tuple[str, bool], clue: Clue, common: Common
+    named: Iterable[str],
+    roles: Roles,
+    sides: tuple[str, bool],
+    clue: Clue,
+    common: Common,
+    of_plate: frozenset[str] = frozenset(),
 ) -> str | None:
-    """The first named role whose side agrees with how the run uses the well."""
+    """The first named role whose side agrees with how the run uses the well.
+
+    ``of_plate``: what its plate is called after, cells say.
+    """
     named = list(dict.fromkeys(named))
     if clue.strength is Strength.GIVEN:
         return named[0]
@@ -65,6 +73,7 @@ def fitting_role(
             role
             for role in fitting
             if not specs[role].implies_contents
+            or not of_plate.isdisjoint(roles.closure(role) - {role})  # cells, to be harvested
             or (specs[role].side == side and role in specs[role].filled_by)
         ]
     of_wells = not clue.whole or _is_dried(clue, common)

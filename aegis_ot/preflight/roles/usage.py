@@ -33,11 +33,14 @@ def in_trough(trace: Trace, *keys: str) -> bool:
 def usage_of(trace: Trace) -> dict[WellRef, Usage]:
     """How each well is used, generations of a plate taken together."""
     usages: dict[WellRef, Usage] = {}
-    for well in trace.wells.values():
+    begun: set[WellRef] = set()
+    for well in sorted(trace.wells.values(), key=lambda well: well.generation):
         usage = usages.setdefault(well.ref, Usage())
         usage.prefilled = usage.prefilled or well.prefilled
-        if well.visits and well.visits[0].kind is OperationKind.ASPIRATE:
-            usage.first_drawn = True
+        if well.visits and well.ref not in begun:
+            # A plate that comes back from the cycler is drawn from, and was filled before.
+            begun.add(well.ref)
+            usage.first_drawn = well.visits[0].kind is OperationKind.ASPIRATE
     served: dict[WellRef, set[WellRef]] = {}
     for visit in trace.visits:
         for source, volume, _, _ in visit.parts:
@@ -47,9 +50,11 @@ def usage_of(trace: Trace) -> dict[WellRef, Usage]:
     drains = _drains(usages, served, trace)
     for ref, wells in served.items():
         usages[ref].feeds = not wells <= drains
-    for ref in served:
-        used = usages[ref]
-        used.first_drawn = used.first_drawn and used.feeds
+    taken = {visit.well.ref for visit in trace.visits if not visit.mixing}
+    for ref, used in usages.items():
+        # Not what is emptied into the trash, and filled then; nor what is only mixed.
+        if ref in served or used.received or ref not in taken:
+            used.first_drawn = used.first_drawn and used.feeds
     return usages
 
 
