@@ -11,6 +11,7 @@ from ..trace import Trace
 from .called_alike import derive_called_alike
 from .in_place import Given, derive_common, derive_given_instead, derive_used_like, given_by
 from .roles import Roles
+from .stages import stage_of
 from .usage import Usage
 
 
@@ -265,14 +266,22 @@ def _derive_one(
 ) -> None:
     wanted = frozenset(spec.receives)
     is_wanted: Callable[[WellRef], bool] = lambda ref: roles.has(ref, wanted)  # noqa: E731
+    stage = stage_of(roles, trace, name, frozenset(spec.receives_with))
     for well in trace.wells.values():
         used = usage.get(well.ref)
-        if used is None or used.feeds or not used.received or used.first_drawn:
+        if used is None or not used.received or used.first_drawn:
+            continue
+        if used.feeds and not stage.holds(well.ref):
             continue
         assigned = roles.by_well.get(well.ref)
         if assigned is not None and assigned.role not in roles.closure(name):
             continue
         for visit in trace.deliveries(well):
-            if any(is_wanted(o.ref) for part in visit.parts for o in part[2]):
+            if any(
+                is_wanted(origin.ref)
+                for source, _, liquid, _ in visit.parts
+                if source is None or is_wanted(source.ref) or not stage.holds(source.ref)
+                for origin in liquid
+            ):
                 roles.derived.setdefault(well.ref, set()).update(roles.closure(name))
                 break

@@ -96,6 +96,8 @@ class RoleSpec:
             if it goes where they go, and none is named for them.
         level: Value on the scale of concentrations or doses that this role has by itself.
         receives: Derived: a destination that is given liquid of one of these roles.
+        receives_with: For ``receives``: where wells get a liquid of these roles as well, straight
+            from where it stands, it is they that are meant, and not what they are given on to.
         dosed: Derived: a well on its side of which a concentration is said and no role, beside
             others; a source that goes into wells of one level only, in ``feeds``, has that level.
         called_alike_beside: Derived: a source without a role that is called by the same word as
@@ -130,6 +132,7 @@ class RoleSpec:
     may_be: tuple[str, ...] = ()
     level: float | None = None
     receives: tuple[str, ...] = ()
+    receives_with: tuple[str, ...] = ()
     dosed: bool = False
     called_alike_beside: tuple[str, ...] = ()
     used_like: tuple[str, ...] = ()

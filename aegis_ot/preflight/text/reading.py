@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections import Counter
 
 from .comments import read_blocks, read_comments, read_item_notes
 from .facts import SourceFacts
@@ -30,4 +31,26 @@ def read_source(text: str) -> SourceFacts:
     read_blocks(text, tree, facts)
     read_item_notes(tree, facts)
     read_functions(tree, facts)
+    _unsay_crowded_lines(tree, facts)
     return facts
+
+
+_DRAWING = frozenset({"aspirate", "transfer", "distribute", "consolidate"})
+
+
+def _unsay_crowded_lines(tree: ast.Module, facts: SourceFacts) -> None:
+    """Forget what several steps on one line draw and give: which of them is which is not known.
+
+    The trace tells lines apart, and not the statements between semicolons.
+    """
+    steps = Counter(
+        node.lineno
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Attribute)
+        and node.func.attr in _DRAWING
+    )
+    for line, count in steps.items():
+        if count > 1:
+            facts.arguments.pop(line, None)
+            facts.draws.pop(line, None)
