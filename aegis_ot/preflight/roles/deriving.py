@@ -239,10 +239,11 @@ def _pass_on(roles: Roles, name: str, trace: Trace, volumes: Given) -> None:
     Not where many wells have each a liquid of their own besides: that tube only tops them up.
     """
     served = trace.served()
-    givers = {
+    made = {well for wells in served.values() for well in wells}
+    givers = {  # a reaction that is made here and given on makes no other one
         ref: assigned
         for ref, assigned in roles.by_well.items()
-        if assigned.role == name and ref in served
+        if assigned.role == name and ref in served and ref not in made
     }
     given = {well for ref in givers for well in served[ref]}
     own = {
