@@ -270,7 +270,7 @@ def _derive_one(
     stage = stage_of(roles, trace, name, frozenset(spec.receives_with))
     for well in trace.wells.values():
         used = usage.get(well.ref)
-        if used is None or not used.received or used.first_drawn:
+        if used is None or not used.received or used.first_drawn or used.drain:
             continue
         if used.feeds and not stage.holds(well.ref):
             continue

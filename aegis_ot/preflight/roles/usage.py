@@ -14,14 +14,15 @@ from ..trace import Trace
 class Usage:
     """How the run uses a well: which came first, and whether it feeds others.
 
-    What is emptied into the waste feeds nothing, and a well that is emptied first and filled
-    then is none to draw from.
+    What is emptied into the waste, a ``drain``, feeds nothing, and a well that is emptied first
+    and filled then is none to draw from.
     """
 
     first_drawn: bool = False
     received: bool = False
     feeds: bool = False
     prefilled: bool = False
+    drain: bool = False
 
 
 def in_trough(trace: Trace, *keys: str) -> bool:
@@ -50,6 +51,8 @@ def usage_of(trace: Trace) -> dict[WellRef, Usage]:
     drains = _drains(usages, served, trace)
     for ref, wells in served.items():
         usages[ref].feeds = not wells <= drains
+    for ref in drains:
+        usages[ref].drain = True
     taken = {visit.well.ref for visit in trace.visits if not visit.mixing}
     for ref, used in usages.items():
         # Not what is emptied into the trash, and filled then; nor what is only mixed.
@@ -65,11 +68,13 @@ _FEWEST_EMPTIED = 2
 def _drains(
     usages: Mapping[WellRef, Usage], served: Mapping[WellRef, set[WellRef]], trace: Trace
 ) -> set[WellRef]:
-    """Where old medium goes: what several wells are emptied into that are filled again."""
+    """Where old medium goes, and what stands over beads: what several wells are emptied into that
+    are filled again, or a trough for what several wells got in the run.
+    """
     emptied: dict[WellRef, int] = {}
     for ref, wells in served.items():
-        if usages[ref].first_drawn and usages[ref].received:
-            for well in wells:
+        for well in wells if usages[ref].received else ():
+            if usages[ref].first_drawn or in_trough(trace, well.labware):
                 emptied[well] = emptied.get(well, 0) + 1
     drawn = {visit.well.ref for visit in trace.visits if visit.kind is OperationKind.ASPIRATE}
     return {ref for ref, count in emptied.items() if count >= _FEWEST_EMPTIED and ref not in drawn}
