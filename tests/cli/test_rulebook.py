@@ -50,3 +50,14 @@ def test_a_users_own_family_is_tested_and_a_broken_promise_reported(
     broken = aegis("rules", "test", path)
     assert broken.code == 1
     assert f"OUR-1: {bad['title']}: the rule finds nothing" in broken.out
+
+
+def test_rules_that_cannot_be_used_end_in_a_message(aegis: Command, tmp_path: Path) -> None:
+    (tmp_path / "none").mkdir()
+    (tmp_path / "deep.json").write_text("[" * 100_000, encoding="utf-8")
+    for path in ("none", "deep.json"):
+        for command in (("list", "--rules"), ("docs", "--rules"), ("test",)):
+            result = aegis("rules", *command, path)
+            assert result.code == 2
+            assert result.err.startswith(f"aegis-ot: {path}: ")
+            assert result.err.count("\n") == 1

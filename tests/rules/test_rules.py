@@ -67,16 +67,19 @@ def test_a_sixth_family_needs_no_code() -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda d: d["rules"][0].pop("fix"), "rules ELISA-1: field 'fix' is missing"),
+        (lambda d: d["rules"][0].pop("fix"), "rule ELISA-1: field 'fix' is missing"),
         (lambda d: d["rules"][0].update(severity="bad"), "rule ELISA-1: severity"),
         (lambda d: d["rules"][0]["checks"][0].update(check="nope"), "no check 'nope'"),
         (lambda d: d["rules"][0]["checks"][0].update(wells=["nobody"]), "no role 'nobody'"),
         (lambda d: d["rules"][0]["checks"][0].update(wlls=["x"]), "unknown field 'wlls'"),
         (lambda d: d["roles"]["stop"].update(words="stop"), "roles.stop: words: expected a list"),
-        (lambda d: d.update(shapes=[{"shape": "star", "weight": 1}]), "no shape 'star'"),
+        (
+            lambda d: d.update(shapes=[{"shape": "star", "weight": 1}]),
+            "shapes[0]: shape: expected chain",
+        ),
         (lambda d: d.update(known_by=[{"roles": ["stop|nobody"]}]), "no role 'nobody'"),
-        (lambda d: d["roles"]["stop"].update(used_like=["nobody"]), "roles.stop: there is no"),
-        (lambda d: d["roles"]["stop"].update(gets=["nobody"]), "roles.stop: there is no role"),
+        (lambda d: d["roles"]["stop"].update(used_like=["nobody"]), "roles.stop: used_like: there"),
+        (lambda d: d["roles"]["stop"].update(gets=["nobody"]), "stop: gets: there is no role"),
         (lambda d: d["roles"]["stop"].update(in_place_of=["nobody"]), "no role 'nobody'"),
         (lambda d: d["signals"][1].update(roles=["nobody"]), "signals[1]: roles: there is no role"),
         (lambda d: d.update(schema=9), "schema: expected 1, found 9"),

@@ -51,8 +51,9 @@ def make_check(data: Mapping[str, Any], where: str) -> Check:
     parameters = dict(data)
     name = parameters.pop("check", None)
     if not isinstance(name, str) or name not in CHECKS:
+        called = repr(name) if isinstance(name, str) else "without a name"
         raise RuleError(
-            f"{where}: check: there is no check {name!r}; known are {', '.join(CHECKS)}"
+            f"{where}: check: there is no check {called}; known are {', '.join(CHECKS)}"
         )
     return read_dataclass(CHECKS[name], parameters, where)
 

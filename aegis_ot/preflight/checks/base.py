@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from itertools import islice
@@ -207,14 +206,6 @@ class Check:
     """A predicate over trace and roles, with its parameters as fields."""
 
     name: ClassVar[str] = ""
-
-    def roles(self) -> set[str]:
-        """Every role that the parameters name."""
-        named: set[str] = set()
-        for f in dataclasses.fields(self):
-            if f.metadata.get("roles"):
-                named.update(getattr(self, f.name))
-        return named
 
     def find(self, case: Case) -> Iterable[Result]:
         """Places where it does not hold, and places that it cannot judge."""

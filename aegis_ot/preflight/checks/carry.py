@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
@@ -42,6 +42,7 @@ class Carry(Check):
             into; ``not``: judge the others; empty: all.
         shared: Whether only wells that serve several destinations are judged.
         unnamed: Whether sources of which nothing says what they hold are carried as well.
+        not_into: Roles whose wells are let be, although they have a role of ``into`` as well.
     """
 
     name: ClassVar[str] = "carry"
@@ -50,7 +51,7 @@ class Carry(Check):
     meant: bool = True
     stock: bool = False
     pooled: bool = False
-    via_destination: str = ""
+    via_destination: Literal["", "only", "not"] = ""
     shared: bool = False
     unnamed: bool = False
     not_into: tuple[str, ...] = role_field(())

@@ -45,6 +45,11 @@ class MixedAfter(Check):
 
     Any mixing counts: ``mix``, ``mix_after``, repeated aspirating and dispensing, a shaker, or
     a pause that asks someone to shake.
+
+    Attributes:
+        liquid: Roles of the liquid.
+        wells: Roles of the wells that are judged; left out, all that receive the liquid and
+            that nothing is drawn from.
     """
 
     name: ClassVar[str] = "mixed_after"
@@ -86,7 +91,13 @@ def _another_is_shaken(case: Case, index: int) -> bool:
 
 @dataclass(frozen=True)
 class ReceivedBefore(Check):
-    """A well that receives both gets all of ``first`` before any of ``then``."""
+    """A well that receives both gets all of ``first`` before any of ``then``.
+
+    Attributes:
+        first: Roles of the liquid that comes first.
+        then: Roles of the liquid that comes after it.
+        wells: Roles of the wells that are judged; left out, all that receive both.
+    """
 
     name: ClassVar[str] = "received_before"
     first: tuple[str, ...] = role_field()
@@ -135,7 +146,11 @@ def _another_follows(case: Case, late: Sequence[Visit], index: int) -> bool:
 
 @dataclass(frozen=True)
 class RisingOrder(Check):
-    """Within one tip session, liquids of ``liquid`` are dispensed in order of rising level."""
+    """Within one tip session, liquids of ``liquid`` are dispensed in order of rising level.
+
+    Attributes:
+        liquid: Roles of the liquids.
+    """
 
     name: ClassVar[str] = "rising_order"
     liquid: tuple[str, ...] = role_field()

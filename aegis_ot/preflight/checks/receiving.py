@@ -9,6 +9,7 @@ from typing import ClassVar
 
 from ...vocabulary import Site
 from ..roles import Strength
+from ..rules import Word
 from ..text import lexicon_of, tokens
 from ..trace import Well
 from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
@@ -91,7 +92,7 @@ class Receives(Check):
     wells: tuple[str, ...] = role_field()
     liquid: tuple[str, ...] = role_field()
     always: tuple[str, ...] = role_field(())
-    perhaps: tuple[str, ...] = ()
+    perhaps: tuple[Word, ...] = ()
 
     def find(self, case: Case) -> Iterator[Result]:
         """Look at each well that should receive it."""
@@ -261,7 +262,12 @@ class Receives(Check):
 
 @dataclass(frozen=True)
 class NeverReceives(Check):
-    """No measured volume of ``liquid`` is dispensed into a well of ``wells``."""
+    """No measured volume of ``liquid`` is dispensed into a well of ``wells``.
+
+    Attributes:
+        wells: Roles of the wells.
+        liquid: Roles of the liquid.
+    """
 
     name: ClassVar[str] = "never_receives"
     wells: tuple[str, ...] = role_field()

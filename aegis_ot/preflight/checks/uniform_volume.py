@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
 from ...vocabulary import Site
+from ..rules import AtLeast
 from ..trace import Well
 from .base import Case, Check, Result, RoleSet, Violation, at, place, role_field
 from .given import came_from, filled, received
@@ -27,13 +28,15 @@ class UniformVolume(Check):
     others beside it is left out.
 
     Attributes:
+        wells: Roles of the wells.
+        liquid: Roles of the liquid.
         tolerance: Share of the usual volume by which a well may differ.
     """
 
     name: ClassVar[str] = "uniform_volume"
     wells: tuple[str, ...] = role_field()
     liquid: tuple[str, ...] = role_field()
-    tolerance: float = 0.01
+    tolerance: Annotated[float, AtLeast(0)] = 0.01
 
     def find(self, case: Case) -> Iterator[Result]:
         """Compare each well with what most wells of its assay get."""

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from ...errors import RuleError
-from ..rules import SCHEMA_VERSION, Common, Database, Family, read_dataclass
-from .validation import check_family, refuse_doubles
+from ..rules import SCHEMA_VERSION, Common, Database, Family, parse_json, read_dataclass
+from .together import check_together
+from .validation import check_family
 
 
 def shipped_rules() -> Path:
@@ -27,8 +27,9 @@ def load_database(extra: Sequence[str | Path] = ()) -> Database:
     """Load the shipped families and any of the user's own.
 
     Args:
-        extra: Files or folders of further families. A family, role or rule that exists
-            already is refused, so that nothing is shadowed by accident.
+        extra: Files or folders of further families. A family or rule that exists already is
+            refused, so that nothing is shadowed by accident; and a folder without any, so that
+            nobody believes that rules hold which are elsewhere.
 
     Raises:
         RuleError: With file, rule and field.
@@ -38,7 +39,10 @@ def load_database(extra: Sequence[str | Path] = ()) -> Database:
     for given in extra:
         path = Path(given)
         if path.is_dir():
-            files.extend(sorted(p for p in path.glob("*.json") if _is_family_file(p)))
+            found = sorted(p for p in path.glob("*.json") if _is_family_file(p))
+            if not found:
+                raise RuleError(f"{path}: there is no rule file (*.json) in this folder")
+            files.extend(found)
         elif path.is_file():
             files.append(path)
         else:
@@ -46,7 +50,7 @@ def load_database(extra: Sequence[str | Path] = ()) -> Database:
     if not files:
         return shipped
     families = [*shipped.families, *map(load_family, files)]
-    refuse_doubles(families)
+    check_together(families)
     return Database(tuple(families), shipped.common)
 
 
@@ -57,7 +61,7 @@ def _shipped() -> Database:
     common = read_dataclass(Common, _json(folder / "common.json"), "common.json")
     files = sorted(path for path in folder.glob("*.json") if _is_family_file(path))
     families = [load_family(path) for path in files]
-    refuse_doubles(families)
+    check_together(families)
     return Database(tuple(families), common)
 
 
@@ -83,7 +87,7 @@ def load_family(path: Path) -> Family:
 
 def _json(path: Path) -> Any:
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
+        return parse_json(path.read_bytes())
     except OSError as error:
         raise RuleError(f"{path.name}: cannot be read: {error.strerror}") from error
     except ValueError as error:

@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 from ..checks import CHECKS
-from ..rules import Family, json_schema
+from ..rules import SCHEMA_VERSION, Family, json_schema
 
 
 def family_schema() -> dict[str, Any]:
@@ -14,11 +14,8 @@ def family_schema() -> dict[str, Any]:
     schema = json_schema(Family)
     schema["title"] = "aegis_ot assay family"
     schema["properties"]["$schema"] = {"type": "string"}
-    rule = schema["$defs"]["RuleSpec"]["properties"]
-    rule["severity"] = {"enum": ["error", "warning"]}
-    rule["scope"] = {"enum": ["family", "all"]}
-    schema["$defs"]["RoleSpec"]["properties"]["side"] = {"enum": ["source", "destination", "any"]}
-    rule["checks"] = {"type": "array", "minItems": 1, "items": {"oneOf": _checks()}}
+    schema["properties"]["schema"]["const"] = SCHEMA_VERSION
+    schema["$defs"]["RuleSpec"]["properties"]["checks"]["items"] = {"oneOf": _checks()}
     return schema
 
 

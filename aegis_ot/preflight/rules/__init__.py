@@ -5,9 +5,13 @@ checks that they name, in :mod:`aegis_ot.preflight.database`.
 """
 
 from .common import SCHEMA_VERSION, Common
-from .reading import json_schema, read_dataclass
+from .database import Database
+from .described import meanings
+from .json_text import parse_json
+from .limits import AtLeast, Word
+from .reading import read_dataclass
+from .schema import json_schema
 from .specs import (
-    Database,
     Example,
     Examples,
     Family,
@@ -21,6 +25,7 @@ from .specs import (
 
 __all__ = [
     "SCHEMA_VERSION",
+    "AtLeast",
     "Common",
     "Database",
     "Example",
@@ -32,6 +37,9 @@ __all__ = [
     "SeriesSpec",
     "ShapeSignal",
     "Signal",
+    "Word",
     "json_schema",
+    "meanings",
+    "parse_json",
     "read_dataclass",
 ]

@@ -1,18 +1,22 @@
-"""Reads dataclasses from JSON with messages for people, and writes their JSON Schema.
+"""Reads dataclasses from JSON with messages for people.
 
 The robot has no pydantic and no jsonschema; a rule file must still be refused with the file,
-the rule and the field that is wrong.
+the rule and the field that is wrong. What is refused here is refused by the published schema
+(:mod:`.schema`) as well: both go by the types and limits that the dataclasses declare.
 """
 
 from __future__ import annotations
 
 import dataclasses
+import json
+import math
 import types
 import typing
 from collections.abc import Mapping
-from typing import Any, TypeVar
+from typing import Annotated, Any, Literal, TypeVar
 
 from ...errors import RuleError
+from .json_text import JsonObject
 
 T = TypeVar("T")
 _HINTS: dict[type[Any], dict[str, Any]] = {}
@@ -26,10 +30,9 @@ def read_dataclass(cls: type[T], data: Any, where: str) -> T:
         RuleError: If a field is missing, unknown or of the wrong kind; the message begins
             with ``where`` and names the field (and the rule's id, inside a list of rules).
     """
-    if not isinstance(data, dict):
-        raise RuleError(f"{where}: expected an object, found {_kind(data)}")
-    hints = _hints(cls)
-    fields = {f.name: f for f in _public_fields(cls)}
+    _require_object(data, where)
+    hints = hints_of(cls)
+    fields = {f.name: f for f in public_fields(cls)}
     unknown = [key for key in data if key not in fields]
     if unknown:
         raise RuleError(f"{where}: unknown field {unknown[0]!r}; known are {', '.join(fields)}")
@@ -37,26 +40,44 @@ def read_dataclass(cls: type[T], data: Any, where: str) -> T:
     for name, f in fields.items():
         if name in data:
             values[name] = _read(hints[name], data[name], f"{where}: {name}")
-        elif f.default is dataclasses.MISSING and f.default_factory is dataclasses.MISSING:
+        elif is_required(f):
             raise RuleError(f"{where}: field {name!r} is missing")
     return cls(**values)
 
 
-def _hints(cls: type[Any]) -> dict[str, Any]:
-    """Kept: compiling them from texts anew is most of the cost of reading a rule."""
+def hints_of(cls: type[Any]) -> dict[str, Any]:
+    """The types of the fields, with their limits.
+
+    Kept: compiling them from texts anew is most of the cost of reading a rule.
+    """
     if cls not in _HINTS:
-        _HINTS[cls] = typing.get_type_hints(cls)
+        _HINTS[cls] = typing.get_type_hints(cls, include_extras=True)
     return _HINTS[cls]
 
 
-def _public_fields(cls: type[Any]) -> list[dataclasses.Field[Any]]:
+def public_fields(cls: type[Any]) -> list[dataclasses.Field[Any]]:
     """The fields that a file may hold."""
     return [f for f in dataclasses.fields(cls) if not f.metadata.get("internal")]
+
+
+def is_required(field: dataclasses.Field[Any]) -> bool:
+    """Whether a file must give it."""
+    return field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
 
 
 def _read(hint: Any, value: Any, where: str) -> Any:
     origin = typing.get_origin(hint)
     arguments = typing.get_args(hint)
+    if origin is Annotated:
+        result = _read(arguments[0], value, where)
+        for limit in arguments[1:]:
+            if expected := limit.refuses(result):
+                raise RuleError(f"{where}: expected {expected}, found {_shown(value)}")
+        return result
+    if origin is Literal:
+        if isinstance(value, str) and value in arguments:
+            return value
+        raise RuleError(f"{where}: expected {_either(arguments)}, found {_shown(value)}")
     if origin in (typing.Union, types.UnionType):
         if value is None and type(None) in arguments:
             return None
@@ -65,19 +86,21 @@ def _read(hint: Any, value: Any, where: str) -> Any:
         if not isinstance(value, list):
             raise RuleError(f"{where}: expected a list, found {_kind(value)}")
         return tuple(
-            _read(arguments[0], item, f"{where}{_item(item, number)}")
+            _read(arguments[0], item, _item_place(where, item, number))
             for number, item in enumerate(value)
         )
     if origin is not None and issubclass(origin, Mapping):
-        if not isinstance(value, dict):
-            raise RuleError(f"{where}: expected an object, found {_kind(value)}")
-        return {key: _read(arguments[1], item, f"{where}.{key}") for key, item in value.items()}
+        _require_object(value, where)
+        return {
+            _read(arguments[0], key, where): _read(arguments[1], item, f"{where}.{key}")
+            for key, item in value.items()
+        }
     if hint is Any:
         return value
     if dataclasses.is_dataclass(hint) and isinstance(hint, type):
         return read_dataclass(hint, value, where)
-    if hint is float and isinstance(value, int) and not isinstance(value, bool):
-        return float(value)
+    if hint is float and isinstance(value, int | float) and not isinstance(value, bool):
+        return _number(value, where)
     if isinstance(hint, type) and isinstance(value, hint):
         if hint is int and isinstance(value, bool):
             raise RuleError(f"{where}: expected a whole number, found true or false")
@@ -85,10 +108,42 @@ def _read(hint: Any, value: Any, where: str) -> Any:
     raise RuleError(f"{where}: expected {_WORDS.get(hint, str(hint))}, found {_kind(value)}")
 
 
-def _item(item: Any, number: int) -> str:
-    if isinstance(item, dict) and isinstance(item.get("id"), str):
-        return f" {item['id']}"
-    return f"[{number}]"
+def _require_object(value: Any, where: str) -> None:
+    if not isinstance(value, dict):
+        raise RuleError(f"{where}: expected an object, found {_kind(value)}")
+    if isinstance(value, JsonObject) and value.doubled:
+        raise RuleError(f"{where}: field {value.doubled[0]!r} is written twice")
+
+
+def _number(value: float, where: str) -> float:
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number):
+        raise RuleError(f"{where}: expected a finite number, found {json.dumps(value)}")
+    return number
+
+
+def _item_place(where: str, item: Any, number: int) -> str:
+    """Where an item of a list stands; a rule by its identifier: "pcr.json: rule PCR-1"."""
+    name = item.get("id") if isinstance(item, dict) else None
+    if isinstance(name, str) and name:
+        return f"{where.removesuffix('s')} {name}"
+    return f"{where}[{number}]"
+
+
+def _either(choices: tuple[str, ...]) -> str:
+    """``a, b or c``."""
+    *most, last = [choice or "an empty text" for choice in sorted(choices, key=lambda c: not c)]
+    return f"{', '.join(most)} or {last}"
+
+
+def _shown(value: Any) -> str:
+    """What was found where the kind is right and the value is not."""
+    if value == [] and isinstance(value, list):
+        return "an empty list"
+    return repr(value) if isinstance(value, str) else _kind(value)
 
 
 def _kind(value: Any) -> str:
@@ -99,51 +154,3 @@ def _kind(value: Any) -> str:
     if isinstance(value, list):
         return "a list"
     return f"{_WORDS.get(type(value), type(value).__name__)} ({value!r})"
-
-
-def json_schema(cls: type[Any]) -> dict[str, Any]:
-    """JSON Schema (draft 2020-12) of a dataclass, with its own documentation."""
-    definitions: dict[str, Any] = {}
-    root = _schema_of(cls, definitions)
-    definitions_used = {name: value for name, value in definitions.items() if value}
-    return {
-        "$schema": "https://json-schema.org/draft/2020-12/schema",
-        **definitions_used.pop(cls.__name__, root),
-        **({"$defs": definitions_used} if definitions_used else {}),
-    }
-
-
-def _schema_of(hint: Any, definitions: dict[str, Any]) -> dict[str, Any]:
-    origin = typing.get_origin(hint)
-    arguments = typing.get_args(hint)
-    if origin in (typing.Union, types.UnionType):
-        return {"anyOf": [_schema_of(argument, definitions) for argument in arguments]}
-    if hint is type(None):
-        return {"type": "null"}
-    if origin is tuple:
-        return {"type": "array", "items": _schema_of(arguments[0], definitions)}
-    if origin is not None and issubclass(origin, Mapping):
-        return {"type": "object", "additionalProperties": _schema_of(arguments[1], definitions)}
-    if dataclasses.is_dataclass(hint) and isinstance(hint, type):
-        if hint.__name__ not in definitions:
-            definitions[hint.__name__] = {}
-            definitions[hint.__name__] = _object_schema(hint, definitions)
-        return {"$ref": f"#/$defs/{hint.__name__}"}
-    simple = {str: "string", int: "integer", float: "number", bool: "boolean"}
-    return {"type": simple[hint]} if hint in simple else {}
-
-
-def _object_schema(cls: type[Any], definitions: dict[str, Any]) -> dict[str, Any]:
-    hints = _hints(cls)
-    required = [
-        f.name
-        for f in _public_fields(cls)
-        if f.default is dataclasses.MISSING and f.default_factory is dataclasses.MISSING
-    ]
-    return {
-        "type": "object",
-        "description": (cls.__doc__ or "").split("\n\n")[0].replace("\n", " ").strip(),
-        "properties": {f.name: _schema_of(hints[f.name], definitions) for f in _public_fields(cls)},
-        "required": required,
-        "additionalProperties": False,
-    }

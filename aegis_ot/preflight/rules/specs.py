@@ -8,10 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Annotated, Any, Literal
 
-from ...errors import RuleError
-from .common import SCHEMA_VERSION, Common
+from .common import SCHEMA_VERSION
+from .limits import Name, NotEmpty, Word
+
+
+def role_names() -> Any:
+    """A field that lists roles of the family; left out, none. What it names must exist."""
+    return field(default=(), metadata={"roles": True})
 
 
 @dataclass(frozen=True)
@@ -19,7 +24,8 @@ class Signal:
     """Words that speak for a family.
 
     Attributes:
-        words: Phrases, see :mod:`aegis_ot.preflight.text.words`.
+        words: Words and phrases, found in any spelling, in capitals or not, in the plural:
+            "no template control" is in ``noTemplateControls``. ``#`` stands for any number.
         weight: How much a mention counts; negative words speak against the family.
         once: Whether the signal counts once, however often it is mentioned.
         defining: Whether it can make the family known. Words that other assays use as well only
@@ -27,11 +33,14 @@ class Signal:
         roles: Roles of the family whose words count as well.
     """
 
-    words: tuple[str, ...] = ()
+    words: tuple[Word, ...] = ()
     weight: float = 1.0
     once: bool = True
     defining: bool = True
-    roles: tuple[str, ...] = ()
+    roles: tuple[str, ...] = role_names()
+
+
+Shape = Literal["chain", "pooling", "reactions", "copying"]
 
 
 @dataclass(frozen=True)
@@ -46,9 +55,9 @@ class ShapeSignal:
         defining: Whether it can make the family known.
     """
 
-    shape: str
+    shape: Shape
     weight: float
-    unless: tuple[str, ...] = ()
+    unless: tuple[Shape, ...] = ()
     defining: bool = False
 
 
@@ -74,7 +83,7 @@ class RoleSpec:
         parents: More general roles that it also counts as.
         side: ``source`` if the words mean this role only in wells that liquid is drawn from
             first, ``destination`` if only in wells that liquid is put into first, or ``any``.
-        words: Phrases that name it.
+        words: Words and phrases that name it, as in signals.
         never: Phrases that hold one of the words and still do not name it.
         differing: Those of its words that in the plural, or for a labware, stand for liquids which
             differ, and so do not name it: a rack of "stocks".
@@ -114,31 +123,31 @@ class RoleSpec:
     """
 
     title: str
-    parents: tuple[str, ...] = ()
-    side: str = "any"
-    words: tuple[str, ...] = ()
-    never: tuple[str, ...] = ()
-    differing: tuple[str, ...] = ()
+    parents: tuple[str, ...] = role_names()
+    side: Literal["source", "destination", "any"] = "any"
+    words: tuple[Word, ...] = ()
+    never: tuple[Word, ...] = ()
+    differing: tuple[Word, ...] = ()
     implies_contents: bool = False
-    filled_by: tuple[str, ...] = ()
-    feeds: tuple[str, ...] = ()
-    feeds_beside: tuple[str, ...] = ()
+    filled_by: tuple[str, ...] = role_names()
+    feeds: tuple[str, ...] = role_names()
+    feeds_beside: tuple[str, ...] = role_names()
     one_to_one: bool = False
-    single_with: tuple[str, ...] = ()
-    single_beside: tuple[str, ...] = ()
+    single_with: tuple[str, ...] = role_names()
+    single_beside: tuple[str, ...] = role_names()
     replicated: bool = False
-    loaded: str = ""
+    loaded: Literal["", "shared", "single", "kept"] = ""
     one_liquid: bool = False
-    may_be: tuple[str, ...] = ()
+    may_be: tuple[str, ...] = role_names()
     level: float | None = None
-    receives: tuple[str, ...] = ()
-    receives_with: tuple[str, ...] = ()
+    receives: tuple[str, ...] = role_names()
+    receives_with: tuple[str, ...] = role_names()
     dosed: bool = False
-    called_alike_beside: tuple[str, ...] = ()
-    used_like: tuple[str, ...] = ()
-    gets: tuple[str, ...] = ()
-    in_place_of: tuple[str, ...] = ()
-    common_to: tuple[str, ...] = ()
+    called_alike_beside: tuple[str, ...] = role_names()
+    used_like: tuple[str, ...] = role_names()
+    gets: tuple[str, ...] = role_names()
+    in_place_of: tuple[str, ...] = role_names()
+    common_to: tuple[str, ...] = role_names()
     passed_on: bool = False
 
 
@@ -154,15 +163,20 @@ class SeriesSpec:
             the wells are mostly filled from.
     """
 
-    wells: tuple[str, ...]
-    stock: tuple[str, ...]
-    diluent: tuple[str, ...]
-    diluent_else: tuple[str, ...] = ()
+    wells: tuple[str, ...] = field(metadata={"roles": True})
+    stock: tuple[str, ...] = field(metadata={"roles": True})
+    diluent: tuple[str, ...] = field(metadata={"roles": True})
+    diluent_else: tuple[str, ...] = role_names()
 
 
 @dataclass(frozen=True)
 class Example:
-    """A snippet: the body of ``run`` (or a whole protocol) and what it shows."""
+    """A snippet of a protocol and what it shows.
+
+    Attributes:
+        title: What it shows: "one tip for two samples".
+        code: Its lines: the body of ``run`` on a small fixed deck, or a whole protocol.
+    """
 
     title: str
     code: tuple[str, ...]
@@ -170,10 +184,15 @@ class Example:
 
 @dataclass(frozen=True)
 class Examples:
-    """At least one of each."""
+    """At least one of each.
 
-    passing: tuple[Example, ...]
-    failing: tuple[Example, ...]
+    Attributes:
+        passing: Snippets in which the rule finds nothing.
+        failing: Snippets in which it does.
+    """
+
+    passing: Annotated[tuple[Example, ...], NotEmpty()]
+    failing: Annotated[tuple[Example, ...], NotEmpty()]
 
 
 @dataclass(frozen=True)
@@ -181,14 +200,14 @@ class RuleSpec:
     """One rule.
 
     Attributes:
-        id: ``"PCR-2"``.
+        id: ``"PCR-2"``; no other rule has it, in capitals or not.
         name: ``"fresh-tip-template-to-ntc"``.
         statement: What must hold.
         severity: ``error`` or ``warning``.
         scope: ``family`` or ``all``: whether it is judged in every family's protocols.
         needs: Roles that must be known to judge it; ``"a|b"`` for either.
         checks: Checks that decide it, with their parameters; all of them must hold.
-        unless_reported: Rules whose findings on the same wells replace this one's.
+        unless_reported: Rules, of any family, whose findings on the same wells replace this one's.
         indicators: What to look for in the source, for a model.
         prompt: Instruction for a model.
         rationale: Why it matters.
@@ -197,17 +216,17 @@ class RuleSpec:
         examples: Passing and failing snippets.
     """
 
-    id: str
+    id: Name
     name: str
     statement: str
-    severity: str
+    severity: Literal["error", "warning"]
     needs: tuple[str, ...]
-    checks: tuple[Mapping[str, Any], ...]
+    checks: Annotated[tuple[Mapping[str, Any], ...], NotEmpty()]
     rationale: str
     reference: str
     fix: str
     examples: Examples
-    scope: str = "family"
+    scope: Literal["family", "all"] = "family"
     unless_reported: tuple[str, ...] = ()
     indicators: tuple[str, ...] = ()
     prompt: str = ""
@@ -215,55 +234,34 @@ class RuleSpec:
 
 @dataclass(frozen=True)
 class Family:
-    """One assay family, as its file describes it."""
+    """One assay family, as its file describes it.
 
-    family: str
+    Attributes:
+        family: Its name, as ``--assay`` takes it: ``"pcr"``; no other family has it.
+        title: In words: "PCR and qPCR set-up".
+        description: What is done in such an assay.
+        signals: Words that reveal it. A signal of weight 3 makes it known, of less weight two
+            that agree.
+        roles: What its wells may be for, by name.
+        rules: What must hold; at least one.
+        schema: The version of this format.
+        series: Which roles make a dilution series, if the family has any: for the checks of
+            series.
+        shapes: Shapes of the liquid's ways that speak for the family, or against it.
+        known_by: Roles that make it known together, where wells are named for all of them.
+        default: Whether it is judged where nothing speaks for another family. One of all families
+            is, and that is the shipped ``generic``.
+    """
+
+    family: Name
     title: str
     description: str
     signals: tuple[Signal, ...]
-    roles: Mapping[str, RoleSpec]
-    rules: tuple[RuleSpec, ...]
+    roles: Mapping[Name, RoleSpec]
+    rules: Annotated[tuple[RuleSpec, ...], NotEmpty()]
     schema: int = SCHEMA_VERSION
     series: SeriesSpec | None = None
     shapes: tuple[ShapeSignal, ...] = ()
     known_by: tuple[RoleSignal, ...] = ()
     default: bool = False
     path: str = field(default="", compare=False, metadata={"internal": True})
-
-
-@dataclass(frozen=True)
-class Database:
-    """All families and common words in force."""
-
-    families: tuple[Family, ...]
-    common: Common
-
-    @property
-    def rules(self) -> tuple[RuleSpec, ...]:
-        """Every rule, in file order."""
-        return tuple(rule for family in self.families for rule in family.rules)
-
-    def rule(self, rule_id: str) -> tuple[Family, RuleSpec]:
-        """Find a rule.
-
-        Raises:
-            RuleError: If there is none with this identifier.
-        """
-        for family in self.families:
-            for rule in family.rules:
-                if rule.id == rule_id:
-                    return family, rule
-        known = ", ".join(rule.id for rule in self.rules)
-        raise RuleError(f"there is no rule {rule_id!r}; known are {known}")
-
-    def family(self, name: str) -> Family:
-        """Find a family.
-
-        Raises:
-            RuleError: If there is none of this name.
-        """
-        for family in self.families:
-            if family.family == name:
-                return family
-        known = ", ".join(family.family for family in self.families)
-        raise RuleError(f"there is no assay family {name!r}; known are {known}")
