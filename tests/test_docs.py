@@ -11,6 +11,7 @@ import typer
 
 from aegis_ot.checking.configuration import read_configuration
 from aegis_ot.cli.app import app
+from aegis_ot.preflight.rules import Family
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar.config import ENVIRONMENT, SidecarConfig
 
@@ -86,6 +87,15 @@ def test_every_option_that_is_shown_exists():
     shown = set(re.findall(r"(?<![\w-])--[a-z][a-z-]+", text))
     assert shown - known == set()
     assert len(shown) > 10
+
+
+def test_rule_files_are_told_of_with_all_their_fields():
+    text = (ROOT / "docs" / "check.md").read_text(encoding="utf-8")
+    part = text.split("## Rules of your own")[1].split("\n## ")[0]
+    assert {"rules/fields.md", "rules/checks.md"} <= set(re.findall(r"\]\(([^)#]+)", part))
+    plain = {"family", "title", "description", "schema", "path"}
+    for name in {field.name for field in fields(Family)} - plain:
+        assert f"`{name}`" in part, name
 
 
 def test_the_pre_commit_hook_calls_a_command_that_exists_with_extras_that_exist():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import inspect
 import json
 import re
@@ -10,17 +11,24 @@ from typing import Any
 
 from ..preflight.checks import CHECKS
 from ..preflight.rules import Database, Example, Family, RoleSpec, RuleSpec
+from .field_page import field_page, parameters
 from .rule_text import code_of, needs_in_words
 
 _HEAD = "<!-- Written by `aegis-ot rules docs` from the rule files. Edit those. -->"
+_CODE_HEAD = (
+    "<!-- Written by `aegis-ot rules docs` from the docstrings in aegis_ot/preflight. "
+    "Edit those. -->"
+)
+_OPTIONAL = {"required": "", "none": " (optional)"}
 
 
 def rule_pages(database: Database) -> dict[str, str]:
-    """All pages, by file name: an index, one page per family, and one of the checks."""
+    """All pages, by file name: an index, one page per family, those of checks and of fields."""
     pages = {"README.md": "\n".join(_index(database)) + "\n"}
     for family in database.families:
         pages[f"{family.family}.md"] = "\n".join(_family(family)) + "\n"
     pages["checks.md"] = "\n".join(_checks(database)) + "\n"
+    pages["fields.md"] = field_page(_CODE_HEAD)
     return pages
 
 
@@ -33,7 +41,8 @@ def _index(database: Database) -> Iterator[str]:
         f"{len(database.rules)} rules in {len(database.families)} assay families. A rule is data: "
         "a JSON file per family in `rules/` names the words that reveal the family, the roles "
         "that its wells play, and its rules; each rule names [checks](checks.md) and their "
-        "parameters. `aegis-ot explain RULE` shows one in the terminal."
+        "parameters. All that such a file may hold: [fields](fields.md). `aegis-ot explain RULE` "
+        "shows a rule in the terminal."
     )
     yield ""
     yield "| rule | name | severity | statement |"
@@ -153,33 +162,31 @@ def _example(kind: str, example: Example) -> Iterator[str]:
 
 
 def _checks(database: Database) -> Iterator[str]:
-    yield _HEAD
+    yield _CODE_HEAD
     yield ""
     yield "# Checks"
     yield ""
-    yield "The vocabulary that rules are made of. Lists of roles are names of the family's roles."
+    yield (
+        "The vocabulary that rules are made of. Lists of roles are names of the family's roles; "
+        "parameters may be left out where it says so."
+    )
     for name, check in CHECKS.items():
         users = [r.id for r in database.rules if any(c["check"] == name for c in r.checks)]
         yield ""
         yield f"## {name}"
         yield ""
-        text, _, attributes = _documentation(check).partition("\n\nAttributes:\n")
+        text, _, _ = _documentation(check).partition("\n\nAttributes:\n")
         yield text
-        if attributes:
-            yield ""
-            yield from _attributes(attributes)
         yield ""
+        for parameter, (default, meaning) in parameters(check).items():
+            yield f"- `{parameter}`{_OPTIONAL.get(default, f' ({default} if left out)')}: {meaning}"
+        if dataclasses.fields(check):
+            yield ""
         yield f"Used by: {', '.join(users) or 'no shipped rule'}."
 
 
 def _documentation(check: type) -> str:
     return (inspect.getdoc(check) or "").replace("``", "`")
-
-
-def _attributes(text: str) -> Iterator[str]:
-    for entry in re.split(r"\n(?=    \S)", text.rstrip()):
-        name, _, meaning = " ".join(entry.split()).partition(": ")
-        yield f"- `{name}`: {meaning}"
 
 
 def _anchor(rule: RuleSpec) -> str:

@@ -1,11 +1,25 @@
 from __future__ import annotations
 
+import re
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
 from syrupy.assertion import SnapshotAssertion
 
 from aegis_ot.preflight import load_database
+from aegis_ot.preflight.checks import CHECKS
+from aegis_ot.preflight.rules import (
+    Example,
+    Examples,
+    Family,
+    RoleSignal,
+    RoleSpec,
+    RuleSpec,
+    SeriesSpec,
+    ShapeSignal,
+    Signal,
+)
 from aegis_ot.reports import rule_list, rule_pages, rule_text
 
 from .sample import DATABASE, FAMILY
@@ -31,10 +45,50 @@ def test_the_shipped_pages_are_up_to_date() -> None:
         assert page.read_text(encoding="utf-8") == text, f"{name}: run `aegis-ot rules docs`"
 
 
-@pytest.mark.parametrize("page", ["README.md", "pcr.md"])
-def test_every_link_leads_somewhere(page: str) -> None:
-    import re
+def test_every_parameter_of_every_check_is_told() -> None:
+    page = rule_pages(load_database())["checks.md"]
+    for name, check in CHECKS.items():
+        part = page.split(f"\n## {name}\n")[1].split("\n## ")[0]
+        told = dict(re.findall(r"^- `(\w+)`(?: \([^:]*\))?: (.+)$", part, re.MULTILINE))
+        assert list(told) == [field.name for field in fields(check)], name
+    assert "- `not_into` (optional): Roles whose wells are let be" in page
+    assert "- `tolerance` (`0.01` if left out): Share of" in page
 
+
+@pytest.mark.parametrize(
+    ("title", "cls"),
+    [
+        ("Family", Family),
+        ("Role", RoleSpec),
+        ("Rule", RuleSpec),
+        ("Examples", Examples),
+        ("Example", Example),
+        ("Signal", Signal),
+        ("Shape", ShapeSignal),
+        ("Known by", RoleSignal),
+        ("Series", SeriesSpec),
+    ],
+)
+def test_every_field_of_a_rule_file_is_told(title: str, cls: type) -> None:
+    page = rule_pages(load_database())["fields.md"]
+    part = page.split(f"\n## {title}\n")[1].split("\n## ")[0]
+    told = dict(re.findall(r"^\| `(\w+)` \| .+ \| .+ \| (.+) \|$", part, re.MULTILINE))
+    assert list(told) == [f.name for f in fields(cls) if not f.metadata.get("internal")]
+
+
+def test_the_fields_page_tells_kinds_and_defaults() -> None:
+    page = rule_pages(load_database())["fields.md"]
+    for row in (
+        "| `roles` | by name: [role](#role) | required | ",
+        '| `side` | `source`, `destination` or `any` | `"any"` | ',
+        "| `single_with` | list of roles | none | ",
+        "| `level` | number | none | ",
+    ):
+        assert row in page
+
+
+@pytest.mark.parametrize("page", ["README.md", "pcr.md", "fields.md"])
+def test_every_link_leads_somewhere(page: str) -> None:
     pages = rule_pages(load_database())
     anchors = {
         name: {
@@ -44,8 +98,8 @@ def test_every_link_leads_somewhere(page: str) -> None:
         }
         for name, text in pages.items()
     }
-    links = re.findall(r"\]\(([^)#]+)(?:#([^)]+))?\)", pages[page])
+    links = re.findall(r"\]\(([^)#]*)(?:#([^)]+))?\)", pages[page])
     assert links
     for target, anchor in links:
-        assert target in pages
-        assert not anchor or anchor in anchors[target]
+        assert (target or page) in pages
+        assert not anchor or anchor in anchors[target or page]

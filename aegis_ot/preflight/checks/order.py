@@ -48,8 +48,8 @@ class MixedAfter(Check):
 
     Attributes:
         liquid: Roles of the liquid.
-        wells: Roles of the wells that are judged; left out, all that receive the liquid and
-            that nothing is drawn from.
+        wells: Roles of the wells that are judged; else all that receive the liquid and that
+            nothing is drawn from.
     """
 
     name: ClassVar[str] = "mixed_after"
@@ -96,7 +96,7 @@ class ReceivedBefore(Check):
     Attributes:
         first: Roles of the liquid that comes first.
         then: Roles of the liquid that comes after it.
-        wells: Roles of the wells that are judged; left out, all that receive both.
+        wells: Roles of the wells that are judged; else all that receive both.
     """
 
     name: ClassVar[str] = "received_before"

@@ -76,7 +76,8 @@ class RoleSignal:
 
 @dataclass(frozen=True)
 class RoleSpec:
-    """What a well may be for, and which words say so.
+    """What a well may be for, and which words say so. What is "derived" gives it to wells that
+    no word names.
 
     Attributes:
         title: In words, for messages: "no-template control".
@@ -88,7 +89,8 @@ class RoleSpec:
         differing: Those of its words that in the plural, or for a labware, stand for liquids which
             differ, and so do not name it: a rack of "stocks".
         implies_contents: Whether such a well held liquid before the run.
-        filled_by: Roles whose liquid, given in the run, would make up those contents.
+        filled_by: For ``implies_contents``: roles whose liquid, given in the run, would make up
+            those contents.
         feeds: Derived: an unnamed source that mostly feeds wells of these roles.
         feeds_beside: For ``feeds``: only if these wells all get a liquid of these roles as well.
         single_with: Derived: unnamed sources that each go into wells of their own which all get a
@@ -101,9 +103,10 @@ class RoleSpec:
         loaded: Derived: a well with a loaded liquid whose name says no role: ``shared`` where it
             serves several wells, ``single`` where it serves one or two, ``kept`` where the run
             only adds to it.
-        may_be: Roles that such a liquid is used as, if that is said as well: "PBS (vehicle)"; or
-            if it goes where they go, and none is named for them.
-        level: Value on the scale of concentrations or doses that this role has by itself.
+        may_be: Roles that a liquid of this one is used as, if that is said as well: "PBS
+            (vehicle)"; or if it goes where they go, and none is named for them.
+        level: Value on the scale of concentrations or doses that this role has by itself: 0 for
+            a blank.
         receives: Derived: a destination that is given liquid of one of these roles.
         receives_with: For ``receives``: where wells get a liquid of these roles as well, straight
             from where it stands, it is they that are meant, and not what they are given on to.
