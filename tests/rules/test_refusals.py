@@ -122,6 +122,17 @@ def test_it_is_refused_by_the_published_schema_as_well(
             rule(unless_reported=["PCR-1", "NOPE-9"]),
             "rule ELISA-1: unless_reported: there is no rule 'NOPE-9'; known are BRD-1, ",
         ),
+        (
+            rule(unless_reported=["ELISA-1"]),
+            "rule ELISA-1: unless_reported: they go in a circle: ELISA-1 -> ELISA-1",
+        ),
+        (
+            lambda d: [
+                d["rules"][0].update(unless_reported=["ELISA-2"]),
+                d["rules"][1].update(unless_reported=["PCR-2", "ELISA-1"]),
+            ],
+            "rule ELISA-1: unless_reported: they go in a circle: ELISA-1 -> ELISA-2 -> ELISA-1",
+        ),
         (rule(checks=[{"check": [[]]}]), "rule ELISA-1: checks[0]: check: there is no check with"),
     ],
 )
@@ -175,6 +186,13 @@ def test_deep_nesting_is_refused(text: str, tmp_path: Path) -> None:
 def test_a_file_that_is_not_utf_8_is_refused(tmp_path: Path) -> None:
     assert refusal(tmp_path, ELISA.encode("utf-16")).startswith(
         "mine.json: is not JSON: it is not UTF-8 text ("
+    )
+
+
+def test_half_a_character_is_refused(tmp_path: Path) -> None:
+    told = refusal(tmp_path, json.dumps(changed(rule(fix="\ud83d"))))
+    assert told == (
+        "mine.json: rule ELISA-1: fix: expected a text, found half of a character in '\\ud83d'"
     )
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ...errors import RuleError
 from ..rules import Family
+from .circles import circle_in
 
 
 def check_together(families: Sequence[Family]) -> None:
@@ -17,15 +18,26 @@ def check_together(families: Sequence[Family]) -> None:
     """
     _refuse_doubles(families)
     _refuse_second_default(families)
-    rules = {rule.id for family in families for rule in family.rules}
-    for family in families:
-        for rule in family.rules:
-            for other in rule.unless_reported:
-                if other not in rules:
-                    raise RuleError(
-                        f"{Path(family.path).name}: rule {rule.id}: unless_reported: there is no "
-                        f"rule {other!r}; known are {', '.join(sorted(rules))}"
-                    )
+    _check_replaced(families)
+
+
+def _check_replaced(families: Sequence[Family]) -> None:
+    """Of rules that give way to each other in a circle none would report anything."""
+    files = {rule.id: Path(family.path).name for family in families for rule in family.rules}
+    rules = {rule.id: rule for family in families for rule in family.rules}
+    for name, rule in rules.items():
+        for other in rule.unless_reported:
+            if other not in rules:
+                raise RuleError(
+                    f"{files[name]}: rule {name}: unless_reported: there is no rule {other!r}; "
+                    f"known are {', '.join(sorted(rules))}"
+                )
+    circle = circle_in({name: rule.unless_reported for name, rule in rules.items()})
+    if circle:
+        raise RuleError(
+            f"{files[circle[0]]}: rule {circle[0]}: unless_reported: they go in a circle: "
+            f"{' -> '.join(circle)}"
+        )
 
 
 def _refuse_doubles(families: Sequence[Family]) -> None:

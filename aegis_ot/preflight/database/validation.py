@@ -10,6 +10,7 @@ from ...errors import RuleError
 from ..checks import make_check
 from ..rules import Family, RoleSpec, RuleSpec
 from ..text import tokens
+from .circles import circle_in
 
 
 def check_family(family: Family, file: str) -> None:
@@ -47,19 +48,11 @@ def _check_role(family: Family, role: RoleSpec, where: str) -> None:
 
 def _check_parents(family: Family, file: str) -> None:
     """What a role counts as is followed to the end, which a circle has not."""
-    left = dict(family.roles)
-    while ends := [n for n, role in left.items() if left.keys().isdisjoint(role.parents)]:
-        for name in ends:
-            del left[name]
-    if not left:
-        return
-    way: list[str] = []
-    name = next(iter(left))
-    while name not in way:
-        way.append(name)
-        name = next(parent for parent in left[name].parents if parent in left)
-    circle = " -> ".join([*way[way.index(name) :], name])
-    raise RuleError(f"{file}: roles.{name}: parents: they go in a circle: {circle}")
+    circle = circle_in({name: role.parents for name, role in family.roles.items()})
+    if circle:
+        raise RuleError(
+            f"{file}: roles.{circle[0]}: parents: they go in a circle: {' -> '.join(circle)}"
+        )
 
 
 def _check_rule(family: Family, rule: RuleSpec, where: str) -> None:

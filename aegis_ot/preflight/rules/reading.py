@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+import re
 import types
 import typing
 from collections.abc import Mapping
@@ -19,6 +20,9 @@ from ...errors import RuleError
 from .json_text import JsonObject
 
 T = TypeVar("T")
+_HALF = re.compile("[\ud800-\udfff]")
+"""JSON can hold half of a pair that makes one character; no file or terminal takes it."""
+
 _HINTS: dict[type[Any], dict[str, Any]] = {}
 _WORDS = {str: "a text", int: "a whole number", float: "a number", bool: "true or false"}
 
@@ -66,6 +70,10 @@ def is_required(field: dataclasses.Field[Any]) -> bool:
 
 
 def _read(hint: Any, value: Any, where: str) -> Any:
+    if hint is str and isinstance(value, str):  # first: most values are
+        if _HALF.search(value):
+            raise RuleError(f"{where}: expected a text, found half of a character in {value!r}")
+        return value
     origin = typing.get_origin(hint)
     arguments = typing.get_args(hint)
     if origin is Annotated:
