@@ -15,6 +15,8 @@ from .well_names import WellNames, well_names
 
 _ENDS = re.compile(r"(\d+|[A-P])$")
 _FEWEST_NUMBERED = 3
+_TIMES = re.compile(r"(?:min|sec|hour|day|week|cycle|fold|time|x\b|rpm|deg|cells?\b)", re.IGNORECASE)
+"""What follows a range of numbers that are no columns: "5-10 min"."""
 _COLUMN_NUMBERS = re.compile(r"(?m)^\W*1\W+2\b[\s\d|]*$")
 
 
@@ -153,13 +155,16 @@ class Ellipses:
         return self._crossed(text)
 
     def _goes_on(self, text: str, last: str, follower: re.Match[str]) -> bool:
-        """Whether a layout goes on there: with the next one, or with a later one and "="."""
+        """Whether a layout goes on there: with the next one, or with a later one and "=", or with
+        several later ones: "columns 1-3 drug, 10-11 vehicle".
+        """
         low, after = follower["low"], text[follower.end("of") :].lstrip()
         passed = re.findall(r"[,;|]", text[follower.start() : follower.start("of")])
         if len(passed) > 1 and after[:1] not in ("=", ":"):
             return False  # "columns 1-3: samples 1-3, one column each, 4 NTC wells follow"
         later = low.isdecimal() and last.isdecimal() and int(low) > int(last)
-        return _follows(last, low) or (later and after[:1] == "=")
+        placed = after[:1] == "=" or (follower["high"] and not _TIMES.match(after))
+        return _follows(last, low) or (later and placed)
 
     def _with_columns(self, text: str) -> str:
         """Bare numbers that count on from 1 are columns: "1-3 samples, 4 standard, 5 blank",
