@@ -15,7 +15,7 @@ from .well_names import WellNames, well_names
 
 _ENDS = re.compile(r"(\d+|[A-P])$")
 _FEWEST_NUMBERED = 3
-_TIMES = re.compile(r"(?:min|sec|hour|day|week|cycle|fold|time|x\b|rpm|deg|cells?\b)", re.IGNORECASE)
+_TIMES = re.compile(r"(?:min|sec|hour|day|week|cycle|fold|time|rpm|deg|cells?\b)", re.IGNORECASE)
 """What follows a range of numbers that are no columns: "5-10 min"."""
 _COLUMN_NUMBERS = re.compile(r"(?m)^\W*1\W+2\b[\s\d|]*$")
 
@@ -163,7 +163,7 @@ class Ellipses:
         if len(passed) > 1 and after[:1] not in ("=", ":"):
             return False  # "columns 1-3: samples 1-3, one column each, 4 NTC wells follow"
         later = low.isdecimal() and last.isdecimal() and int(low) > int(last)
-        placed = after[:1] == "=" or (follower["high"] and not _TIMES.match(after))
+        placed = after[:1] == "=" or bool(follower["high"] and not _TIMES.match(after))
         return _follows(last, low) or (later and placed)
 
     def _with_columns(self, text: str) -> str:

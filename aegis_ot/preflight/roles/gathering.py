@@ -22,6 +22,7 @@ from .loop_levels import loop_levels
 from .mirrored import mirrored
 from .names import call_arguments, named_wells
 from .numbered_maps import numbered_maps
+from .parallel_lists import amounts_beside
 from .places import indexing_names
 from .plate_maps import plate_maps
 from .prose_grids import maps_in_prose
@@ -61,6 +62,7 @@ def gather(
         *labels(deck, common),
         *indexing_names(deck, facts, common),
         *plate_maps(deck, facts, common, transfer_lists(deck, facts, tables)),
+        *amounts_beside(deck, names, facts, common),
         *drawn_maps(deck, facts, common),
         *trough_legends(deck, facts, common),
         *numbered_maps(deck, names, facts, common),

@@ -1,0 +1,88 @@
+"""Amounts beside wells: two lists written one below the other, or a dict that the run makes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from ...instrumentation import NameBinding, is_spot
+from ..rules import Common
+from ..text import SourceFacts
+from .clues import Clue, Strength
+from .deck import Deck
+from .levels import are_amounts, far_apart, is_number, names_amounts
+from .plate_maps import labware_of_map, refs_of
+
+_FEWEST = 3
+_NEAR = 2
+"""Lists that belong together stand so many lines apart at most."""
+
+
+class _Pair(NamedTuple):
+    name: str
+    spots: tuple[str, ...]
+    amounts: tuple[float, ...]
+    line: int | None
+
+
+def amounts_beside(
+    deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
+) -> Iterator[Clue]:
+    """Levels of ``TUBES = ["A1", "B1", "C1"]`` above ``UG_PER_ML = [1500, 500, 0]``, or of
+    ``dict(zip(TUBES, UG_PER_ML))``.
+    """
+    for pair in (*_written(facts, common), *_made(names, facts, common)):
+        labware = labware_of_map(deck, facts, pair.name, pair.spots, common)
+        wells = tuple(refs_of(deck, labware, pair.spots))
+        if len(wells) != len(pair.spots):
+            continue
+        said = f"numbers beside `{pair.name}` at line {pair.line}"
+        yield Clue(Strength.NAME, "", wells, pair.line, said, levels=pair.amounts)
+        drawn = not any((ref.labware, ref.name) in deck.received for ref in wells)
+        if drawn and far_apart(pair.amounts):
+            yield Clue(
+                Strength.LOOSE_NAME,
+                "standard",
+                wells,
+                pair.line,
+                f"one of several amounts in {said}",
+                levels=pair.amounts,
+            )
+
+
+def _written(facts: SourceFacts, common: Common) -> Iterator[_Pair]:
+    amounts = {
+        name: tuple(map(float, value))
+        for name, value in facts.constants.items()
+        if isinstance(value, (list, tuple)) and all(map(is_number, value))
+    }
+    for name, value in facts.constants.items():
+        line = facts.assigned.get(name)
+        if not isinstance(value, (list, tuple)) or len(value) < _FEWEST or line is None:
+            continue
+        if not all(map(is_spot, value)):
+            continue
+        beside = [
+            numbers
+            for other, numbers in amounts.items()
+            if len(numbers) == len(value)
+            and names_amounts(other, common)
+            and abs(facts.assigned.get(other, -_NEAR - 1) - line) <= _NEAR
+            and are_amounts(numbers)
+        ]
+        if len(beside) == 1 and len(set(beside[0])) == len(value):
+            yield _Pair(name, tuple(value), beside[0], line)
+
+
+def _made(names: Sequence[NameBinding], facts: SourceFacts, common: Common) -> Iterator[_Pair]:
+    dicts = {
+        name: tuple((key, float(number)) for key, number in value.items())
+        for name, value in facts.constants.items()
+        if isinstance(value, dict) and all(map(is_number, value.values()))
+        if names_amounts(name, common)
+    }
+    made = {b.name: b.numbers for b in names if b.numbers and b.name not in facts.constants}
+    for name, items in {**made, **dicts}.items():
+        spots, numbers = tuple(key for key, _ in items), tuple(number for _, number in items)
+        if len(spots) >= _FEWEST and all(map(is_spot, spots)) and are_amounts(numbers):
+            yield _Pair(name, spots, numbers, facts.assigned.get(name))
