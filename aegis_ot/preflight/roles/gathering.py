@@ -69,7 +69,7 @@ def gather(
         *spotted_names(deck, names, facts, common),
         *tabled_wells(deck, names, facts, common),
         *written_tables(deck, facts, common, tables),
-        *written_wells(deck, facts, common),
+        *written_wells(deck, facts, common, tables),
         *maps_in_prose(deck, facts, common),
         *level_spans(deck, facts, common),
         *step_comments(trace, facts, common),

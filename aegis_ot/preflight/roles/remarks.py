@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -25,11 +25,17 @@ from .topics import Topic
 from .well_names import well_names
 
 
-def written_wells(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
-    """Well names in comments and docstrings: "A1-A8: samples", "NTC in H12"."""
+def written_wells(
+    deck: Deck, facts: SourceFacts, common: Common, others: Collection[str]
+) -> Iterator[Clue]:
+    """Well names in comments and docstrings: "A1-A8: samples", "NTC in H12".
+
+    And in constants of several lines, but those of the ``others``, which are tables.
+    """
     texts = list(facts.docstrings)
     texts += comment_blocks(facts)
     texts += [(1, text) for text in facts.metadata.values()]
+    texts += _written_out(facts, others)
     texts += _laid_out_in_the_run(deck, common)
     nouns = LabwareNouns(deck, common)
     noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
@@ -90,6 +96,17 @@ def _one_by_one(part: Part, said: str, clue: Clue, common: Common) -> list[Clue]
         for item, ref in zip(items, clue.wells, strict=False)
     ]
 
+
+def _written_out(facts: SourceFacts, others: Collection[str]) -> list[tuple[int, str]]:
+    """Texts of several lines that are bound to names, with their first lines."""
+    return [
+        (facts.assigned.get(name, 1), value)
+        for name, value in facts.constants.items()
+        if isinstance(value, str) and name not in others and value.count("\n") >= _FEWEST_LINES
+    ]
+
+
+_FEWEST_LINES = 3
 
 _VOLUME = re.compile(r"\d\s*[uµμm]l\b", re.IGNORECASE)
 
