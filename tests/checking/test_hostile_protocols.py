@@ -74,6 +74,21 @@ HOSTILE: dict[str, tuple[str, int | None, str]] = {
     "lambda_run.py": (HEAD + "x = 1\nrun = lambda p: None\n", 3, "this is no def"),
     "two_runs.py": (HEAD + "def run(p): ...\ndef run(p): ...\n", 3, "More than one run function"),
     "bare_run.py": (HEAD + "x = 1\ndef run():\n    pass\n", 3, "takes 0 positional arguments"),
+    "generator.py": (
+        HEAD + "x = 1\ndef run(p):\n    p.comment('never said')\n    yield 1\n",
+        3,
+        "run is never executed, since it is a generator",
+    ),
+    "passed_on.py": (
+        HEAD + "def steps(p):\n    yield 1\ndef run(p):\n    return steps(p)\n",
+        2,
+        "what run returns, steps, is never executed",
+    ),
+    "awaits.py": (
+        HEAD + "async def steps(p): ...\ndef run(p):\n    return steps(p)\n",
+        2,
+        "is never executed, since it is async",
+    ),
     "no_level.py": ("x = 1\n\ndef run(p):\n    pass\n", 1, "apiLevel not declared"),
     "number_level.py": (
         '"""Doc."""\nmetadata = {"apiLevel": 2.15}\ndef run(p):\n    pass\n',

@@ -47,6 +47,28 @@ def stopped(error: Exception, file_name: str, run: Any = None) -> RehearsalError
     return RehearsalError(f"{where}: {in_words(error)}", line)
 
 
+def is_unexecuted(result: Any) -> bool:
+    """Whether calling ``run`` gave something that was to be executed, and never is."""
+    kinds = (inspect.isgenerator, inspect.isasyncgen, inspect.iscoroutine)
+    return any(is_kind(result) for is_kind in kinds)
+
+
+def never_executed(result: Any, file_name: str) -> RehearsalError:
+    """The error of a ``run`` that gives a generator or a coroutine, and so executes nothing."""
+    if inspect.isgenerator(result):
+        code, told = result.gi_code, "it is a generator: a yield stands in it"
+    else:
+        code = result.cr_code if inspect.iscoroutine(result) else result.ag_code
+        told = "it is async"
+    if inspect.iscoroutine(result):
+        result.close()  # else Python warns that nobody awaits it
+    line = code.co_firstlineno if code.co_filename == file_name else None
+    where = f"{file_name}, line {line}" if line else file_name
+    name = "run" if code.co_name == "run" else f"what run returns, {code.co_name},"
+    told = f"{where}: {name} is never executed, since {told}. No step of it was rehearsed."
+    return RehearsalError(told, line)
+
+
 def unloadable(error: Exception, script: Script) -> RehearsalError:
     """The error of a protocol that Opentrons does not even load; the text itself is Python."""
     body = ast.parse(script.text).body

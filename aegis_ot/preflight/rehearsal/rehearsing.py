@@ -18,7 +18,7 @@ from ...instrumentation import LabwareInfo, Listener, NameBinding, NameCollector
 from .haste import hasty_builtins
 from .interruption import interrupted_after
 from .loading import Limit, copied_parameters, load, runtime_parameters
-from .refusals import stopped
+from .refusals import is_unexecuted, never_executed, stopped
 from .script import Script
 from .simulated_context import simulated_context
 
@@ -77,9 +77,9 @@ def rehearse(
             names = NameCollector(tap.wells, script.file_name)
 
             def watched(run: Run) -> Run:
-                def run_with_names(given: Any) -> None:
+                def run_with_names(given: Any) -> Any:
                     with names.watching(namespace, script.text):
-                        run(given)
+                        return run(given)
 
                 return run_with_names
 
@@ -139,7 +139,9 @@ def _perform(
             run = namespace.get("run")
             if not callable(run):
                 raise RehearsalError(f"{file_name} defines no function run(protocol).")
-            wrap(run)(context)
+            result = wrap(run)(context)
+            if is_unexecuted(result):
+                raise never_executed(result, file_name)
     except AegisError:
         raise
     except Exception as error:
