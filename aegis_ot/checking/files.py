@@ -29,6 +29,8 @@ def read_protocol(path: Path) -> str:
     if path.suffix.lower() == ".zip":
         raise ConfigurationError("is a bundle; unpack it and check the protocol inside.")
     try:
+        if path.exists() and not path.is_file():  # reading a pipe or a device may never end
+            raise ConfigurationError("is no regular file (but a pipe, a socket or a device).")
         data = path.read_bytes()
     except FileNotFoundError:
         raise ConfigurationError("there is no such file.") from None

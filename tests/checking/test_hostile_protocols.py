@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -179,6 +180,15 @@ def test_what_is_no_text_of_a_protocol_is_told_apart(
     assert protocol.problem is not None
     assert words in protocol.problem.message
     assert protocol.problem.line == line
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names here")
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.py"
+    os.mkfifo(pipe)
+    (protocol,) = check_files([pipe], CheckSettings(), load_database()).protocols
+    assert protocol.problem is not None
+    assert "no regular file" in protocol.problem.message
 
 
 def test_the_others_are_still_checked(checked: dict[str, CheckedProtocol]) -> None:
