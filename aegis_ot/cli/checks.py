@@ -15,7 +15,7 @@ from ..checking import Asking, CheckRun, Configuration, check_files, find_config
 from ..checking.baseline import baseline_text, read_baseline
 from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
-from ..reports import RENDERERS, check_text
+from ..reports import RENDERERS, SHOW_ROLES, check_text
 from ..vocabulary import VerdictWord, counted
 from .app import BROKEN, CLEAN, app
 from .judging import (
@@ -30,6 +30,7 @@ from .judging import (
     Timeout,
     one_of,
     settings_of,
+    spared,
 )
 from .models import ModelName, RecordFolder, backend_of
 
@@ -104,9 +105,12 @@ def check(
         asking=_asking(model, record, configured),
         jobs=jobs or processors(),
     )
+    inputs = [*files, *judging.csv_parameters.values(), *(rules or ()), *(labware or ())]
+    spared("--write-baseline", write_baseline, inputs)
     known = baseline or (Path(configured.baseline) if configured.baseline else None)
     if known is not None and not write_baseline:
         settings = dataclasses.replace(settings, baseline=read_baseline(known))
+    spared("--output", output, [*inputs, *([known] if known else ())])
     run = check_files(_each_once(files), settings, database)
     if write_baseline:
         write_text(write_baseline, baseline_text(write_baseline, run.protocols))
@@ -132,6 +136,9 @@ def _each_once(files: Sequence[Path]) -> list[Path]:
 
 
 def _show(run: CheckRun, output_format: str, output: Path | None) -> None:
+    if run.explain_roles and output_format not in SHOW_ROLES:
+        told = f"--explain-roles: {output_format} has no place for roles"
+        typer.echo(f"aegis-ot: {told}; {', '.join(SHOW_ROLES)} show them.", err=True)
     if output is not None:
         write_text(output, RENDERERS[output_format](run))
         typer.echo(f"{output_format} report: {output}", err=True)

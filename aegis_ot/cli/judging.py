@@ -91,6 +91,21 @@ def one_of(option: str, value: str, accepted: Sequence[str]) -> str:
     return value
 
 
+def spared(option: str, written: Path | None, read: Iterable[Path]) -> None:
+    """Refuse to write over what the same call reads.
+
+    Raises:
+        ConfigurationError: ``written`` is one of the files that are read.
+    """
+    if written is None or not written.exists():
+        return
+    for path in read:
+        if path.exists() and path.samefile(written):
+            raise ConfigurationError(
+                f"{option} {written}: the call reads this file; it would be overwritten."
+            )
+
+
 def known_rule(name: str, database: Database, place: str = "") -> str:
     """A rule's identifier in the spelling of its file, or the nearest ones as a hint.
 

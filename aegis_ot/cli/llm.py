@@ -24,6 +24,7 @@ from .judging import (
     Timeout,
     one_of,
     settings_of,
+    spared,
     split,
 )
 from .models import ASKING
@@ -57,6 +58,7 @@ def export(
 
     Exit codes: 0 all are written, 2 a protocol could not be rehearsed.
     """
+    spared("--out", out, files)
     configs = [one_of("--config", name, ASKING) for name in split(config) or ["hybrid"]]
     judging, database = settings_of(
         find_configuration(Path.cwd()),

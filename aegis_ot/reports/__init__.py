@@ -23,8 +23,12 @@ RENDERERS: dict[str, Callable[[CheckRun], str]] = {
 }
 """Renderers of checked protocols, by the name of their format."""
 
+SHOW_ROLES = ("text", "json", "html")
+"""Formats that show what the wells are taken for, where that is asked for."""
+
 __all__ = [
     "RENDERERS",
+    "SHOW_ROLES",
     "check_github",
     "check_html",
     "check_json",

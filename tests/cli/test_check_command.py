@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from aegis_ot.reports import RENDERERS
+
 from .commands import Command
 
 DECK = """
@@ -192,6 +194,35 @@ def test_a_wrong_call_is_one_line_and_code_2(
     assert result.out == ""
     assert words in result.err
     assert len(result.err.splitlines()) == 1
+
+
+@pytest.mark.parametrize("option", ["--output", "--write-baseline"])
+@pytest.mark.parametrize("written", ["good.py", "sub/../good.py", "table.csv"])
+def test_nothing_that_the_call_reads_is_written_over(
+    aegis: Command, tmp_path: Path, option: str, written: str
+) -> None:
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "table.csv").write_text("a,b", encoding="utf-8")
+    text = protocol(tmp_path / "good.py").read_text(encoding="utf-8")
+    result = aegis("check", "good.py", "--csv", "table=table.csv", option, written)
+    told = f"aegis-ot: {option} {Path(written)}: the call reads this file"
+    assert (result.code, result.out) == (2, "")
+    assert result.err.startswith(told)
+    assert (tmp_path / "good.py").read_text(encoding="utf-8") == text
+    exported = aegis("llm", "export", "good.py", "--out", "good.py")
+    assert (exported.code, "would be overwritten" in exported.err) == (2, True)
+
+
+@pytest.mark.parametrize("name", RENDERERS)
+def test_a_format_without_roles_says_so_where_they_are_asked_for(
+    aegis: Command, tmp_path: Path, name: str
+) -> None:
+    protocol(tmp_path / "good.py")
+    result = aegis("check", "good.py", "--explain-roles", "--format", name)
+    shown = "name `ntc` at line" in result.out
+    assert result.code == 0
+    assert shown == ("--explain-roles" not in result.err)
+    assert ("text, json, html show them" in result.err) != shown
 
 
 UNREADABLE: list[tuple[str, bytes | None, str]] = [
