@@ -1,13 +1,15 @@
 """Layer 1 on the workstation: many protocol files, a project's configuration, a baseline.
 
-Door: :func:`check_files`, which gives a :class:`CheckRun`.
+Doors: :func:`check_files`, and :func:`check_projects` where protocols are judged in different ways;
+both give a :class:`CheckRun`.
 """
 
-from .configuration import Configuration, find_configuration
+from .configuration import Configuration, configurations_of, find_configuration
 from .modelled import Asking
+from .projects import Project, check_files, check_projects
 from .rehearser import Rehearser, TaskFailed
 from .result import Broken, CheckedProtocol, CheckRun, Exploration, Problem
-from .run import CheckSettings, check_files
+from .run import CheckSettings
 
 __all__ = [
     "Asking",
@@ -18,8 +20,11 @@ __all__ = [
     "Configuration",
     "Exploration",
     "Problem",
+    "Project",
     "Rehearser",
     "TaskFailed",
     "check_files",
+    "check_projects",
+    "configurations_of",
     "find_configuration",
 ]

@@ -20,12 +20,15 @@
     files = ["tutorials/*.py"]          # left out: every file
     reason = "One tip per series is how we teach it."
 
-Paths are relative to the file. Whatever is given on the command line wins.
+Paths are relative to the file. Whatever is given on the command line wins. The nearest file above
+a protocol holds for it, so one call may go by several: :func:`configurations_of`.
 """
 
 from __future__ import annotations
 
+import functools
 import importlib
+import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -53,7 +56,10 @@ class ConfiguredWaiver:
 
 @dataclass(frozen=True)
 class Configuration:
-    """The table, read and checked; see the module's own text for the keys."""
+    """The table, read and checked; see the module's own text for the keys.
+
+    ``name`` is the file's as seen from the working folder, for messages; ``""`` if there is none.
+    """
 
     assay: tuple[str, ...] = ()
     select: tuple[str, ...] = ()
@@ -66,6 +72,28 @@ class Configuration:
     severity: Mapping[str, str] = field(default_factory=dict)
     waivers: tuple[ConfiguredWaiver, ...] = ()
     folder: Path = field(default_factory=Path)
+    name: str = ""
+
+
+def configurations_of(
+    files: Sequence[Path], working_folder: Path
+) -> list[tuple[Configuration, list[Path]]]:
+    """Each configuration with the protocols that it holds for, in the order of their first.
+
+    It is the nearest one at or above the protocol's own folder, as with other tools that check
+    code; where there is none, that of the working folder.
+
+    Raises:
+        ConfigurationError: One of them is no TOML, or a key is unknown or of the wrong kind.
+    """
+    nearest = functools.cache(find_configuration)
+    found: dict[str, tuple[Configuration, list[Path]]] = {}
+    for file in files:
+        configured = nearest(file.parent.resolve())
+        if not configured.name:
+            configured = nearest(working_folder)
+        found.setdefault(configured.name, (configured, []))[1].append(file)
+    return list(found.values())
 
 
 def find_configuration(start: Path) -> Configuration:
@@ -80,8 +108,16 @@ def find_configuration(start: Path) -> Configuration:
         if path.is_file():
             table = _table(path)
             if table is not None:
-                return read_configuration(table, folder, path.name)
+                return read_configuration(table, folder, _shown(path))
     return Configuration()
+
+
+def _shown(path: Path) -> str:
+    """A path as seen from the working folder, where that is shorter."""
+    try:
+        return min(os.path.relpath(path), str(path), key=len)
+    except ValueError:  # another drive
+        return str(path)
 
 
 def _table(path: Path) -> Any:
@@ -112,6 +148,11 @@ def _table(path: Path) -> Any:
 
 def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
     """Check a parsed table.
+
+    Args:
+        table: The table.
+        folder: Of the file.
+        name: Of the file, for messages.
 
     Raises:
         ConfigurationError: A key is unknown or of the wrong kind, with its name.
@@ -159,6 +200,7 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
         severity={str(rule).upper(): value for rule, value in severity.items()},
         waivers=reader.waivers(table.get("waivers", [])),
         folder=folder,
+        name=name,
     )
 
 

@@ -1,4 +1,4 @@
-"""Checks many protocol files, each rehearsed in a process of its own."""
+"""Checks many protocol files by the same settings, each rehearsed in a process of its own."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from .. import __version__
 from ..errors import ConfigurationError, RehearsalError
 from ..preflight import Database, Options, Report
 from ..preflight.dossier import Dossier
@@ -23,7 +22,7 @@ from .files import read_protocol
 from .guard_arguments import guard_arguments
 from .modelled import Asking, ask_model
 from .rehearser import Rehearser, TaskFailed
-from .result import CheckedProtocol, CheckRun, Problem, with_findings
+from .result import CheckedProtocol, Problem, with_findings
 from .side_by_side import LazyRehearser, check_each
 from .tasks import Check, CheckWithDossier
 from .waiving import waive
@@ -64,13 +63,13 @@ class CheckSettings:
     jobs: int = 1
 
 
-def check_files(
+def check_alike(
     files: Sequence[Path],
     settings: CheckSettings,
     database: Database,
     done: Callable[[CheckedProtocol], None] = lambda checked: None,
-) -> CheckRun:
-    """Check protocol files. A bad one does not keep the others from it.
+) -> list[CheckedProtocol]:
+    """Check protocol files by the same settings. A bad one does not keep the others from it.
 
     Args:
         files: Protocol files.
@@ -87,8 +86,7 @@ def check_files(
 
     # One question at a time to a model: its service counts them.
     jobs = settings.jobs if settings.asking is None else 1
-    protocols = check_each(files, jobs, settings.rules, check, done)
-    return CheckRun(tuple(protocols), database, __version__, settings.explain_roles)
+    return check_each(files, jobs, settings.rules, check, done)
 
 
 def _check_file(

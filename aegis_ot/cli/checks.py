@@ -11,7 +11,7 @@ from typing import Annotated
 
 import typer
 
-from ..checking import Asking, CheckRun, Configuration, check_files, find_configuration
+from ..checking import Asking, CheckRun, Configuration, Project, check_projects, configurations_of
 from ..checking.baseline import baseline_text, read_baseline
 from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
@@ -86,32 +86,34 @@ def check(
     one_of("--format", output_format, tuple(RENDERERS))
     if baseline and write_baseline:
         raise ConfigurationError("--baseline and --write-baseline cannot be given together.")
-    configured = find_configuration(Path.cwd())
-    judging, database = settings_of(
-        configured,
-        assay=assay,
-        rules=rules,
-        select=select,
-        ignore=ignore,
-        parameter=parameter,
-        csv=csv,
-        labware=labware,
-        timeout=timeout,
-    )
-    settings = dataclasses.replace(
-        judging,
-        all_parameters=all_parameters,
-        explain_roles=explain_roles,
-        asking=_asking(model, record, configured),
-        jobs=jobs or processors(),
-    )
-    inputs = [*files, *judging.csv_parameters.values(), *(rules or ()), *(labware or ())]
-    spared("--write-baseline", write_baseline, inputs)
-    known = baseline or (Path(configured.baseline) if configured.baseline else None)
-    if known is not None and not write_baseline:
-        settings = dataclasses.replace(settings, baseline=read_baseline(known))
-    spared("--output", output, [*inputs, *([known] if known else ())])
-    run = check_files(_each_once(files), settings, database)
+    files = _each_once(files)
+    projects = []
+    for configured, own in configurations_of(files, Path.cwd()):
+        judging, database = settings_of(
+            configured,
+            assay=assay,
+            rules=rules,
+            select=select,
+            ignore=ignore,
+            parameter=parameter,
+            csv=csv,
+            labware=labware,
+            timeout=timeout,
+        )
+        inputs = [*files, *judging.csv_parameters.values(), *(rules or ()), *(labware or ())]
+        spared("--write-baseline", write_baseline, inputs)
+        known = baseline or (Path(configured.baseline) if configured.baseline else None)
+        spared("--output", output, [*inputs, *([known] if known else ())])
+        settings = dataclasses.replace(
+            judging,
+            all_parameters=all_parameters,
+            explain_roles=explain_roles,
+            asking=_asking(model, record, configured),
+            jobs=jobs or processors(),
+            baseline=read_baseline(known) if known and not write_baseline else None,
+        )
+        projects.append(Project(own, settings, database))
+    run = check_projects(projects, files)
     if write_baseline:
         write_text(write_baseline, baseline_text(write_baseline, run.protocols))
         count = sum(len(checked.findings) for checked in run.protocols)

@@ -17,8 +17,6 @@ from ..preflight import Database, Options, load_database
 
 DEFAULT_TIMEOUT_S = 120.0
 
-_PROJECT = f"pyproject.toml: {TABLE}"
-
 Files = Annotated[list[Path], typer.Argument(help="Python protocols.")]
 Assay = Annotated[
     list[str] | None, typer.Option("--assay", help="Assay family, if it should not be inferred.")
@@ -132,6 +130,11 @@ def _known(name: str, names: Iterable[str], complaint: str) -> str:
     return found
 
 
+def _table(configured: Configuration) -> str:
+    """The project's table with its file, for a complaint."""
+    return f"{configured.name}: {TABLE}"
+
+
 def _options(
     database: Database,
     configured: Configuration,
@@ -140,37 +143,39 @@ def _options(
     ignore: Sequence[str] | None,
 ) -> Options:
     families = [family.family for family in database.families]
-    named, selected = split(assay), split(select)
+    named, selected, table = split(assay), split(select), _table(configured)
     return Options(
         assay=tuple(
             _known(name, families, f"{place}there is no assay family")
-            for name, place in _placed("assay", named, () if named else configured.assay)
+            for name, place in _placed("assay", named, () if named else configured.assay, table)
         ),
         select=tuple(
             known_rule(rule, database, place)
-            for rule, place in _placed("select", selected, () if selected else configured.select)
+            for rule, place in _placed(
+                "select", selected, () if selected else configured.select, table
+            )
         ),
         ignore=tuple(
             known_rule(rule, database, place)
-            for rule, place in _placed("ignore", split(ignore), configured.ignore)
+            for rule, place in _placed("ignore", split(ignore), configured.ignore, table)
         ),
         severity={
-            known_rule(rule, database, f"{_PROJECT}.severity: "): severity
+            known_rule(rule, database, f"{table}.severity: "): severity
             for rule, severity in configured.severity.items()
         },
     )
 
 
 def _placed(
-    option: str, given: Iterable[str], configured: Iterable[str]
+    option: str, given: Iterable[str], configured: Iterable[str], table: str
 ) -> Iterator[tuple[str, str]]:
     """Each value with the place that says it, for a complaint."""
     yield from ((value, f"--{option}: ") for value in given)
-    yield from ((value, f"{_PROJECT}.{option}: ") for value in configured)
+    yield from ((value, f"{table}.{option}: ") for value in configured)
 
 
 def _waivers(database: Database, configured: Configuration) -> tuple[ConfiguredWaiver, ...]:
-    place = f"{_PROJECT}.waivers: "
+    place = f"{_table(configured)}.waivers: "
     for waiver in configured.waivers:
         for rule in waiver.rules:
             known_rule(rule, database, place)

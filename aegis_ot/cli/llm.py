@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from ..checking import Asking, check_files, find_configuration
+from ..checking import Asking, check_files, configurations_of
 from ..reasoning import ScriptedBackend, export_requests, import_answers, request_in
 from ..vocabulary import counted
 from .app import BROKEN, app
@@ -60,30 +60,29 @@ def export(
     """
     spared("--out", out, files)
     configs = [one_of("--config", name, ASKING) for name in split(config) or ["hybrid"]]
-    judging, database = settings_of(
-        find_configuration(Path.cwd()),
-        assay=assay,
-        rules=rules,
-        select=select,
-        ignore=ignore,
-        parameter=parameter,
-        csv=csv,
-        labware=labware,
-        timeout=timeout,
-    )
-    # Nobody answers: the check is made for what a model would get to know.
-    settings = dataclasses.replace(judging, asking=Asking(ScriptedBackend([])))
-    run = check_files(files, settings, database)
-    requests = [
-        (checked.file, request)
-        for checked in run.protocols
-        for name in configs
-        if checked.dossier is not None
-        and (request := request_in(name, checked.dossier, database)) is not None
-    ]
-    failed = [(c.file, c.problem.message) for c in run.protocols if c.problem is not None]
-    for file, problem in failed:
-        typer.echo(f"{file}: {problem}", err=True)
+    requests, failed = [], False
+    for configured, own in configurations_of(list(dict.fromkeys(files)), Path.cwd()):
+        judging, database = settings_of(
+            configured,
+            assay=assay,
+            rules=rules,
+            select=select,
+            ignore=ignore,
+            parameter=parameter,
+            csv=csv,
+            labware=labware,
+            timeout=timeout,
+        )
+        # Nobody answers: the check is made for what a model would get to know.
+        settings = dataclasses.replace(judging, asking=Asking(ScriptedBackend([])))
+        for checked in check_files(own, settings, database).protocols:
+            if checked.problem is not None:
+                failed = True
+                typer.echo(f"{checked.file}: {checked.problem.message}", err=True)
+            if checked.dossier is None:
+                continue
+            asked = (request_in(name, checked.dossier, database) for name in configs)
+            requests += [(checked.file, request) for request in asked if request is not None]
     count = export_requests(requests, out)
     typer.echo(f"{out}: {count} requests.")
     if failed:

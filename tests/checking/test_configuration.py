@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.checking import Configuration, find_configuration
+from aegis_ot.checking import Configuration, configurations_of, find_configuration
 from aegis_ot.checking.configuration import ConfiguredWaiver
 from aegis_ot.errors import ConfigurationError
 
@@ -36,9 +36,12 @@ def _write(folder: Path, text: str) -> Path:
     return folder
 
 
-def test_everything_is_read_and_paths_are_relative_to_the_file(tmp_path: Path) -> None:
+def test_everything_is_read_and_paths_are_relative_to_the_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     below = _write(tmp_path, FULL) / "protocols" / "pcr"
     below.mkdir(parents=True)
+    monkeypatch.chdir(below)
     assert find_configuration(below) == Configuration(
         assay=("pcr",),
         select=("PCR-1", "PCR-6"),
@@ -50,7 +53,35 @@ def test_everything_is_read_and_paths_are_relative_to_the_file(tmp_path: Path) -
         severity={"PCR-6": "error"},
         waivers=(ConfiguredWaiver(("SD-5",), "One tip is how we teach it.", ("tutorials/*.py",)),),
         folder=tmp_path,
+        name="../../pyproject.toml",
     )
+
+
+def test_each_protocol_goes_by_the_nearest_table_else_by_the_working_folders(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    here, there, bare = (tmp_path / name for name in ("here", "there", "bare"))
+    for folder in (here, there / "sub", bare):
+        folder.mkdir(parents=True)
+    _write(here, "[tool.aegis-ot]\nassay = 'pcr'\n")
+    _write(there, "[tool.aegis-ot]\nassay = 'bradford'\n")
+    _write(there / "sub", "[project]\nname = 'x'\n")
+    monkeypatch.chdir(here)
+    files = [Path("../bare/a.py"), there / "sub" / "b.py", Path("c.py"), there / "d.py"]
+    found = configurations_of(files, Path.cwd())
+    assert [(configured.assay, own) for configured, own in found] == [
+        (("pcr",), [files[0], files[2]]),
+        (("bradford",), [files[1], files[3]]),
+    ]
+    assert [configured.name for configured, _ in found] == [
+        "pyproject.toml",
+        "../there/pyproject.toml",
+    ]
+
+
+def test_no_table_anywhere_is_one_empty_configuration(tmp_path: Path) -> None:
+    found = configurations_of([tmp_path / "a.py", Path("no such folder/b.py")], tmp_path)
+    assert found == [(Configuration(), [tmp_path / "a.py", Path("no such folder/b.py")])]
 
 
 def test_a_file_without_the_table_is_passed_over(tmp_path: Path) -> None:

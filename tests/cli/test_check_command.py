@@ -128,6 +128,31 @@ def test_a_wrong_name_in_the_configuration_is_told_with_its_place(
         assert result.err.startswith(f"aegis-ot: pyproject.toml: {words}")
 
 
+def test_each_protocol_is_judged_as_its_own_project_says(aegis: Command, tmp_path: Path) -> None:
+    pytest.importorskip("tomllib")
+    for name, table in (
+        ("strict", ""),
+        ("lenient", 'ignore = ["PCR-3"]\nrules = ["elisa.json"]\n'),
+    ):
+        protocol(tmp_path / name / "bad.py", tips="once")
+        config = tmp_path / name / "pyproject.toml"
+        config.write_text(f"[tool.aegis-ot]\n{table}", encoding="utf-8")
+    (tmp_path / "lenient" / "elisa.json").write_bytes(SIXTH.read_bytes())
+    (tmp_path / "lenient" / "plate.py").write_text(PLATE, encoding="utf-8")
+    files = ("lenient/plate.py", "strict/bad.py", "lenient/bad.py")
+    result = aegis("check", *files, "-f", "json")
+    found = json.loads(result.out)["protocols"]
+    assert [entry["file"] for entry in found] == list(files)
+    rules = [[finding["rule"] for finding in entry["findings"]] for entry in found]
+    assert rules == [["ELISA-2"], ["PCR-3"], []]
+    assert "ELISA-2 fresh-tip-per-sample" in aegis("check", *files).out
+    config.write_text('[tool.aegis-ot]\nignore = ["PCR-33"]\n', encoding="utf-8")
+    refused = aegis("check", *files)
+    assert refused.err.startswith(
+        "aegis-ot: lenient/pyproject.toml: tool.aegis-ot.ignore: there is"
+    )
+
+
 SIXTH = Path(__file__).parents[2] / "examples" / "rules" / "elisa.json"
 PLATE = """
 metadata = {"apiLevel": "2.15", "protocolName": "Sandwich ELISA"}

@@ -1,0 +1,77 @@
+"""Checks the protocols of several projects in one call: each by its own settings, told together."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from .. import __version__
+from ..preflight import Database
+from .result import CheckedProtocol, CheckRun
+from .run import CheckSettings, check_alike
+
+
+class Project(NamedTuple):
+    """Protocols that are checked alike.
+
+    Attributes:
+        files: The protocol files.
+        settings: How to check them.
+        database: The rules in force, with ``settings.rules``.
+    """
+
+    files: Sequence[Path]
+    settings: CheckSettings
+    database: Database
+
+
+def check_projects(
+    projects: Sequence[Project],
+    files: Sequence[Path],
+    done: Callable[[CheckedProtocol], None] = lambda checked: None,
+) -> CheckRun:
+    """Check the protocols of all projects.
+
+    Args:
+        projects: At least one.
+        files: All their files, each once, in the order to tell of them.
+        done: Told of each file when it is done, project after project.
+
+    Raises:
+        RehearsalError: The rehearsing process cannot be started.
+    """
+    checked = {
+        protocol.file: protocol for project in projects for protocol in check_alike(*project, done)
+    }
+    return CheckRun(
+        tuple(checked[file.as_posix()] for file in files),
+        _together(project.database for project in projects),
+        __version__,
+        projects[0].settings.explain_roles,
+    )
+
+
+def check_files(
+    files: Sequence[Path],
+    settings: CheckSettings,
+    database: Database,
+    done: Callable[[CheckedProtocol], None] = lambda checked: None,
+) -> CheckRun:
+    """Check protocol files that are one project's; see :func:`check_projects`."""
+    return check_projects([Project(files, settings, database)], files, done)
+
+
+def _together(databases: Iterable[Database]) -> Database:
+    """Every rule of all of them, for the reports to name; each identifier once."""
+    first, *others = databases
+    families = list(first.families)
+    known = {rule.id for rule in first.rules}
+    for database in others:
+        for family in database.families:
+            new = tuple(rule for rule in family.rules if rule.id not in known)
+            if new:
+                families.append(dataclasses.replace(family, rules=new))
+                known.update(rule.id for rule in new)
+    return dataclasses.replace(first, families=tuple(families))
