@@ -37,6 +37,7 @@ from typing import Any
 from ..errors import ConfigurationError
 
 TABLE = "tool.aegis-ot"
+FILE = "pyproject.toml"
 
 
 @dataclass(frozen=True)
@@ -104,15 +105,15 @@ def find_configuration(start: Path) -> Configuration:
     """
     start = start.resolve()
     for folder in (start, *start.parents):
-        path = folder / "pyproject.toml"
+        path = folder / FILE
         if path.is_file():
             table = _table(path)
             if table is not None:
-                return read_configuration(table, folder, _shown(path))
+                return read_configuration(table, folder, shown(path))
     return Configuration()
 
 
-def _shown(path: Path) -> str:
+def shown(path: Path) -> str:
     """A path as seen from the working folder, where that is shorter."""
     try:
         return min(os.path.relpath(path), str(path), key=len)

@@ -25,7 +25,7 @@ from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, Problem, with_findings
 from .side_by_side import LazyRehearser, check_each
 from .tasks import Check, CheckWithDossier
-from .waiving import waive
+from .waiving import waive, with_stale_waivers
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,8 @@ def check_alike(
 
     # One question at a time to a model: its service counts them.
     jobs = settings.jobs if settings.asking is None else 1
-    return check_each(files, jobs, settings.rules, check, done)
+    protocols = check_each(files, jobs, settings.rules, check, done)
+    return with_stale_waivers(protocols, settings.waivers, settings.waiver_root)
 
 
 def _check_file(
@@ -172,8 +173,9 @@ def _settle(checked: CheckedProtocol, settings: CheckSettings) -> CheckedProtoco
     report = checked.report
     if report is None:
         return checked
-    standing, waived, remarks = waive(checked.file, report, settings.waivers, settings.waiver_root)
+    standing, waived = waive(checked.file, report, settings.waivers, settings.waiver_root)
     known: list[Finding] = []
+    remarks: list[Remark] = []
     if settings.baseline is not None:
         standing, known, gone = settings.baseline.split(checked.file, standing, checked.lines)
         if gone:

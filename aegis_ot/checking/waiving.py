@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import fnmatch
 import os
 from collections.abc import Sequence
@@ -10,41 +11,70 @@ from pathlib import Path
 from ..preflight import Report
 from ..preflight.judging import Waived, Waiver
 from ..vocabulary import Finding, Remark
-from .configuration import TABLE, ConfiguredWaiver
+from .configuration import FILE, ConfiguredWaiver, shown
+from .result import CheckedProtocol
 
 
 def waive(
     file: str, report: Report, waivers: Sequence[ConfiguredWaiver], root: Path
-) -> tuple[list[Finding], list[Waived], list[Remark]]:
-    """Findings that stand, findings that are waived, and stale waivers, for one file.
-
-    A waiver that names files and covers nothing in one of them is stale there, if its rule was
-    judged; a waiver for all files may well cover nothing in this one.
-    """
-    path = Path(os.path.relpath(Path(file).resolve(), root.resolve())).as_posix()
-    here = [w for w in waivers if not w.files or any(_matches(path, p) for p in w.files)]
+) -> tuple[list[Finding], list[Waived]]:
+    """Findings that stand, and findings that are waived, for one file."""
+    here = _for_file(file, waivers, root)
     standing: list[Finding] = []
     waived: list[Waived] = []
-    used: set[tuple[int, str]] = set()
     for finding in report.findings:
-        cover = next((n for n, w in enumerate(here) if finding.rule.upper() in w.rules), None)
-        if cover is None:
+        by = next((waiver for waiver in here if finding.rule.upper() in waiver.rules), None)
+        if by is None:
             standing.append(finding)
-            continue
-        used.add((cover, finding.rule.upper()))
-        by = here[cover]
-        waived.append(Waived(finding, Waiver(0, (), by.rules, by.reason)))
-    stale = []
-    for number, waiver in enumerate(here):
-        idle = [
-            rule
-            for rule in report.judged
-            if rule.upper() in waiver.rules and (number, rule.upper()) not in used
+        else:
+            waived.append(Waived(finding, Waiver(0, (), by.rules, by.reason)))
+    return standing, waived
+
+
+def with_stale_waivers(
+    protocols: Sequence[CheckedProtocol], waivers: Sequence[ConfiguredWaiver], root: Path
+) -> list[CheckedProtocol]:
+    """The protocols, with a remark on each waiver that covers nothing in any of them.
+
+    A waiver may well cover nothing in one file: it is stale if it covers nothing in all that it is
+    for, and was judged in one. The first of these carries the remark.
+    """
+    told = list(protocols)
+    for waiver in waivers:
+        concerned = [
+            (number, checked.report)
+            for number, checked in enumerate(told)
+            if checked.report is not None and waiver in _for_file(checked.file, waivers, root)
         ]
-        if waiver.files and idle:
-            told = f"The waiver of {', '.join(idle)} in [{TABLE}] is stale: nothing is found in "
-            stale.append(Remark(f"{told}this file."))
-    return standing, waived, stale
+        used = {
+            waived.finding.rule
+            for _, report in concerned
+            for waived in report.waived
+            if (waived.waiver.line, waived.waiver.rules) == (0, waiver.rules)
+        }
+        idle = {
+            rule: number
+            for number, report in reversed(concerned)
+            for rule in report.judged
+            if rule.upper() in waiver.rules and rule not in used
+        }
+        if not idle:
+            continue
+        where = "this protocol"
+        if len(concerned) > 1:
+            where = f"the {len(concerned)} checked protocols that it is for"
+        remark = Remark(
+            f"The waiver of {', '.join(sorted(idle))} in {shown(root / FILE)} is stale: "
+            f"nothing is found in {where}."
+        )
+        first = min(idle.values())
+        told[first] = dataclasses.replace(told[first], settled=(*told[first].settled, remark))
+    return told
+
+
+def _for_file(file: str, waivers: Sequence[ConfiguredWaiver], root: Path) -> list[ConfiguredWaiver]:
+    path = Path(os.path.relpath(Path(file).resolve(), root.resolve())).as_posix()
+    return [w for w in waivers if not w.files or any(_matches(path, p) for p in w.files)]
 
 
 def _matches(path: str, pattern: str) -> bool:

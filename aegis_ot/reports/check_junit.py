@@ -11,7 +11,7 @@ from ..checking import CheckedProtocol, CheckRun
 from ..preflight.judging import MODEL
 from ..preflight.rules import RuleSpec
 from ..vocabulary import Finding
-from .words import by_model
+from .words import by_model, location
 
 # What XML 1.0 cannot hold, even escaped.
 _UNWRITABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -59,6 +59,9 @@ def _suite(root: Element, checked: CheckedProtocol, run: CheckRun) -> None:
     for count, tag in (("failures", "failure"), ("errors", "error"), ("skipped", "skipped")):
         suite.set(count, str(len(suite.findall(f"testcase/{tag}"))))
     suite.set("tests", str(len(suite)))
+    if checked.remarks:  # no outcome of any case; CI systems show this beside the suite
+        told = [f"{location(checked, r.line)}: warning: {r.message}" for r in checked.remarks]
+        SubElement(suite, "system-out").text = _writable("\n".join(told))
 
 
 def _rules(checked: CheckedProtocol, run: CheckRun) -> Iterator[RuleSpec]:

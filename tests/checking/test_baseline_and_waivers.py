@@ -1,14 +1,15 @@
 from __future__ import annotations
 
+import dataclasses
 import json
 from pathlib import Path
 
 import pytest
 
-from aegis_ot.checking import CheckedProtocol
+from aegis_ot.checking import CheckedProtocol, Problem
 from aegis_ot.checking.baseline import baseline_text, read_baseline
 from aegis_ot.checking.configuration import ConfiguredWaiver
-from aegis_ot.checking.waiving import waive
+from aegis_ot.checking.waiving import waive, with_stale_waivers
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.preflight import Report
 from aegis_ot.vocabulary import Finding, Severity, Site, VerdictWord, WellRef
@@ -72,20 +73,45 @@ def test_the_baseline_names_no_absolute_path(tmp_path: Path) -> None:
     assert json.loads(path.read_text(encoding="utf-8"))["findings"][0]["file"] == "p.py"
 
 
-def test_waivers_of_the_configuration_cover_by_file_and_can_be_stale(tmp_path: Path) -> None:
-    waivers = [
-        ConfiguredWaiver(("PCR-2",), "accepted", ("old/*.py",)),
-        ConfiguredWaiver(("PCR-5",), "accepted", ("old/*.py",)),
-        ConfiguredWaiver(("GEN-1",), "everywhere"),
+WAIVERS = [
+    ConfiguredWaiver(("PCR-2",), "accepted", ("old/*.py",)),
+    ConfiguredWaiver(("PCR-5",), "accepted", ("old/*.py",)),
+    ConfiguredWaiver(("GEN-1",), "everywhere"),
+    ConfiguredWaiver(("PCR-3",), "everywhere"),
+]
+
+
+def judged(file: Path, *findings: Finding) -> CheckedProtocol:
+    rules = ("PCR-2", "PCR-3", "PCR-5")
+    report = Report("p.py", "pcr", VerdictWord.FAIL, findings, (), judged=rules)
+    standing, waived = waive(str(file), report, WAIVERS, file.parents[1])
+    report = dataclasses.replace(report, findings=tuple(standing), waived=tuple(waived))
+    return CheckedProtocol(str(file), report=report)
+
+
+def test_waivers_of_the_configuration_cover_by_file(tmp_path: Path) -> None:
+    findings = [finding("PCR-2", 2, "A1"), finding("PCR-6", 2, "A1")]
+    old = judged(tmp_path / "old" / "p.py", *findings)
+    assert [f.rule for f in old.findings] == ["PCR-6"]
+    assert [(w.finding.rule, w.waiver.reason) for w in old.waived] == [("PCR-2", "accepted")]
+    new = judged(tmp_path / "new" / "p.py", *findings)
+    assert [f.rule for f in new.findings] == ["PCR-2", "PCR-6"]
+
+
+def test_a_waiver_of_the_configuration_is_stale_if_none_of_its_protocols_needs_it(
+    tmp_path: Path,
+) -> None:
+    """Those of GEN-1, which was not judged, and of PCR-2 and PCR-3, which one needs, are not."""
+    protocols = [
+        judged(tmp_path / "new" / "p.py"),
+        judged(tmp_path / "old" / "p.py", finding("PCR-3", 2, "A1")),
+        judged(tmp_path / "old" / "q.py", finding("PCR-2", 2, "A1")),
+        CheckedProtocol(str(tmp_path / "old" / "r.py"), problem=Problem("raises")),
     ]
-    findings = [finding("PCR-2", 2, "A1"), finding("PCR-3", 2, "A1")]
-    report = Report(
-        "p.py", "pcr", VerdictWord.FAIL, tuple(findings), (), judged=("PCR-2", "PCR-3", "PCR-5")
-    )
-    standing, waived, remarks = waive(str(tmp_path / "old" / "p.py"), report, waivers, tmp_path)
-    assert [f.rule for f in standing] == ["PCR-3"]
-    assert [(w.finding.rule, w.waiver.reason) for w in waived] == [("PCR-2", "accepted")]
-    assert len(remarks) == 1
-    assert "PCR-5" in remarks[0].message
-    elsewhere = waive(str(tmp_path / "new" / "p.py"), report, waivers, tmp_path)
-    assert [f.rule for f in elsewhere[0]] == ["PCR-2", "PCR-3"]
+    told = with_stale_waivers(protocols, WAIVERS, tmp_path)
+    assert [len(checked.remarks) for checked in told] == [0, 1, 0, 0]
+    (remark,) = told[1].remarks
+    assert "waiver of PCR-5 in " in remark.message
+    assert "pyproject.toml is stale: nothing is found in the 2 checked" in remark.message
+    (alone,) = with_stale_waivers(protocols[:1], WAIVERS, tmp_path)
+    assert [remark.message.split(" in ")[0] for remark in alone.remarks] == ["The waiver of PCR-3"]

@@ -117,6 +117,11 @@ def test_junit_counts_agree_with_its_cases() -> None:
     assert root.get("errors") == "3"
 
 
+@pytest.mark.parametrize("name", RENDERERS)
+def test_every_format_tells_of_a_stale_waiver(name: str) -> None:
+    assert "The waiver of PCR-5 is stale: nothing is found there." in RENDERERS[name](RUN)
+
+
 def test_junit_survives_control_characters() -> None:
     odd = dataclasses.replace(CARRY, message="a bell \x07 rings")
     run = CheckRun((CheckedProtocol("f.py", report(odd), lines=LINES),), DATABASE, "1")
