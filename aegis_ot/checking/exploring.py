@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ..preflight import Options, Report
-from ..preflight.rehearsal import Script
+from ..preflight.rehearsal import Parameter, Script
 from ..vocabulary import Finding, Remark
 from .combinations import combinations, count_all, values_of
 from .rehearser import Rehearser, TaskFailed
 from .result import Broken, Exploration, Problem, with_findings
-from .tasks import Check, Describe, Parameter
+from .tasks import Check, Describe
 
 CAUSES_AT_MOST = 5
 """Causes told per rule."""

@@ -51,6 +51,9 @@ def _of_rehearsal(error: RehearsalError, script_name: str) -> Problem:
     text = text[start.end() :] if start else text
     if re.search(r'Labware "[^"]*" not found', text):
         text = text.rstrip(".") + "; if it is your own, give its definition with --labware."
+    file = re.search(r"CSV parameter (\w+) needs a file", text)
+    if file:
+        text = f"{text.rstrip('.')}; give it with --csv {file[1]}=PATH."
     if isinstance(error, RehearsalTimeout):
         return late(text, error.line)
     return Problem(text, error.line)

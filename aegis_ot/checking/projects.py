@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 from .. import __version__
 from ..preflight import Database
-from .result import CheckedProtocol, CheckRun
+from ..preflight.rehearsal import undeclared
+from .result import CheckedProtocol, CheckRun, Problem
 from .run import CheckSettings, check_alike
 
 
@@ -34,6 +35,9 @@ def check_projects(
 ) -> CheckRun:
     """Check the protocols of all projects.
 
+    Each takes those of the given runtime parameters that it declares. What none of them declares
+    keeps them from being judged.
+
     Args:
         projects: At least one.
         files: All their files, each once, in the order to tell of them.
@@ -45,11 +49,13 @@ def check_projects(
     checked = {
         protocol.file: protocol for project in projects for protocol in check_alike(*project, done)
     }
+    settings = projects[0].settings
+    given = (*settings.parameters, *settings.csv_parameters)
     return CheckRun(
-        tuple(checked[file.as_posix()] for file in files),
+        tuple(_refused_unknown([checked[file.as_posix()] for file in files], given)),
         _together(project.database for project in projects),
         __version__,
-        projects[0].settings.explain_roles,
+        settings.explain_roles,
     )
 
 
@@ -61,6 +67,20 @@ def check_files(
 ) -> CheckRun:
     """Check protocol files that are one project's; see :func:`check_projects`."""
     return check_projects([Project(files, settings, database)], files, done)
+
+
+def _refused_unknown(
+    protocols: Sequence[CheckedProtocol], given: Sequence[str]
+) -> Iterable[CheckedProtocol]:
+    """None is judged with a value that went unheard: for a parameter that none of them declares."""
+    heard = {name for checked in protocols for name in checked.declared or ()}
+    unknown = [name for name in given if name not in heard]
+    for checked in protocols:
+        if unknown and checked.declared is not None and checked.problem is None:
+            problem = Problem(undeclared(unknown, checked.declared))
+            yield CheckedProtocol(checked.file, problem=problem, lines=checked.lines)
+        else:
+            yield checked
 
 
 def _together(databases: Iterable[Database]) -> Database:

@@ -81,6 +81,7 @@ class CheckedProtocol:
         exploration: What ``--all-parameters`` tried.
         judgement: What came of asking a model, where one was asked.
         dossier: What that model got to know.
+        declared: Its runtime parameters, where values were given for some and it could be asked.
     """
 
     file: str
@@ -93,6 +94,7 @@ class CheckedProtocol:
     exploration: Exploration | None = None
     judgement: Judgement | None = None
     dossier: Dossier | None = None
+    declared: tuple[str, ...] | None = None
 
     @property
     def verdict(self) -> VerdictWord:

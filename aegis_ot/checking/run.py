@@ -24,7 +24,7 @@ from .modelled import Asking, ask_model
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, Problem, with_findings
 from .side_by_side import LazyRehearser, check_each
-from .tasks import Check, CheckWithDossier
+from .tasks import Check, CheckWithDossier, Describe
 from .waiving import waive, with_stale_waivers
 
 
@@ -112,14 +112,38 @@ def _check_file(
     process = rehearser.get()
     process.get_ready()
     start = time.monotonic()
+    script, declared = _with_own_values(process, script, settings.timeout_s)
     try:
         judged = _judge(process, script, options, settings, database)
     except TaskFailed as failed:
-        seconds = time.monotonic() - start
-        return CheckedProtocol(name, problem=failed.problem, lines=lines, seconds=seconds)
+        judged = CheckedProtocol(name, problem=failed.problem)
     seconds = time.monotonic() - start
-    checked = dataclasses.replace(judged, file=name, lines=lines, seconds=seconds)
+    checked = dataclasses.replace(
+        judged, file=name, lines=lines, seconds=seconds, declared=declared
+    )
     return _settle(checked, settings)
+
+
+def _with_own_values(
+    rehearser: Rehearser, script: Script, timeout_s: float
+) -> tuple[Script, tuple[str, ...] | None]:
+    """The script with those of the given values that are for its parameters, and their names.
+
+    A value that another protocol of the call takes is none of this one's concern.
+    """
+    if not (script.parameters or script.csv_parameters):
+        return script, None
+    try:
+        found = rehearser.perform(Describe(script, timeout_s))
+    except TaskFailed:  # so will the rehearsal, and says why
+        return script, None
+    names = tuple(parameter.name for parameter in found)
+    own = dataclasses.replace(
+        script,
+        parameters={n: value for n, value in script.parameters.items() if n in names},
+        csv_parameters={n: path for n, path in script.csv_parameters.items() if n in names},
+    )
+    return own, names
 
 
 def _judge(

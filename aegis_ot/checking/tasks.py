@@ -7,12 +7,18 @@ import functools
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
-from ..errors import AegisError, RehearsalError
+from ..errors import AegisError
 from ..preflight import Database, Options, Report, check_script, load_database
 from ..preflight.dossier import Dossier
 from ..preflight.dossier_making import check_with_dossier
 from ..preflight.examples import ExampleResult, run_examples
-from ..preflight.rehearsal import Script, in_words, interrupted_after, line_of, load
+from ..preflight.rehearsal import (
+    Parameter,
+    Script,
+    declared_parameters,
+    interrupted_after,
+    load,
+)
 
 RulePaths = tuple[str, ...]
 
@@ -67,27 +73,6 @@ class CheckWithDossier(_OfProtocol):
 
 
 @dataclass(frozen=True)
-class Parameter:
-    """A runtime parameter as a protocol declares it.
-
-    Attributes:
-        name: Variable name.
-        kind: ``int``, ``float``, ``bool``, ``str`` or ``csv_file``.
-        default: Its default, ``None`` for a file.
-        choices: The values it may have, empty for none declared.
-        low: Smallest value, where bounds are declared.
-        high: Largest value.
-    """
-
-    name: str
-    kind: str
-    default: Any = None
-    choices: tuple[Any, ...] = ()
-    low: float | None = None
-    high: float | None = None
-
-
-@dataclass(frozen=True)
 class Describe:
     """List the runtime parameters that a protocol declares."""
 
@@ -101,33 +86,8 @@ class Describe:
 
     def perform(self) -> tuple[Parameter, ...]:
         """Run ``add_parameters`` and read what it declared."""
-        from opentrons.protocol_api._parameter_context import ParameterContext
-        from opentrons.protocols.execution.execute_python import exec_add_parameters
-
-        protocol = load(self.script)
-        context = ParameterContext(api_version=protocol.api_level)
-        try:
-            with interrupted_after(self.timeout_s, self.script.file_name):
-                exec_add_parameters(protocol, context, None, None)
-        except RehearsalError:
-            raise
-        except Exception as error:
-            raise RehearsalError(
-                f"add_parameters: {in_words(error)}", line_of(error, self.script.file_name)
-            ) from error
-        return tuple(_parameter(item) for item in context.export_parameters_for_analysis())
-
-
-def _parameter(declared: Any) -> Parameter:
-    choices = getattr(declared, "choices", None) or ()
-    return Parameter(
-        name=declared.variableName,
-        kind=str(declared.type),
-        default=getattr(declared, "default", None),
-        choices=tuple(choice.value for choice in choices),
-        low=getattr(declared, "min", None),
-        high=getattr(declared, "max", None),
-    )
+        limit = functools.partial(interrupted_after, self.timeout_s, self.script.file_name)
+        return declared_parameters(load(self.script), self.script, limit)
 
 
 @dataclass(frozen=True)

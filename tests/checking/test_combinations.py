@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from aegis_ot.checking.combinations import VALUES_AT_MOST, combinations, values_of
-from aegis_ot.checking.tasks import Parameter
+from aegis_ot.preflight.rehearsal import Parameter
 
 
 def test_values_of_each_kind() -> None:

@@ -5,6 +5,7 @@ Door: :func:`rehearse` runs a :class:`Script` with listeners; a :class:`Recorder
 
 from .interruption import interrupted_after, second_clock
 from .loading import load
+from .parameters import Parameter, declared_parameters, undeclared
 from .recorder import Record, Recorder, Step
 from .recording import Recording, record
 from .refusals import in_words, line_of
@@ -12,12 +13,14 @@ from .rehearsing import Rehearsal, is_rehearsing, play, rehearse
 from .script import Script, find_home, find_script
 
 __all__ = [
+    "Parameter",
     "Record",
     "Recorder",
     "Recording",
     "Rehearsal",
     "Script",
     "Step",
+    "declared_parameters",
     "find_home",
     "find_script",
     "in_words",
@@ -29,4 +32,5 @@ __all__ = [
     "record",
     "rehearse",
     "second_clock",
+    "undeclared",
 ]

@@ -1,18 +1,12 @@
-"""Loads a script as Opentrons does, and sets its runtime parameters."""
+"""Loads a script as Opentrons does."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import AbstractContextManager
-from copy import copy
 from typing import Any
 
 from ...errors import RehearsalError
-from .refusals import line_of, stopped, too_deep, too_new, unloadable
+from .refusals import too_deep, too_new, unloadable
 from .script import Script
-
-Limit = Callable[[], AbstractContextManager[None]]
-"""Makes a ``with`` block that a protocol's code has to end in time."""
 
 
 def load(script: Script) -> Any:
@@ -52,43 +46,3 @@ def load(script: Script) -> Any:
     if protocol.api_level > MAX_SUPPORTED_VERSION:
         raise too_new(script, protocol.api_level, MAX_SUPPORTED_VERSION)
     return protocol
-
-
-def runtime_parameters(protocol: Any, script: Script, limit: Limit) -> Any:
-    """The ``Parameters`` of a loaded script, with the script's values set; ``None`` without any.
-
-    Opentrons executes the whole text to find ``add_parameters``; that stands under ``limit``.
-
-    Raises:
-        RehearsalError: A value is not accepted.
-    """
-    from opentrons.protocol_api._parameter_context import ParameterContext
-    from opentrons.protocols.execution.execute_python import exec_add_parameters
-
-    known = dict(script.parameters)
-    context = ParameterContext(api_version=protocol.api_level)
-    files = dict(script.csv_parameters)
-    try:
-        with limit():
-            return exec_add_parameters(protocol, context, known or None, files or None)
-    except RehearsalError:
-        raise
-    except Exception as error:
-        if not known and not script.csv_parameters and "add_parameters" not in script.text:
-            raise stopped(error, script.file_name) from error
-        raise RehearsalError(
-            f"The runtime parameters of {script.file_name} cannot be set: {error}",
-            line_of(error, script.file_name),
-        ) from error
-
-
-def copied_parameters(live: Any) -> Any:
-    """A copy of a live run's ``Parameters``; its CSV files are opened anew.
-
-    A file that the rehearsal has read, or closed, would be empty for the run itself.
-    """
-    values = {name: copy(value) for name, value in live.get_all().items()}
-    for value in values.values():
-        if hasattr(value, "_file"):
-            value._file = None
-    return type(live)(values)

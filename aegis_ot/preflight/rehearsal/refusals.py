@@ -10,6 +10,7 @@ import ast
 import inspect
 import re
 import traceback
+from collections.abc import Sequence
 from typing import Any
 
 from ...errors import RehearsalError
@@ -37,14 +38,26 @@ def in_words(error: BaseException) -> str:
     return f"{wrapped['kind']}: {wrapped['text']}"
 
 
-def stopped(error: Exception, file_name: str, run: Any = None) -> RehearsalError:
-    """The error of a protocol that raised; ``run`` is where it stands if no line of it ran."""
+def stopped(
+    error: Exception, file_name: str, run: Any = None, lacking: Sequence[str] = ()
+) -> RehearsalError:
+    """The error of a protocol that raised.
+
+    Args:
+        error: What it raised.
+        file_name: Of the protocol.
+        run: Where the error stands if no line of it ran.
+        lacking: CSV parameters without a file.
+    """
     line = line_of(error, file_name)
     if line is None and callable(run):
         code = getattr(inspect.unwrap(run), "__code__", None)
         line = getattr(code, "co_firstlineno", None)
     where = f"{file_name}, line {line}" if line else file_name
-    return RehearsalError(f"{where}: {in_words(error)}", line)
+    told = in_words(error)
+    if type(error).__name__ == "RuntimeParameterRequired" and lacking:
+        told = f"the CSV parameter {lacking[0]} needs a file, and has none."
+    return RehearsalError(f"{where}: {told}", line)
 
 
 def is_unexecuted(result: Any) -> bool:

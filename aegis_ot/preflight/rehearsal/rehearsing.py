@@ -17,7 +17,8 @@ from ...errors import AegisError, RehearsalError
 from ...instrumentation import LabwareInfo, Listener, NameBinding, NameCollector, tapped
 from .haste import hasty_builtins
 from .interruption import interrupted_after
-from .loading import Limit, copied_parameters, load, runtime_parameters
+from .loading import load
+from .parameters import Limit, copied_parameters, lacking_files, runtime_parameters
 from .refusals import is_unexecuted, never_executed, stopped
 from .script import Script
 from .simulated_context import simulated_context
@@ -145,5 +146,5 @@ def _perform(
     except AegisError:
         raise
     except Exception as error:
-        raise stopped(error, file_name, namespace.get("run")) from error
+        raise stopped(error, file_name, namespace.get("run"), lacking_files(context)) from error
     return namespace
