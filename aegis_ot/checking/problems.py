@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 import traceback
 from pathlib import Path
@@ -35,11 +36,23 @@ def problem_of(error: BaseException, script_name: str) -> Problem:
     )
 
 
+def with_helper(problem: Problem, folder: Path) -> Problem:
+    """Tells what to do where the module that is missing lies beside the protocol."""
+    name = problem.missing.partition(".")[0]
+    if not name or not ((folder / f"{name}.py").is_file() or (folder / name).is_dir()):
+        return problem
+    told = (
+        f"it imports {problem.missing}, which lies beside it; but Opentrons loads a protocol "
+        f"alone. Check it with PYTHONPATH={folder}, and mind that the robot needs {name} as well."
+    )
+    return dataclasses.replace(problem, message=told)
+
+
 def _of_rehearsal(error: RehearsalError, script_name: str) -> Problem:
     cause = error.__cause__
     if isinstance(cause, ModuleNotFoundError) and cause.name:
         told = f"it imports {cause.name}, which is not installed beside aegis-ot."
-        return Problem(told, error.line)
+        return Problem(told, error.line, cause.name)
     if isinstance(cause, ImportError):
         return Problem(f"the protocol cannot import something: {cause}", error.line)
     text = str(error)

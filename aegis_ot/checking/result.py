@@ -24,10 +24,12 @@ class Problem:
     Attributes:
         message: One sentence for people, without file name and line.
         line: 1-based source line at which it stopped, if known.
+        missing: The module that it imports and that is not found, if that is why.
     """
 
     message: str
     line: int | None = None
+    missing: str = ""
 
 
 @dataclass(frozen=True)

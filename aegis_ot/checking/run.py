@@ -21,6 +21,7 @@ from .exploring import explore
 from .files import read_protocol
 from .guard_arguments import guard_arguments
 from .modelled import Asking, ask_model
+from .problems import with_helper
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, Problem, with_findings
 from .side_by_side import LazyRehearser, check_each
@@ -116,7 +117,7 @@ def _check_file(
     try:
         judged = _judge(process, script, options, settings, database)
     except TaskFailed as failed:
-        judged = CheckedProtocol(name, problem=failed.problem)
+        judged = CheckedProtocol(name, problem=with_helper(failed.problem, file.parent))
     seconds = time.monotonic() - start
     checked = dataclasses.replace(
         judged, file=name, lines=lines, seconds=seconds, declared=declared

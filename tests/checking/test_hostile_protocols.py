@@ -191,6 +191,21 @@ def test_a_pipe_is_refused_and_not_waited_for(tmp_path: Path) -> None:
     assert "no regular file" in protocol.problem.message
 
 
+def test_a_module_beside_the_protocol_is_told_with_what_lets_it_be_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "my_layout.py").write_text("WELL = 'A1'\n", encoding="utf-8")
+    file = tmp_path / "p.py"
+    file.write_text(HEAD + "from my_layout import WELL\ndef run(p): ...\n", encoding="utf-8")
+    (protocol,) = check_files([file], CheckSettings(), load_database()).protocols
+    assert protocol.problem is not None
+    assert protocol.problem.line == 2
+    assert "my_layout, which lies beside it" in protocol.problem.message
+    assert f"PYTHONPATH={tmp_path}, " in protocol.problem.message
+    monkeypatch.syspath_prepend(tmp_path)  # as PYTHONPATH does
+    assert check_files([file], CheckSettings(), load_database()).exit_code == 0
+
+
 def test_the_others_are_still_checked(checked: dict[str, CheckedProtocol]) -> None:
     good = [protocol for name, protocol in checked.items() if name.startswith("good")]
     assert [protocol.verdict for protocol in good] == [VerdictWord.PASS] * 3
