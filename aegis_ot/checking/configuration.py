@@ -29,6 +29,7 @@ from __future__ import annotations
 import functools
 import importlib
 import os
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -236,7 +237,7 @@ class _Reader:
             reason = item.get("reason")
             if not rules:
                 raise ConfigurationError(f"{self._name}: {place}: names no rules.")
-            if not isinstance(reason, str) or not reason.strip():
+            if not isinstance(reason, str) or not re.search(r"\w", reason):
                 raise ConfigurationError(
                     f"{self._name}: {place}: gives no reason for waiving {', '.join(rules)}."
                 )

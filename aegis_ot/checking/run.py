@@ -110,6 +110,9 @@ def _check_file(
         extra_labware=settings.labware,
     )
     options = options_for(text, settings.options)
+    if options.leave_none(database):
+        told = "no rule is left to judge it by, with what its guard selects and ignores."
+        return CheckedProtocol(name, problem=Problem(told), lines=lines)
     process = rehearser.get()
     process.get_ready()
     start = time.monotonic()
@@ -187,10 +190,16 @@ def options_for(text: str, options: Options) -> Options:
         given = {r: (p,) if isinstance(p, str) else tuple(p) for r, p in roles.items()}
         changes["roles"] = {**given, **options.roles}
     if said.get("select") and not options.select:
-        changes["select"] = tuple(said["select"])
+        changes["select"] = _names(said["select"])
     if said.get("ignore"):
-        changes["ignore"] = (*options.ignore, *said["ignore"])
+        changes["ignore"] = (*options.ignore, *_names(said["ignore"]))
     return dataclasses.replace(options, **changes) if changes else options
+
+
+def _names(value: Any) -> tuple[str, ...]:
+    """As the guard takes them: a list, or one text with commas."""
+    parts = value.split(",") if isinstance(value, str) else value
+    return tuple(name.strip() for name in parts if name.strip())
 
 
 def _settle(checked: CheckedProtocol, settings: CheckSettings) -> CheckedProtocol:

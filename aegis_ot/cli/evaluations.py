@@ -75,7 +75,7 @@ def layer1(
     Exit codes: 0 scored, 2 a protocol could not be judged, a model that was asked gave no
     answer, or the folder is no good.
     """
-    askings = list(_askings(split(config) or ["rules-only"], model or [], record))
+    askings = list(_askings(split("--config", config) or ["rules-only"], model or [], record))
     table = load_prices(prices)
     database = load_database(tuple(str(path) for path in rules or ()))
     labels = read_labels(

@@ -65,8 +65,13 @@ def settings_of(
     """
     rule_paths = tuple(str(path) for path in rules or ()) or configured.rules
     database = load_database(rule_paths)
+    options = _options(database, configured, assay, select, ignore)
+    if options.leave_none(database):
+        where = f" and [{TABLE}] of {configured.name}" if configured.name else ""
+        told = f"No rule is left to judge by: --select, --ignore{where} leave none."
+        raise ConfigurationError(told)
     settings = CheckSettings(
-        options=_options(database, configured, assay, select, ignore),
+        options=options,
         rules=tuple(str(Path(path).resolve()) for path in rule_paths),
         parameters=read_values(parameter or ()),
         csv_parameters=read_csv_paths(csv or ()),
@@ -113,9 +118,16 @@ def known_rule(name: str, database: Database, place: str = "") -> str:
     return _known(name, [rule.id for rule in database.rules], f"{place}there is no rule")
 
 
-def split(values: Sequence[str] | None) -> list[str]:
-    """``PCR-1,PCR-2`` and repeated options mean the same."""
-    return [part for value in values or () for part in value.split(",") if part.strip()]
+def split(option: str, values: Sequence[str] | None) -> list[str]:
+    """``PCR-1,PCR-2`` and repeated options mean the same.
+
+    Raises:
+        ConfigurationError: The option is given, and names nothing.
+    """
+    names = [part for value in values or () for part in value.split(",") if part.strip()]
+    if values and not names:
+        raise ConfigurationError(f"{option}: names nothing; leave it out, or give it a value.")
+    return names
 
 
 def _known(name: str, names: Iterable[str], complaint: str) -> str:
@@ -143,7 +155,7 @@ def _options(
     ignore: Sequence[str] | None,
 ) -> Options:
     families = [family.family for family in database.families]
-    named, selected, table = split(assay), split(select), _table(configured)
+    named, selected, table = split("--assay", assay), split("--select", select), _table(configured)
     return Options(
         assay=tuple(
             _known(name, families, f"{place}there is no assay family")
@@ -157,7 +169,9 @@ def _options(
         ),
         ignore=tuple(
             known_rule(rule, database, place)
-            for rule, place in _placed("ignore", split(ignore), configured.ignore, table)
+            for rule, place in _placed(
+                "ignore", split("--ignore", ignore), configured.ignore, table
+            )
         ),
         severity={
             known_rule(rule, database, f"{table}.severity: "): severity

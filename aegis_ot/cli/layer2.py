@@ -74,7 +74,7 @@ def layer2(
     from ..vision.scorers import SCORERS
     from .progress import Shown
 
-    names = [name.replace("-", "_") for name in split(scorer) or ("ensemble",)]
+    names = [name.replace("-", "_") for name in split("--scorer", scorer) or ("ensemble",)]
     for name in names:
         one_of("--scorer", name.replace("_", "-"), [known.replace("_", "-") for known in SCORERS])
     one_of("--protocol", protocol, PROTOCOLS)

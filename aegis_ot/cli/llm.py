@@ -59,7 +59,7 @@ def export(
     Exit codes: 0 all are written, 2 a protocol could not be rehearsed.
     """
     spared("--out", out, files)
-    configs = [one_of("--config", name, ASKING) for name in split(config) or ["hybrid"]]
+    configs = [one_of("--config", name, ASKING) for name in split("--config", config) or ["hybrid"]]
     requests, failed = [], False
     for configured, own in configurations_of(list(dict.fromkeys(files)), Path.cwd()):
         judging, database = settings_of(

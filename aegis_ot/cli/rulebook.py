@@ -79,7 +79,7 @@ def run_rule_examples(
     """
     given = [*([path] if path is not None else []), *(rules or ())]
     database = _database(given)
-    wanted = [known_rule(rule, database, "--select: ") for rule in split(select)]
+    wanted = [known_rule(rule, database, "--select: ") for rule in split("--select", select)]
     if not wanted:
         wanted = _rules_of(database, given)
     paths = tuple(str(p.resolve()) for p in _further(given))

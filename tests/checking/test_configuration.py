@@ -114,6 +114,7 @@ def test_every_way_to_write_the_table_is_read(tmp_path: Path, text: str) -> None
         ("baseline = 3", "baseline: expected a path"),
         ("severity = {PCR-1 = 'fatal'}", "severity.PCR-1: expected error, warning or off"),
         ("waivers = [{rules = ['SD-5']}]", "gives no reason for waiving SD-5"),
+        ("waivers = [{rules = ['SD-5'], reason = ' .'}]", "gives no reason for waiving SD-5"),
         ("waivers = [{reason = 'because'}]", "names no rules"),
         ("waivers = 'SD-5'", "write each as"),
         ("= 3", "is not TOML"),

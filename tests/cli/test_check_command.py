@@ -128,6 +128,14 @@ def test_a_wrong_name_in_the_configuration_is_told_with_its_place(
         assert result.err.startswith(f"aegis-ot: pyproject.toml: {words}")
 
 
+def test_a_guard_that_leaves_no_rule_is_told(aegis: Command, tmp_path: Path) -> None:
+    top = "from aegis_ot import guard\n@guard(ignore='PCR-1, PCR-2')"
+    protocol(tmp_path / "good.py", top=top)
+    assert aegis("check", "good.py").code == 0
+    result = aegis("check", "good.py", "--select", "PCR-1")
+    assert (result.code, "no rule is left to judge it by" in result.out) == (2, True)
+
+
 def test_each_protocol_is_judged_as_its_own_project_says(aegis: Command, tmp_path: Path) -> None:
     pytest.importorskip("tomllib")
     for name, table in (
@@ -187,6 +195,9 @@ WRONG: list[tuple[list[str], str]] = [
     (["check", "good.py", "--select", "PCR-22"], "did you mean PCR-2"),
     (["check", "good.py", "--ignore", "XYZ"], "there is no rule 'XYZ'"),
     (["check", "good.py", "--assay", "qpcr"], "there is no assay family 'qpcr'; did you mean pcr"),
+    (["check", "good.py", "--assay", ""], "--assay: names nothing"),
+    (["check", "good.py", "--select", " , "], "--select: names nothing"),
+    (["check", "good.py", "--select", "PCR-1", "--ignore", "pcr-1"], "No rule is left to judge by"),
     (["check", "good.py", "--parameter", "5"], "write it as NAME=VALUE"),
     (["check", "good.py", "--parameter", "a=1", "--parameter", "a=2"], "given twice"),
     (["check", "good.py", "--csv", "plate=none.csv"], "there is no file none.csv"),

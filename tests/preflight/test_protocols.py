@@ -101,6 +101,38 @@ def test_a_waiver_of_an_unknown_rule_is_told_with_its_line(database: Database) -
     assert "SD-5" in remark.message, "the nearest rule is named"
 
 
+@pytest.mark.parametrize(
+    ("comment", "words"),
+    [
+        ("aegis: ignore[SD-5] .", "gives no reason for waiving SD-5"),
+        ("aegis: ignore[] as taught", "names no rule"),
+        ("aegis: ingore[SD-5] as taught", "is not understood: write `# aegis: ignore["),
+        ("aegis: ingore SD-5 as taught", "is not understood"),
+        ("aegis ignore[SD-5] as taught", "is not understood"),
+        ("aegis-ot: ignore[SD-5] as taught", "is not understood"),
+        ("aegis: noqa[SD-5] as taught", "is not understood"),
+    ],
+)
+def test_a_waiver_that_waives_nothing_is_told_with_its_line(
+    database: Database, comment: str, words: str
+) -> None:
+    text = (Path(__file__).parent / "protocols" / "sd_tutorial_one_tip.py").read_text()
+    report = _check(f"# {comment}\n{text}", "t.py", database)
+    assert report.verdict.value == "fail"
+    (remark,) = report.remarks
+    assert remark.line == 1
+    assert words in remark.message
+
+
+@pytest.mark.parametrize(
+    "comment",
+    ["guarded by aegis: see SD-5", "aegis does not know this dye", "aegis: checked by hand (SD-5)"],
+)
+def test_a_comment_about_the_guard_is_no_waiver(database: Database, comment: str) -> None:
+    text = (Path(__file__).parent / "protocols" / "sd_tutorial_one_tip.py").read_text()
+    assert _check(f"# {comment}\n{text}", "t.py", database).remarks == ()
+
+
 def test_a_waiver_beside_a_statement_of_many_lines_covers_it(database: Database) -> None:
     text = (Path(__file__).parent / "protocols" / "gen_overfill.py").read_text()
     (finding,) = _check(text, "t.py", database).findings

@@ -44,6 +44,10 @@ class Options:
             return "off"
         return self.severity.get(rule.id, rule.severity)
 
+    def leave_none(self, database: Database) -> bool:
+        """Whether no rule is left to judge by."""
+        return all(self.severity_of(rule) == "off" for rule in database.rules)
+
 
 def check_options(options: Options, database: Database) -> None:
     """Refuse options that name what does not exist.

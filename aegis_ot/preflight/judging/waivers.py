@@ -22,7 +22,13 @@ from ..text import SourceFacts, source_lines
 _WAIVER = re.compile(
     r"aegis\s*:\s*ignore\s*(?:\[(?P<rules>[^\]]*)\])?\s*(?P<reason>.*)$", re.IGNORECASE
 )
+_MEANT = re.compile(
+    r"\baegis[\w-]*\s*(?P<colon>:)?\s*(?P<word>[a-z]+)\s*(?P<rule>\[\s*[a-z]+-\d+)?", re.IGNORECASE
+)
+_ALIKE = 0.75
+"""How much of a word has to be that of ``ignore``, from 0 to 1, for a slip of the pen."""
 
+_WRITE = "write `# aegis: ignore[PCR-2] reason`"
 
 MODEL = "MODEL"
 """Stands for a rule: of a finding that no rule covers, and of a question that went unanswered."""
@@ -70,15 +76,25 @@ def read_waivers(text: str, facts: SourceFacts) -> list[Waiver]:
         text: The protocol's source.
         facts: What it says.
     """
-    written = [
-        (line, match)
-        for line, comment in facts.comments.items()
-        if (match := _WAIVER.search(comment)) is not None
-    ]
-    if not written:
-        return []
-    places = _Places(text, facts)
-    return [_waiver(line, match, places) for line, match in written]
+    waivers: list[Waiver] = []
+    places: _Places | None = None
+    for line, comment in facts.comments.items():
+        match = _WAIVER.search(comment)
+        if match is not None:
+            places = places or _Places(text, facts)
+            waivers.append(_waiver(line, match, places))
+        elif _is_misspelt(comment):
+            waivers.append(Waiver(line, (), (), "", f"is not understood: {_WRITE}"))
+    return waivers
+
+
+def _is_misspelt(comment: str) -> bool:
+    """Whether a comment is meant as a waiver: "aegis: ingore[PCR-2]", "aegis-ot: ignore[PCR-2]"."""
+    match = _MEANT.search(comment)
+    if match is None:
+        return False
+    alike = difflib.SequenceMatcher(None, match["word"].lower(), "ignore").ratio() >= _ALIKE
+    return bool(match["rule"] or (match["colon"] and alike))
 
 
 def _waiver(line: int, match: re.Match[str], places: _Places) -> Waiver:
@@ -87,8 +103,8 @@ def _waiver(line: int, match: re.Match[str], places: _Places) -> Waiver:
     reason = match["reason"].strip(" :-–—")
     problem = ""
     if not rules:
-        problem = "names no rule: write `# aegis: ignore[PCR-2] reason`"
-    elif not reason:
+        problem = f"names no rule: {_WRITE}"
+    elif not re.search(r"\w", reason):
         problem = f"gives no reason for waiving {', '.join(rules)}, so it waives nothing"
     return Waiver(line, places.covered(line), rules, reason, problem)
 
