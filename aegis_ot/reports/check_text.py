@@ -6,6 +6,8 @@ import io
 import tokenize
 from collections.abc import Iterable, Iterator, Sequence
 
+from rich.cells import cell_len
+
 from ..checking import CheckedProtocol, CheckRun, Exploration, Problem
 from ..preflight.judging import RoleEvidence
 from ..vocabulary import Finding, Severity, VerdictWord, counted
@@ -164,7 +166,7 @@ def _snippet(
 
 
 def _statement(text: str) -> tuple[int, int]:
-    """Where the code of a line starts, and how long it is without its comment."""
+    """Where the code of a line starts, and how wide it is without its comment."""
     code = text
     try:
         for token in tokenize.generate_tokens(io.StringIO(text.strip()).readline):
@@ -172,7 +174,8 @@ def _statement(text: str) -> tuple[int, int]:
                 code = text[: len(text) - len(text.lstrip()) + token.start[1]]
     except (tokenize.TokenError, SyntaxError):
         pass
-    return len(code) - len(code.lstrip()), len(code.strip())
+    # In a terminal's cells: a Chinese character takes two, a combining accent none.
+    return cell_len(code[: len(code) - len(code.lstrip())]), cell_len(code.strip())
 
 
 def _exploration(

@@ -49,6 +49,18 @@ def test_carets_stand_under_the_statement_without_its_comment() -> None:
     assert source[start:end] == "p20.aspirate(5, template)"
 
 
+@pytest.mark.parametrize(
+    ("code", "cells"), [('試薬 = "é"; go()', 16), ('te\N{COMBINING ACUTE ACCENT} = "µ"; go()', 14)]
+)
+def test_carets_are_as_wide_as_a_terminal_shows_the_statement(code: str, cells: int) -> None:
+    lines = ("", "", "", "", f"    {code}  # 試", "", "", "")
+    run = CheckRun((CheckedProtocol("f.py", report(CARRY), lines=lines),), DATABASE, "1")
+    shown = check_text(run).splitlines()
+    carets = shown[next(n for n, line in enumerate(shown) if code in line) + 1]
+    assert carets.count("^") == cells
+    assert "    ^" in carets
+
+
 def test_json_has_exactly_the_fields_of_the_specification() -> None:
     run = CheckRun(
         (CheckedProtocol("f.py", report(CARRY), lines=LINES), CheckedProtocol("g.py", report())),
