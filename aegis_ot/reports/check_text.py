@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import re
 import tokenize
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
 from rich.cells import cell_len
@@ -24,6 +26,9 @@ from .words import (
 
 _MOST_LINES = 6
 """Source lines shown per finding."""
+_IN_FULL = 3
+"""Findings of one kind that are shown with their source; of the others, a line tells the place."""
+_PLACE = re.compile(r"\b(?:[A-Z]{1,2}\d{1,2}|lines? \d+)\b")
 
 
 class _Paint:
@@ -63,8 +68,7 @@ def _protocol(
     if checked.problem is not None:
         yield _problem(checked, checked.problem, paint) + "\n"
         return
-    for finding in checked.findings:
-        yield _finding(checked, finding, names.get(finding.rule, ""), paint)
+    yield from _findings(checked, names, paint)
     if checked.exploration is not None:
         yield from _exploration(checked, checked.exploration, paint)
     if checked.unanswered:
@@ -111,15 +115,38 @@ def _problem(checked: CheckedProtocol, problem: Problem, paint: _Paint) -> str:
     return text
 
 
-def _finding(checked: CheckedProtocol, finding: Finding, name: str, paint: _Paint) -> str:
+def _findings(checked: CheckedProtocol, names: dict[str, str], paint: _Paint) -> Iterator[str]:
+    """Findings in their order, each as a block; those that go on like the ones above, in one."""
+    seen: Counter[tuple[str, str]] = Counter()
+    alike: list[str] = []
+    for finding in checked.findings:
+        kind = (finding.rule, _PLACE.sub("", finding.message))
+        seen[kind] += 1
+        head = _head(finding, names.get(finding.rule, ""), paint)
+        if seen[kind] > _IN_FULL:
+            place = location(checked, next(reversed(finding.lines), None))
+            before = "".join(f"; line {line}" for line in finding.lines[:-1])
+            alike.append(f"{head}: likewise at {place} ({listed_wells(finding.wells, 12)}{before})")
+            continue
+        if alike:
+            yield "\n".join(alike) + "\n"
+            alike = []
+        yield _finding(checked, finding, head, paint)
+    if alike:
+        yield "\n".join(alike) + "\n"
+
+
+def _head(finding: Finding, name: str, paint: _Paint) -> str:
     shade = _RED if finding.severity is Severity.ERROR else _YELLOW
     mark = f" ({by_model(finding)})" if by_model(finding) else ""
-    head = (
-        f"{paint(finding.rule, _BOLD, shade)} {name} "
-        f"[{paint(finding.severity.value, shade)}]{mark}: {paint(finding.message, _BOLD)}"
+    return (
+        f"{paint(finding.rule, _BOLD, shade)} {name} [{paint(finding.severity.value, shade)}]{mark}"
     )
+
+
+def _finding(checked: CheckedProtocol, finding: Finding, head: str, paint: _Paint) -> str:
     sites = sites_by_line(finding)
-    lines = [head]
+    lines = [f"{head}: {paint(finding.message, _BOLD)}"]
     # The last line is where the harm was done.
     last = next(reversed(sites), None)
     gutter = _gutter(sites or {1: []})

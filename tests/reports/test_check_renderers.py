@@ -17,9 +17,9 @@ from aegis_ot.reasoning import Configuration, Judgement, Reply, State, Usage
 from aegis_ot.reports import RENDERERS, check_github, check_html, check_json, check_sarif
 from aegis_ot.reports.check_junit import check_junit
 from aegis_ot.reports.check_text import check_text
-from aegis_ot.vocabulary import Finding, Severity
+from aegis_ot.vocabulary import Finding, Severity, Site
 
-from .sample import CARRY, DATABASE, LINES, RUN, report
+from .sample import CARRY, DATABASE, LINES, RUN, report, well
 from .sarif_constraints import SARIF
 
 EMPTY = CheckRun((), DATABASE, "1.2.3")
@@ -47,6 +47,21 @@ def test_carets_stand_under_the_statement_without_its_comment() -> None:
     source, carets = lines[number], lines[number + 1]
     start, end = carets.index("^"), carets.rindex("^") + 1
     assert source[start:end] == "p20.aspirate(5, template)"
+
+
+def test_text_tells_the_fourth_finding_of_a_kind_and_later_ones_in_a_line() -> None:
+    def overfilled(number: int) -> Finding:
+        message = f"A{number} of the plate is filled to 380 µL at line {number}; it holds 360 µL."
+        sites = tuple(Site(line, well(f"A{number}")) for line in (100 + number, number))
+        return Finding("GEN-3", Severity.ERROR, message, sites, "Why.")
+
+    other = dataclasses.replace(overfilled(6), message="A6 holds 40 µL less than is drawn.")
+    findings = (*map(overfilled, range(1, 6)), other)
+    shown = check_text(CheckRun((CheckedProtocol("f.py", report(*findings)),), DATABASE, "1"))
+    assert shown.count("= why: Why.") == 4, "the first three, and the one of another kind"
+    assert "GEN-3 volumes [error]: likewise at f.py:4 (3:A4; line 104)\nGEN-3" in shown
+    assert "GEN-3 volumes [error]: likewise at f.py:5 (3:A5; line 105)\n\nGEN-3" in shown
+    assert "A6 holds 40 µL less" in shown
 
 
 @pytest.mark.parametrize(
