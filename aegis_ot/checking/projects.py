@@ -73,11 +73,14 @@ def _refused_unknown(
     protocols: Sequence[CheckedProtocol], given: Sequence[str]
 ) -> Iterable[CheckedProtocol]:
     """None is judged with a value that went unheard: for a parameter that none of them declares."""
-    heard = {name for checked in protocols for name in checked.declared or ()}
+    declared = [checked.declared for checked in protocols]
+    heard = {name for names in declared for name in names or ()}
     unknown = [name for name in given if name not in heard]
-    for checked in protocols:
-        if unknown and checked.declared is not None and checked.problem is None:
-            problem = Problem(undeclared(unknown, checked.declared))
+    if None in declared:  # it cannot be judged either, and might declare them
+        unknown = []
+    for checked, names in zip(protocols, declared, strict=True):
+        if unknown and names is not None and checked.problem is None:
+            problem = Problem(undeclared(unknown, names))
             yield CheckedProtocol(checked.file, problem=problem, lines=checked.lines)
         else:
             yield checked

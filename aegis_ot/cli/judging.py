@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
@@ -100,13 +101,14 @@ def spared(option: str, written: Path | None, read: Iterable[Path]) -> None:
     Raises:
         ConfigurationError: ``written`` is one of the files that are read.
     """
-    if written is None or not written.exists():
+    if written is None:
         return
     for path in read:
-        if path.exists() and path.samefile(written):
-            raise ConfigurationError(
-                f"{option} {written}: the call reads this file; it would be overwritten."
-            )
+        with contextlib.suppress(OSError):  # one of them is not there, or not to be looked at
+            if path.samefile(written):
+                raise ConfigurationError(
+                    f"{option} {written}: the call reads this file; it would be overwritten."
+                )
 
 
 def known_rule(name: str, database: Database, place: str = "") -> str:

@@ -85,6 +85,12 @@ def test_of_several_protocols_each_takes_the_values_that_are_for_it(tmp_path: Pa
     ]
 
 
+def test_no_protocol_is_accused_while_another_one_may_declare_the_parameter(tmp_path: Path) -> None:
+    plain, broken = check(tmp_path, [PLAIN, "def run(p:\n"], parameters={"foo": 3}).protocols
+    assert plain.problem is None
+    assert broken.problem is not None
+
+
 def test_parameters_that_cannot_be_read_are_told_with_their_line(tmp_path: Path) -> None:
     text = DECLARES.replace("minimum=1, maximum=8", "")
     (checked,) = check(tmp_path, [text], parameters={"count": 3}).protocols
