@@ -37,7 +37,8 @@ def with_stale_waivers(
     """The protocols, with a remark on each waiver that covers nothing in any of them.
 
     A waiver may well cover nothing in one file: it is stale if it covers nothing in all that it is
-    for, and was judged in one. The first of these carries the remark.
+    for, and was judged in one. The first of these carries the remark. Of a waiver for every file a
+    single one says nothing.
     """
     told = list(protocols)
     for waiver in waivers:
@@ -58,7 +59,7 @@ def with_stale_waivers(
             for rule in report.judged
             if rule.upper() in waiver.rules and rule not in used
         }
-        if not idle:
+        if not idle or (not waiver.files and len(concerned) < _SEVERAL):
             continue
         where = "this protocol"
         if len(concerned) > 1:
@@ -70,6 +71,9 @@ def with_stale_waivers(
         first = min(idle.values())
         told[first] = dataclasses.replace(told[first], settled=(*told[first].settled, remark))
     return told
+
+
+_SEVERAL = 2
 
 
 def _for_file(file: str, waivers: Sequence[ConfiguredWaiver], root: Path) -> list[ConfiguredWaiver]:

@@ -113,5 +113,11 @@ def test_a_waiver_of_the_configuration_is_stale_if_none_of_its_protocols_needs_i
     (remark,) = told[1].remarks
     assert "waiver of PCR-5 in " in remark.message
     assert "pyproject.toml is stale: nothing is found in the 2 checked" in remark.message
-    (alone,) = with_stale_waivers(protocols[:1], WAIVERS, tmp_path)
-    assert [remark.message.split(" in ")[0] for remark in alone.remarks] == ["The waiver of PCR-3"]
+
+
+def test_one_file_does_not_make_a_waiver_for_all_stale(tmp_path: Path) -> None:
+    new = [judged(tmp_path / "new" / name) for name in ("p.py", "q.py")]
+    assert not with_stale_waivers(new[:1], WAIVERS, tmp_path)[0].remarks
+    first, second = with_stale_waivers(new, WAIVERS, tmp_path)
+    assert [one.message.split(" in ")[0] for one in first.remarks] == ["The waiver of PCR-3"]
+    assert not second.remarks
