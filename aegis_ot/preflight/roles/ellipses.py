@@ -79,7 +79,7 @@ class Ellipses:
         self._all_columns = re.compile(rf"(?m)^\W*1{to}(?:\d{{1,2}})\W*$")
         span_of_list = rf"\d{{1,2}}(?:{to}\d{{1,2}})?"
         self._listed = re.compile(
-            rf"(?m)^(\s*)({span_of_list}(?:{listing}{span_of_list})*)(?=\s*:\s|\s{{2,}}[^\W\d])"
+            rf"(?m)^(\s*)({span_of_list}(?:{listing}{span_of_list})*)(?=\s*:\s|\s{{2,}}(?:[^\W\d]|\d[\d.]*\s?[pnuµm]?[Mg]\b))"
         )
         self._one_of_several = re.compile(
             rf"^(\W*){names.column}\.?(?=\s*{span_of_list}(?:{listing}{span_of_list})+"
