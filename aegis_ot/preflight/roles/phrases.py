@@ -110,7 +110,7 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
         # "drug in medium" is a drug.
         places = {at: topics for at, topics in places.items() if at < joints[0]}
     elif joints and (
-        (whole and any(map(_is_telling, words[: joints[0]]))) or concentrations_in(before)
+        (whole and not _says_only_labware(words[: joints[0]], common)) or concentrations_in(before)
     ):
         places = {}  # "insulin in DMEM" is no medium, whatever insulin may be, nor "3 mM in DMSO"
     always = first_words(common.heads) if clue.subject else frozenset()
@@ -189,6 +189,19 @@ def _drawn(
 def first_words(phrases: tuple[str, ...]) -> frozenset[str]:
     """The first word of each phrase of a list."""
     return frozenset(tokens(phrase)[0] for phrase in phrases)
+
+
+def _says_only_labware(words: Sequence[str], common: Common) -> bool:
+    """Whether words name no more than a vessel: what is in a "trough with PBS" is PBS."""
+    listed = (*common.labware.values(), common.pauses.get("trough", ()))
+    nouns = _words_of(tuple(word for several in listed for word in several))
+    return all(word in nouns for word in words if _is_telling(word))
+
+
+@functools.lru_cache(maxsize=16)
+def _words_of(phrases: tuple[str, ...]) -> frozenset[str]:
+    """All words of the phrases of a list."""
+    return frozenset(word for phrase in phrases for word in tokens(phrase))
 
 
 def _telling_part(lexicon: Lexicon, clue: Clue) -> str:
