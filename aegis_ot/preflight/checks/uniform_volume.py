@@ -10,7 +10,7 @@ from ...vocabulary import Site
 from ..rules import AtLeast
 from ..trace import Well
 from .base import Case, Check, Result, RoleSet, Violation, at, place, role_field
-from .given import came_from, filled, received
+from .given import came_from, filled, received, sources_of
 
 Member = tuple[Well, float, float]
 """A well, the µL of the liquid that it received, and those that it received in all."""
@@ -25,7 +25,7 @@ class UniformVolume(Check):
     apart. Where it comes out of several tubes, each of which gives as much to all its wells, and
     no declared liquid says that they hold the same, each tube may be an assay of its own.
     End volumes are compared only where the run brings everything. A well that is shared out to
-    others beside it is left out.
+    others beside it is left out, and one that gets nothing but what such wells held.
 
     Attributes:
         wells: Roles of the wells.
@@ -48,6 +48,9 @@ class UniformVolume(Check):
                 continue
             if self._is_shared_out(case, well, wells):
                 continue
+            sources = sources_of(case, well)
+            if sources and all(case.has(source, wells) for source in sources):
+                continue  # a product that goes on to a gel
             got, _ = received(case, well, liquid)
             if got > 0:
                 total, _ = filled(case, well)

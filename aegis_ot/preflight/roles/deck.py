@@ -37,6 +37,9 @@ class Deck:
                 self.of_wells.setdefault(binding.name, set()).add(ref.labware)
         for name in [name for name in self.by_name if "." in name]:
             self.by_name.setdefault(name.rpartition(".")[2], set()).update(self.by_name[name])
+        self.lists: dict[str, set[str]] = {}
+        for name, keys in self.by_name.items():
+            self.lists.setdefault(name.split("[", 1)[0], set()).update(keys)
         self.in_turn = self._taken_in_turn(facts)
         self.keyed = self._by_key()
         self.by_label: dict[str, set[str]] = {}
@@ -66,9 +69,7 @@ class Deck:
 
     def _taken_in_turn(self, facts: SourceFacts) -> set[str]:
         """Loop variables over several plates: each was all of them, not the last one only."""
-        lists: dict[str, set[str]] = {}
-        for name, keys in self.by_name.items():
-            lists.setdefault(name.split("[", 1)[0], set()).update(keys)
+        lists = self.lists
         found: set[str] = set()
         for _, name in facts.loops:
             if name in facts.assigned:

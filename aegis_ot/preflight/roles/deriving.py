@@ -85,8 +85,9 @@ def _is_telling(roles: Roles, ref: WellRef, wanted: frozenset[str]) -> bool:
 def _is_for_all(roles: Roles, wells: Collection[WellRef], wanted: frozenset[str]) -> bool:
     """Whether a source also goes into most wells of another role: it is a reagent for them all."""
     by_role: dict[str, set[WellRef]] = {}
+    plates = {ref.labware for ref in wells}
     for ref, assigned in roles.by_well.items():
-        if assigned.role not in wanted and not roles.has(ref, wanted):
+        if ref.labware in plates and assigned.role not in wanted and not roles.has(ref, wanted):
             by_role.setdefault(assigned.role, set()).add(ref)
     others = {well for well in wells if not roles.has(well, wanted)}
     return any(2 * len(others & alike) > len(alike) for alike in by_role.values())

@@ -92,9 +92,12 @@ class Ellipses:
             r"(?=\s*[:=]\s*\S|\s+[^\W\d_]{2,}|\s+\d+(?:[.,]\d+)?(?!\w)|\s*[,;)])"
         )
         self._short = re.compile(rf"(?<![\w.])c(\d{{1,2}})(?:{to}c?(\d{{1,2}}))?(?!\w)")
-        self._of_column = re.compile(rf"[^:]{{0,40}}?\b{column}\.?\s*{numbered}[^:\d]{{0,20}}:")
         self._row_head = re.compile(rf"\b{names.row}\s*\(?[A-P]\b[^:\d]{{0,20}}:")
-        self._column_head = re.compile(rf"\b{column}\.?\s*{numbered}[^:\d]{{0,20}}:")
+        # "columns 3-4 lysates, rows A-D harvest 1, rows E-H harvest 2"
+        several = rf",(?=\s*{row}\s[^;:\n]*,\s*{row}\s)"
+        ended = rf"(?:[^:\d]{{0,20}}:|\s+[^:;,.\d]{{2,30}}{several})"
+        self._column_head = re.compile(rf"\b{column}\.?\s*{numbered}{ended}")
+        self._of_column = re.compile(rf"[^:]{{0,40}}?\b{column}\.?\s*{numbered}{ended}")
         self._of_row = re.compile(rf"[^:]{{0,40}}?\b{names.row}\s*\(?([A-P])\b[^:\d]{{0,20}}:")
         self._rows = re.compile(
             rf"\b{row}\s+(?P<row>[A-P])(?:(?:{to}|[/&+])(?P<row2>[A-P]))?\b(?P<alone>(?=\s*(?:[,;.)]|$)))?"

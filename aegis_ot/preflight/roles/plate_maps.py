@@ -8,7 +8,7 @@ from typing import Any
 from ...instrumentation import is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, concentration_in, lexicon_of, origins, tokens
+from ..text import Place, SourceFacts, concentration_in, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import MOST_TUBES, Deck
 from .levels import far_apart, is_number, names_amounts, names_counts, number_in
@@ -112,8 +112,14 @@ def used_with(deck: Deck, facts: SourceFacts, name: str) -> tuple[str, ...]:
     keys: set[str] = set()
     for place in facts.places:
         if name in origins(facts, place.names, (place.line,)):
-            keys |= deck.by_name.get(place.labware, set())
+            keys |= deck.by_name.get(place.labware) or _listed(deck, facts, place)
     return tuple(sorted(keys))
+
+
+def _listed(deck: Deck, facts: SourceFacts, place: Place) -> set[str]:
+    """The labware that a comprehension takes in turn: ``[rack[name] for rack in racks ...]``."""
+    lists = origins(facts, (place.labware,), (place.line,))
+    return {key for name in lists for key in deck.lists.get(name, ())}
 
 
 def _numbers_places(facts: SourceFacts, name: str) -> bool:
