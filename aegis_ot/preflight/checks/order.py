@@ -24,7 +24,7 @@ def arrivals(case: Case, well: Well, liquid: RoleSet) -> list[Visit]:
             volume > 0
             and (
                 case.has(source, liquid)
-                or (case.has(origin, liquid) and _serves_many(case, source))
+                or (case.has(origin, liquid) and _is_reagent(case, source, liquid))
             )
             for origin, volume, source, _ in delivered(visit)
         )
@@ -32,11 +32,18 @@ def arrivals(case: Case, well: Well, liquid: RoleSet) -> list[Visit]:
 
 
 _MANY = 3
+"""What one sample's reaction goes on to are fewer wells: a reader's, a gel's."""
 
 
-def _serves_many(case: Case, source: Well) -> bool:
-    """Whether a well holds a reagent that the run makes, rather than one sample's reaction."""
-    return len(case.destinations.get(source, {})) >= _MANY
+def _is_reagent(case: Case, source: Well, liquid: RoleSet) -> bool:
+    """Whether a well holds a reagent that the run makes or takes along, and no sample's reaction:
+    many get it, or nothing else is in it.
+    """
+    return len(case.destinations.get(source, {})) >= _MANY or all(
+        case.has(origin, liquid)
+        for visit in case.trace.deliveries(source)
+        for origin, _, _, _ in delivered(visit)
+    )
 
 
 @dataclass(frozen=True)
@@ -62,7 +69,10 @@ class MixedAfter(Check):
         for well in case.trace.wells.values():
             if case.has(well, liquid) or (wanted and not case.has(well, wanted)):
                 continue
-            if well.ref in case.waste or (_serves_many(case, well) and not wanted):
+            given_on = bool(case.destinations.get(well))
+            if well.ref in case.waste:
+                continue
+            if given_on and not wanted and _is_reagent(case, well, liquid):
                 continue
             came = arrivals(case, well, liquid)
             if not came or case.trace.mixed_since(well, came[-1].index, math.inf):

@@ -66,7 +66,6 @@ def assign_roles(
         if ref != first and not {ref, first} & trace.singles
     }
     named_outright: set[str] = set()
-    doubtful: set[WellRef] = set()
     for_controls: set[WellRef] = set()
     untold: list[Clue] = []
     misplaced: list[Clue] = []
@@ -74,10 +73,16 @@ def assign_roles(
     holding_of = called_after(clues, lexicon, common)
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
-        if len(clue.wells) >= (2 if clue.whole else _SEVERAL):
+        plural = clue.text.endswith(_PLURAL) and len(clue.wells) >= _SEVERAL
+        if plural or (clue.whole and len(clue.wells) > 1):
             named = without_differing(lexicon, clue, named, family)
         if clue.step and len(clue.wells) > 1:  # "standards, blank upwards" are not all blanks
-            named = [r for r in named if not any(o in roles.closure(r) - {r} for o in named)]
+            named = [
+                role
+                for role in named
+                if family.roles[role].level is None
+                or roles.closure(role).isdisjoint({*named} - {role})
+            ]
         if not named:
             untold.append(clue)
             continue
@@ -95,13 +100,8 @@ def assign_roles(
                 continue
         side_only = says_only_the_side(clue, common)
         worth = _worth(clue, side_only, clue.whole or says_only_a_place(clue, common))
-        if clue.strength is Strength.LIQUID and names_several(lexicon, clue, common, roles):
-            doubtful.update(clue.wells)
-        elif (
-            clue.strength is Strength.DESCRIPTION
-            and doubtful.issuperset(clue.wells)
-            and is_outright(lexicon, clue.text)
-        ):
+        if clue.strength is Strength.DESCRIPTION and is_outright(lexicon, clue.text):
+            # "steroid-free serum", described as "diluent"
             worth = (float(Strength.LIQUID), 2.0, *worth[2:])
         passing = side_only and clue.strength is Strength.LOOSE_NAME
         placed = False
@@ -202,6 +202,8 @@ def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, floa
 
 _SEVERAL = 3
 """Two wells may well hold one liquid."""
+
+_PLURAL = ("s", "n")
 
 _FEWEST_DOSES = 2
 

@@ -84,9 +84,10 @@ def _without_codes(
 
 
 def _is_left_out(before: str, common: Common) -> bool:
-    """Whether the words before some wells end by leaving them out."""
-    words = [word for word in tokens(before) if word not in first_words(common.articles)]
-    return bool(words) and words[-1] in common.exceptions and words[-2:-1] != ["nothing"]
+    """Whether the words before some wells end by leaving them out, or by what else goes along."""
+    words = tuple(word for word in tokens(before) if word not in first_words(common.articles))
+    left_out = any(words[-len(said) :] == said for said in map(tokens, common.exceptions))
+    return left_out and words[-2:-1] != ("nothing",)
 
 
 def _nouns(common: Common) -> tuple[str, ...]:

@@ -11,7 +11,7 @@ from ..trace import Trace
 from .called_alike import derive_called_alike
 from .in_place import Given, derive_common, derive_given_instead, derive_used_like, given_by
 from .roles import Roles
-from .stages import stage_of
+from .stages import is_shared_out, stage_of
 from .usage import Usage
 
 
@@ -244,7 +244,8 @@ def _pass_on(roles: Roles, name: str, trace: Trace, volumes: Given) -> None:
     givers = {  # a reaction that is made here and given on makes no other one
         ref: assigned
         for ref, assigned in roles.by_well.items()
-        if assigned.role == name and ref in served and ref not in made
+        if assigned.role == name and ref in served
+        if ref not in made or is_shared_out(served[ref])
     }
     given = {well for ref in givers for well in served[ref]}
     own = {
@@ -282,7 +283,10 @@ def _derive_one(
             if any(
                 is_wanted(origin.ref)
                 for source, _, liquid, _ in visit.parts
-                if source is None or is_wanted(source.ref) or not stage.holds(source.ref)
+                if source is None
+                or is_wanted(source.ref)
+                or well.ref in stage.given
+                or not stage.holds(source.ref)
                 for origin in liquid
             ):
                 roles.derived.setdefault(well.ref, set()).update(roles.closure(name))

@@ -17,7 +17,7 @@ IN_BRACKETS = re.compile(r"\([^()]*\)")
 
 _SLOT = re.compile(r"(?i:\bslot\s+)([A-Da-d][1-4]|1[01]|[1-9])\b")
 
-_IN_SLOT = re.compile(rf"[^\W\d][^():,.]*\({_SLOT.pattern}\)")
+_IN_SLOT = re.compile(rf"[^\W\d][^():,.]*\({_SLOT.pattern}\)(?=\s*(?:[,:;]|$))")
 
 _LISTED_SLOT = re.compile(r"\W*([A-D][1-4]|1[01]|[1-9])\s+((?:[^\W\d]\w*\W+){1,3})")
 """How a line of a list of the deck begins: "C2  tube rack"."""
@@ -80,6 +80,8 @@ class LabwareNouns:
         """
         plain = line.strip(" \t#*-")
         first = _SLOT.match(plain) or _IN_SLOT.match(plain)
+        if first and len(_SLOT.findall(plain)) > 1:
+            return frozenset()  # prose, which speaks of both
         slots = {first[1].lower()} if first else self._listed_slot(line)
         found = frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
         return found if len(found) == 1 else frozenset()

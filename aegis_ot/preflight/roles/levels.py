@@ -66,10 +66,18 @@ def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:
 
 
 def _is_block(clue: Clue) -> bool:
-    """Whether a comment speaks of wells in several rows and columns: of which order is unsaid."""
+    """Whether a comment speaks of a part of several columns: in which order is not said.
+
+    Whole columns of a rack or a plate go one after the other.
+    """
     places = [row_column(ref.name) for ref in clue.wells]
     rows, columns = ({place[axis] for place in places} for axis in (0, 1))
-    return clue.strength is Strength.COMMENT and min(len(rows), len(columns)) > 1
+    whole = len(rows) in _ALL_ROWS
+    return clue.strength is Strength.COMMENT and min(len(rows), len(columns)) > 1 and not whole
+
+
+_ALL_ROWS = (4, 8, 16)
+"""Of a rack of 24 tubes, of a plate of 96 wells, and of one of 384."""
 
 
 def speaks_of_amounts(name: str, common: Common) -> bool:

@@ -119,7 +119,8 @@ def used_with(deck: Deck, facts: SourceFacts, name: str) -> tuple[str, ...]:
 def _listed(deck: Deck, facts: SourceFacts, place: Place) -> set[str]:
     """The labware that a comprehension takes in turn: ``[rack[name] for rack in racks ...]``."""
     lists = origins(facts, (place.labware,), (place.line,))
-    return {key for name in lists for key in deck.lists.get(name, ())}
+    held = (deck.lists.get(name, set()) for name in lists)
+    return {key for keys in held if len(keys) > 1 for key in keys}
 
 
 def _numbers_places(facts: SourceFacts, name: str) -> bool:

@@ -40,7 +40,7 @@ def written_wells(
     nouns = LabwareNouns(deck, common)
     noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
     for line, text in texts:
-        yield from with_bare_numbers([*_of_text(deck, nouns, noted, line, text, common)])
+        yield from with_bare_numbers([*_of_text(deck, nouns, noted, line, text, common)], text)
 
 
 def _of_text(
