@@ -55,8 +55,8 @@ class MixedAfter(Check):
 
     Attributes:
         liquid: Roles of the liquid.
-        wells: Roles of the wells that are judged; else all that receive the liquid and that
-            nothing is drawn from.
+        wells: Roles of the wells that are judged; else all that receive the liquid, but those
+            that hold a reagent which the run makes and shares out.
     """
 
     name: ClassVar[str] = "mixed_after"

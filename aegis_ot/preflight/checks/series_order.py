@@ -40,10 +40,19 @@ def _as_made(members: list[Well], links: Sequence[Transfer]) -> list[Well]:
 def turned_to_fall(
     order: list[Well], entries: Sequence[Well], links: Sequence[Transfer], roles: Roles
 ) -> bool:
-    """Turn an order, if need be, so that it runs away from the stock; whether its head is known.
+    """Turn an order in place, if need be, so that it runs away from the stock.
 
-    ``entries`` are the wells that stock goes into. Where each well's level is said, the levels
-    tell better: somebody may have put the stock into the wrong end.
+    Where each well's level is said, the levels tell better than the stock's place: somebody may
+    have put it into the wrong end. Levels of 1 and more may be by how much each is diluted.
+
+    Args:
+        order: The wells of a series, in the order of its labware.
+        entries: Those that stock goes into.
+        links: The transfers between them.
+        roles: For their levels.
+
+    Returns:
+        Whether it is known which end is the most concentrated one.
     """
     levels = [roles.level(well.ref) for well in order]
     told = [level for level in levels if level is not None and level < 1]
@@ -74,4 +83,4 @@ def turned_to_fall(
 
 
 _FEWEST_TOLD = 3
-"""Levels of fewer wells, or numbers of 1 and more, may be by how much each is diluted."""
+"""Levels of fewer wells say little of an order."""

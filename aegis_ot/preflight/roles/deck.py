@@ -115,10 +115,10 @@ class Deck:
             )
         ]
         few = len(missing) <= min(LEFT_OUT, (len(names) - len(empty)) // 3)
-        lines = {row_column(name)[axis] for name in names}
+        lines, gap = ({row_column(name)[axis] for name in some} for some in (names, missing))
         # One of two columns, whole: the other one got what both were to get.
         one_of_two = len(lines) == 2 and len(missing) == len(empty) == len(names) // 2
-        whole = one_of_two and len({row_column(name)[axis] for name in missing}) == 1
+        whole = one_of_two and len(gap) == 1
         # One between those that are filled: the next one got what it was to get.
         between = (
             missing == list(names)
@@ -126,10 +126,9 @@ class Deck:
             and any(line - 1 in others and line + 1 in others for line in lines)
         )
         # One of several, where all else of the plate is filled: a loop ended too early.
-        every = {row_column(name) for name in self.trace.labware[labware].wells}
-        at = {row_column(name)[axis] for name in missing}
-        last = len(at) == 1 < len(lines) and {one for one in every if one[axis] not in at} == filled
-        return missing if (few or whole or between or last) and len(others) > 1 else []
+        every = map(row_column, self.trace.labware[labware].wells)
+        ended = len(gap) == 1 < len(lines) and filled == {at for at in every if at[axis] not in gap}
+        return missing if (few or whole or between or ended) and len(others) > 1 else []
 
     def are_whole_lines(self, wells: Collection[WellRef]) -> bool:
         """Whether these are all wells of some columns, or of some rows, of one labware."""

@@ -41,6 +41,8 @@ class Stage:
 
 def stage_of(roles: Roles, trace: Trace, role: str, reagent: frozenset[str]) -> Stage:
     """The stage at which wells for ``role`` get a liquid of the roles ``reagent``."""
+    if not reagent:
+        return Stage(frozenset(), frozenset(), {})
     served = trace.served()
     given = {
         well
