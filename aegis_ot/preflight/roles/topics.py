@@ -40,12 +40,13 @@ class Topic:
         opening = written.partition(",")[0]
         opens = bool(parts) and parts[0].text not in opening
         self._begins = nouns.named(opening) if opens else _NONE
-        self._begun = begun.strip() if self._headed else ""
+        listed = nouns.begun_by(written)
+        self._begun = begun.strip() if self._headed or (colon and listed) else ""
         self._of_line = nouns.named(written.partition("->")[0]) or self._headed
         self._in_line = _NONE
         if named:
             self.heading = named  # and of the lines below: "strips: column 1 blank"
-        elif listed := nouns.begun_by(written):
+        elif listed:
             self.heading, self._last = listed, _NONE
         elif self._of_line and _heads(written, self._common):
             self.heading = self._of_line

@@ -43,11 +43,14 @@ def usage_of(trace: Trace) -> dict[WellRef, Usage]:
             begun.add(well.ref)
             usage.first_drawn = well.visits[0].kind is OperationKind.ASPIRATE
     served: dict[WellRef, set[WellRef]] = {}
+    at_first: dict[WellRef, set[WellRef]] = {}
     for visit in trace.visits:
         for source, volume, _, _ in visit.parts:
             if source is not None and source is not visit.well and volume > 0:
                 usages[visit.well.ref].received = True
                 served.setdefault(source.ref, set()).add(visit.well.ref)
+                if not usages[source.ref].received:
+                    at_first.setdefault(source.ref, set()).add(visit.well.ref)
     drains = _drains(usages, served, trace)
     for ref, wells in served.items():
         usages[ref].feeds = not wells <= drains
@@ -58,6 +61,8 @@ def usage_of(trace: Trace) -> dict[WellRef, Usage]:
         # Not what is emptied into the trash, and filled then; nor what is only mixed.
         if ref in served or used.received or ref not in taken:
             used.first_drawn = used.first_drawn and used.feeds
+        if used.received and at_first.get(ref, set()) <= drains:
+            used.first_drawn = False  # emptied, filled again, and harvested in the end
     return usages
 
 
