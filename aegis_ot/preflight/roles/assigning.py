@@ -7,6 +7,7 @@ unsaid: a well without evidence has no role, and rules that need one are undecid
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
@@ -197,7 +198,16 @@ def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, floa
             if level is not None:
                 levels.setdefault(ref, set()).add(level)
     told = {**of_several, **of_each}
-    return {ref: levels.pop() for ref, levels in told.items() if len(levels) == 1}
+    return {ref: min(levels) for ref, levels in told.items() if _are_one(levels)}
+
+
+def _are_one(levels: set[float]) -> bool:
+    """Whether levels are one, told with a unit and without: 250 and, in "ug/ml", 0.25."""
+    times = max(levels) / min(levels) if min(levels) > 0 else 0.0
+    return len(levels) == 1 or any(math.isclose(times, units) for units in _UNITS_APART)
+
+
+_UNITS_APART = (1e3, 1e6, 1e9)
 
 
 _SEVERAL = 3
