@@ -68,6 +68,7 @@ def assign_roles(
     }
     named_outright: set[str] = set()
     for_controls: set[WellRef] = set()
+    named_by_liquid: set[tuple[WellRef, str]] = set()
     untold: list[Clue] = []
     misplaced: list[Clue] = []
     holding = of_several(clues, lexicon, common, roles)
@@ -101,7 +102,13 @@ def assign_roles(
                 continue
         side_only = says_only_the_side(clue, common)
         worth = _worth(clue, side_only, clue.whole or says_only_a_place(clue, common))
-        if clue.strength is Strength.DESCRIPTION and is_outright(lexicon, clue.text):
+        if clue.strength is Strength.LIQUID and not names_several(lexicon, clue, common, roles):
+            named_by_liquid.update((ref, role) for ref in clue.wells for role in named)
+        elif (
+            clue.strength is Strength.DESCRIPTION
+            and is_outright(lexicon, clue.text)
+            and named_by_liquid.isdisjoint((ref, named[0]) for ref in clue.wells)
+        ):
             # "steroid-free serum", described as "diluent"
             worth = (float(Strength.LIQUID), 2.0, *worth[2:])
         passing = side_only and clue.strength is Strength.LOOSE_NAME
