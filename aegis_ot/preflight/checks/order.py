@@ -69,10 +69,9 @@ class MixedAfter(Check):
         for well in case.trace.wells.values():
             if case.has(well, liquid) or (wanted and not case.has(well, wanted)):
                 continue
-            given_on = bool(case.destinations.get(well))
             if well.ref in case.waste:
                 continue
-            if given_on and not wanted and _is_reagent(case, well, liquid):
+            if not wanted and case.destinations.get(well) and _is_reagent(case, well, liquid):
                 continue
             came = arrivals(case, well, liquid)
             if not came or case.trace.mixed_since(well, came[-1].index, math.inf):

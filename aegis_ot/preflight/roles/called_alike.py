@@ -13,6 +13,7 @@ from ..rules import Common, RoleSpec
 from ..text import tokens
 from ..trace import Trace
 from .clues import Clue, Strength
+from .phrases import words_of
 from .roles import Roles
 
 _SHORTEST = 3
@@ -44,12 +45,8 @@ def derive_called_alike(
 def _words(clues: Iterable[Clue], common: Common) -> dict[WellRef, frozenset[str]]:
     """The telling words of what is said of each well."""
     kinds = (*common.labware.values(), *common.layout.values())
-    dull = {
-        word
-        for words in (common.noise, common.positions, *kinds)
-        for p in words
-        for word in tokens(p)
-    }
+    listed = (common.noise, common.positions, *kinds)
+    dull = words_of(tuple(word for words in listed for word in words))
     dull |= {f"{word}s" for word in dull}
     found: dict[WellRef, frozenset[str]] = {}
     for clue in clues:

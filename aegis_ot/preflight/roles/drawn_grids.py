@@ -10,18 +10,17 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Sequence
 from typing import NamedTuple
+
+from .well_names import WellNames
 
 _MOST_LINES = 18
 """As many lines have the plates that people draw."""
 
 _NUMBER = re.compile(r"(?:c|col)?(\d{1,2})(?:\s*[-–]\s*(\d{1,2}))?")
-_COLUMN_WORD = re.compile(
-    r"\b(?:col(?:umn)?s?|spalten?|colonnes?|columnas?|kolom|sp)\.?\s+(?=\d)", re.IGNORECASE
-)
-_ROW_WORD = re.compile(r"^\s*(?:row|zeile|reihe|ligne|fila|riga|rij)\s+(?=[A-P]\b)", re.IGNORECASE)
 _LETTERS = re.compile(r"([A-P])(?:\s*[-–]\s*([A-P]))?:?")
 _DOTS = re.compile(r"\.{2,}|…")
 
@@ -38,16 +37,17 @@ class Drawing(NamedTuple):
     wells_of: dict[str, list[str]]
 
 
-def drawn_grid(lines: Sequence[str], at: int) -> Drawing:
+def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
     """The drawing whose column numbers stand in a line; without wells, if none does.
 
     Dots stand for more of the same: for columns in a row, for rows under one.
     """
-    columns = _columns(lines[at])
+    column_word, row_word = _before_numbers(names)
+    columns = _columns(column_word.sub("", lines[at]))
     wells_of: dict[str, list[str]] = {}
     end, last, codes, repeated = at + 1, 0, list[str](), False
     for written in lines[at + 1 : at + 1 + _MOST_LINES] if columns else ():
-        first, *said = cells_of(_ROW_WORD.sub("", written), len(columns) + 1) or [""]
+        first, *said = cells_of(row_word.sub("", written), len(columns) + 1) or [""]
         if _DOTS.match(first) and codes:
             repeated, end = True, end + 1
             continue
@@ -69,9 +69,17 @@ def drawn_grid(lines: Sequence[str], at: int) -> Drawing:
     return Drawing(end if wells_of else at, wells_of)
 
 
-def drawn_lines(lines: Sequence[str]) -> set[int]:
+def drawn_lines(lines: Sequence[str], names: WellNames) -> set[int]:
     """Places of the lines that belong to drawings."""
-    return {line for at in range(len(lines)) for line in range(at, drawn_grid(lines, at).end)}
+    drawings = ((at, drawn_grid(lines, at, names)) for at in range(len(lines)))
+    return {line for at, drawing in drawings for line in range(at, drawing.end)}
+
+
+@functools.lru_cache(maxsize=8)
+def _before_numbers(names: WellNames) -> tuple[re.Pattern[str], re.Pattern[str]]:
+    """The words in "col 1   col 2" and in "row A   DMSO", as patterns."""
+    column = rf"\b(?:{names.columns}|{names.column})\.?\s+(?=\d)"
+    return re.compile(column), re.compile(rf"^\s*{names.row}\s+(?=[A-P]\b)")
 
 
 def cells_of(written: str, count: int = 0) -> list[str]:
@@ -92,7 +100,7 @@ def _columns(written: str) -> list[list[int]]:
     """The columns under each number of a line that counts on from 1: "1  2-11  12"."""
     columns: list[list[int]] = []
     last = 0
-    for cell in cells_of(_COLUMN_WORD.sub("", written).lower()):
+    for cell in cells_of(written.lower()):
         match = _NUMBER.fullmatch(cell)
         if match is None or int(match[1]) != last + 1:
             return []

@@ -8,6 +8,7 @@ from ..rules import Common
 from ..text import lexicon_of, tokens
 from .clauses import Part
 from .deck import Deck
+from .phrases import words_of
 
 _HEADING = re.compile(r"\W*([^\W\d]\w*(?:[ -][^\W\d]\w*){0,3}[ -]?)\s*:")
 """A line that begins with what it speaks of: "tubes: A1 lowest ... B2 highest"."""
@@ -36,26 +37,20 @@ class LabwareNouns:
 
     def __init__(self, deck: Deck, common: Common) -> None:
         self._deck = deck
-        self._dull = {word for phrase in common.pauses.get("plate", ()) for word in tokens(phrase)}
-        self._kinds = [
-            {word for phrase in words for word in tokens(phrase)}
-            for words in common.labware.values()
-        ]
+        self._dull = words_of(common.pauses.get("plate", ()))
+        self._kinds = [words_of(words) for words in common.labware.values()]
         self._nouns = {word for kind in self._kinds for word in kind}
-        tubes = {word for phrase in common.labware.get("tube", ()) for word in tokens(phrase)}
+        tubes = words_of(common.labware.get("tube", ()))
         self._racks = {word for word in self._nouns if word not in tubes or "rack" in word}
-        self._on_deck = self._nouns | {word for phrase in common.tips for word in tokens(phrase)}
-        self._strips = {w for phrase in common.labware.get("strip", ()) for w in tokens(phrase)}
+        self._on_deck = self._nouns | words_of(common.tips)
+        self._strips = words_of(common.labware.get("strip", ()))
         self._decks = lexicon_of({"deck": common.decks})
         self._slots = {info.slot for info in deck.trace.labware.values()}
-        self._of = {word for phrase in common.layout.get("of", ()) for word in tokens(phrase)}
-        self._origins = {word for phrase in common.origins for word in tokens(phrase)}
-        self._articles = {word for phrase in common.articles for word in tokens(phrase)}
-        self._joints = {
-            word for phrase in (*common.joints, *common.belonging) for word in tokens(phrase)
-        }
-        toward = {word for phrase in common.toward for word in tokens(phrase)}
-        self._leading = self._articles | self._joints | toward
+        self._of = words_of(common.layout.get("of", ()))
+        self._origins = words_of(common.origins)
+        self._articles = words_of(common.articles)
+        self._joints = words_of((*common.joints, *common.belonging))
+        self._leading = self._articles | self._joints | words_of(common.toward)
         self._labels = [
             (f" {' '.join(tokens(info.label))} ", info.key) for info in deck.plates() if info.label
         ]

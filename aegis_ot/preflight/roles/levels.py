@@ -7,6 +7,7 @@ from collections.abc import Collection
 from contextlib import suppress
 from typing import Any
 
+from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import (
     concentration_in,
@@ -114,6 +115,14 @@ def number_in(value: Any) -> float | None:
         with suppress(ValueError):
             value = float(value)
     return float(value) if is_number(value) else None
+
+
+def as_one_of_amounts(
+    wells: tuple[WellRef, ...], line: int | None, where: str, levels: tuple[float, ...]
+) -> Clue:
+    """So many amounts of one thing, ``where`` they stand together, are its standards."""
+    said = f"one of several amounts in {where}"
+    return Clue(Strength.LOOSE_NAME, "standard", wells, line, said, levels=levels)
 
 
 _FEWEST_AMOUNTS = 3

@@ -20,7 +20,7 @@ from .named_levels import (
     listed_beside,
     numeric_keys,
 )
-from .phrases import without_position
+from .phrases import without_position, words_of
 from .well_names import well_names
 
 
@@ -121,7 +121,7 @@ def _of_all(note: str, wells: Sequence[WellRef], common: Common) -> bool:
 
 def call_arguments(trace: Trace, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """Names of what calls draw from and give to: every value that a loop variable took."""
-    positions = {word for phrase in common.positions for word in tokens(phrase)}
+    positions = words_of(common.positions)
     used: dict[tuple[str, str], dict[WellRef, None]] = {}
     at_line: dict[str, int] = {}
     for visit in trace.visits:

@@ -15,7 +15,7 @@ from ..text import Numbered, SourceFacts, lexicon_of, origins, tokens
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
-from .levels import are_amounts, far_apart, is_number, names_amounts, number_in
+from .levels import are_amounts, as_one_of_amounts, far_apart, is_number, names_amounts, number_in
 from .written_columns import WrittenColumns
 
 Entry: TypeAlias = "tuple[str, tuple[int | str, ...], float | None]"
@@ -55,14 +55,8 @@ def numbered_maps(
             )
             drawn = tuple(ref for ref in wells if (ref.labware, ref.name) not in deck.received)
             if amounts and level is not None and drawn:
-                yield Clue(
-                    Strength.LOOSE_NAME,
-                    "standard",
-                    drawn,
-                    line,
-                    f"one of several amounts in `{name}` at line {line}",
-                    levels=(level,) * len(drawn),
-                )
+                where = f"`{name}` at line {line}"
+                yield as_one_of_amounts(drawn, line, where, (level,) * len(drawn))
 
 
 def _counts(name: str, common: Common) -> bool:

@@ -10,7 +10,7 @@ from ..rules import Common
 from ..text import SourceFacts
 from .clues import Clue, Strength
 from .deck import Deck
-from .levels import are_amounts, far_apart, is_number, names_amounts
+from .levels import are_amounts, as_one_of_amounts, far_apart, is_number, names_amounts
 from .plate_maps import labware_of_map, refs_of
 
 _FEWEST = 3
@@ -40,14 +40,7 @@ def amounts_beside(
         yield Clue(Strength.NAME, "", wells, pair.line, said, levels=pair.amounts)
         drawn = not any((ref.labware, ref.name) in deck.received for ref in wells)
         if drawn and far_apart(pair.amounts):
-            yield Clue(
-                Strength.LOOSE_NAME,
-                "standard",
-                wells,
-                pair.line,
-                f"one of several amounts in {said}",
-                levels=pair.amounts,
-            )
+            yield as_one_of_amounts(wells, pair.line, said, pair.amounts)
 
 
 def _written(facts: SourceFacts, common: Common) -> Iterator[_Pair]:

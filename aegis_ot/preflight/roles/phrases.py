@@ -194,12 +194,12 @@ def first_words(phrases: tuple[str, ...]) -> frozenset[str]:
 def _says_only_labware(words: Sequence[str], common: Common) -> bool:
     """Whether words name no more than a vessel: what is in a "trough with PBS" is PBS."""
     listed = (*common.labware.values(), common.pauses.get("trough", ()))
-    nouns = _words_of(tuple(word for several in listed for word in several))
+    nouns = words_of(tuple(word for several in listed for word in several))
     return all(word in nouns for word in words if _is_telling(word))
 
 
 @functools.lru_cache(maxsize=16)
-def _words_of(phrases: tuple[str, ...]) -> frozenset[str]:
+def words_of(phrases: tuple[str, ...]) -> frozenset[str]:
     """All words of the phrases of a list."""
     return frozenset(word for phrase in phrases for word in tokens(phrase))
 

@@ -10,12 +10,12 @@ from ..text import Place, SourceFacts, tokens
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
-from .phrases import without_position
+from .phrases import without_position, words_of
 
 
 def indexing_names(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """What labware was indexed with."""
-    positions = {word for phrase in common.positions for word in tokens(phrase)}
+    positions = words_of(common.positions)
     for place in facts.places:
         keys = deck.by_name.get(place.labware, set())
         if len(keys) != 1 and not (place.labware in deck.in_turn and deck.are_alike(keys)):

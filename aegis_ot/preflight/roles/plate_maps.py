@@ -12,7 +12,7 @@ from ..text import Place, SourceFacts, concentration_in, lexicon_of, origins, to
 from .clues import Clue, Strength
 from .deck import MOST_TUBES, Deck
 from .levels import far_apart, is_number, names_amounts, names_counts, number_in
-from .phrases import without_position
+from .phrases import without_position, words_of
 from .well_names import plain_name, wells_between
 from .work_lists import drawn_and_filled, is_work_list
 
@@ -166,7 +166,7 @@ def _alike(deck: Deck, keys: Sequence[str], spots: Sequence[str]) -> tuple[str, 
 
 def called_alike(deck: Deck, name: str, common: Common) -> str:
     """The one labware whose label shares a telling word with this constant's name."""
-    dull = {word for phrase in common.noise for word in tokens(phrase)}
+    dull = words_of(common.noise)
     words = set(tokens(name)) - dull
     alike = [info.key for info in deck.plates() if words & (set(tokens(info.label)) - dull)]
     return alike[0] if len(alike) == 1 else ""

@@ -14,8 +14,9 @@ from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .drawn_grids import drawn_grid
 from .labware_nouns import LabwareNouns
-from .levels import far_apart, number_in
+from .levels import as_one_of_amounts, far_apart, number_in
 from .plate_maps import refs_of
+from .well_names import WellNames, well_names
 
 _FEWEST = 3
 """So many wells side by side are a table."""
@@ -33,15 +34,15 @@ def maps_in_prose(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     for line, text in (*facts.docstrings, *comment_blocks(facts)):
         lines = text.splitlines()
         for at in range(len(lines)):
-            yield from _grid(deck, nouns, lines, at, line + at)
+            yield from _grid(deck, nouns, well_names(common), lines, at, line + at)
         for table in _tables(lines):
             yield from _of_table(deck, nouns, common, table, line)
 
 
 def _grid(
-    deck: Deck, nouns: LabwareNouns, lines: Sequence[str], at: int, line: int
+    deck: Deck, nouns: LabwareNouns, names: WellNames, lines: Sequence[str], at: int, line: int
 ) -> Iterator[Clue]:
-    wells_of = drawn_grid(lines, at).wells_of
+    wells_of = drawn_grid(lines, at, names).wells_of
     heading = _above(lines, at)
     named = nouns.named(heading) or nouns.kind_in(heading)
     key = _labware(deck, named, [well for wells in wells_of.values() for well in wells])
@@ -123,8 +124,7 @@ def _of_table(
         if len(levels) == len(wells) and level_in(f"1 {title}", common, False) is not None:
             yield Clue(Strength.NAME, heading, wells, line, evidence, subject=False, levels=levels)
             if far_apart(levels):
-                said_so = f"one of several amounts in {evidence}"
-                yield Clue(Strength.LOOSE_NAME, "standard", wells, line, said_so, levels=levels)
+                yield as_one_of_amounts(wells, line, evidence, levels)
         elif aligned and not any(levels):
             for ref, cell in zip(wells, said, strict=True):
                 yield Clue(Strength.NAME, cell, (ref,), line, f"'{cell}' in {evidence}")

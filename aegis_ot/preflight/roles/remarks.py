@@ -19,6 +19,7 @@ from .drawn_grids import drawn_lines
 from .ellipses import with_rows
 from .in_turn import items_after
 from .labware_nouns import LabwareNouns
+from .phrases import words_of
 from .replicates import called_alike
 from .shared_words import Amount, with_shared_words
 from .topics import Topic
@@ -55,7 +56,7 @@ def _of_text(
     topic = Topic(nouns, common)
     amount: Amount | None = None
     lines = _whole_lines(with_rows(text, common).splitlines() or [text], common)
-    drawn = drawn_lines(text.splitlines())
+    drawn = drawn_lines(text.splitlines(), well_names(common))
     for number, written in lines:
         if number in drawn:
             continue  # "E1" may be a code there
@@ -128,7 +129,7 @@ def _laid_out_in_the_run(deck: Deck, common: Common) -> list[tuple[int, str]]:
 
 def _whole_lines(lines: Sequence[str], common: Common) -> Iterator[tuple[int, str]]:
     """Lines by number; one that ends with "in" or the like goes on in the next."""
-    leading = {w for phrase in (*common.joints, *common.toward) for w in tokens(phrase)}
+    leading = words_of((*common.joints, *common.toward))
     begun, first = "", 0
     for number, line in enumerate(lines):
         first = first if begun else number

@@ -11,6 +11,7 @@ from ..rules import Common
 from ..text import SourceFacts, comment_blocks, tokens
 from .clues import Clue, Strength, shortened
 from .deck import Deck
+from .phrases import words_of
 
 _ENTRY = re.compile(
     r"(?:^|[,;/|])\s*#?(\d{1,2})(?!\w)\s*(?:[:=.)]|->|[-–](?=\s))?\s*"
@@ -30,13 +31,13 @@ def trough_legends(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
     ]
     if len(troughs) != 1:
         return
-    words = {word for phrase in common.labware.get("reservoir", ()) for word in tokens(phrase)}
+    words = words_of(common.labware.get("reservoir", ()))
     words |= set(tokens(troughs[0].label)) & set(tokens(troughs[0].load_name))
     called = {
         word for kind in ("trough", "column", "columns") for word in common.layout.get(kind, ())
     }
-    words_of = "|".join(map(re.escape, called)) or "(?!)"
-    number_of = re.compile(rf"(?im)((?:^|[,;/|])\s*)(?:{words_of})\.?\s*(?=\d)")
+    any_called = "|".join(map(re.escape, called)) or "(?!)"
+    number_of = re.compile(rf"(?im)((?:^|[,;/|])\s*)(?:{any_called})\.?\s*(?=\d)")
     for line, text in _blocks(facts):
         # In a list of what is on the deck the reservoir is an entry itself.
         entries = (said for written in text.splitlines() for _, said in _ENTRY.findall(written))

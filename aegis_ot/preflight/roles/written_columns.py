@@ -14,6 +14,7 @@ from ..text import Numbered, SourceFacts, comment_blocks, tokens
 from ..trace import row_column
 from .clauses import parts_of
 from .deck import Deck
+from .phrases import words_of
 from .well_names import well_names
 
 _Said = tuple[frozenset[str], frozenset[int]]
@@ -27,9 +28,7 @@ class WrittenColumns:
         self._deck, self._facts, self._common = deck, facts, common
         self._names = well_names(common)
         self._said: dict[str, list[_Said]] = {}
-        self._dull = {
-            w for kind in common.layout.values() for phrase in kind for w in tokens(phrase)
-        }
+        self._dull = words_of(tuple(word for kind in common.layout.values() for word in kind))
 
     def meant(self, place: Numbered, text: str, numbers: Sequence[int | str]) -> Numbered:
         """A place, counted from 1 where the layout says of these columns what ``text`` does."""
