@@ -1,4 +1,4 @@
-"""Levels that a list tells without a unit, or with one for all: "A1 0, B1 125, C1 250 ug/ml"."""
+"""Levels of a list whose unit is said once: "A1 0, B1 125, C1 250 ug/ml"."""
 
 from __future__ import annotations
 
