@@ -21,7 +21,7 @@ from .instrumentation import NameCollector, Tap, tapped
 from .settings import Settings, load_settings
 
 if TYPE_CHECKING:
-    from .preflight.rehearsal import Recorder
+    from .preflight.rehearsal import Recording
     from .runtime import Watcher
 
 # Which context is guarded, and not merely that one is: a robot server runs the next protocol
@@ -129,7 +129,7 @@ def _rehearse_by_running(
     file_name: str,
     module: Mapping[str, Any],
 ) -> Any:
-    from .preflight.rehearsal import Recorder
+    from .preflight.rehearsal import Recorder, Recording, plain_values
 
     recorder = Recorder() if settings.rules != "off" else None
     watcher = _new_watcher(protocol, settings, file_name)
@@ -146,7 +146,9 @@ def _rehearse_by_running(
         with names.watching(module, text):
             result = _call_watched(call, watcher, tap)
         names.look(module, "<module>", 1)
-    layer1 = _judge(recorder, names.bindings, text, protocol, settings, file_name)
+    values = plain_values(getattr(protocol, "_params", None))
+    recording = Recording(file_name, text, recorder.log, recorder.labware, names.bindings, values)
+    layer1 = _judge(recording, protocol, settings)
     _say(protocol, layer1, watcher)
     return result
 
@@ -155,7 +157,7 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
     """Rehearse and judge before anything moves; what there is to say of it."""
     if settings.rules == "off":
         return ""
-    from .preflight.rehearsal import Recorder, find_script, rehearse
+    from .preflight.rehearsal import Recorder, find_script, recording_of, rehearse
     from .runtime.runstate import RunState
 
     script = find_script(file_name, protocol)
@@ -175,7 +177,7 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
         # A protocol that fails by itself fails with its own error; that is not the guard's to
         # change.
         return f"Layer 1 could not rehearse the protocol: {error}"
-    return _judge(recorder, rehearsal.names, script.text, protocol, settings, file_name)
+    return _judge(recording_of(script, recorder, rehearsal), protocol, settings)
 
 
 def _watched(
@@ -256,14 +258,7 @@ def _text_of(file_name: str, protocol: Any) -> str:
     return script.text if script is not None else ""
 
 
-def _judge(
-    recorder: Recorder,
-    names: Any,
-    text: str,
-    protocol: Any,
-    settings: Settings,
-    file_name: str,
-) -> str:
+def _judge(recording: Recording, protocol: Any, settings: Settings) -> str:
     """Layer 1's summary.
 
     Raises:
@@ -272,11 +267,11 @@ def _judge(
     from .preflight.checking import check_recording, is_rejected, rejection, summary
 
     try:
-        report = check_recording(recorder, names, text, file_name, settings)
+        report = check_recording(recording, settings)
         if settings.opinion == "ask":
             from .preflight.asking import with_opinion
 
-            report = with_opinion(report, recorder, names, text, file_name, settings, protocol)
+            report = with_opinion(report, recording, settings, protocol)
     except AegisError:
         raise
     except Exception as error:  # a fault of ours must not keep a good protocol from running

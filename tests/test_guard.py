@@ -9,6 +9,7 @@ import os
 import sys
 import textwrap
 import time
+from pathlib import Path
 
 import pytest
 from opentrons import simulate
@@ -27,6 +28,11 @@ tubes = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 2, "tu
 tips = protocol.load_labware("opentrons_96_tiprack_300ul", 3)
 p300 = protocol.load_instrument("p300_single_gen2", "left", [tips])
 """
+WITH_PARAMETERS = (
+    Path(__file__).with_name("preflight")
+    / "protocols"
+    / ("columns_from_runtime_parameters_wrong.py")
+)
 GOOD = 'p300.transfer(50, tubes["A1"], plate.wells()[:2], new_tip="always")'
 BAD = """
 template, water, ntc = tubes["A1"], tubes["A2"], plate["H12"]
@@ -452,3 +458,11 @@ def test_a_protocol_after_one_that_could_not_begin_is_guarded():
         return simulated(protocol(GOOD, level="2.11"))
 
     assert "Layer 1: pass" in of_guard(contextvars.Context().run(both))[0]
+
+
+def test_runtime_parameters_say_where_the_controls_are():
+    text = WITH_PARAMETERS.read_text().replace(
+        "def run", "from aegis_ot import guard\n@guard\ndef run"
+    )
+    with pytest.raises(Exception, match="CELL-1.*control well A12"):
+        simulated(text)

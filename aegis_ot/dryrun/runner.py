@@ -18,7 +18,7 @@ from ..errors import AegisError, ConfigurationError, RehearsalError, RunAborted
 from ..guard import guard
 from ..instrumentation import Event, Operation, OperationKind, tapped
 from ..preflight.checking import check_recording, is_rejected, rejection
-from ..preflight.rehearsal import Recorder, Script, play, rehearse
+from ..preflight.rehearsal import Recorder, Script, play, recording_of, rehearse
 from ..runtime import Planner
 from ..settings import load_settings
 from ..sidecar import Analyser, Judged, RunAnalyser, SidecarConfig, running_sidecar
@@ -83,9 +83,8 @@ def dry_run(
     report = None
     if settings.rules != "off":
         guard_settings = load_settings(rules=settings.rules)
-        report = check_recording(
-            recorder, rehearsal.names, script.text, script.file_name, guard_settings
-        )
+        recording = recording_of(script, recorder, rehearsal)
+        report = check_recording(recording, guard_settings)
         progress.checked(report)
         if is_rejected(report) and settings.rules == "on":
             return DryRun(script.file_name, report, (), "rejected", rejection(report))

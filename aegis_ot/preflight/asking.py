@@ -12,12 +12,10 @@ import http.client
 import json
 import threading
 import time
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 from urllib.parse import urlsplit
 
-from ..instrumentation import NameBinding
 from ..settings import Settings
 from ..vocabulary import Undecided, from_json
 from .database import load_database
@@ -26,7 +24,7 @@ from .dossier_making import make_dossier
 from .judging import MODEL, Options, Report, judge
 from .merging import merge, options_with_roles
 from .opinion import Opinion
-from .rehearsal import Recorder, Recording
+from .rehearsal import Recording
 
 LIVE_WAIT_S = 1.0
 """How long a live run waits for an opinion that should be remembered already, s."""
@@ -39,32 +37,20 @@ _GRACE_S = 0.25
 _LONGEST_ANSWER = 1 << 20
 
 
-def with_opinion(
-    report: Report,
-    recorder: Recorder,
-    names: Sequence[NameBinding],
-    text: str,
-    file_name: str,
-    settings: Settings,
-    protocol: Any,
-) -> Report:
+def with_opinion(report: Report, recording: Recording, settings: Settings, protocol: Any) -> Report:
     """The checks' report with the opinion of the sidecar's model merged into it.
 
     Never raises: whatever fails here, the checks' report stands.
 
     Args:
         report: From :func:`~aegis_ot.preflight.checking.check_recording`, of the same recording.
-        recorder: Heard the rehearsal.
-        names: Names that held wells.
-        text: Source of the protocol.
-        file_name: Its name.
+        recording: What the report judges.
         settings: The guard's.
         protocol: The context, for its runtime parameters and for whether a robot waits.
     """
     if settings.sidecar is None or not settings.sidecar.startswith("http"):
         return report
     try:
-        recording = Recording(file_name, text, recorder.log, recorder.labware, names)
         return _asked(report, recording, settings, protocol)
     except Exception as error:
         reason = f"The model's opinion could not be had ({type(error).__name__}: {error})."

@@ -2,40 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from ..instrumentation import NameBinding
 from ..settings import Settings
 from ..vocabulary import Finding, Severity, VerdictWord, counted
 from .database import load_database
 from .judging import Options, Report, judge
 from .opinion import unanswered
-from .rehearsal import Recorder, Recording, Script, record
+from .rehearsal import Recording, Script, record
 from .rules import Database
 
 
-def check_recording(
-    recorder: Recorder,
-    names: Sequence[NameBinding],
-    text: str,
-    file_name: str,
-    settings: Settings,
-) -> Report:
-    """Judge what a rehearsal recorded.
-
-    Args:
-        recorder: Heard the rehearsal.
-        names: Names that held wells.
-        text: Source of the protocol; ``""`` if unknown.
-        file_name: Its name.
-        settings: The guard's.
+def check_recording(recording: Recording, settings: Settings) -> Report:
+    """Judge a rehearsal on record as a guard's settings say.
 
     Raises:
         RuleError: A rule file cannot be used.
         ConfigurationError: A setting names a rule, role or family that does not exist.
     """
     database = load_database([settings.rules_path] if settings.rules_path else [])
-    recording = Recording(file_name, text, recorder.log, recorder.labware, tuple(names))
     return judge(recording, database, Options.from_settings(settings))
 
 

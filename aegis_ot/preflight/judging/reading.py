@@ -87,7 +87,7 @@ class Reading:
 def read_recording(recording: Recording, database: Database, options: Options) -> Reading:
     """Read a recording with the eyes of every family that applies."""
     common = database.common
-    facts = read_source(recording.text)
+    facts = read_source(recording.text, recording.parameters)
     replacements = Replacements(common.pauses, common.layout.get("and", ()))
     trace = build_trace(recording.log, recording.labware, replacements)
     clues = gather(trace, recording.names, facts, options.roles, common)

@@ -5,9 +5,9 @@ Door: :func:`rehearse` runs a :class:`Script` with listeners; a :class:`Recorder
 
 from .interruption import interrupted_after, second_clock
 from .loading import load
-from .parameters import Parameter, declared_parameters, undeclared
+from .parameters import Parameter, declared_parameters, plain_values, undeclared
 from .recorder import Record, Recorder, Step
-from .recording import Recording, record
+from .recording import Recording, record, recording_of
 from .refusals import in_words, line_of
 from .rehearsing import Rehearsal, is_rehearsing, play, rehearse
 from .script import Script, find_home, find_script
@@ -28,8 +28,10 @@ __all__ = [
     "is_rehearsing",
     "line_of",
     "load",
+    "plain_values",
     "play",
     "record",
+    "recording_of",
     "rehearse",
     "second_clock",
     "undeclared",

@@ -103,6 +103,16 @@ def lacking_files(context: Any) -> list[str]:
     return [name for name, value in values.items() if getattr(value, "_contents", b"") is None]
 
 
+def plain_values(parameters: Any) -> dict[str, int | float | str]:
+    """The numbers and texts among the values of a ``Parameters``, by name; ``{}`` for ``None``."""
+    values: Mapping[str, Any] = parameters.get_all() if parameters is not None else {}
+    return {
+        name: value
+        for name, value in values.items()
+        if isinstance(value, (int, float, str)) and not isinstance(value, bool)
+    }
+
+
 def copied_parameters(live: Any) -> Any:
     """A copy of a live run's ``Parameters``; its CSV files are opened anew.
 

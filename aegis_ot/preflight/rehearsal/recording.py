@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ...instrumentation import LabwareInfo, NameBinding
 from .recorder import Record, Recorder
-from .rehearsing import rehearse
+from .rehearsing import Rehearsal, rehearse
 from .script import Script
 
 
@@ -21,6 +21,7 @@ class Recording:
         log: Steps and events, from a :class:`Recorder`.
         labware: Facts of each labware, by key.
         names: Names that held wells.
+        parameters: The numbers and texts that its runtime parameters had.
     """
 
     file: str
@@ -28,6 +29,7 @@ class Recording:
     log: Sequence[Record]
     labware: Mapping[str, LabwareInfo]
     names: Sequence[NameBinding] = ()
+    parameters: Mapping[str, int | float | str] = field(default_factory=dict)
 
 
 def record(script: Script, timeout_s: float = 120.0) -> Recording:
@@ -38,6 +40,16 @@ def record(script: Script, timeout_s: float = 120.0) -> Recording:
     """
     recorder = Recorder()
     rehearsal = rehearse(script, [recorder], timeout_s=timeout_s)
+    return recording_of(script, recorder, rehearsal)
+
+
+def recording_of(script: Script, recorder: Recorder, rehearsal: Rehearsal) -> Recording:
+    """What ``recorder`` heard of a rehearsal, with what the rehearsal yields."""
     return Recording(
-        script.file_name, script.text, recorder.log, rehearsal.labware, rehearsal.names
+        script.file_name,
+        script.text,
+        recorder.log,
+        rehearsal.labware,
+        rehearsal.names,
+        rehearsal.parameters,
     )

@@ -18,7 +18,7 @@ from ...instrumentation import LabwareInfo, Listener, NameBinding, NameCollector
 from .haste import hasty_builtins
 from .interruption import interrupted_after
 from .loading import load
-from .parameters import Limit, copied_parameters, lacking_files, runtime_parameters
+from .parameters import Limit, copied_parameters, lacking_files, plain_values, runtime_parameters
 from .refusals import is_unexecuted, never_executed, stopped
 from .script import Script
 from .simulated_context import simulated_context
@@ -40,10 +40,12 @@ class Rehearsal:
     Attributes:
         names: Names that held wells.
         labware: Every labware of the run, by key.
+        parameters: The numbers and texts that its runtime parameters had.
     """
 
     names: tuple[NameBinding, ...]
     labware: Mapping[str, LabwareInfo]
+    parameters: Mapping[str, int | float | str]
 
 
 def rehearse(
@@ -86,7 +88,8 @@ def rehearse(
 
             namespace = {"__builtins__": hasty_builtins()}
             names.look(_perform(protocol, context, watched, limit, namespace), "<module>", 1)
-            return Rehearsal(names.bindings, dict(tap.wells.labware))
+            values = plain_values(context._params)
+            return Rehearsal(names.bindings, dict(tap.wells.labware), values)
     finally:
         _REHEARSING.reset(token)
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
+from collections.abc import Mapping
+from typing import Any
 
 from .comments import read_blocks, read_comments, read_item_notes
 from .facts import SourceFacts
@@ -15,15 +17,20 @@ from .syntax import SyntaxReader
 from .written_levels import read_written_levels
 
 
-def read_source(text: str) -> SourceFacts:
-    """Read a protocol's text. Text that does not parse yields what its comments say."""
+def read_source(text: str, parameters: Mapping[str, Any] | None = None) -> SourceFacts:
+    """Read a protocol's text. Text that does not parse yields what its comments say.
+
+    Args:
+        text: The source.
+        parameters: Values of its runtime parameters, which count as constants.
+    """
     facts = SourceFacts()
     read_comments(text, facts)
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError):
         return facts
-    SyntaxReader(facts).visit_module(tree)
+    SyntaxReader(facts, parameters or {}).visit_module(tree)
     read_records(tree, facts)
     read_written_levels(facts)
     read_flow(tree, facts)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
 from ...instrumentation import is_spot
 from .facts import Place, SourceFacts
@@ -33,8 +34,9 @@ _SIDES: dict[str, dict[int | str, str]] = {
 class SyntaxReader:
     """Walks a parsed protocol and notes what it finds."""
 
-    def __init__(self, facts: SourceFacts) -> None:
+    def __init__(self, facts: SourceFacts, parameters: Mapping[str, Any]) -> None:
         self._facts = facts
+        self._parameters = parameters
         self._documents: set[int] = set()
         self._in_part: set[int] = set()
         self._kinds: set[str] = set()
@@ -72,6 +74,8 @@ class SyntaxReader:
                     *arguments.kwonlyargs,
                 ):
                     facts.loose.add((function, argument.arg))
+        for name, given in self._parameters.items():
+            facts.constants.setdefault(name, given)
         self._functions(tree, "<module>")
         self._in_part = taken_in_part(tree)
         for node in ast.walk(tree):
@@ -125,8 +129,16 @@ class SyntaxReader:
         literal = written_value(value, self._kinds)
         if literal is None:
             literal = fields_of(value, self._kinds)
+        if literal is None:
+            literal = self._given(value)
         if literal not in (None, {}, [], ()):  # what is filled in the run is no constant
             facts.constants.setdefault(name, literal)
+
+    def _given(self, value: ast.expr) -> Any:
+        """What ``protocol.params.column`` and ``int(p.column)`` were in the rehearsal."""
+        if isinstance(value, ast.Call) and last_name(value.func) in ("int", "str", "float"):
+            value = value.args[0] if len(value.args) == 1 else value
+        return self._parameters.get(value.attr) if isinstance(value, ast.Attribute) else None
 
     def _functions(self, node: ast.AST, function: str) -> None:
         for child in ast.iter_child_nodes(node):
