@@ -464,5 +464,5 @@ def test_runtime_parameters_say_where_the_controls_are():
     text = WITH_PARAMETERS.read_text().replace(
         "def run", "from aegis_ot import guard\n@guard\ndef run"
     )
-    with pytest.raises(Exception, match="CELL-1.*control well A12"):
+    with pytest.raises(Exception, match=r"CELL-1.*control well A12"):
         simulated(text)

@@ -86,6 +86,11 @@ def check(
     one_of("--format", output_format, tuple(RENDERERS))
     if baseline and write_baseline:
         raise ConfigurationError("--baseline and --write-baseline cannot be given together.")
+    if write_baseline and output:
+        raise ConfigurationError(
+            "--output and --write-baseline cannot be given together: a baseline is all that is "
+            "written then."
+        )
     files = _each_once(files)
     projects = []
     for configured, own in configurations_of(files, Path.cwd()):

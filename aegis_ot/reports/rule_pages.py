@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from ..errors import RuleError
 from ..preflight.checks import CHECKS
 from ..preflight.rules import Database, Example, Family, RoleSpec, RuleSpec
 from .field_page import field_page, parameters
@@ -23,12 +24,25 @@ _OPTIONAL = {"required": "", "none": " (optional)"}
 
 
 def rule_pages(database: Database) -> dict[str, str]:
-    """All pages, by file name: an index, one page per family, those of checks and of fields."""
-    pages = {"README.md": "\n".join(_index(database)) + "\n"}
+    """All pages, by file name: an index, one page per family, those of checks and of fields.
+
+    Raises:
+        RuleError: A family has the name of one of the other pages.
+    """
+    pages = {
+        "README.md": "\n".join(_index(database)) + "\n",
+        "checks.md": "\n".join(_checks(database)) + "\n",
+        "fields.md": field_page(_CODE_HEAD),
+    }
+    taken = {name.casefold() for name in pages}
     for family in database.families:
-        pages[f"{family.family}.md"] = "\n".join(_family(family)) + "\n"
-    pages["checks.md"] = "\n".join(_checks(database)) + "\n"
-    pages["fields.md"] = field_page(_CODE_HEAD)
+        name = f"{family.family}.md"
+        if name.casefold() in taken:
+            raise RuleError(
+                f"{family.path}: family: the page {name} is not about a family; "
+                f"give {family.family} another name"
+            )
+        pages[name] = "\n".join(_family(family)) + "\n"
     return pages
 
 

@@ -208,6 +208,7 @@ WRONG: list[tuple[list[str], str]] = [
     (["check", "good.py", "--baseline", "nowhere.json"], "--write-baseline"),
     (["check", "good.py", "--baseline", "notes.json"], "no baseline file"),
     (["check", "good.py", "--baseline", "a", "--write-baseline", "b"], "together"),
+    (["check", "good.py", "--output", "a", "--write-baseline", "b"], "together"),
     (["check", "good.py", "--no-such-option"], "No such option"),
     (["chekc", "good.py"], "No such command"),
     (["explain", "PCR-22"], "did you mean PCR-2"),

@@ -52,6 +52,18 @@ def test_a_users_own_family_is_tested_and_a_broken_promise_reported(
     assert f"OUR-1: {bad['title']}: the rule finds nothing" in broken.out
 
 
+def test_a_family_takes_no_page_of_the_docs(aegis: Command, tmp_path: Path) -> None:
+    family = json.loads((shipped_rules() / "generic.json").read_text(encoding="utf-8"))
+    family.update(family="Checks", default=False)
+    family["rules"][0]["id"] = "OUR-1"
+    del family["rules"][1:]
+    (tmp_path / "ours.json").write_text(json.dumps(family), encoding="utf-8")
+    result = aegis("rules", "docs", "--out", "pages", "--rules", "ours.json")
+    assert result.code == 2
+    assert "ours.json: family: the page Checks.md is not about a family" in result.err
+    assert not (tmp_path / "pages").exists()
+
+
 def test_rules_that_cannot_be_used_end_in_a_message(aegis: Command, tmp_path: Path) -> None:
     (tmp_path / "none").mkdir()
     (tmp_path / "deep.json").write_text("[" * 100_000, encoding="utf-8")
