@@ -18,9 +18,10 @@ from .channels import spread_over_channels
 from .choosing import A_FEW, Candidate, choose
 from .clues import Clue, Strength
 from .fitting import fitting_role, is_for_controls
+from .for_all import unsay_for_all
 from .given_on import unsay_contents
 from .helpers import unsay_controls
-from .labware_roles import called_after, of_several, shared
+from .labware_roles import called_after, held_before, named_apart, of_several, shared
 from .levels import levels_beside, levels_of
 from .phrases import (
     is_outright,
@@ -73,6 +74,7 @@ def assign_roles(
     misplaced: list[Clue] = []
     holding = of_several(clues, lexicon, common, roles)
     holding_of = called_after(clues, lexicon, common)
+    apart = named_apart(clues, lexicon, common)
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
         named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
         plural = clue.text.endswith(_PLURAL) and len(clue.wells) >= _SEVERAL
@@ -120,6 +122,8 @@ def assign_roles(
                 for_controls.add(ref)
             if role is None or (passing and in_trough(trace, ref.labware)):
                 continue
+            if clue.whole and ref in apart.get(clue.text, ()):
+                continue
             placed = True
             if not clue.step and clue.strength >= Strength.DESCRIPTION and not clue.whole:
                 named_outright.add(role)
@@ -161,9 +165,10 @@ def assign_roles(
             counted = any(map(str.isdigit, assignment.text))
             if told and counted and spec.level is not None and spec.parents:
                 assignment.role, assignment.level = spec.parents[0], told  # "S0 1.6 mg/ml"
-    unsay_contents(roles, trace, _holding(roles, candidates))
+    unsay_contents(roles, trace, held_before(roles, candidates))
     spread_over_channels(roles, trace, candidates)
     unsay_controls(roles, trace)
+    unsay_for_all(roles, trace)
     spread_over_replicates(roles, trace)
     return roles
 
@@ -274,19 +279,6 @@ def _is_beside_named(
         not clue.whole and not clue.step and clue.strength >= Strength.LOOSE_NAME
         for _, _, clue, _ in named
     )
-
-
-def _holding(roles: Roles, candidates: Mapping[WellRef, Sequence[Candidate]]) -> set[str]:
-    """Labware that its label, its name or a liquid says to have held something before the run."""
-    return {
-        ref.labware
-        for ref, found in candidates.items()
-        if any(
-            roles.family.roles[role].implies_contents
-            and (clue.whole or clue.strength is Strength.LIQUID)
-            for _, role, clue, _ in found
-        )
-    }
 
 
 def _worth(clue: Clue, side_only: bool, of_the_labware: bool) -> tuple[float, ...]:

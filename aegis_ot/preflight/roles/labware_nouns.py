@@ -109,15 +109,19 @@ class LabwareNouns:
 
     def kind_in(self, text: str) -> frozenset[str]:
         """The one labware of a kind that a text speaks of: "vials", "strip"."""
+        found = self.of_kinds_in(text)
+        return found if len(found) == 1 else frozenset()
+
+    def of_kinds_in(self, text: str) -> frozenset[str]:
+        """All labware of the kinds that a text speaks of."""
         words = _with_singulars(tokens(text))
-        found = {
+        return frozenset(
             info.key
             for kind in self._kinds
             if kind & words
             for info in self._deck.plates()
             if kind & set(tokens(info.load_name))
-        }
-        return frozenset(found) if len(found) == 1 else frozenset()
+        )
 
     def heading(self, line: str) -> frozenset[str]:
         """What a line speaks of that begins with a noun and a colon."""

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 
+from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import Lexicon
-from .clues import Clue
-from .phrases import names_several, roles_named
+from ..text import Lexicon, tokens
+from .choosing import A_FEW, Candidate
+from .clues import Clue, Strength
+from .phrases import first_words, names_any, names_several, roles_named
 from .roles import Roles
 
 
@@ -39,3 +42,53 @@ def called_after(
 def shared(clue: Clue, holding: Mapping[str, set[str]]) -> list[set[str]]:
     """What the labware of a clue hold that are known to hold several kinds of things."""
     return [holding[key] for key in {ref.labware for ref in clue.wells} & holding.keys()]
+
+
+def named_apart(
+    clues: Sequence[Clue], lexicon: Lexicon, common: Common
+) -> dict[str, frozenset[WellRef]]:
+    """For each label of several things, the wells whose own name is one that says no role.
+
+    `stain` in "treatments and stain" is no treatment.
+    """
+    own: dict[WellRef, set[str]] = {}
+    for clue in clues:
+        if not clue.whole and not clue.step and clue.strength >= Strength.NAME:
+            for ref in clue.wells if len(clue.places) <= A_FEW else ():
+                own.setdefault(ref, set()).update(tokens(clue.text))
+    found: dict[str, frozenset[WellRef]] = {}
+    for clue in clues:
+        others = _roleless_words(clue.text, lexicon, common) if clue.whole else frozenset()
+        if others:
+            found[clue.text] = frozenset(
+                ref for ref in clue.wells if not others.isdisjoint(own.get(ref, ()))
+            )
+    return found
+
+
+def _roleless_words(text: str, lexicon: Lexicon, common: Common) -> frozenset[str]:
+    """The words of those parts of a label that name no role, where others do."""
+    joining = first_words(common.joining)
+    parts: list[str] = [""]
+    for piece in re.split(r"(\W+)", text):
+        if set(piece) & set(",;/+&") or not joining.isdisjoint(tokens(piece)):
+            parts.append("")
+        else:
+            parts[-1] += piece
+    silent = [part for part in parts if not names_any(lexicon, part)]
+    if len(silent) == len(parts):
+        return frozenset()
+    return frozenset(tokens(" ".join(silent))) - first_words(common.noise)
+
+
+def held_before(roles: Roles, candidates: Mapping[WellRef, Sequence[Candidate]]) -> set[str]:
+    """Labware that its label, its name or a liquid says to have held something before the run."""
+    return {
+        ref.labware
+        for ref, found in candidates.items()
+        if any(
+            roles.family.roles[role].implies_contents
+            and (clue.whole or clue.strength is Strength.LIQUID)
+            for _, role, clue, _ in found
+        )
+    }

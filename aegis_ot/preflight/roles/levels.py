@@ -63,7 +63,10 @@ def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:
             return several if alike else (None,) * count
         if clue.step:  # "row H = blank" beside a loop is one of them
             return (concentration_in(clue.text),) * count
-    return (level_in(clue.text, common, plain_numbers=clue.subject),) * count
+    level = level_in(clue.text, common, plain_numbers=clue.subject)
+    if level == 0 and count > 1 and any(numbers_in_order(clue.text)):
+        return (None,) * count  # "blank, 250 ... 2000": one of them is the blank
+    return (level,) * count
 
 
 def _is_block(clue: Clue) -> bool:

@@ -79,11 +79,12 @@ def joins_others(lexicon: Lexicon, text: str, common: Common) -> bool:
             parts[-1] += piece
     if len(parts) == 1:
         return False
-    named = [_names_any(lexicon, part) for part in parts]
+    named = [names_any(lexicon, part) for part in parts]
     return any(named) and not all(named)
 
 
-def _names_any(lexicon: Lexicon, text: str) -> bool:
+def names_any(lexicon: Lexicon, text: str) -> bool:
+    """Whether a text has a word for any role."""
     return any(not match.topic.startswith("!") for match in lexicon.find(text))
 
 
@@ -246,6 +247,13 @@ def without_position(name: str, common: Common) -> str:
     if len(words) < 2 or words[-1] not in first_words(common.positions):
         return name
     return " ".join(words[:-1]) + bracket + key
+
+
+def told_once(name: str) -> str:
+    """A field without the words that its record's name has: ``NO_DNA.dna_tube`` holds no DNA."""
+    record, dot, field = name.rpartition(".")
+    told = set(tokens(record))
+    return f"{record}.{' '.join(w for w in tokens(field) if w not in told)}" if dot else name
 
 
 def says_only_the_side(clue: Clue, common: Common) -> bool:

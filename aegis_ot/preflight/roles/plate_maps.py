@@ -11,6 +11,7 @@ from ..rules import Common
 from ..text import Place, SourceFacts, concentration_in, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import MOST_TUBES, Deck
+from .labware_nouns import LabwareNouns
 from .levels import far_apart, is_number, names_amounts, names_counts, number_in
 from .phrases import without_position, words_of
 from .well_names import plain_name, wells_between
@@ -80,8 +81,17 @@ def labware_of_map(
             alike = called_alike(deck, name, common)
             return (alike,) if alike in used else ()
         used = _alike(deck, used, spots)
-    one = () if used else (called_alike(deck, name, common) or deck.most_likely(spots),)
-    return used or tuple(key for key in one if key)
+    return used or _unused(deck, name, spots, common)
+
+
+def _unused(deck: Deck, name: str, spots: Sequence[str], common: Common) -> tuple[str, ...]:
+    """The one labware that a map speaks of which the run does not use: ``RESERVOIR_MAP``."""
+    nouns = LabwareNouns(deck, common)
+    called = nouns.named(name) or nouns.kind_in(name)
+    if called:
+        return tuple(called)
+    one = called_alike(deck, name, common) or deck.most_likely(spots)
+    return (one,) if one and one in (nouns.of_kinds_in(name) or (one,)) else ()
 
 
 def _is_stamped(deck: Deck, keys: Sequence[str], spots: Sequence[str]) -> bool:
@@ -108,12 +118,17 @@ def refs_of(deck: Deck, labware: Sequence[str], spots: Iterable[str]) -> Iterato
 
 
 def used_with(deck: Deck, facts: SourceFacts, name: str) -> tuple[str, ...]:
-    """The labware that is indexed by this constant, straight or in a comprehension."""
-    keys: set[str] = set()
+    """The labware that is indexed by this constant, straight or in a comprehension.
+
+    Only where all indices are made of parts of it, that which is indexed by these.
+    """
+    straight: set[str] = set()
+    by_parts: set[str] = set()
     for place in facts.places:
         if name in origins(facts, place.names, (place.line,)):
-            keys |= deck.by_name.get(place.labware) or _listed(deck, facts, place)
-    return tuple(sorted(keys))
+            keys = deck.by_name.get(place.labware) or _listed(deck, facts, place)
+            (by_parts if place.made else straight).update(keys)
+    return tuple(sorted(straight or by_parts))
 
 
 def _listed(deck: Deck, facts: SourceFacts, place: Place) -> set[str]:

@@ -15,7 +15,7 @@ from .clues import Clue, Strength
 from .deck import Deck
 from .levels import names_amounts, names_counts, number_in
 from .named_levels import numeric_keys
-from .phrases import without_position
+from .phrases import told_once, without_position
 from .plate_maps import labware_by_field, labware_of_map, refs_of, used_with
 from .well_names import plain_name
 from .work_lists import drawn_and_filled, is_work_list, labware_by_key, labware_in
@@ -28,6 +28,7 @@ def spotted_names(
     loose = {name for _, name in facts.loose}
     keyed = numeric_keys(names)
     decks = lexicon_of({"deck": common.decks})
+    shared = _shared_cells(names)
     for binding in names:
         base = binding.name.split("[", 1)[0]
         if not binding.spots or base in facts.constants or base in loose or decks.find(base):
@@ -35,6 +36,8 @@ def spotted_names(
         record, dot, field = base.partition(".")
         if dot and (binding.function, record) in facts.loops:
             continue  # the field of the last row only; see tabled_wells
+        if dot and any((field, spot) in shared for spot in binding.spots):
+            continue  # the field of another row as well
         standing = labware_by_field(deck, facts, record).get(field, ()) if dot else ()
         wells = tuple(refs_of(deck, standing, binding.spots)) or tuple(
             drawn_and_filled(deck, used_with(deck, facts, base), binding.spots)
@@ -47,12 +50,18 @@ def spotted_names(
             level = keyed.get(binding.name)
             yield Clue(
                 Strength.NAME,
-                without_position(binding.name, common),
+                without_position(told_once(binding.name), common),
                 wells,
                 line,
                 f"plate map `{binding.name}` at line {line}",
                 levels=() if level is None else (level,) * len(wells),
             )
+
+
+def _shared_cells(names: Sequence[NameBinding]) -> set[tuple[str, Any]]:
+    """Columns with a value that stands in several rows of one table."""
+    counts = (Counter(cell for row in b.rows for cell in set(row.cells)) for b in names)
+    return {cell for count in counts for cell, times in count.items() if times > 1}
 
 
 def tabled_wells(

@@ -22,6 +22,7 @@ class Place:
         line: Where it stands.
         keys: Keys and attributes in the index: ``"tube"`` in ``rack[row["tube"]]``.
         partly: Whether only some of what stands there is taken: ``plate.columns()[NTC][:6]``.
+        made: Whether the index is put together: ``plate[well[0] + "3"]``.
     """
 
     labware: str
@@ -31,6 +32,7 @@ class Place:
     line: int
     keys: tuple[str, ...] = ()
     partly: bool = False
+    made: bool = False
 
 
 @dataclass(frozen=True)

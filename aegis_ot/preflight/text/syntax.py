@@ -224,6 +224,7 @@ class SyntaxReader:
                     line,
                     tuple(keys_in(index)),
                     partly,
+                    not isinstance(index, (ast.Name, ast.Attribute, ast.Subscript)),
                 )
             )
 
