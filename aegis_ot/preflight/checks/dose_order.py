@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
-from ..text import lexicon_of, name_without_level
+from ..text import comparable, lexicon_of, name_without_level
 from ..trace import Met, Visit, Well
 from .base import (
     Case,
@@ -97,6 +97,8 @@ class DoseOrder(Check):
         mine = case.level(origin)
         own = [case.level(other) for other in here]
         what = f"{case.title(origin)} from {place(origin)}"
+        if mine is not None and any(one is not None and not comparable(mine, one) for one in own):
+            mine = None  # of different scales
         if here and mine is not None and all(level is not None for level in own):
             same = all(_compound(case, origin) == _compound(case, other) for other in here)
             if same and all(level is not None and mine <= level for level in own):

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
+from ..text import comparable
 from ..trace import Visit, Well
 from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
 
@@ -181,7 +182,7 @@ class RisingOrder(Check):
                 level = case.level(source)
                 before = last.get(key)
                 if before is not None and before[0] is not source:
-                    if before[1] is None or level is None:
+                    if before[1] is None or level is None or not comparable(before[1], level):
                         seen = visited.get(key, {})
                         if source in seen and len(seen) >= _A_SERIES and (*key, 0) not in done:
                             done.add((*key, 0))

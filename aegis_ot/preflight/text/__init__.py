@@ -7,6 +7,7 @@ from .legends import legend_of
 from .levels import (
     UNITS,
     amounts_in,
+    comparable,
     concentration_in,
     concentrations_in,
     direction_in,
@@ -32,6 +33,7 @@ __all__ = [
     "Values",
     "amounts_in",
     "comment_blocks",
+    "comparable",
     "concentration_in",
     "concentrations_in",
     "direction_in",

@@ -38,6 +38,17 @@ _UNITS: dict[str, float] = {
     "x": 1.0,
 }
 
+
+class Concentration(float):
+    """A level that has a unit, in the units above; plain numbers are on a scale of their own."""
+
+
+def comparable(one: float, other: float) -> bool:
+    """Whether two levels are on one scale: both with a unit, or both without; 0 is on any."""
+    of_one_kind = isinstance(one, Concentration) == isinstance(other, Concentration)
+    return of_one_kind or not (one and other)
+
+
 _WITH_UNIT = re.compile(
     r"(?<![A-Za-z.\d])(\d+(?:[.,p]\d+)?)[\s_]*"
     r"((?:pg|ng|ug|mg)\s*(?:/|per|_)\s*(?:ul|ml|l)|g/l|pm|nm|um|mm|m|%|x)(?![a-z])",
@@ -66,7 +77,7 @@ def level_in(text: str, common: Common, plain_numbers: bool = True) -> float | N
     found = _WITH_UNIT.findall(plain)
     # "3 uM (100x)" is 3 uM, and "1 mM in 0.5 % DMSO" is 1 mM.
     found = [(v, unit) for v, unit in found if unit not in ("%", "x")] or found
-    with_unit = {_number(value) * _UNITS.get(_unit(unit), 1.0) for value, unit in found}
+    with_unit = {_with_unit(value, unit) for value, unit in found}
     if len(with_unit) == 1:
         return with_unit.pop()
     if with_unit:
@@ -96,7 +107,7 @@ def concentrations_in(text: str) -> set[float]:
     """All concentrations with a unit that a text states; per cent and "10x" are none."""
     plain = with_u(text).lower()
     return {
-        _number(value) * _UNITS.get(_unit(unit), 1.0)
+        _with_unit(value, unit)
         for value, unit in _WITH_UNIT.findall(plain)
         if unit not in ("%", "x")
     }
@@ -194,13 +205,13 @@ def amounts_in(text: str) -> Iterator[tuple[re.Match[str], float]]:
     """Each concentration with a unit, where it stands in a text."""
     for match in _AMOUNT.finditer(_plain(text)):
         if match[2]:
-            yield match, _number(match[1]) * _UNITS[match[2].lower()]
+            yield match, Concentration(_number(match[1]) * _UNITS[match[2].lower()])
 
 
 def _in_units(amounts: Sequence[tuple[float, str]]) -> tuple[float, ...]:
     """The levels of some amounts, of which the last one's unit holds for those without any."""
     last = amounts[-1][1]
-    return tuple(n * _UNITS[unit or last] for n, unit in amounts) if last else ()
+    return tuple(Concentration(n * _UNITS[unit or last]) for n, unit in amounts) if last else ()
 
 
 def _level_words(common: Common) -> Lexicon:
@@ -209,6 +220,10 @@ def _level_words(common: Common) -> Lexicon:
 
 def _direction_words(common: Common) -> Lexicon:
     return lexicon_of({"rising": common.rising, "falling": common.falling})
+
+
+def _with_unit(value: str, unit: str) -> Concentration:
+    return Concentration(_number(value) * _UNITS.get(_unit(unit), 1.0))
 
 
 def _unit(unit: str) -> str:
