@@ -113,6 +113,9 @@ class _Builder:
             self._box.replace_all_racks()
         for key in said.replaced:
             self._replace(key)
+        for key in said.returned:
+            if not self._plates.is_used(key):
+                self._replace(key)  # what comes back for the first time was filled elsewhere
         if said.volumes_unsure:
             self._plates.forget_volumes(said.touched, reckon=not said.refilled)
 

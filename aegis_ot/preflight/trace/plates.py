@@ -49,6 +49,10 @@ class Plates:
                 well.fill_before_run(None)
         return well
 
+    def is_used(self, key: str) -> bool:
+        """Whether the run has been in a well of the plate that stands there now."""
+        return any(ref.labware == key and well.visits for ref, well in self._current.items())
+
     def replace(self, key: str) -> None:
         """Another plate stands for this labware from now on."""
         self._generation[key] = self._generation.get(key, 0) + 1

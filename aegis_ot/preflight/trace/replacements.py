@@ -16,12 +16,19 @@ from ..text import lexicon_of, tokens
 _SLOT = re.compile(r"\b(?:[A-Da-d][1-4]|\d{1,2})\b")
 
 
+_WAYS = ("back", "elsewhere")
+"""Where a plate went, in the order of the words: "to the incubator, then back to slot 1"."""
+
+_APART = (*_WAYS, "trough")
+
+
 @dataclass(frozen=True)
 class Intervention:
     """What one pause message says.
 
     Attributes:
         replaced: Keys of labware that are new afterwards.
+        returned: Keys of labware that was away meanwhile, and is back.
         all_tips: Whether used tips were replaced.
         shaken: Whether plates were mixed by hand or on a shaker.
         volumes_unsure: Whether wells may have been filled or emptied by hand.
@@ -36,6 +43,7 @@ class Intervention:
     volumes_unsure: bool = False
     refilled: bool = False
     touched: frozenset[str] | None = None
+    returned: frozenset[str] = frozenset()
 
 
 @dataclass
@@ -44,7 +52,7 @@ class Replacements:
 
     Args:
         words: Phrases by topic: ``replace``, ``plate``, ``tips``, ``refill``,
-            ``shake``, ``away``, ``spin``, ``trough``.
+            ``shake``, ``away``, ``spin``, ``trough``, ``back``, ``elsewhere``.
         joining: Words for "and".
     """
 
@@ -57,8 +65,9 @@ class Replacements:
             rf"(?i:\bslots?\W{{0,3}}{_SLOT.pattern}(?:(?:{joint})+\s*{_SLOT.pattern})*)"
         )
         self._lexicon = lexicon_of(
-            {topic: tuple(words) for topic, words in self.words.items() if topic != "trough"}
+            {topic: tuple(words) for topic, words in self.words.items() if topic not in _APART}
         )
+        self._ways = lexicon_of({topic: tuple(self.words.get(topic, ())) for topic in _WAYS})
         self._plates = lexicon_of({"plate": tuple(self.words.get("plate", ()))})
         self._troughs = lexicon_of({"trough": tuple(self.words.get("trough", ()))})
 
@@ -95,17 +104,16 @@ class Replacements:
                     refilled=True,
                     touched=frozenset(named),
                 )
-        away = "replace" in topics or "away" in topics
-        if away and ("spin" not in topics or "replace" in topics):
-            plates = named or {
-                key
-                for key, info in labware.items()
-                if not info.is_tip_rack
-                and not info.is_trash
-                and len(info.wells) >= 6
-                and not info.centers_channels
-            }
-            return Intervention(frozenset(plates), "tips" in topics, shaken, refill, refill)
+        ways = [match.topic for match in self._ways.find(text)]
+        gone = "away" in topics or "back" in ways
+        new = "replace" in topics
+        if new or (gone and "spin" not in topics):
+            plates = frozenset(named or _plates_of(labware))
+            if new or ways[-1:] != ["back"]:
+                return Intervention(plates, "tips" in topics, shaken, refill, refill)
+            return Intervention(
+                frozenset(), "tips" in topics, shaken, True, refill, plates, returned=plates
+            )
         unsure = refill or not topics
         touched = frozenset(named) or None
         return Intervention(frozenset(), "tips" in topics, shaken, unsure, refill, touched)
@@ -133,3 +141,18 @@ class Replacements:
             if slot in listed or (label and f" {label} " in joined):
                 found.add(key)
         return found
+
+
+def _plates_of(labware: Mapping[str, LabwareInfo]) -> set[str]:
+    """What somebody who says "the plate" may have taken."""
+    return {
+        key
+        for key, info in labware.items()
+        if not info.is_tip_rack
+        and not info.is_trash
+        and len(info.wells) >= _FEWEST_WELLS
+        and not info.centers_channels
+    }
+
+
+_FEWEST_WELLS = 6
