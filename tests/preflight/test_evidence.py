@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from aegis_ot.preflight import Database, Options, Report, Script, check_script, load_database
@@ -78,3 +80,13 @@ def test_evidence_that_conflicts_is_told_once_for_all_its_wells(database: Databa
     assert "4:H12" in told[0]
     assert "`ntc`" in told[0]
     assert "`positive_control`" in told[0]
+
+
+def test_what_is_said_of_all_doses_alike_is_no_dose(database: Database) -> None:
+    path = Path(__file__).parent / "protocols" / "cell_doses_of_a_dataclass_falling.py"
+    text = path.read_text(encoding="utf-8")
+    for said, untold in (("500.0", "'north'"), ("50.0", "'east'"), ("5.0", "'south'")):
+        text = text.replace(f"Arm({said}", f"Arm({untold}")
+    report = check_script(Script(text, "p.py"), database, Options(select=("CELL-4",)))
+    assert report.findings == ()
+    assert [question.rule for question in report.undecided] == ["CELL-4"]

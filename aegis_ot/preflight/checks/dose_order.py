@@ -181,6 +181,8 @@ def _in_one_list(case: Case, one: Well, other: Well) -> bool:
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
     if mine is None or theirs is None:
         return mine is theirs  # nothing is said of either
+    if one.liquids and one.liquids == other.liquids and not one.liquids[0].endswith("s"):
+        return True  # one liquid that is loaded in several wells: "Inhibitor", not "Compounds"
     kinds = lexicon_of({"distinct": case.common.distinct, "dosed": case.common.dose_words})
     said = {match.topic for match in kinds.find(mine.text)}
     labware = case.trace.labware.get(one.ref.labware)

@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from ...instrumentation import OperationKind
-from ..text import name_without_level
+from ..text import name_without_level, without_strength
 from ..trace import Well
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ def is_same_liquid(case: Case, one: Well, other: Well) -> bool:
     if (
         one.liquids
         and one.liquids == other.liquids
-        and any(map(str.isdigit, one.liquids[0]))
+        and any(map(str.isdigit, without_strength(one.liquids[0])))
         and case.level(one) == case.level(other)
     ):
         return True

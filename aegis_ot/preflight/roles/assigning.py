@@ -7,7 +7,6 @@ unsaid: a well without evidence has no role, and rules that need one are undecid
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
@@ -22,7 +21,7 @@ from .for_all import unsay_for_all
 from .given_on import unsay_contents
 from .helpers import unsay_controls
 from .labware_roles import called_after, held_before, named_apart, of_several, shared
-from .levels import levels_beside, levels_of
+from .levels import are_one, levels_beside, levels_of, without_lone_middle
 from .phrases import (
     is_outright,
     joins_others,
@@ -38,6 +37,7 @@ from .phrases import (
 )
 from .replicates import spread_over_replicates
 from .roles import Roles
+from .strengths import unsay_strengths
 from .usage import Sides, Usage, in_trough
 
 
@@ -57,6 +57,7 @@ def assign_roles(
         usage: How the run uses each well.
         trace: For the columns that multi-channel pipettes reach.
     """
+    common = without_lone_middle(common, clues)
     roles = Roles(family)
     lexicon = role_words(family, common)
     candidates: dict[WellRef, list[Candidate]] = {}
@@ -165,6 +166,7 @@ def assign_roles(
             counted = any(map(str.isdigit, assignment.text))
             if told and counted and spec.level is not None and spec.parents:
                 assignment.role, assignment.level = spec.parents[0], told  # "S0 1.6 mg/ml"
+    unsay_strengths(roles, common)
     unsay_contents(roles, trace, held_before(roles, candidates))
     spread_over_channels(roles, trace, candidates)
     unsay_controls(roles, trace)
@@ -210,16 +212,7 @@ def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, floa
             if level is not None:
                 levels.setdefault(ref, set()).add(level)
     told = {**of_several, **of_each}
-    return {ref: min(levels) for ref, levels in told.items() if _are_one(levels)}
-
-
-def _are_one(levels: set[float]) -> bool:
-    """Whether levels are one, told with a unit and without: 250 and, in "ug/ml", 0.25."""
-    times = max(levels) / min(levels) if min(levels) > 0 else 0.0
-    return len(levels) == 1 or any(math.isclose(times, units) for units in _UNITS_APART)
-
-
-_UNITS_APART = (1e3, 1e6, 1e9)
+    return {ref: min(levels) for ref, levels in told.items() if are_one(levels)}
 
 
 _SEVERAL = 3

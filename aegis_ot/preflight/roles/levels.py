@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 from ...vocabulary import WellRef
@@ -42,6 +43,20 @@ def levels_beside(clue: Clue, common: Common) -> tuple[float | None, ...]:
         return ()
     level = level_in(clue.text, common, plain_numbers=False)
     return () if level is None else (level,) * len(clue.wells)
+
+
+def without_lone_middle(common: Common, clues: Iterable[Clue]) -> Common:
+    """Without the words for a middle level where no clue names what it lies between.
+
+    "HEK293 in 100 uL medium" tells what the cells stand in.
+    """
+    middle = common.levels.get("middle")
+    words = lexicon_of({word: (word,) for word, level in common.levels.items() if level})
+    told = {common.levels[match.topic] for clue in clues for match in words.find(clue.text)}
+    if told != {middle}:
+        return common
+    kept = {word: level for word, level in common.levels.items() if level != middle}
+    return replace(common, levels=kept)
 
 
 def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:
@@ -142,3 +157,12 @@ def far_apart(numbers: Collection[float]) -> bool:
 def are_amounts(numbers: Collection[float]) -> bool:
     """Whether these count nothing and name no places: decimals, and numbers far apart."""
     return far_apart(numbers) or any(number % 1 for number in numbers)
+
+
+def are_one(levels: Collection[float]) -> bool:
+    """Whether levels are one, told with a unit and without: 250 and, in "ug/ml", 0.25."""
+    times = max(levels) / min(levels) if min(levels) > 0 else 0.0
+    return len({*levels}) == 1 or any(math.isclose(times, units) for units in _UNITS_APART)
+
+
+_UNITS_APART = (1e3, 1e6, 1e9)

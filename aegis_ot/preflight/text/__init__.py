@@ -17,6 +17,7 @@ from .levels import (
     numbers_in_order,
     unit_in,
     with_u,
+    without_strength,
 )
 from .lines import source_lines
 from .reading import read_source
@@ -49,4 +50,5 @@ __all__ = [
     "tokens",
     "unit_in",
     "with_u",
+    "without_strength",
 ]

@@ -166,7 +166,7 @@ def _loop(
             for each, given in _by_column(part, iterable):
                 for name in names_in(each):
                     _comes(facts, name, given, span)
-        rows = _sequence(iterable, facts.constants)
+        rows = _sequence(iterable, {**facts.records, **facts.constants})
         beside = " ".join(names_in(iterable))
         if rows is not None:
             places = dict(_unread(part))

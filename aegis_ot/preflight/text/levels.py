@@ -55,6 +55,8 @@ _WITH_UNIT = re.compile(
     re.IGNORECASE,
 )
 
+_STRENGTH = re.compile(r"(?<![\w.])\d+(?:[.,]\d+)?\s?[x×](?!\w)", re.IGNORECASE)
+
 _GLUED = re.compile(r"(?<=[A-Za-z])(\d+(?:\.\d+)?)(?=[pnum]M\b)")
 
 _LONG_NUMBER = re.compile(r"(?<![\d.])((?!0\d)\d{2,}(?:\.\d+)?|\d+\.\d+|0)(?![\d.])")
@@ -111,6 +113,11 @@ def concentrations_in(text: str) -> set[float]:
         for value, unit in _WITH_UNIT.findall(plain)
         if unit not in ("%", "x")
     }
+
+
+def without_strength(text: str) -> str:
+    """A text without the strength of a working solution: "inhibitor" of "inhibitor (6x)"."""
+    return _STRENGTH.sub(" ", text)
 
 
 def name_without_level(text: str, common: Common) -> tuple[str, ...]:

@@ -1,0 +1,27 @@
+"""What is said of all doses alike is no dose: "inhibitor (6x)" is how strong each solution is."""
+
+from __future__ import annotations
+
+from ..rules import Common
+from ..text import level_in, without_strength
+from .roles import Roles
+
+
+def unsay_strengths(roles: Roles, common: Common) -> None:
+    """Take the strength of working solutions for no dose, where all dosed liquids have the same.
+
+    What else is told of their wells then counts.
+    """
+    for name, spec in roles.family.roles.items():
+        found = {ref: one for ref, one in roles.by_well.items() if one.role == name}
+        if not spec.dosed or len({one.level for one in found.values()}) != 1:
+            continue
+        if all(_is_a_strength(one.text, one.level, common) for one in found.values()):
+            for ref, assigned in found.items():
+                assigned.level = roles.told_levels.get(ref)
+
+
+def _is_a_strength(text: str, level: float | None, common: Common) -> bool:
+    """Whether a level stands in a text as "6x", and nothing else there says one."""
+    plain = without_strength(text)
+    return plain != text and level_in(text, common) == level != level_in(plain, common)
