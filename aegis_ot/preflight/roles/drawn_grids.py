@@ -13,6 +13,7 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from .well_names import WellNames
@@ -43,11 +44,15 @@ def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
     Dots stand for more of the same: for columns in a row, for rows under one.
     """
     column_word, row_word = _before_numbers(names)
-    columns = _columns(column_word.sub("", lines[at]))
+    header = column_word.sub(_blanked, lines[at])
+    columns = _columns(header)
+    heads = list(re.finditer(r"\S+", header))[: len(columns)]
+    middles = [(head.start() + head.end()) / 2 for head in heads]
     wells_of: dict[str, list[str]] = {}
     end, last, codes, repeated = at + 1, 0, list[str](), False
     for written in lines[at + 1 : at + 1 + _MOST_LINES] if columns else ():
-        first, *said = cells_of(row_word.sub("", written), len(columns) + 1) or [""]
+        plain = row_word.sub(_blanked, written)
+        first, *said = _under(plain, middles) or cells_of(plain, len(columns) + 1) or [""]
         if _DOTS.match(first) and codes:
             repeated, end = True, end + 1
             continue
@@ -94,6 +99,31 @@ def cells_of(written: str, count: int = 0) -> list[str]:
     cells = [cell.strip() for cell in re.split(r"\s{2,}|\|", written.strip(" |"))]
     begun = re.match(rf"((?:\S+\s+){{{count - 1}}}\S+)\s{{2,}}", written.replace("|", " ").strip())
     return begun[1].split() if len(cells) != count and begun else cells
+
+
+def _blanked(match: re.Match[str]) -> str:
+    """As many spaces, so that what stands in line stays there."""
+    return " " * len(match.group())
+
+
+def _under(written: str, middles: Sequence[float]) -> list[str]:
+    """The letter of a row, and the words under each column where some cells have several.
+
+    Only where spaces alone do not tell the cells apart, and nothing stands beside the columns.
+    """
+    spans = list(re.finditer(r"\S+", written))
+    count = len(middles) + 1
+    if len(spans) <= count or "|" in written or len(re.split(r"\s{2,}", written.strip())) == count:
+        return []
+    half = min(later - middle for middle, later in pairwise(middles)) / 2
+    cells: list[list[str]] = [[] for _ in middles]
+    for span in spans[1:]:
+        at = (span.start() + span.end()) / 2
+        nearest = min(range(len(middles)), key=lambda column: abs(middles[column] - at))
+        if abs(middles[nearest] - at) > half:
+            return []
+        cells[nearest].append(span.group())
+    return [spans[0].group(), *map(" ".join, cells)] if all(cells) else []
 
 
 def _columns(written: str) -> list[list[int]]:

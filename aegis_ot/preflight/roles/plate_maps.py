@@ -12,7 +12,7 @@ from ..text import Place, SourceFacts, concentration_in, lexicon_of, origins, to
 from .clues import Clue, Strength
 from .deck import MOST_TUBES, Deck
 from .labware_nouns import LabwareNouns
-from .levels import far_apart, is_number, names_amounts, names_counts, number_in
+from .levels import as_one_of_amounts, far_apart, is_number, names_amounts, names_counts, number_in
 from .phrases import without_position, words_of
 from .well_names import plain_name, wells_between
 from .work_lists import drawn_and_filled, is_work_list
@@ -26,11 +26,12 @@ def plate_maps(
     Not the ``others``, which list transfers.
     """
     decks = lexicon_of({"deck": common.decks})
+    written = _written_levels(facts, common)
     for name, value in facts.constants.items():
         if name == "metadata" or name in others or is_work_list(deck, value) or decks.find(name):
             continue
         line = facts.assigned.get(name)
-        entries = list(_Reader(common).entries(without_position(name, common), value))
+        entries = list(_Reader(common, written).entries(without_position(name, common), value))
         all_names = [well for _, wells, _, _ in entries for well in wells]
         if not all_names:
             continue
@@ -39,6 +40,7 @@ def plate_maps(
         used = set(used_with(deck, facts, name))
         places = _numbers_places(facts, name)
         rest = used - {key for keys in by_key.values() for key in keys}
+        told = isinstance(value, Mapping) and far_apart(_levels_told(value, written).values())
         for text, wells, level, column in entries:
             keyed = [keys for key, keys in by_key.items() if text.endswith(f" {key}")]
             if column in by_key:
@@ -58,6 +60,9 @@ def plate_maps(
                 f"plate map `{text}` at line {line}",
                 levels=() if level is None else (level,) * len(refs),
             )
+            if told and level is not None:
+                where = f"`{name}` at line {line}"
+                yield as_one_of_amounts(refs, line, where, (level,) * len(refs))
 
 
 def labware_of_map(
@@ -194,8 +199,9 @@ Entry = tuple[str, tuple[str, ...], "float | None", str]
 class _Reader:
     """Reads a constant that holds well names."""
 
-    def __init__(self, common: Common) -> None:
+    def __init__(self, common: Common, written: Sequence[Mapping[str, float]]) -> None:
         self._common = common
+        self._written = written
 
     def entries(self, name: str, value: Any, depth: int = 0) -> Iterator[Entry]:
         """Each group of wells with what is said of it."""
@@ -209,6 +215,7 @@ class _Reader:
                 yield from self._record(name, value)
                 return
             levels = _levels_of_keys(value, names_amounts(name, self._common))
+            levels = levels or _levels_told(value, self._written)
             for key, item in value.items():
                 if isinstance(key, str) and (spanned := wells_between(key)):
                     yield from self._beside(name, spanned, item)
@@ -267,6 +274,23 @@ def _levels_of_keys(value: Mapping[Any, Any], of_amounts: bool) -> dict[Any, flo
     if not amounts or len(found) < len(value):
         found = {key: number for key, number in found.items() if not isinstance(key, str)}
     return found
+
+
+def _written_levels(facts: SourceFacts, common: Common) -> list[Mapping[str, float]]:
+    """What the text lists under names, and beside those the words for nothing at all."""
+    nothing = {word: 0.0 for word, level in common.levels.items() if level == 0}
+    return [{**nothing, **told} for told in facts.levels.values()]
+
+
+def _levels_told(
+    value: Mapping[Any, Any], written: Sequence[Mapping[str, float]]
+) -> dict[Any, float]:
+    """The levels of the keys of a map, where the text lists amounts under all of them."""
+    found = [told for told in written if len(value) >= _FEWEST_TOLD and value.keys() <= told.keys()]
+    return {key: found[0][key] for key in value} if len(found) == 1 else {}
+
+
+_FEWEST_TOLD = 3
 
 
 def _spots(value: Any) -> tuple[str, ...]:

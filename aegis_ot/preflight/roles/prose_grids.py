@@ -31,7 +31,7 @@ def maps_in_prose(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     They are as exact as a plate map in code, and so as strong.
     """
     nouns = LabwareNouns(deck, common)
-    for line, text in (*facts.docstrings, *comment_blocks(facts)):
+    for line, text in (*facts.docstrings, *comment_blocks(facts, indented=True)):
         lines = text.splitlines()
         for at in range(len(lines)):
             yield from _grid(deck, nouns, well_names(common), lines, at, line + at)

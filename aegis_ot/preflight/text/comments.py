@@ -16,11 +16,17 @@ def read_comments(text: str, facts: SourceFacts) -> None:
     try:
         for token in tokenize.generate_tokens(io.StringIO(text).readline):
             if token.type == tokenize.COMMENT:
-                facts.comments[token.start[0]] = without_gaps(token.string.lstrip("#").strip())
+                said = token.string.lstrip("#")
+                facts.comments[token.start[0]] = without_gaps(said.strip())
+                facts.indents[token.start[0]] = min(len(said) - len(said.lstrip()), _WIDEST)
                 if not token.line[: token.start[1]].strip():
                     facts.own_line.add(token.start[0])
     except (tokenize.TokenError, IndentationError, SyntaxError):
         pass
+
+
+_WIDEST = 40
+"""Spaces before what a drawing in a comment has on a line."""
 
 
 def read_blocks(text: str, tree: ast.Module, facts: SourceFacts) -> None:
@@ -55,11 +61,15 @@ def read_item_notes(tree: ast.Module, facts: SourceFacts) -> None:
                     facts.item_notes.setdefault(name, notes)
 
 
-def comment_blocks(facts: SourceFacts) -> list[tuple[int, str]]:
-    """Comments by their first line; those that stand below each other are one text."""
+def comment_blocks(facts: SourceFacts, indented: bool = False) -> list[tuple[int, str]]:
+    """Comments by their first line; those that stand below each other are one text.
+
+    Where they are ``indented``, columns that stand in line do so in that text.
+    """
     blocks: dict[int, list[str]] = {}
     first = 0
-    for line, text in sorted(facts.comments.items()):
+    for line, said in sorted(facts.comments.items()):
+        text = " " * facts.indents.get(line, 0) + said if indented else said
         if line in facts.own_line and line - 1 in facts.own_line:
             blocks[first].append(text)
         else:

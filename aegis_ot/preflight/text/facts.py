@@ -104,6 +104,7 @@ class SourceFacts:
 
     Attributes:
         comments: Comment text by line.
+        indents: Spaces between the ``#`` and the text of each comment.
         own_line: Lines that hold nothing but a comment.
         docstrings: Module and function docstrings, and other free-standing strings.
         metadata: Values of the ``metadata`` dict.
@@ -134,6 +135,7 @@ class SourceFacts:
     """
 
     comments: dict[int, str] = field(default_factory=dict)
+    indents: dict[int, int] = field(default_factory=dict)
     own_line: set[int] = field(default_factory=set)
     docstrings: list[tuple[int, str]] = field(default_factory=list)
     metadata: dict[str, str] = field(default_factory=dict)

@@ -6,12 +6,18 @@ As a kit's leaflet does::
     ug/mL  2000  1500  1000    0 (blank)
 
     vials: A 2000, B 1500, C 1000 ug/ml, D = diluent only (0)
+
+or a drawing of a plate, with the unit beneath::
+
+         1        2        3
+    A  S1 2000  S1 2000  lysate 1
+    B  S2 1000  S2 1000  lysate 2
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ...instrumentation import is_spot
 from .comments import comment_blocks
@@ -27,6 +33,9 @@ _ENTRY = re.compile(
     re.IGNORECASE,
 )
 """``A 2000``, ``S1 = 0.5``, ``I = diluent only (0)``."""
+_ROW = re.compile(r"\s*[A-P]\s*[:|]?\s")
+_CELL = re.compile(r"[\s|]([A-Za-z]{1,6}\d{1,2})\s{1,3}(\d+(?:\.\d+)?)(?=\s{2}|\s*(?:\||$))")
+"""``S1 2000`` in a row of a drawing."""
 _LAST = re.compile(rf"\d\s?({UNITS})\s*(?:\(|$)", re.IGNORECASE)
 _NAME = re.compile(r"[A-Za-z][\w+-]{0,15}")
 _LONGEST_LINE = 400
@@ -37,6 +46,10 @@ def read_written_levels(facts: SourceFacts) -> None:
     """Note, by the unit that stands before or after them, the amount under each name."""
     for first, text in (*facts.docstrings, *comment_blocks(facts)):
         lines = with_u(text).splitlines()
+        if unit := unit_in(with_u(text)):
+            levels = _in_drawing(lines)
+            if len(levels) >= _FEWEST:
+                facts.levels[f"{unit} of the drawing at line {first}"] = levels
         for at, written in enumerate(lines):
             below = lines[at + 1] if at + 1 < len(lines) else ""
             for unit, levels in (
@@ -55,6 +68,16 @@ def _entries(written: str) -> tuple[str, dict[str, float]]:
     units = {unit.lower() for _, _, unit in entries if unit} | {unit_in(written)} - {""}
     placed = any(map(is_spot, levels))
     return ("" if placed or len(units) != 1 else units.pop()), levels
+
+
+def _in_drawing(lines: Iterable[str]) -> dict[str, float]:
+    """The amount beside each name in the cells of a drawn plate, if it is the same everywhere."""
+    amounts: dict[str, set[float]] = {}
+    for written in lines:
+        if _ROW.match(written):
+            for name, amount in _CELL.findall(written[:_LONGEST_LINE]):
+                amounts.setdefault(name, set()).add(float(amount))
+    return {name: told.pop() for name, told in amounts.items() if len(told) == 1}
 
 
 def _unit_of_row(written: str) -> str:
