@@ -9,6 +9,7 @@ from ...vocabulary import WellRef
 from ..rules import Common, RoleSpec
 from ..trace import Trace
 from .called_alike import derive_called_alike
+from .diluted import derive_diluted
 from .in_place import Given, derive_common, derive_given_instead, derive_used_like, given_by
 from .roles import Roles
 from .stages import is_shared_out, stage_of
@@ -48,6 +49,7 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: C
     for name, spec in roles.family.roles.items():
         if spec.feeds and (spec.dosed or spec.feeds_beside):
             _derive_levels(roles, name, spec, trace)
+            derive_diluted(roles, name, trace)
 
 
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
