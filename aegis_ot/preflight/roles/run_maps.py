@@ -208,14 +208,17 @@ def labware_of_columns(
     """In which labware the well names of each column stand, where that is plain.
 
     It is the one that is indexed by that column's name, as taken from the table's rows if any is,
-    or several of one kind, else the only one
-    in which the run uses all these wells, or most: those of "untreated" get nothing.
+    or several of one kind; else, of the only such column, the one that is indexed by what the run
+    takes from the table; else the only one in which the run uses all these wells, or most: those
+    of "untreated" get nothing.
     """
     spots: dict[str, dict[str, None]] = {}
     for row in rows:
         for column, cell in row.cells:
             spots.setdefault(column, {}).update(dict.fromkeys(spots_in(cell)))
     found: dict[str, tuple[str, ...]] = {}
+    placed = [column for column, listed in spots.items() if listed]
+    of_table = used_with(deck, facts, name) if len(placed) == 1 else ()
     for column, listed in spots.items():
         if not listed:
             continue
@@ -228,6 +231,8 @@ def labware_of_columns(
         own = [p for p in places if name and name in origins(facts, p.names, (p.line,))]
         for place in own or places:
             indexed |= deck.by_name.get(place.labware, set())
+        if not indexed and len(of_table) == 1:
+            indexed.update(of_table)
         if indexed and deck.are_alike(indexed):
             found[column] = tuple(sorted(indexed))
             continue
