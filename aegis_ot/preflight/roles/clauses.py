@@ -143,7 +143,16 @@ def _is_begun(clause: str, rest: str, names: WellNames) -> bool:
     groups = _groups(clause, names)
     if not groups or not tokens(clause[: groups[0][0]]) or tokens(clause[groups[-1][1] :]):
         return False
+    headed = len(groups) == 1 and clause[: groups[0][0]].rstrip().endswith(":")
+    if headed and _is_told_at_the_end(rest, names):
+        return True  # "Standards: A1-A4, B1-B4 = 0, 125, 250, ... ug/ml"
     return _is_list(_TO_THE_END.split(rest, maxsplit=1)[0], names, frozenset())
+
+
+def _is_told_at_the_end(rest: str, names: WellNames) -> bool:
+    """Whether more wells follow, and then what all of them are."""
+    first = names.spec.match(rest.lstrip())
+    return first is not None and rest.lstrip()[first.end() :].lstrip()[:1] == "="
 
 
 def _says_anew(clause: str, rest: str, names: WellNames) -> bool:

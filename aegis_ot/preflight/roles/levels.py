@@ -41,6 +41,9 @@ def levels_beside(clue: Clue, common: Common) -> tuple[float | None, ...]:
         return clue.levels
     if clue.strength is Strength.COMMENT and name_without_level(clue.text, common):
         return ()
+    several = listed_levels(clue.text)
+    if len(several) > 1:  # "0, 125, 250 ug/ml": one for each
+        return several if len(several) == len(set(several)) == len(clue.wells) else ()
     level = level_in(clue.text, common, plain_numbers=False)
     return () if level is None else (level,) * len(clue.wells)
 
