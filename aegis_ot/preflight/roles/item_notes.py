@@ -1,8 +1,8 @@
-"""Comments beside the items of a list of wells: ``rack["A2"],  # vehicle``."""
+"""Comments beside the items of a list or a dict of wells: ``rack["A2"],  # vehicle``."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from ...instrumentation import NameBinding, is_spot
 from ...vocabulary import WellRef
@@ -11,27 +11,52 @@ from ..text import SourceFacts
 from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .plate_maps import labware_of_map, refs_of
+from .well_names import well_names
 
 
 def item_notes(
     deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
 ) -> Iterator[Clue]:
-    """What the comment beside each item of a list says of the wells of that item."""
+    """What the comment beside each item of a list or a dict says of the wells of that item."""
     held = {binding.name: [(ref,) for ref in binding.wells] for binding in names}
+    yield from _of_dicts(deck, names, facts, common)
     for name, notes in facts.item_notes.items():
         wells = held.get(name) or _listed(deck, facts, name, common)
         if len(wells) != len(notes):
             continue
         first = facts.assigned.get(name)
         for note, refs in zip(notes, wells, strict=True):
-            yield Clue(
-                Strength.COMMENT,
-                note,
-                refs,
-                first,
-                f"comment '{shortened(note)}' in `{name}` at line {first}",
-                subject=False,
-            )
+            yield _noted(note, refs, name, first)
+
+
+def _noted(note: str, wells: tuple[WellRef, ...], name: str, line: int | None) -> Clue:
+    said = f"comment '{shortened(note)}' in `{name}` at line {line}"
+    return Clue(Strength.COMMENT, note, wells, line, said, subject=False)
+
+
+def _of_dicts(
+    deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
+) -> Iterator[Clue]:
+    """What the comment beside each line of a dict says of the wells that stand in it."""
+    bound = {binding.name.replace("'", '"'): binding.wells for binding in names}
+    for name, notes in facts.key_notes.items():
+        value = facts.constants.get(name)
+        spots = {
+            key: (item,) if isinstance(item, str) else tuple(item)
+            for key, item in (value.items() if isinstance(value, Mapping) else ())
+            if isinstance(item, (str, list, tuple))
+        }
+        listed = [spot for item in spots.values() for spot in item]
+        written = bool(listed) and all(map(is_spot, listed))
+        labware = labware_of_map(deck, facts, name, listed, common) if written else ()
+        spots = spots if written else {}
+        for note, keys in notes.items():
+            wells = [ref for key in keys for ref in bound.get(f'{name}["{key}"]', ())]
+            wells = wells or [
+                ref for key in keys for ref in refs_of(deck, labware, spots.get(key, ()))
+            ]
+            if wells and not well_names(common).spec.search(note):
+                yield _noted(note, tuple(wells), name, facts.assigned.get(name))
 
 
 def _listed(deck: Deck, facts: SourceFacts, name: str, common: Common) -> list[tuple[WellRef, ...]]:

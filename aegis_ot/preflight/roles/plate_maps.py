@@ -216,8 +216,9 @@ class _Reader:
                 return
             levels = _levels_of_keys(value, names_amounts(name, self._common))
             levels = levels or _levels_told(value, self._written)
+            coded = _has_codes(value)
             for key, item in value.items():
-                if isinstance(key, str) and (spanned := wells_between(key)):
+                if isinstance(key, str) and not coded and (spanned := wells_between(key)):
                     yield from self._beside(name, spanned, item)
                 else:
                     level = levels.get(key)
@@ -262,6 +263,11 @@ class _Reader:
         level = numbers[0] if len(numbers) == 1 else None
         for text in texts or ([name] if numbers else []):
             yield text, wells, level, ""
+
+
+def _has_codes(value: Mapping[Any, Any]) -> bool:
+    """Whether wells stand under keys, of which one at least is no well: "T2", so "P1" is none."""
+    return all(map(_spots, value.values())) and not all(map(is_spot, value))
 
 
 def _levels_of_keys(value: Mapping[Any, Any], of_amounts: bool) -> dict[Any, float]:

@@ -51,14 +51,36 @@ def read_blocks(text: str, tree: ast.Module, facts: SourceFacts) -> None:
 
 
 def read_item_notes(tree: ast.Module, facts: SourceFacts) -> None:
-    """Note the comments beside the items of a list, where each has a line to itself."""
+    """Note the comments beside the items of a list, where each has a line to itself, and those
+    beside the lines of a dict.
+    """
     for node in ast.walk(tree):
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Dict):
+            lines = _noted_keys(node.value, facts)
+            if len(lines) > 1:
+                for name in filter(None, map(last_name, node.targets)):
+                    facts.key_notes.setdefault(name, lines)
         if isinstance(node, ast.Assign) and isinstance(node.value, (ast.List, ast.Tuple)):
             ends = [item.end_lineno or item.lineno for item in node.value.elts]
             notes = tuple(facts.comments.get(end, "") for end in ends)
             if len(set(ends)) == len(ends) > 1 and all(notes):
                 for name in filter(None, map(last_name, node.targets)):
                     facts.item_notes.setdefault(name, notes)
+
+
+def _noted_keys(node: ast.Dict, facts: SourceFacts) -> dict[str, tuple[str, ...]]:
+    """The comments beside the lines of a dict, all different, with the keys that stand there."""
+    keys: dict[int, list[str]] = {}
+    for key, value in zip(node.keys, node.values, strict=True):
+        one_line = key is not None and key.lineno == value.end_lineno != node.lineno
+        if one_line and isinstance(key, ast.Constant) and isinstance(key.value, str):
+            keys.setdefault(key.lineno, []).append(key.value)
+    notes = [note for line in keys if (note := facts.comments.get(line))]
+    if len(set(notes)) != len(notes):
+        return {}
+    return {
+        facts.comments[line]: tuple(held) for line, held in keys.items() if line in facts.comments
+    }
 
 
 def comment_blocks(facts: SourceFacts, indented: bool = False) -> list[tuple[int, str]]:

@@ -115,6 +115,8 @@ class SourceFacts:
         loops: Those of them that are loop variables.
         notes: Comment beside or right above the assignment of a name, by that name.
         item_notes: For names bound to a list of a line for each item, the comments beside these.
+        key_notes: For names bound to a dict of several lines, the comments beside these with the
+            keys that stand there.
         assigned: Line of the first assignment of each name.
         tables: For names bound to a list of rows or to a dict, the constants of each row.
         records: For names bound to a list of objects or ``dict(...)``, the fields of each.
@@ -146,6 +148,7 @@ class SourceFacts:
     loops: set[tuple[str, str]] = field(default_factory=set)
     notes: dict[str, str] = field(default_factory=dict)
     item_notes: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    key_notes: dict[str, dict[str, tuple[str, ...]]] = field(default_factory=dict)
     assigned: dict[str, int] = field(default_factory=dict)
     tables: dict[str, list[tuple[Any, ...]]] = field(default_factory=dict)
     records: dict[str, list[dict[str, Any]]] = field(default_factory=dict)
