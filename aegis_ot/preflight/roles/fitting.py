@@ -66,6 +66,9 @@ def fitting_role(
     if clue.step and clue.step != side:
         return None
     fitting = [role for role in named if specs[role].side in ("any", side)]
+    if clue.whole and side == "destination" and not passes_on:
+        # "TaqMan" on a plate of reactions names the assay; the mix would be given on.
+        fitting = [role for role in fitting if not specs[role].one_liquid]
     if passes_on and not _is_plate_of(clue) and any(specs[role].side == "source" for role in named):
         # A plate of doses that is made here and given on is no plate of treated cells; a plate
         # of samples that is given on was one of samples before, and only gets buffer here.
