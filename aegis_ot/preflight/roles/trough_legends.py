@@ -1,9 +1,9 @@
-"""Legends of reservoirs by number: "1 sample buffer, 2 TMB substrate, 5 wash"."""
+"""Legends of reservoirs by number: "1 sample buffer, 2 TMB substrate", "dye in trough 3"."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import pairwise
 
 from ...instrumentation import LabwareInfo
@@ -38,12 +38,39 @@ def trough_legends(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
     }
     any_called = "|".join(map(re.escape, called)) or "(?!)"
     number_of = re.compile(rf"(?im)((?:^|[,;/|])\s*)(?:{any_called})\.?\s*(?=\d)")
+    numbered = called.difference(common.places, common.positions)
     for line, text in _blocks(facts):
+        yield from _told_alone(deck, troughs[0], line, text, numbered)
         # In a list of what is on the deck the reservoir is an entry itself.
         entries = (said for written in text.splitlines() for _, said in _ENTRY.findall(written))
         in_entries = {word for said in entries for word in tokens(said)}
         if not words.isdisjoint(tokens(text)) and words.isdisjoint(in_entries):
             yield from _legend(deck, troughs[0], line, number_of.sub(r"\1", text))
+
+
+_LONGEST_NAME = 5
+"""Words; more are a sentence."""
+
+
+def _told_alone(
+    deck: Deck, trough: LabwareInfo, line: int, text: str, called: Collection[str]
+) -> Iterator[Clue]:
+    """What a text says to be "in trough 3", or "channel 3" to be."""
+    word = "|".join(sorted(map(re.escape, called)))
+    if not word:
+        return
+    before = (
+        rf"([^.,;:\n|]{{2,60}}?) (?:in|en|im|dans|nel) (?:the )?(?:{word}) ?(\d{{1,2}})(?![\w-])"
+    )
+    after = rf"(?:{word}) ?(\d{{1,2}}) ?[:=] ?([^.,;:()\n|]{{2,60}})"
+    found = [(match[2], match[1]) for match in re.finditer(before, text, re.IGNORECASE)]
+    found += [(match[1], match[2]) for match in re.finditer(after, text, re.IGNORECASE)]
+    names = list(trough.wells)
+    for number, said in found:
+        if 0 < int(number) <= len(names) and len(tokens(said)) <= _LONGEST_NAME:
+            ref = deck.ref(trough.key, names[int(number) - 1])
+            told = f"'{shortened(said)}' in trough {number}, by the text at line {line}"
+            yield Clue(Strength.COMMENT, said, (ref,), line, told, subject=False)
 
 
 def _blocks(facts: SourceFacts) -> Iterator[tuple[int, str]]:
