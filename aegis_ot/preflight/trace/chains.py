@@ -57,7 +57,8 @@ def _neighbours(one: Well, other: Well) -> bool:
 
 
 def _filled_before(step: Transfer) -> set[Well]:
-    """Wells of other labware that gave to the well of a step before the step did.
+    """Wells that gave to the well of a step before the step did: of other labware, or, as a tube
+    of diluent beside those of the series, filled by nothing themselves.
 
     What was drawn off again before the step, a wash, fills nothing; and a well that is passed
     through several times is rinsed.
@@ -76,8 +77,16 @@ def _filled_before(step: Transfer) -> set[Well]:
         given = {part[0] for part in visit.parts if part[0] is not None}
         if step.source in given:
             break
-        found |= {source for source in given if source.ref.labware != step.well.ref.labware}
+        found |= {
+            source
+            for source in given
+            if source.ref.labware != step.well.ref.labware or not _is_filled(source)
+        }
     return found
+
+
+def _is_filled(well: Well) -> bool:
+    return any(part[0] not in (None, well) for visit in well.visits for part in visit.parts)
 
 
 def links_of(trace: Trace) -> Iterable[Transfer]:
