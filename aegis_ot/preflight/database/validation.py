@@ -27,6 +27,8 @@ def check_family(family: Family, file: str) -> None:
         place = f"{file}: signals[{number}]"
         _check_names(family, spoken, place)
         _check_words("words", spoken.words, place)
+    for number, shape in enumerate(family.shapes):
+        _check_names(family, shape, f"{file}: shapes[{number}]")
     for name, role in family.roles.items():
         _check_role(family, role, f"{file}: roles.{name}")
     _check_parents(family, file)

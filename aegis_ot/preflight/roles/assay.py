@@ -77,7 +77,7 @@ def infer_families(
     scored = []
     for family in database.families:
         found = _found(family, texts, database.common)
-        found += _seen(family, shapes, bool(found))
+        found += _seen(family, shapes, bool(found), roles_of)
         if family.known_by and found and not (_score(found) >= SURE and _defines(found)):
             found += _named(
                 family, roles_of(family), sum(one.worth for one in found if one.worth > 0)
@@ -205,13 +205,18 @@ def _nothing_against(found: Sequence[_Found]) -> bool:
 
 
 def _seen(
-    family: Family, shapes: Mapping[str, tuple[float, str]], spoken: bool
+    family: Family,
+    shapes: Mapping[str, tuple[float, str]],
+    spoken: bool,
+    roles_of: Callable[[Family], Roles],
 ) -> Iterable[_Found]:
     """What the shapes of the run say of a family; most of them only beside words."""
     for signal in family.shapes:
         if not (spoken or signal.defining):
             continue
         if signal.shape in shapes and shapes.keys().isdisjoint(signal.unless):
+            if signal.unless_named and _named_roles(roles_of(family)) & {*signal.unless_named}:
+                continue
             clear, said = shapes[signal.shape]
             defining = signal.defining and clear >= 1
             yield _Found(signal.weight * clear, said, LONE if defining else 0.0, defining, True)
@@ -219,16 +224,19 @@ def _seen(
 
 def _named(family: Family, roles: Roles, said_by_words: float) -> Iterable[_Found]:
     """What the roles that wells are named for say of a family, beyond what their words said."""
-    assigned = roles.by_well.values()
-    named = {a.role for a in assigned if a.strength > Strength.COMMENT} | {
-        a.named for a in assigned
-    }
+    named = _named_roles(roles)
     for signal in family.known_by:
         if all(named & set(either.split("|")) for either in signal.roles):
             titles = [family.roles[either.split("|")[0]].title for either in signal.roles]
             said = f"wells are named {', '.join(titles[:-1])} and {titles[-1]}"
             yield _Found(max(signal.weight - said_by_words, 0.0), said, LONE, True)
             return
+
+
+def _named_roles(roles: Roles) -> set[str]:
+    """Roles for which wells are named, by more than a comment."""
+    assigned = roles.by_well.values()
+    return {a.role for a in assigned if a.strength > Strength.COMMENT} | {a.named for a in assigned}
 
 
 def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> list[_Found]:

@@ -40,7 +40,7 @@ class Signal:
     roles: tuple[str, ...] = role_names()
 
 
-Shape = Literal["chain", "pooling", "reactions", "copying"]
+Shape = Literal["chain", "chains_alone", "pooling", "reactions", "copying"]
 
 
 @dataclass(frozen=True)
@@ -48,17 +48,19 @@ class ShapeSignal:
     """A shape of the liquid's ways that speaks for a family, or against it.
 
     Attributes:
-        shape: ``chain``, ``pooling``, ``reactions`` or ``copying``.
+        shape: ``chain``, ``chains_alone``, ``pooling``, ``reactions`` or ``copying``.
         weight: How much it counts for three wells; twice as much from six on. A chain counts
             twice where its wells were filled from one place before.
         unless: Shapes beside which it says nothing.
         defining: Whether it can make the family known.
+        unless_named: Roles of the family: it says nothing where a well is named for one of them.
     """
 
     shape: Shape
     weight: float
     unless: tuple[Shape, ...] = ()
     defining: bool = False
+    unless_named: tuple[str, ...] = role_names()
 
 
 @dataclass(frozen=True)

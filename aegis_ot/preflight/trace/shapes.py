@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from ...vocabulary import WellRef
-from .chains import chains_of, links_of, longest_chain, longest_dilution
+from .chains import Transfer, chains_of, links_of, longest_chain, longest_dilution
 from .trace import Trace
 
-SHAPES = ("chain", "pooling", "reactions", "copying")
-"""What a family's file may name: wells that feed each other in turn; one well fed by many that
+SHAPES = ("chain", "chains_alone", "pooling", "reactions", "copying")
+"""What a family's file may name: wells that feed each other in turn; nothing but such wells that
+are filled; one well fed by many that
 feed nothing else; wells given as much each of a common liquid, and one of their own; wells of
 one labware that each fill one well of another with nothing else in it."""
 
@@ -36,6 +37,9 @@ def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
             twice * _clearness(chain),
             f"a chain of {chain} transfers from well to well",
         )
+    if longest_dilution(chains) >= _FEWEST_ALIKE and _is_all(chains, fed):
+        said = "no other wells are filled than those that feed each other"
+        found["chains_alone"] = (1.0, said)
     pooled = _pooled(fed, feeds)
     if pooled >= _FEWEST_POOLED:
         found["pooling"] = (_clearness(pooled), f"{pooled} wells go into a pool and nowhere else")
@@ -47,6 +51,19 @@ def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
     if copies >= _FEWEST_ALIKE:
         found["copying"] = (_clearness(copies), f"{copies} wells are each copied into another one")
     return found
+
+
+def _is_all(chains: Iterable[Sequence[Transfer]], fed: Fed) -> bool:
+    """Whether the run fills the wells of chains alone; the surplus of their ends goes anywhere."""
+    linked = {
+        well.ref
+        for chain in chains
+        if longest_chain([chain]) >= _FEWEST_ALIKE
+        for step in chain
+        for well in (step.source, step.well)
+    }
+    beside = [given.keys() for well, given in fed.items() if well not in linked]
+    return len(beside) <= 1 and all(given <= linked for given in beside)
 
 
 def _clearness(wells: int) -> float:
