@@ -176,8 +176,8 @@ class RisingOrder(Check):
             for source, volume, _, draw_line in visit.parts:
                 if source is None or source is visit.well or volume <= 0:
                     continue
-                if not case.has(source, liquid):
-                    continue
+                if not case.has(source, liquid) or visit.well.ref in case.roles.derived_levels:
+                    continue  # where the one is diluted to make the other, nothing is dispensed
                 key = (visit.tip.number, visit.session)
                 level = case.level(source)
                 before = last.get(key)
