@@ -160,10 +160,18 @@ def _without_additives(
 def _without_what_is_not(
     places: dict[int, list[str]], words: Sequence[str], common: Common
 ) -> dict[int, list[str]]:
-    """What a text names apart from what this stands for: "water instead of DNA" is water."""
+    """What a text names apart from what this stands for: "water instead of DNA" is water.
+
+    And apart from what is not in it: ``rpmi_without_lps`` is medium. "No template" is a name.
+    """
     found = lexicon_of({"instead": common.instead}).find(" ".join(words))
-    at = min((match.start for match in found), default=len(words))
-    return {place: topics for place, topics in places.items() if place < at}
+    end = min((match.start for match in found), default=len(words))
+    lacking = first_words(common.lacking)
+    return {
+        at: topics
+        for at, topics in places.items()
+        if at < end and (at == 0 or words[at - 1] not in lacking)
+    }
 
 
 def _drawn(

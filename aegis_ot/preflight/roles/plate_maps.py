@@ -226,6 +226,8 @@ class _Reader:
                         yield text, wells, level if own is None else own, column
         elif isinstance(value, (list, tuple)):
             yield from self._listed(name, value, depth)
+        elif isinstance(value, (set, frozenset)):
+            yield from self._listed(name, sorted(value, key=str), depth)
 
     def _listed(self, name: str, value: Sequence[Any], depth: int) -> Iterator[Entry]:
         wells = tuple(item for item in value if is_spot(item))

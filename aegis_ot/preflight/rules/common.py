@@ -28,6 +28,7 @@ class Common:
     exceptions: tuple[str, ...] = ()
     by_hand: tuple[str, ...] = ()
     instead: tuple[str, ...] = ()
+    lacking: tuple[str, ...] = ()
     empty: tuple[str, ...] = ()
     dried: tuple[str, ...] = ()
     replicates: tuple[str, ...] = ()

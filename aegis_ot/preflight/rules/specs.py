@@ -40,7 +40,7 @@ class Signal:
     roles: tuple[str, ...] = role_names()
 
 
-Shape = Literal["chain", "chains_alone", "pooling", "reactions", "copying"]
+Shape = Literal["chain", "chains_alone", "pooling", "reactions", "copying", "culture"]
 
 
 @dataclass(frozen=True)
@@ -48,9 +48,9 @@ class ShapeSignal:
     """A shape of the liquid's ways that speaks for a family, or against it.
 
     Attributes:
-        shape: ``chain``, ``chains_alone``, ``pooling``, ``reactions`` or ``copying``.
+        shape: ``chain``, ``chains_alone``, ``pooling``, ``reactions``, ``copying`` or ``culture``.
         weight: How much it counts for three wells; twice as much from six on. A chain counts
-            twice where its wells were filled from one place before.
+            twice where its wells were filled from one place before, and a culture plate once.
         unless: Shapes beside which it says nothing.
         defining: Whether it can make the family known.
         unless_named: Roles of the family: it says nothing where a well is named for one of them.

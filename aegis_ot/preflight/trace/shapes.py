@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
+from ...instrumentation import LabwareInfo
 from ...vocabulary import WellRef
 from .chains import Transfer, chains_of, links_of, longest_chain, longest_dilution
 from .trace import Trace
 
-SHAPES = ("chain", "chains_alone", "pooling", "reactions", "copying")
+SHAPES = ("chain", "chains_alone", "pooling", "reactions", "copying", "culture")
 """What a family's file may name: wells that feed each other in turn; nothing but such wells that
-are filled; one well fed by many that
-feed nothing else; wells given as much each of a common liquid, and one of their own; wells of
-one labware that each fill one well of another with nothing else in it."""
+are filled; one well fed by many that feed nothing else; wells given as much each of a common
+liquid, and one of their own; wells of one labware that each fill one well of another with nothing
+else in it; wells that are given various liquids, and feed none, in a plate of the format in which
+cells are grown."""
+
+_CULTURE_FORMATS = (6, 12, 24, 48)
+"""How many wells the plates have that are made for cells; those of 96 serve for all things."""
 
 _FEWEST_POOLED = 4
 _FEWEST_ALIKE = 3
@@ -50,6 +55,9 @@ def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
     copies = _copies(fed, feeds)
     if copies >= _FEWEST_ALIKE:
         found["copying"] = (_clearness(copies), f"{copies} wells are each copied into another one")
+    grown_in = _culture_plate(trace, fed, feeds)
+    if grown_in is not None:
+        found["culture"] = (1.0, f"wells of a {grown_in}-well culture plate are treated apart")
     return found
 
 
@@ -123,4 +131,24 @@ def _copies(fed: Fed, feeds: Mapping[WellRef, set[WellRef]]) -> int:
             for source in given
         )
         for well, given in fed.items()
+    )
+
+
+def _culture_plate(trace: Trace, fed: Fed, feeds: Mapping[WellRef, set[WellRef]]) -> int | None:
+    """The format of the first culture plate whose wells feed none, and are not all given the same.
+
+    Cells that are all given the same are fed, stained or washed.
+    """
+    for key, info in trace.labware.items():
+        wells = {well for well in fed if well.labware == key}
+        various = len({frozenset(fed[well]) for well in wells}) > 1
+        if various and wells.isdisjoint(feeds) and _is_for_cells(info):
+            return len(info.wells)
+    return None
+
+
+def _is_for_cells(info: LabwareInfo) -> bool:
+    """Whether it has the wells of a culture plate: few, round and flat. Tubes are narrower."""
+    return len(info.wells) in _CULTURE_FORMATS and all(
+        well.diameter is not None and well.diameter > well.depth / 2 for well in info.wells.values()
     )
