@@ -12,7 +12,7 @@ from ..text import SourceFacts
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
-from .plate_maps import called_alike, labware_of_map, refs_of, used_with
+from .map_labware import called_alike, labware_of_map, refs_of, used_with
 
 _SMALLEST = 6
 """The wells of the smallest plate that anyone draws."""

@@ -10,7 +10,7 @@ from ..rules import Common
 from ..text import SourceFacts
 from .clues import Clue, Strength, shortened
 from .deck import Deck
-from .plate_maps import labware_of_map, refs_of
+from .map_labware import labware_of_map, refs_of
 from .well_names import well_names
 
 

@@ -11,7 +11,7 @@ from ..text import SourceFacts
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import are_amounts, as_one_of_amounts, far_apart, is_number, names_amounts
-from .plate_maps import labware_of_map, refs_of
+from .map_labware import labware_of_map, refs_of
 
 _FEWEST = 3
 _NEAR = 2

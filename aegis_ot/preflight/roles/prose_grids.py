@@ -15,7 +15,7 @@ from .deck import Deck
 from .drawn_grids import drawn_grid
 from .labware_nouns import LabwareNouns
 from .levels import as_one_of_amounts, far_apart, number_in
-from .plate_maps import refs_of
+from .map_labware import refs_of
 from .well_names import WellNames, well_names
 
 _FEWEST = 3

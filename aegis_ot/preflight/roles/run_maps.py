@@ -14,9 +14,9 @@ from ..text import SourceFacts, lexicon_of, origins, tokens
 from .clues import Clue, Strength
 from .deck import Deck
 from .levels import names_amounts, names_counts, number_in
+from .map_labware import labware_by_field, labware_of_map, refs_of, used_with
 from .named_levels import numeric_keys
 from .phrases import told_once, without_position
-from .plate_maps import labware_by_field, labware_of_map, refs_of, used_with
 from .well_names import plain_name
 from .work_lists import drawn_and_filled, is_work_list, labware_by_key, labware_in
 
