@@ -77,7 +77,28 @@ def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
 def drawn_lines(lines: Sequence[str], names: WellNames) -> set[int]:
     """Places of the lines that belong to drawings."""
     drawings = ((at, drawn_grid(lines, at, names)) for at in range(len(lines)))
-    return {line for at, drawing in drawings for line in range(at, drawing.end)}
+    found = {line for at, drawing in drawings for line in range(at, drawing.end)}
+    return found.union(*(_ragged_rows(lines, at, names) for at in range(len(lines))))
+
+
+def _ragged_rows(lines: Sequence[str], at: int, names: WellNames) -> set[int]:
+    """Places of the lines below "col 2   3   4      8" that begin with a row and have a gap.
+
+    What stands after the gap is of the columns above it, and not of the whole row.
+    """
+    column_word, row_word = _before_numbers(names)
+    numbers = re.findall(r"\d+", lines[at]) if column_word.search(lines[at]) else []
+    apart = len(re.findall(r"\d\s{2,}(?=\d)", lines[at])) >= _FEWEST_COLUMNS - 1
+    if not apart or any(int(a) >= int(b) for a, b in pairwise(numbers)):
+        return set()
+    below = range(at + 1, min(at + 1 + _MOST_LINES, len(lines)))
+    return {
+        line for line in below if row_word.match(lines[line]) and _GAP.search(lines[line].strip())
+    }
+
+
+_FEWEST_COLUMNS = 3
+_GAP = re.compile(r"\S\s{3,}\S")
 
 
 @functools.lru_cache(maxsize=8)
