@@ -19,6 +19,7 @@ from .drawn_grids import drawn_lines
 from .ellipses import with_rows
 from .in_turn import items_after
 from .labware_nouns import LabwareNouns
+from .map_labware import used_with
 from .phrases import words_of
 from .replicates import called_alike
 from .shared_words import Amount, with_shared_words
@@ -39,9 +40,18 @@ def written_wells(
     texts += _written_out(facts, others)
     texts += _laid_out_in_the_run(deck, common)
     nouns = LabwareNouns(deck, common)
-    noted = {note: nouns.of_name(name) for name, note in facts.notes.items()}
+    noted = {
+        note: nouns.of_name(name) or _indexed_by(deck, facts, name)
+        for name, note in facts.notes.items()
+    }
     for line, text in texts:
         yield from with_bare_numbers([*_of_text(deck, nouns, noted, line, text, common)], text)
+
+
+def _indexed_by(deck: Deck, facts: SourceFacts, name: str) -> frozenset[str]:
+    """The one labware that a map of wells indexes: its comment is about that."""
+    keys = used_with(deck, facts, name)
+    return frozenset(keys) if len(keys) == 1 else frozenset()
 
 
 def _of_text(
