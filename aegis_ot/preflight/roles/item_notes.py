@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from ...instrumentation import NameBinding, is_spot
 from ...vocabulary import WellRef
@@ -10,7 +11,8 @@ from ..rules import Common
 from ..text import SourceFacts
 from .clues import Clue, Strength, shortened
 from .deck import Deck
-from .map_labware import labware_of_map, refs_of
+from .map_labware import labware_of_map, refs_of, used_with
+from .names import of_all
 from .well_names import well_names
 
 
@@ -20,6 +22,7 @@ def item_notes(
     """What the comment beside each item of a list or a dict says of the wells of that item."""
     held = {binding.name: [(ref,) for ref in binding.wells] for binding in names}
     yield from _of_dicts(deck, names, facts, common)
+    yield from _of_lists(deck, facts, common)
     for name, notes in facts.item_notes.items():
         wells = held.get(name) or _listed(deck, facts, name, common)
         if len(wells) != len(notes):
@@ -57,6 +60,21 @@ def _of_dicts(
             ]
             if wells and not well_names(common).spec.search(note):
                 yield _noted(note, tuple(wells), name, facts.assigned.get(name))
+
+
+def _of_lists(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
+    """What the comment beside a name says of the wells that are listed there: ``["A1", "B1"]``.
+
+    Only of those that the run uses with one labware.
+    """
+    for name, note in facts.notes.items():
+        value = facts.constants.get(name)
+        spots = value if isinstance(value, (list, tuple)) else (value,)
+        if not all(map(is_spot, spots)) or len(used_with(deck, facts, name)) != 1:
+            continue
+        wells = tuple(refs_of(deck, labware_of_map(deck, facts, name, spots, common), spots))
+        if wells and of_all(note, wells, common):
+            yield replace(_noted(note, wells, name, facts.assigned.get(name)), lone=len(wells) > 1)
 
 
 def _listed(deck: Deck, facts: SourceFacts, name: str, common: Common) -> list[tuple[WellRef, ...]]:

@@ -70,7 +70,7 @@ def named_wells(
             said = f"levels listed beside `{binding.name}` at line {line}"
             yield Clue(Strength.COMMENT, "", wells, line, said, subject=False, levels=levels)
         chosen = binding.name == base and not _is_all(deck, binding.wells)
-        if note and not loose and chosen and _of_all(note, wells, common):
+        if note and not loose and chosen and of_all(note, wells, common):
             yield Clue(
                 Strength.COMMENT,
                 note,
@@ -108,7 +108,7 @@ def _is_all(deck: Deck, wells: Sequence[WellRef]) -> bool:
     }
 
 
-def _of_all(note: str, wells: Sequence[WellRef], common: Common) -> bool:
+def of_all(note: str, wells: Sequence[WellRef], common: Common) -> bool:
     """Whether a comment speaks of all the wells of the name that it stands beside.
 
     Not "H1 NTC", which :mod:`.remarks` reads, and not "the last one is the NTC".
