@@ -73,15 +73,23 @@ def refs_of(deck: Deck, labware: Sequence[str], spots: Iterable[str]) -> Iterato
 def used_with(deck: Deck, facts: SourceFacts, name: str) -> tuple[str, ...]:
     """The labware that is indexed by this constant, straight or in a comprehension.
 
-    Only where all indices are made of parts of it, that which is indexed by these.
+    Best that which is indexed by what stands in it (``for code, tube in TUBES.items()``), then by
+    what that leads to (``plate[wells_of[code]]``), then by parts of it (``plate[tube[0] + "3"]``).
     """
     straight: set[str] = set()
+    led_to: set[str] = set()
     by_parts: set[str] = set()
     for place in facts.places:
-        if name in origins(facts, place.names, (place.line,)):
-            keys = deck.by_name.get(place.labware) or _listed(deck, facts, place)
-            (by_parts if place.made else straight).update(keys)
-    return tuple(sorted(straight or by_parts))
+        if name not in origins(facts, place.names, (place.line,)):
+            continue
+        keys = deck.by_name.get(place.labware) or _listed(deck, facts, place)
+        if place.made:
+            by_parts |= keys
+        elif name in origins(facts, {*place.names} - place.keyed_by, (place.line,), by_keys=False):
+            straight |= keys
+        else:
+            led_to |= keys
+    return tuple(sorted(straight or led_to or by_parts))
 
 
 def _listed(deck: Deck, facts: SourceFacts, place: Place) -> set[str]:

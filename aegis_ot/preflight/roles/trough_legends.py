@@ -38,7 +38,7 @@ def trough_legends(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
     }
     any_called = "|".join(map(re.escape, called)) or "(?!)"
     number_of = re.compile(rf"(?im)((?:^|[,;/|])\s*)(?:{any_called})\.?\s*(?=\d)")
-    numbered = called.difference(common.places, common.positions)
+    numbered = set(common.layout.get("trough", ())).difference(common.places, common.positions)
     for line, text in _blocks(facts):
         yield from _told_alone(deck, troughs[0], line, text, numbered)
         # In a list of what is on the deck the reservoir is an entry itself.

@@ -23,6 +23,8 @@ class Place:
         keys: Keys and attributes in the index: ``"tube"`` in ``rack[row["tube"]]``.
         partly: Whether only some of what stands there is taken: ``plate.columns()[NTC][:6]``.
         made: Whether the index is put together: ``plate[well[0] + "3"]``.
+        keyed_by: Names that are only keys to what stands there: ``code`` in
+            ``plate[wells_of[code]]``.
     """
 
     labware: str
@@ -33,6 +35,7 @@ class Place:
     keys: tuple[str, ...] = ()
     partly: bool = False
     made: bool = False
+    keyed_by: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)
@@ -125,6 +128,7 @@ class SourceFacts:
         liquids: Description of each liquid defined in the text, by its name.
         comes_from: For each name, the names that its values are made of, with the first and the
             last line on which that holds.
+        keyed_by: For each name, those of these names that are only keys to its values.
         asked: For each name, the keys in what its values are made of, with the lines as above.
         called_at: For each parameter of a function, the lines that call it.
         runs: Loops over literals and over names.
@@ -156,6 +160,7 @@ class SourceFacts:
     arguments: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
     liquids: dict[str, str] = field(default_factory=dict)
     comes_from: dict[str, set[tuple[str, int, int]]] = field(default_factory=dict)
+    keyed_by: dict[str, set[str]] = field(default_factory=dict)
     asked: dict[str, set[tuple[str, int, int]]] = field(default_factory=dict)
     called_at: dict[str, set[int]] = field(default_factory=dict)
     runs: list[Loop] = field(default_factory=list)

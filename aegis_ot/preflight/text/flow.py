@@ -12,7 +12,7 @@ from itertools import chain
 from typing import Any
 
 from .facts import Loop, SourceFacts, Values
-from .literals import fields_in, names_in, plain_text
+from .literals import fields_in, keying_names, names_in, plain_text
 
 _DRAWN = {
     "aspirate": (1, "location"),
@@ -24,7 +24,6 @@ _DRAWN = {
 """Where each liquid-moving call names its source: position and keyword."""
 
 _KEEPS_ORDER = ("list", "tuple", "iter")
-
 
 _ANYWHERE = (0, 1 << 30)
 
@@ -58,10 +57,13 @@ def read_flow(tree: ast.Module, facts: SourceFacts) -> None:
                 _draw(facts, node, *_DRAWN[node.func.attr])
 
 
-def origins(facts: SourceFacts, names: Iterable[str], lines: Collection[int]) -> set[str]:
+def origins(
+    facts: SourceFacts, names: Iterable[str], lines: Collection[int], by_keys: bool = True
+) -> set[str]:
     """These names and all that their values come from, in loops around one of these lines.
 
     Or around any call that gives a parameter among them its value, if no such call is one of them.
+    Not ``by_keys``, where these only say which value it is.
     """
     found: set[str] = set()
     open_ = list(names)
@@ -73,8 +75,9 @@ def origins(facts: SourceFacts, names: Iterable[str], lines: Collection[int]) ->
         found.add(name)
         called = facts.called_at.get(name, set())
         calls |= called if called.isdisjoint(lines) else set()
+        keys = set() if by_keys else facts.keyed_by.get(name, set())
         for other, first, last in facts.comes_from.get(name, ()):
-            if any(first <= line <= last for line in chain(lines, calls)):
+            if other not in keys and any(first <= line <= last for line in chain(lines, calls)):
                 open_.append(other)
     return found
 
@@ -95,6 +98,7 @@ def _comes(facts: SourceFacts, name: str, value: ast.expr, span: tuple[int, int]
     known = facts.comes_from.setdefault(name, set())
     named = (*names_in(value), *fields_in(value))
     known.update((other, *span) for other in named if other != name)
+    facts.keyed_by.setdefault(name, set()).update(keying_names(value))
     for inner in ast.walk(value):
         if isinstance(inner, ast.Subscript) and plain_text(inner.slice):
             facts.asked.setdefault(name, set()).add((plain_text(inner.slice), *span))

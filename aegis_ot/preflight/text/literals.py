@@ -199,6 +199,21 @@ def names_in(node: ast.AST) -> Iterator[str]:
             yield inner.id
 
 
+def keying_names(node: ast.AST) -> set[str]:
+    """The names that stand in an expression's indices alone: ``code`` in ``wells_of[code]``."""
+    held: set[str] = set()
+    open_: list[ast.AST] = [node]
+    while open_:
+        inner = open_.pop()
+        if isinstance(inner, ast.Name):
+            held.add(inner.id)
+        elif isinstance(inner, ast.Subscript):
+            open_.append(inner.value)
+        else:
+            open_ += ast.iter_child_nodes(inner)
+    return set(names_in(node)) - held
+
+
 def fields_in(node: ast.AST) -> Iterator[str]:
     """Every attribute that an expression takes without a call: ``LAYOUT.vehicle``."""
     called = {id(inner.func) for inner in ast.walk(node) if isinstance(inner, ast.Call)}

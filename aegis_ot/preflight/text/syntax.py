@@ -12,6 +12,7 @@ from .lines import without_gaps
 from .literals import (
     fields_of,
     index_value,
+    keying_names,
     keys_in,
     last_name,
     names_in,
@@ -225,6 +226,7 @@ class SyntaxReader:
                     tuple(keys_in(index)),
                     partly,
                     not isinstance(index, (ast.Name, ast.Attribute, ast.Subscript)),
+                    frozenset(keying_names(index)),
                 )
             )
 
