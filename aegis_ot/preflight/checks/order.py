@@ -176,7 +176,7 @@ class RisingOrder(Check):
             for source, volume, _, draw_line in visit.parts:
                 if source is None or source is visit.well or volume <= 0:
                     continue
-                if not case.has(source, liquid) or visit.well.ref in case.roles.derived_levels:
+                if not case.has(source, liquid) or case.has(visit.well, liquid):
                     continue  # where the one is diluted to make the other, nothing is dispensed
                 key = (visit.tip.number, visit.session)
                 level = case.level(source)

@@ -150,9 +150,12 @@ def _is_begun(clause: str, rest: str, names: WellNames) -> bool:
 
 
 def _is_told_at_the_end(rest: str, names: WellNames) -> bool:
-    """Whether more wells follow, and then what all of them are."""
+    """Whether more wells follow, and then the numbers that all of them have."""
     first = names.spec.match(rest.lstrip())
-    return first is not None and rest.lstrip()[first.end() :].lstrip()[:1] == "="
+    return first is not None and bool(_LEVELS.match(rest.lstrip(), first.end()))
+
+
+_LEVELS = re.compile(r"\s*=\s*\d+(?:[.,]\d+)?\s*[,;/]")
 
 
 def _says_anew(clause: str, rest: str, names: WellNames) -> bool:

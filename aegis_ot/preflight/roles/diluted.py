@@ -34,7 +34,9 @@ def derive_diluted(roles: Roles, name: str, trace: Trace) -> None:
         return
     if level is None:
         level = roles.derived_levels[stock.ref] = 1.0
-    roles.derived_levels.update({well.ref: level * share for well, share in shares.items()})
+    on_its_scale = type(level)
+    for well, share in shares.items():
+        roles.derived_levels[well.ref] = on_its_scale(level * share)
 
 
 def _received(well: Well, trace: Trace) -> Mapping[Well, float]:

@@ -6,6 +6,9 @@ controls alike: it tells nothing apart.
 
 from __future__ import annotations
 
+from collections.abc import Set
+
+from ...vocabulary import WellRef
 from ..trace import Trace
 from .in_place import given_by
 from .roles import Roles
@@ -31,5 +34,18 @@ def unsay_for_all(roles: Roles, trace: Trace) -> None:
         theirs = {well for other in within for well in given[other]}
         known = len(within) >= _SEVERAL or any(not dosed[other] for other in within)
         for_all = theirs < wells and all(given[other] <= wells for other in beside)
-        if dosed[ref] and known and for_all:
+        if dosed[ref] and known and for_all and _controls_on_plates_of(wells, roles) <= wells:
             del roles.by_well[ref]
+
+
+def _controls_on_plates_of(wells: Set[WellRef], roles: Roles) -> Set[WellRef]:
+    """The wells that are named as controls, as far as any are, on the plates of these."""
+    specs = roles.family.roles
+    plates = {well.labware for well in wells}
+    return {
+        ref
+        for ref, assigned in roles.by_well.items()
+        if ref.labware in plates
+        and specs[assigned.role].replicated
+        and not specs[assigned.role].dosed
+    }

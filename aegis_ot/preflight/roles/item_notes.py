@@ -8,12 +8,14 @@ from dataclasses import replace
 from ...instrumentation import NameBinding, is_spot
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts
+from ..text import SourceFacts, tokens
 from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .map_labware import labware_of_map, refs_of, used_with
 from .names import of_all
+from .phrases import words_of
 from .well_names import well_names
+from .work_lists import is_work_list
 
 
 def item_notes(
@@ -44,6 +46,9 @@ def _of_dicts(
     bound = {binding.name.replace("'", '"'): binding.wells for binding in names}
     for name, notes in facts.key_notes.items():
         value = facts.constants.get(name)
+        from_to = isinstance(value, Mapping) and all(map(is_spot, value))
+        if from_to or is_work_list(deck, value):
+            continue  # which of the two wells of a line it speaks of is not said
         spots = {
             key: (item,) if isinstance(item, str) else tuple(item)
             for key, item in (value.items() if isinstance(value, Mapping) else ())
@@ -58,8 +63,14 @@ def _of_dicts(
             wells = wells or [
                 ref for key in keys for ref in refs_of(deck, labware, spots.get(key, ()))
             ]
-            if wells and not well_names(common).spec.search(note):
+            if wells and _is_of_one_thing(note, common):
                 yield _noted(note, tuple(wells), name, facts.assigned.get(name))
+
+
+def _is_of_one_thing(note: str, common: Common) -> bool:
+    """Whether a comment says what something is, and not what it is held against: "vs DMSO"."""
+    comparing = not words_of(common.comparing).isdisjoint(tokens(note))
+    return not comparing and not well_names(common).spec.search(note)
 
 
 def _of_lists(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:

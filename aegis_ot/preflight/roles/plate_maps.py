@@ -37,6 +37,8 @@ def plate_maps(
         labware = labware_of_map(deck, facts, name, all_names, common)
         by_key = labware_by_field(deck, facts, name)
         used = set(used_with(deck, facts, name))
+        if name in facts.parameters and not used:
+            continue  # what it says stands nowhere, or is the place of a tip
         places = _numbers_places(facts, name)
         rest = used - {key for keys in by_key.values() for key in keys}
         told = isinstance(value, Mapping) and far_apart(_levels_told(value, written).values())

@@ -26,6 +26,7 @@ class Common:
     waste: tuple[str, ...] = ()
     negations: tuple[str, ...] = ()
     exceptions: tuple[str, ...] = ()
+    comparing: tuple[str, ...] = ()
     by_hand: tuple[str, ...] = ()
     instead: tuple[str, ...] = ()
     lacking: tuple[str, ...] = ()

@@ -112,6 +112,7 @@ class SourceFacts:
         docstrings: Module and function docstrings, and other free-standing strings.
         metadata: Values of the ``metadata`` dict.
         constants: Names bound to literals, by name.
+        parameters: Names of runtime parameters among these constants.
         places: Subscripts of labware by names or constants.
         numbered: Names that count columns or name rows of a labware.
         loose: Names that are loop variables or parameters, as ``(function, name)``.
@@ -146,6 +147,7 @@ class SourceFacts:
     docstrings: list[tuple[int, str]] = field(default_factory=list)
     metadata: dict[str, str] = field(default_factory=dict)
     constants: dict[str, Any] = field(default_factory=dict)
+    parameters: set[str] = field(default_factory=set)
     places: list[Place] = field(default_factory=list)
     numbered: list[Numbered] = field(default_factory=list)
     loose: set[tuple[str, str]] = field(default_factory=set)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from ...instrumentation import is_spot
+from .bindings import picked_by
 from .facts import Place, SourceFacts
 from .lines import without_gaps
 from .literals import (
@@ -42,6 +43,7 @@ class SyntaxReader:
         self._in_part: set[int] = set()
         self._kinds: set[str] = set()
         self._assigning: set[int] = set()
+        self._holders = {"params"}
 
     def visit_module(self, tree: ast.Module) -> None:
         """Note the facts of a whole module."""
@@ -55,6 +57,12 @@ class SyntaxReader:
         }
         self._assigning = {
             node.lineno for node in ast.walk(tree) if isinstance(node, (ast.Assign, ast.AnnAssign))
+        }
+        self._holders |= {
+            last_name(target)
+            for node in ast.walk(tree)
+            if isinstance(node, ast.Assign) and last_name(node.value) == "params"
+            for target in node.targets
         }
         for node in ast.walk(tree):
             if isinstance(node, ast.Assign):
@@ -76,7 +84,9 @@ class SyntaxReader:
                 ):
                     facts.loose.add((function, argument.arg))
         for name, given in self._parameters.items():
-            facts.constants.setdefault(name, given)
+            if name not in facts.assigned:  # by which something else may be meant
+                facts.constants.setdefault(name, given)
+                facts.parameters.add(name)
         self._functions(tree, "<module>")
         self._in_part = taken_in_part(tree)
         for node in ast.walk(tree):
@@ -139,14 +149,19 @@ class SyntaxReader:
         """What ``protocol.params.column`` and ``int(p.column)`` were in the rehearsal."""
         if isinstance(value, ast.Call) and last_name(value.func) in ("int", "str", "float"):
             value = value.args[0] if len(value.args) == 1 else value
-        return self._parameters.get(value.attr) if isinstance(value, ast.Attribute) else None
+        return self._parameters.get(self._parameter(value))
+
+    def _parameter(self, node: ast.AST) -> str:
+        """The runtime parameter that ``protocol.params.column`` or ``p.column`` stands for."""
+        held = isinstance(node, ast.Attribute) and last_name(node.value) in self._holders
+        return node.attr if held and isinstance(node, ast.Attribute) else ""
 
     def _functions(self, node: ast.AST, function: str) -> None:
         for child in ast.iter_child_nodes(node):
             inside = child.name if isinstance(child, ast.FunctionDef) else function
             if isinstance(child, (ast.For, ast.AsyncFor)):
                 turning = set(names_in(child.target))
-                for name in (*turning, *_picked_by(child, turning)):
+                for name in (*turning, *picked_by(child, turning)):
                     self._facts.loose.add((inside, name))
                     self._facts.loops.add((inside, name))
             elif isinstance(child, ast.comprehension):
@@ -214,7 +229,8 @@ class SyntaxReader:
     def _place(
         self, labware: str, index: ast.expr, kind: str, line: int, partly: bool = False
     ) -> None:
-        names = tuple(dict.fromkeys(names_in(index)))
+        given = (name for node in ast.walk(index) if (name := self._parameter(node)))
+        names = tuple(dict.fromkeys((*names_in(index), *given)))
         if names:
             self._facts.places.append(
                 Place(
@@ -225,10 +241,19 @@ class SyntaxReader:
                     line,
                     tuple(keys_in(index)),
                     partly,
-                    not isinstance(index, (ast.Name, ast.Attribute, ast.Subscript)),
+                    _is_made_of_parts(index),
                     frozenset(keying_names(index)),
                 )
             )
+
+
+def _is_made_of_parts(index: ast.expr) -> bool:
+    """Whether an index is put together: ``"A" + row``, ``f"{row}{column}"``, no ``str(well)``."""
+    if isinstance(index, ast.JoinedStr):
+        return len(index.values) > 1
+    if isinstance(index, ast.Call):
+        return isinstance(index.func, ast.Attribute) and index.func.attr == "format"
+    return isinstance(index, ast.BinOp)
 
 
 def _names_places(kind: ast.ClassDef) -> bool:
@@ -237,40 +262,11 @@ def _names_places(kind: ast.ClassDef) -> bool:
     return any(is_spot(plain_text(value)) for value in values)
 
 
-def _picked_by(loop: ast.For | ast.AsyncFor, turning: set[str]) -> Iterator[str]:
-    """Names that a loop binds to another item in each turn: ``src = rack[spots[i]]``.
-
-    Or to one of two: ``dye = trough["A1"] if i < 6 else trough["A2"]``.
-    """
-    for node in ast.walk(loop):
-        for target, value in _bound(node) if isinstance(node, ast.Assign) else ():
-            indices = (s.slice for s in ast.walk(value) if isinstance(s, ast.Subscript))
-            either = isinstance(value, ast.IfExp)
-            if either or any(not turning.isdisjoint(names_in(index)) for index in indices):
-                yield target.id
-        if isinstance(node, ast.If):
-            yield from _bound_in(node.body) & _bound_in(node.orelse)
-
-
-def _bound_in(branch: Iterable[ast.stmt]) -> set[str]:
-    """The names that the statements of a branch bind."""
-    return {
-        target.id
-        for statement in branch
-        for node in ast.walk(statement)
-        for target, _ in (_bound(node) if isinstance(node, ast.Assign) else ())
-    }
-
-
-def _bound(node: ast.Assign) -> Iterator[tuple[ast.Name, ast.expr]]:
-    """Each name that an assignment binds, with what it is bound to: ``a, b = rack[i], row[i]``."""
-    for target in node.targets:
-        pairs = [(target, node.value)]
-        if isinstance(target, ast.Tuple) and isinstance(node.value, ast.Tuple):
-            pairs = list(zip(target.elts, node.value.elts, strict=False))
-        for one, value in pairs:
-            if isinstance(one, ast.Name):
-                yield one, value
+def _root(value: ast.expr) -> str:
+    """``std`` in ``std``, ``std.top()``, ``std.tube`` and ``std["tube"]``, else ``""``."""
+    while isinstance(value, (ast.Call, ast.Attribute, ast.Subscript)):
+        value = value.func if isinstance(value, ast.Call) else value.value
+    return value.id if isinstance(value, ast.Name) else ""
 
 
 def _field(value: ast.expr) -> str:
@@ -280,10 +276,3 @@ def _field(value: ast.expr) -> str:
     if isinstance(value, ast.Attribute) and isinstance(value.value, ast.Name):
         return f"{value.value.id}.{value.attr}"
     return ""
-
-
-def _root(value: ast.expr) -> str:
-    """``std`` in ``std``, ``std.top()``, ``std.tube`` and ``std["tube"]``, else ``""``."""
-    while isinstance(value, (ast.Call, ast.Attribute, ast.Subscript)):
-        value = value.func if isinstance(value, ast.Call) else value.value
-    return value.id if isinstance(value, ast.Name) else ""

@@ -16,8 +16,8 @@ from ..text import lexicon_of, tokens
 _SLOT = re.compile(r"\b(?:[A-Da-d][1-4]|\d{1,2})\b")
 
 
-_WAYS = ("back", "elsewhere")
-"""Where a plate went, in the order of the words: "to the incubator, then back to slot 1"."""
+_WAYS = ("back", "elsewhere", "another")
+"""Where a plate went, in the order of the words: "to the incubator, then return it to slot 1"."""
 
 _APART = (*_WAYS, "trough")
 
@@ -52,7 +52,7 @@ class Replacements:
 
     Args:
         words: Phrases by topic: ``replace``, ``plate``, ``tips``, ``refill``,
-            ``shake``, ``away``, ``spin``, ``trough``, ``back``, ``elsewhere``.
+            ``shake``, ``away``, ``spin``, ``trough``, ``back``, ``elsewhere``, ``another``.
         joining: Words for "and".
     """
 
@@ -106,10 +106,11 @@ class Replacements:
                 )
         ways = [match.topic for match in self._ways.find(text)]
         gone = "away" in topics or "back" in ways
+        returned = ways[-1:] == ["back"] and "another" not in ways
         new = "replace" in topics
         if new or (gone and "spin" not in topics):
             plates = frozenset(named or _plates_of(labware))
-            if new or ways[-1:] != ["back"]:
+            if new or not returned:
                 return Intervention(plates, "tips" in topics, shaken, refill, refill)
             return Intervention(
                 frozenset(), "tips" in topics, shaken, True, refill, plates, returned=plates
