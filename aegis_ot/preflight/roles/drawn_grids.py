@@ -41,11 +41,13 @@ class Drawing(NamedTuple):
 def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
     """The drawing whose column numbers stand in a line; without wells, if none does.
 
-    Dots stand for more of the same: for columns in a row, for rows under one.
+    Dots stand for more of the same: for columns in a row, for rows under one. A part of a plate
+    may be drawn, where the columns are called so: "col 3   col 4".
     """
     column_word, row_word = _before_numbers(names)
     header = column_word.sub(_blanked, lines[at])
-    columns = _columns(header)
+    of_a_part = header != lines[at]
+    columns = _columns(header, of_a_part)
     heads = list(re.finditer(r"\S+", header))[: len(columns)]
     middles = [(head.start() + head.end()) / 2 for head in heads]
     wells_of: dict[str, list[str]] = {}
@@ -58,6 +60,7 @@ def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
             continue
         letters = _LETTERS.fullmatch(first)
         begin = ord(letters[1]) - ord("A") if letters else -1
+        last = begin if of_a_part and not wells_of and letters else last
         filled = _filled(said, len(columns))
         if letters is None and end == at + 1 and written.strip():
             end += 1  # of what each column gets
@@ -87,8 +90,9 @@ def _ragged_rows(lines: Sequence[str], at: int, names: WellNames) -> set[int]:
     What stands after the gap is of the columns above it, and not of the whole row.
     """
     column_word, row_word = _before_numbers(names)
-    numbers = re.findall(r"\d+", lines[at]) if column_word.search(lines[at]) else []
-    apart = len(re.findall(r"\d\s{2,}(?=\d)", lines[at])) >= _FEWEST_COLUMNS - 1
+    header = column_word.sub(_blanked, lines[at])
+    numbers = re.findall(r"\d+", header) if header != lines[at] else []
+    apart = len(re.findall(r"\d\s{2,}(?=\d)", header)) >= _FEWEST_COLUMNS - 1
     if not apart or any(int(a) >= int(b) for a, b in pairwise(numbers)):
         return set()
     below = range(at + 1, min(at + 1 + _MOST_LINES, len(lines)))
@@ -147,13 +151,17 @@ def _under(written: str, middles: Sequence[float]) -> list[str]:
     return [spans[0].group(), *map(" ".join, cells)] if all(cells) else []
 
 
-def _columns(written: str) -> list[list[int]]:
-    """The columns under each number of a line that counts on from 1: "1  2-11  12"."""
+def _columns(written: str, of_a_part: bool) -> list[list[int]]:
+    """The columns under each number of a line that counts on from 1: "1  2-11  12".
+
+    Or that rises, where it is said that these are columns, ``of_a_part`` of a plate.
+    """
     columns: list[list[int]] = []
     last = 0
     for cell in cells_of(written.lower()):
         match = _NUMBER.fullmatch(cell)
-        if match is None or int(match[1]) != last + 1:
+        number = int(match[1]) if match else 0
+        if match is None or not (number == last + 1 or (of_a_part and number > last)):
             return []
         last = int(match[2] or match[1])
         columns.append(list(range(int(match[1]), last + 1)))

@@ -44,7 +44,8 @@ def _grid(
 ) -> Iterator[Clue]:
     wells_of = drawn_grid(lines, at, names).wells_of
     heading = _above(lines, at)
-    named = nouns.named(heading) or nouns.kind_in(heading)
+    plates = {info.key for info in deck.plates() if not info.is_tip_rack}
+    named = (nouns.named(heading) & plates) or nouns.kind_in(heading)
     key = _labware(deck, named, [well for wells in wells_of.values() for well in wells])
     for code, wells in wells_of.items():
         found = tuple(refs_of(deck, (key,), wells))
