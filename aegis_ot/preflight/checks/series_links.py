@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 
 from ..roles import Roles
-from ..trace import Trace, Transfer, Visit, Well
+from ..trace import Trace, Transfer, Visit, Well, row_column
 
 _MANY = 3
 """A well that is shared out to as many others is no step of the series they may belong to."""
@@ -170,7 +170,10 @@ def _dilutions_on_one(
                 or _across(link, axis) in steps
             )
         )
-        or (link.well in sources and _begins_next_line(link, axis))
+        or (
+            _begins_next_line(link, axis)
+            and (link.well in sources or _ends_its_line(trace, link.source, axis))
+        )
     ]
 
 
@@ -178,6 +181,12 @@ def _begins_next_line(link: Transfer, axis: int) -> bool:
     """Whether a link goes from the end of a line to the head of the next, as one writes."""
     ahead = link.well.order[axis] - link.source.order[axis]
     return ahead == 1 and link.well.order[1 - axis] == 0 < link.source.order[1 - axis]
+
+
+def _ends_its_line(trace: Trace, well: Well, axis: int) -> bool:
+    """Whether no well of its labware stands further along its row or column."""
+    names = trace.labware[well.ref.labware].wells
+    return well.order[1 - axis] == max(row_column(name)[1 - axis] for name in names)
 
 
 def _across(link: Transfer, axis: int) -> tuple[int, int]:
