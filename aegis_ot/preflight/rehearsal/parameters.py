@@ -98,19 +98,21 @@ def undeclared(names: Iterable[str], declared: Iterable[str]) -> str:
 
 def lacking_files(context: Any) -> list[str]:
     """The CSV parameters of a run that have no file."""
-    parameters = getattr(context, "_params", None)
-    values: Mapping[str, Any] = parameters.get_all() if parameters is not None else {}
+    values = _all_values(getattr(context, "_params", None))
     return [name for name, value in values.items() if getattr(value, "_contents", b"") is None]
 
 
 def plain_values(parameters: Any) -> dict[str, int | float | str]:
     """The numbers and texts among the values of a ``Parameters``, by name; ``{}`` for ``None``."""
-    values: Mapping[str, Any] = parameters.get_all() if parameters is not None else {}
     return {
         name: value
-        for name, value in values.items()
+        for name, value in _all_values(parameters).items()
         if isinstance(value, (int, float, str)) and not isinstance(value, bool)
     }
+
+
+def _all_values(parameters: Any) -> Mapping[str, Any]:
+    return parameters.get_all() if parameters is not None else {}
 
 
 def copied_parameters(live: Any) -> Any:

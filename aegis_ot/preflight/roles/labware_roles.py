@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
@@ -10,7 +9,7 @@ from ..rules import Common
 from ..text import Lexicon, tokens
 from .choosing import A_FEW, Candidate
 from .clues import Clue, Strength
-from .phrases import first_words, names_any, names_several, roles_named
+from .phrases import first_words, names_any, names_several, parts_joined, roles_named
 from .roles import Roles
 
 
@@ -68,13 +67,7 @@ def named_apart(
 
 def _roleless_words(text: str, lexicon: Lexicon, common: Common) -> frozenset[str]:
     """The words of those parts of a label that name no role, where others do."""
-    joining = first_words(common.joining)
-    parts: list[str] = [""]
-    for piece in re.split(r"(\W+)", text):
-        if set(piece) & set(",;/+&") or not joining.isdisjoint(tokens(piece)):
-            parts.append("")
-        else:
-            parts[-1] += piece
+    parts = parts_joined(text, common, lambda piece: not set(piece).isdisjoint(",;/+&"))
     silent = [part for part in parts if not names_any(lexicon, part)]
     if len(silent) == len(parts):
         return frozenset()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from ..rules import Common, Family
@@ -70,17 +70,23 @@ def what_all_are(named: Sequence[str], roles: Roles) -> list[str]:
 
 def joins_others(lexicon: Lexicon, text: str, common: Common) -> bool:
     """Whether a name joins what it names with something else: "sample and dilution strips"."""
-    joining = first_words(common.joining)
-    parts = [""]
-    for piece in re.split(r"(\W+)", text):
-        if piece.strip() in ("/", "+", "&") or {*tokens(piece)} & joining:
-            parts.append("")
-        else:
-            parts[-1] += piece
+    parts = parts_joined(text, common, lambda piece: piece.strip() in ("/", "+", "&"))
     if len(parts) == 1:
         return False
     named = [names_any(lexicon, part) for part in parts]
     return any(named) and not all(named)
+
+
+def parts_joined(text: str, common: Common, is_mark: Callable[[str], bool]) -> list[str]:
+    """The parts of a name between the words for "and", and between what else joins them."""
+    joining = first_words(common.joining)
+    parts = [""]
+    for piece in re.split(r"(\W+)", text):
+        if is_mark(piece) or not joining.isdisjoint(tokens(piece)):
+            parts.append("")
+        else:
+            parts[-1] += piece
+    return parts
 
 
 def names_any(lexicon: Lexicon, text: str) -> bool:
