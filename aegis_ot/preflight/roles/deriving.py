@@ -14,6 +14,7 @@ from .in_place import Given, derive_common, derive_given_instead, derive_used_li
 from .roles import Roles
 from .stages import is_shared_out, stage_of
 from .usage import Usage
+from .zero_levels import derive_undosed
 
 
 def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: Common) -> None:
@@ -21,6 +22,9 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: C
 
     Wells that only pass liquid on (a dilution plate) are left out.
     """
+    for name, spec in roles.family.roles.items():
+        if spec.undosed:
+            derive_undosed(roles, name, spec, trace, common)
     for name, spec in roles.family.roles.items():
         if spec.called_alike_beside:
             derive_called_alike(roles, name, spec, trace, common)

@@ -33,6 +33,7 @@ from .step_comments import step_comments
 from .text_tables import read_tables, transfer_lists, written_tables
 from .trough_legends import trough_legends
 from .well_names import well_names
+from .zero_levels import meant_by_zero
 
 
 def gather(
@@ -78,7 +79,7 @@ def gather(
         *helper_names(trace, facts, common),
         *loop_levels(trace, names, facts, common),
     ]
-    clues += explained(clues, facts)
+    clues += [*explained(clues, facts), *meant_by_zero(clues, facts, common)]
     clues += mirrored(deck, clues, facts, common)
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
 

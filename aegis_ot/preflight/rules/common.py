@@ -27,6 +27,7 @@ class Common:
     negations: tuple[str, ...] = ()
     exceptions: tuple[str, ...] = ()
     comparing: tuple[str, ...] = ()
+    means: tuple[str, ...] = ()
     by_hand: tuple[str, ...] = ()
     instead: tuple[str, ...] = ()
     lacking: tuple[str, ...] = ()

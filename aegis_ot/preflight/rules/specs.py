@@ -114,6 +114,9 @@ class RoleSpec:
             from where it stands, it is they that are meant, and not what they are given on to.
         dosed: Derived: a well on its side of which a concentration is said and no role, beside
             others; a source that goes into wells of one level only, in ``feeds``, has that level.
+        undosed: Derived: what a well of this role, or of one above it, is whose level is 0, where
+            others have doses: a control. Not where what it ``receives`` goes into such wells
+            and into those of several doses.
         called_alike_beside: Derived: a source without a role that is called by the same word as
             the wells it goes into, on a plate with wells of these roles: "APAP" beside controls.
         used_like: Derived: unnamed sources that each go into wells of their own on the labware, and
@@ -148,6 +151,7 @@ class RoleSpec:
     receives: tuple[str, ...] = role_names()
     receives_with: tuple[str, ...] = role_names()
     dosed: bool = False
+    undosed: tuple[str, ...] = role_names()
     called_alike_beside: tuple[str, ...] = role_names()
     used_like: tuple[str, ...] = role_names()
     gets: tuple[str, ...] = role_names()

@@ -104,13 +104,15 @@ _LONGEST_RANGE = 400
 
 
 def _counted(node: ast.expr) -> list[int] | None:
-    """The numbers of ``range(2, 12)`` or ``list(range(2, 12))``, where they are written down."""
+    """The numbers of ``range(2, 12)``, ``list(range(2, 12))`` or ``slice(2, 12)``, where they are
+    written down.
+    """
     if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Name) or node.keywords:
         return None
     if node.func.id in ("list", "tuple") and len(node.args) == 1:
         return _counted(node.args[0])
     bounds = [index_value(argument, {}) for argument in node.args]
-    if node.func.id != "range" or not 1 <= len(bounds) <= 3:
+    if node.func.id not in ("range", "slice") or not 1 <= len(bounds) <= 3:
         return None
     if not all(type(bound) is int for bound in bounds):
         return None

@@ -1,0 +1,107 @@
+"""Wells of dose 0: ``[("B2", 0), ("B3", 0.1)]`` names controls, "0 = DMSO only" says which kind."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from functools import lru_cache
+
+from ...vocabulary import WellRef
+from ..rules import Common, RoleSpec
+from ..text import SourceFacts, comment_blocks
+from ..trace import Trace
+from .clues import Clue, Strength, shortened
+from .levels import names_amounts
+from .roles import Roles
+
+
+def meant_by_zero(clues: Iterable[Clue], facts: SourceFacts, common: Common) -> Iterator[Clue]:
+    """For wells that a map gives the level 0, what a comment says that it stands for."""
+    said = _said_of_zero(facts, common)
+    if not said:
+        return
+    for clue in clues:
+        at_zero = tuple(
+            ref for ref, level in zip(clue.wells, clue.levels, strict=False) if level == 0
+        )
+        if at_zero and not clue.whole and clue.strength is Strength.NAME:
+            yield replace(
+                clue,
+                text=said,
+                wells=at_zero,
+                levels=(0.0,) * len(at_zero),
+                said=f"{clue.said}, where 0 stands for '{shortened(said)}'",
+                subject=False,
+            )
+
+
+def _said_of_zero(facts: SourceFacts, common: Common) -> str:
+    """The one thing that "0 = DMSO only" or "0 means ethanol alone" tells, or ``""``."""
+    zero = _zero(common.means)
+    texts = [text for _, text in (*facts.docstrings, *comment_blocks(facts))]
+    found = {match["said"].strip() for text in texts for match in zero.finditer(text)}
+    return found.pop() if len(found) == 1 else ""
+
+
+@lru_cache(maxsize=4)
+def _zero(means: tuple[str, ...]) -> re.Pattern[str]:
+    words = "|".join(map(re.escape, means)) or r"(?!)"
+    return re.compile(
+        r"(?<![\w.,:/+-])0(?:\.0)?(?: ?[munpµμ]M)?"
+        rf"(?: ?(?:=>?|->|→|:) ?|\s(?:{words})\s)"
+        r"(?P<said>[^\W\d_][^,;.:|()=\n]{1,59})",
+        re.IGNORECASE,
+    )
+
+
+_FEWEST_DOSES = 2
+
+
+def derive_undosed(roles: Roles, name: str, spec: RoleSpec, trace: Trace, common: Common) -> None:
+    """Wells whose dose is 0, among others of this role, are of the role ``spec.undosed``.
+
+    Not where a drug goes into wells of dose 0 and of several others: the doses are of another one,
+    in a second dimension of the plate or on top of what all wells get.
+    """
+    (undosed,) = spec.undosed
+    kind = roles.closure(name)
+    by_level: dict[float, set[WellRef]] = {}
+    said = False
+    for ref, assigned in roles.by_well.items():
+        if assigned.role in kind and (level := roles.level(ref)) is not None:
+            by_level.setdefault(level, set()).add(ref)
+            said = said or names_amounts(assigned.text, common)
+    zero = by_level.pop(0, set())
+    if not zero or len(by_level) < _FEWEST_DOSES:
+        return
+    served = trace.served(prefilled=True)
+    if not said and _levels_in_common(roles, served, by_level) < _FEWEST_DOSES:
+        return  # hours, say
+    drugs = {
+        ref: wells for ref, wells in served.items() if roles.has(ref, frozenset(spec.receives))
+    }
+    for wells in drugs.values():
+        levels = sum(not wells.isdisjoint(of_level) for of_level in by_level.values())
+        if levels > 1 and not wells.isdisjoint(zero):
+            return
+    for ref, wells in drugs.items():
+        if wells <= zero and (roles.by_plate_only(ref) or roles.level(ref) == 0):
+            del roles.by_well[ref]  # what takes their place stands in the rack of the doses
+    for ref in zero:
+        roles.by_well[ref] = replace(roles.by_well[ref].copied("dose 0"), role=undosed, whole=False)
+
+
+def _levels_in_common(
+    roles: Roles,
+    served: Mapping[WellRef, set[WellRef]],
+    by_level: Mapping[float, set[WellRef]],
+) -> int:
+    """How many levels are those of a source as well as of the wells that it goes into."""
+    return sum(
+        any(
+            roles.level(ref) == level and not of_level.isdisjoint(wells)
+            for ref, wells in served.items()
+        )
+        for level, of_level in by_level.items()
+    )
