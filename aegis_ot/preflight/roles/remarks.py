@@ -23,6 +23,7 @@ from .map_labware import used_with
 from .phrases import words_of
 from .replicates import called_alike
 from .shared_words import Amount, with_shared_words
+from .spoken import laid_out_in_the_run
 from .topics import Topic
 from .well_names import well_names
 
@@ -38,7 +39,7 @@ def written_wells(
     texts += comment_blocks(facts)
     texts += [(1, text) for text in facts.metadata.values()]
     texts += _written_out(facts, others)
-    texts += _laid_out_in_the_run(deck, common)
+    texts += laid_out_in_the_run(deck.trace, common)
     nouns = LabwareNouns(deck, common)
     noted = {
         note: nouns.of_name(name) or _indexed_by(deck, facts, name)
@@ -118,23 +119,6 @@ def _written_out(facts: SourceFacts, others: Collection[str]) -> list[tuple[int,
 
 
 _FEWEST_LINES = 3
-
-_VOLUME = re.compile(r"\d\s*[uµμm]l\b", re.IGNORECASE)
-
-
-def _laid_out_in_the_run(deck: Deck, common: Common) -> list[tuple[int, str]]:
-    """Comments of the run that are lines of a layout: ``f"column {n}: {dose} uM"``.
-
-    Not those that say how much goes there: "B1: 16.2 uL DNA + 43.8 uL TE".
-    """
-    spec = well_names(common).spec
-    return [
-        (said.line or 1, said.text)
-        for said in dict.fromkeys(deck.trace.comments)
-        if (match := spec.match(said.text.strip()))
-        and said.text.strip()[match.end() :].lstrip()[:1] in (":", "=")
-        and not _VOLUME.search(said.text)
-    ]
 
 
 def _whole_lines(lines: Sequence[str], common: Common) -> Iterator[tuple[int, str]]:

@@ -18,7 +18,7 @@ from ..rules import Common
 from ..text import SourceFacts, direction_in, lexicon_of, tokens
 from ..trace import Said, Trace, Visit
 from .clues import Clue, Strength, shortened
-from .phrases import first_words
+from .phrases import first_words, words_of
 from .well_names import well_names
 
 _LONGEST = 14
@@ -57,6 +57,35 @@ def said_in_the_run(trace: Trace, facts: SourceFacts, common: Common) -> Iterato
             found.given.update(dict.fromkeys(visit.well.ref for visit in given))
     for text, found in meant.items():
         yield from _clues(text, found, common)
+
+
+def laid_out_in_the_run(trace: Trace, common: Common) -> list[tuple[int, str]]:
+    """Comments of the run that are lines of a layout: ``f"column {n}: {dose} uM"``, by line.
+
+    Of "H12 is the NTC: 5 uL water from tube A2" the first clause is. Not what says how much goes
+    there: "B1: 16.2 uL DNA + 43.8 uL TE".
+    """
+    spec, means = well_names(common).spec, first_words(common.means)
+    nouns = words_of(tuple(word for words in common.labware.values() for word in words))
+    found: list[tuple[int, str]] = []
+    for said in dict.fromkeys(trace.comments):
+        text = said.text.strip()
+        first = text.split(maxsplit=1)
+        begin = len(first[0]) + 1 if first and first[0].lower() in nouns else 0  # "tube A1 is"
+        if (match := spec.match(text, begin)) is None:
+            continue
+        after = text[match.end() :].lstrip()
+        if not means.isdisjoint(tokens(after)[:1]):
+            text = _CLAUSE_ENDS.split(text, maxsplit=1)[0]
+        elif after[:1] not in (":", "="):
+            continue
+        if not _VOLUME.search(text):
+            found.append((said.line or 1, text))
+    return found
+
+
+_VOLUME = re.compile(r"\d\s*[uµμm]l\b", re.IGNORECASE)
+_CLAUSE_ENDS = re.compile(r"[:;.,]\s")
 
 
 def _spans(trace: Trace) -> Iterator[tuple[Said, list[Visit]]]:
