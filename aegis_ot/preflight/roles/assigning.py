@@ -71,6 +71,7 @@ def assign_roles(
     named_outright: set[str] = set()
     for_controls: set[WellRef] = set()
     named_by_liquid: set[tuple[WellRef, str]] = set()
+    outright_liquids: set[WellRef] = set()
     untold: list[Clue] = []
     misplaced: list[Clue] = []
     holding = of_several(clues, lexicon, common, roles)
@@ -107,10 +108,13 @@ def assign_roles(
         worth = _worth(clue, side_only, clue.whole or says_only_a_place(clue, common))
         if clue.strength is Strength.LIQUID and not names_several(lexicon, clue, common, roles):
             named_by_liquid.update((ref, role) for ref in clue.wells for role in named)
+            if is_outright(lexicon, " ".join(name_without_level(clue.text, common))):
+                outright_liquids.update(clue.wells)
         elif (
             clue.strength is Strength.DESCRIPTION
             and is_outright(lexicon, clue.text)
             and named_by_liquid.isdisjoint((ref, named[0]) for ref in clue.wells)
+            and outright_liquids.isdisjoint(clue.wells)
         ):
             # "steroid-free serum", described as "diluent"
             worth = (float(Strength.LIQUID), 2.0, *worth[2:])

@@ -65,9 +65,14 @@ def choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | N
         clue.text,
         level,
         conflict,
-        whole=all(c[2].whole for c in agreeing),
+        whole=any(c[2].whole for c in agreeing) and all(_is_of_many(c[2]) for c in agreeing),
         named=found[0][1] if clue.strength > Strength.COMMENT else "",
     )
+
+
+def _is_of_many(clue: Clue) -> bool:
+    """Whether this is the name of a whole labware, or what is said beside many draws at once."""
+    return clue.whole or (bool(clue.step) and len(clue.places) > 1)
 
 
 def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:

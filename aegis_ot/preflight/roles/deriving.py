@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 from ...vocabulary import WellRef
@@ -10,9 +10,10 @@ from ..rules import Common, RoleSpec
 from ..trace import Trace
 from .called_alike import derive_called_alike
 from .diluted import derive_diluted
+from .filled import derive_filled
 from .in_place import Given, derive_common, derive_given_instead, derive_used_like, given_by
 from .roles import Roles
-from .stages import is_shared_out, stage_of
+from .stages import is_shared_out
 from .usage import Usage
 from .zero_levels import derive_undosed
 
@@ -44,7 +45,7 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: C
         if spec.passed_on:
             _pass_on(roles, name, trace, given)
         if spec.receives:
-            _derive_one(roles, name, spec, trace, usage)
+            derive_filled(roles, name, spec, trace, usage)
         if spec.in_place_of:
             derive_given_instead(roles, name, spec, given)
     for name, spec in roles.family.roles.items():
@@ -268,32 +269,3 @@ def _pass_on(roles: Roles, name: str, trace: Trace, volumes: Given) -> None:
             before = roles.by_well.get(well)
             if before is None or before.role in roles.closure(name) - {name}:
                 roles.by_well[well] = assigned.copied("drawn from there")
-
-
-def _derive_one(
-    roles: Roles, name: str, spec: RoleSpec, trace: Trace, usage: Mapping[WellRef, Usage]
-) -> None:
-    wanted = frozenset(spec.receives)
-    is_wanted: Callable[[WellRef], bool] = lambda ref: roles.has(ref, wanted)  # noqa: E731
-    stage = stage_of(roles, trace, name, frozenset(spec.receives_with))
-    for well in trace.wells.values():
-        used = usage.get(well.ref)
-        if used is None or not used.received or used.first_drawn or used.drain:
-            continue
-        if used.feeds and not stage.holds(well.ref):
-            continue
-        assigned = roles.by_well.get(well.ref)
-        if assigned is not None and assigned.role not in roles.closure(name):
-            continue
-        for visit in trace.deliveries(well):
-            if any(
-                is_wanted(origin.ref)
-                for source, _, liquid, _ in visit.parts
-                if source is None
-                or is_wanted(source.ref)
-                or well.ref in stage.given
-                or not stage.holds(source.ref)
-                for origin in liquid
-            ):
-                roles.derived.setdefault(well.ref, set()).update(roles.closure(name))
-                break

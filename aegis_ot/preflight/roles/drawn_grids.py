@@ -61,7 +61,7 @@ def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
         letters = _LETTERS.fullmatch(first)
         begin = ord(letters[1]) - ord("A") if letters else -1
         last = begin if of_a_part and not wells_of and letters else last
-        filled = _filled(said, len(columns))
+        filled = _filled(said, len(columns)) or (_sparse(plain, middles) if letters else [])
         if letters is None and end == at + 1 and written.strip():
             end += 1  # of what each column gets
             continue
@@ -149,6 +149,23 @@ def _under(written: str, middles: Sequence[float]) -> list[str]:
             return []
         cells[nearest].append(span.group())
     return [spans[0].group(), *map(" ".join, cells)] if all(cells) else []
+
+
+def _sparse(written: str, middles: Sequence[float]) -> list[str]:
+    """The words under each column where some are left empty; what stands right of all is a remark.
+
+    None where a word stands between two columns.
+    """
+    half = min(later - middle for middle, later in pairwise(middles)) / 2
+    cells = [""] * len(middles)
+    for span in list(re.finditer(r"[^\s|]+", written))[1:]:
+        at = (span.start() + span.end()) / 2
+        nearest = min(range(len(middles)), key=lambda column: abs(middles[column] - at))
+        if abs(middles[nearest] - at) <= half:
+            cells[nearest] = f"{cells[nearest]} {span.group()}".strip()
+        elif at < middles[-1]:
+            return []
+    return cells if sum(map(bool, cells)) > 1 else []
 
 
 def _columns(written: str, of_a_part: bool) -> list[list[int]]:

@@ -74,7 +74,7 @@ def _table(text: str) -> tuple[Sequence[str], list[list[Any]]]:
         rows = [[cell.strip() for cell in re.split(separator, line.strip("|"))] for line in lines]
         width = Counter(map(len, rows)).most_common(1)[0][0] if rows else 0
         even = [row for row in rows if len(row) == width]
-        placed = [row for row in even if any(map(is_spot, row))]
+        placed = [row for row in even if any(map(spots_in, row))]
         if width > 1 and len(placed) >= _FEWEST_ROWS and len(placed) >= len(rows) - 1:
             has_titles = even[0] is rows[0] and even[0] is not placed[0]
             return (even[0] if has_titles else ()), [list[Any](row) for row in placed]
