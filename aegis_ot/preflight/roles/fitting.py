@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
 from ..rules import Common
@@ -84,14 +85,14 @@ def fitting_role(
         fitting = [role for role in named if specs[role].side == "source"]
     if made_of := _made_of_a_reagent(fitting, roles, clue, common):
         return made_of
-    if blank := _said_before_brackets(fitting, roles, clue):
+    if blank := _said_beside_brackets(fitting, roles, clue):
         return blank
-    fitting = _finer(fitting, roles)
+    said, fitting = fitting, _finer(fitting, roles)
     if not fitting or _ambiguous(fitting, roles, clue, common):
         return None
     if clue.subject and is_for_controls(named, sides, roles) and _treats(fitting[0], roles):
         return None
-    return _general(fitting, roles, clue) if _is_of_a_series(clue) else fitting[0]
+    return _general(fitting[0], said, roles, clue) if _is_of_a_series(clue) else fitting[0]
 
 
 def _is_dried(clue: Clue, common: Common) -> bool:
@@ -105,12 +106,14 @@ def is_for_controls(named: Sequence[str], sides: tuple[str, bool], roles: Roles)
     return sides[0] == "source" and specs[named[0]].replicated and not specs[named[0]].receives
 
 
-def _said_before_brackets(fitting: Sequence[str], roles: Roles, clue: Clue) -> str | None:
-    """The blank in "blank (elution buffer)", which says in brackets what it is made of."""
-    head, bracket, _ = clue.text.partition("(")
-    for role in fitting if bracket else ():
+def _said_beside_brackets(fitting: Sequence[str], roles: Roles, clue: Clue) -> str | None:
+    """The blank in "blank (elution buffer)", which says in brackets what it is made of, and the
+    one in "elution buffer (blank)".
+    """
+    said = [tokens(part) for part in re.split(r"[()]", clue.text) if tokens(part)]
+    for role in fitting if len(said) == 2 and "(" in clue.text else ():
         spec = roles.family.roles[role]
-        if spec.level is not None and tokens(head) in map(tokens, spec.words):
+        if spec.level is not None and any(part in map(tokens, spec.words) for part in said):
             return role
     return None
 
@@ -144,14 +147,13 @@ def _is_of_a_series(clue: Clue) -> bool:
     return clue.strength is Strength.COMMENT and len(clue.places) >= _A_SERIES
 
 
-def _general(fitting: Sequence[str], roles: Roles, clue: Clue) -> str:
+def _general(first: str, said: Sequence[str], roles: Roles, clue: Clue) -> str:
     """The role that all of a series have: "standards, H1 = blank" are standards, and so are
     those of "BSA 0, 0.5, 1 mg/ml".
     """
-    first = fitting[0]
     if roles.family.roles[first].level is None:
         return first
-    above = [role for role in fitting[1:] if role in roles.closure(first) - {first}]
+    above = [role for role in said if role in roles.closure(first) - {first}]
     if not above and len(listed_levels(clue.text)) > 1:
         above = list(roles.family.roles[first].parents)
     return above[0] if above else first

@@ -128,6 +128,15 @@ class LabwareNouns:
         match = _HEADING.match(IN_BRACKETS.sub("", line))
         return self._called(tokens(match[1])) if match else frozenset()
 
+    def beginning(self, text: str) -> frozenset[str]:
+        """The one labware that a text begins with: "rack on 1"."""
+        words = tokens(text)
+        for count in range(len(words), 0, -1):
+            found = self._called(words[:count])
+            if len(found) == 1:
+                return found
+        return frozenset()
+
     def ends_in_noun(self, text: str) -> bool:
         """Whether a text ends with a word for labware: "3   compound rack"."""
         return bool(tokens(text)) and _singular(tokens(text))[-1] in self._nouns

@@ -96,7 +96,7 @@ def names_any(lexicon: Lexicon, text: str) -> bool:
 
 def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[str]]:
     """What each word or phrase of a clue may name, the head of the whole first."""
-    text = _telling_part(lexicon, clue).replace("%", " percent ")
+    text = _telling_part(lexicon, clue).replace("%", " percent ").replace(" + ", " plus ")
     places: dict[int, list[str]] = {}
     for match in lexicon.find(text):
         places.setdefault(match.start, []).append(match.topic)

@@ -36,7 +36,7 @@ def written_wells(
     And in constants of several lines, but those of the ``others``, which are tables.
     """
     texts = list(facts.docstrings)
-    texts += comment_blocks(facts)
+    texts += comment_blocks(facts, indented=True)
     texts += [(1, text) for text in facts.metadata.values()]
     texts += _written_out(facts, others)
     texts += laid_out_in_the_run(deck.trace, common)
@@ -71,7 +71,7 @@ def _of_text(
     for number, written in lines:
         if number in drawn:
             continue  # "E1" may be a code there
-        parts, more = _with_what_follows(written, common)
+        parts, more = _with_what_follows(topic.entries(written), common)
         topic.next_line(written, parts)
         parts = [nouns.without_place(topic.without_heading(part)) for part in parts]
         parts, amount = with_shared_words(parts, amount if written.strip() else None)
@@ -82,7 +82,7 @@ def _of_text(
                 continue
             if nouns.is_of_deck(part) or nouns.is_elsewhere(part):
                 continue
-            firm = topic.said(part, before, noted.get(written, frozenset()))
+            firm = topic.said(part, before, noted.get(written.strip(), frozenset()))
             keys = firm or topic.above() or _only_one_with(deck, parts, common)
             # "col 3  1 nM     tube A2": the column is not one of the tubes'.
             others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])

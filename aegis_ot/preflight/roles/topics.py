@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from ..rules import Common
 from ..text import tokens
 from .clauses import Part, axis_of, parts_of
 from .labware_nouns import IN_BRACKETS, LabwareNouns
+from .well_names import well_names
 
 _LONGEST_HEADING = 6
+
+_LABEL = re.compile(r"[\s*-]*([^\W\d]\w*(?: [\w()]+){0,3}):?\s{2,}(?=\S)")
+"""What stands at the left of a line, apart from its entries."""
 
 _NONE: frozenset[str] = frozenset()
 
@@ -28,6 +33,7 @@ class Topic:
         self._last = self._in_line = self._of_line = self._headed = _NONE
         self._begins = _NONE
         self._begun = ""
+        self._hanging = (0, _NONE)
 
     def next_line(self, written: str, parts: Sequence[Part]) -> None:
         """Go on with a line, whose parts name wells."""
@@ -42,7 +48,7 @@ class Topic:
         self._begins = nouns.named(opening) if opens else _NONE
         listed = nouns.begun_by(written)
         self._begun = begun.strip() if self._headed or (colon and listed) else ""
-        self._of_line = nouns.named(written.partition("->")[0]) or self._headed
+        self._of_line = nouns.named(written.partition("->")[0]) or self._headed or self._hanging[1]
         self._in_line = _NONE
         if named:
             self.heading = named  # and of the lines below: "strips: column 1 blank"
@@ -55,6 +61,27 @@ class Topic:
         anew = bool(parts) and (_is_headed(parts[0], begun) or nouns.ends_in_noun(begun))
         if colon and not self._of_line and anew:
             self.heading = self._last = _NONE  # "cells: column 1 ..." goes on with something else
+
+    def entries(self, written: str) -> str:
+        """A line without the labware that stands at its left, of which the next ones speak, too.
+
+        ::
+
+            rack on 4   A1 blank  A2 BSA 0.2  A3 BSA 0.4
+                        C1-C6 extracts
+        """
+        at, keys = self._hanging
+        if keys and written.strip() and len(written) - len(written.lstrip()) >= at:
+            return written
+        label = _LABEL.match(written)
+        keys = self._nouns.beginning(label[1]) if label else _NONE
+        if label is None or not keys:
+            self._hanging = (0, _NONE)
+            return written
+        self._hanging = (label.end(), keys)
+        rest = written[label.end() :]
+        said = well_names(self._common).spec.sub(" ", rest)
+        return " " * label.end() + rest if tokens(said) else written  # "dye trough   A1"
 
     def next_part(self, before: frozenset[str]) -> None:
         """Go on with a part, before whose wells this stands: "strip columns 1 and 2"."""
