@@ -53,9 +53,9 @@ def is_dilution(case: Case, step: Transfer) -> bool:
     """Whether a transfer is a dilution step.
 
     Undiluted stock in an empty first well is none: that well never gets diluent, or only after it
-    was drawn from, when all wells are filled up for the reader.
+    was drawn from, when all wells are filled up for the reader. It keeps some of the stock.
     """
-    if not step.from_stock or case.has(step.well, diluent_roles(case)):
+    if not step.from_stock or case.has(step.well, diluent_roles(case)) or is_used_up(step.well):
         return True
     drawn = [
         visit.index
@@ -65,3 +65,17 @@ def is_dilution(case: Case, step: Transfer) -> bool:
     then = min((index for index in drawn if index > step.visit.index), default=None)
     arrivals = diluent_arrivals(case, step.well)
     return any(then is None or index < then for index in arrivals)
+
+
+def is_used_up(well: Well) -> bool:
+    """Whether the first draw takes all that a well was given in the run."""
+    held = 0.0
+    for visit in well.visits:
+        if visit.kind is OperationKind.ASPIRATE and not visit.mixing:
+            return 0 < held <= visit.volume + _DREGS and not well.prefilled
+        held += 0.0 if visit.mixing else sum(volume for _, volume, _, _ in visit.parts)
+    return False
+
+
+_DREGS = 0.5
+"""µL that nobody leaves in a well on purpose."""

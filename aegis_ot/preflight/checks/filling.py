@@ -9,7 +9,14 @@ from typing import ClassVar
 from ...vocabulary import Site
 from ..trace import Transfer, Visit, Well
 from .base import Case, Check, Doubt, Result, Violation, at, place
-from .dilution_steps import NO_SERIES, diluent_arrivals, diluent_roles, is_dilution, stock_roles
+from .dilution_steps import (
+    NO_SERIES,
+    diluent_arrivals,
+    diluent_roles,
+    is_dilution,
+    is_used_up,
+    stock_roles,
+)
 from .series import Series
 
 
@@ -206,7 +213,7 @@ def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
 
     It needs no diluent, and a later transfer into it runs the wrong way, which is SD-2's.
     """
-    if not series.directed or series.position[well] != 0:
+    if not series.directed or series.position[well] != 0 or is_used_up(well):
         return False
     first = next(case.trace.deliveries(well), None)
     stock = stock_roles(case)

@@ -142,16 +142,31 @@ def _given_alike(
 
     That other one is what is diluted. What all get alike is no stock, whatever its name: the
     protein that a ligand is titrated into, a dye in every well. Where other chains are filled
-    with diluent, what this one is given instead is rather a mistake.
+    with diluent, what this one is given instead is rather a mistake; and so is the wash buffer,
+    where a diluent stands elsewhere.
     """
     alike: dict[bool, set[Well]] = {}
+    wrong = _never_diluent(roles) if any(roles.known(role) for role in diluent) else frozenset()
     for links in groups:
         linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
         fed = _fed_from_outside(trace, linked)
         found = alike.setdefault(any(roles.has(source.ref, diluent) for source in fed), set())
         if len(linked) >= _FEWEST_ALIKE and _for_the_head(roles, fed, links, diluent):
-            found.update(source for source, wells in fed.items() if wells.issuperset(linked))
+            found.update(
+                source
+                for source, wells in fed.items()
+                if wells.issuperset(linked) and not roles.has(source.ref, wrong)
+            )
     return alike.get(True in alike, set())
+
+
+def _never_diluent(roles: Roles) -> frozenset[str]:
+    """Roles of liquids that are neither diluted nor diluted with."""
+    spec = roles.family.series
+    of_series = {*spec.stock, *spec.diluent, *spec.diluent_else} if spec else set[str]()
+    return frozenset(
+        name for name, role in roles.family.roles.items() if role.side == "source"
+    ) - frozenset().union(of_series, *map(roles.closure, of_series))
 
 
 _FEWEST_ALIKE = 3

@@ -83,10 +83,13 @@ def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:
     column of controls across them.
     """
     specs = roles.family.roles
-    worth, role, clue, _ = found[0]
-    if not specs[role].receives or clue.strength < Strength.NAME:
+    # The liquid's "cells" leaves open what a list of doses says of them.
+    first = next((at for at, c in enumerate(found) if specs[c[1]].receives), 0)
+    worth, role, clue, _ = found[first]
+    general = all(c[1] in roles.closure(role) for c in found[:first])
+    if not specs[role].receives or clue.strength < Strength.NAME or not general:
         return
-    for at, (other_worth, other, hint, _) in enumerate(found[1:], 1):
+    for at, (other_worth, other, hint, _) in enumerate(found[first + 1 :], first + 1):
         if not specs[other].parents or specs[other].receives:
             continue  # no control
         mine, theirs = clue.places, hint.places
@@ -95,7 +98,7 @@ def _put_declared_first(roles: Roles, found: list[Candidate]) -> None:
         set_apart = remark and hint.placed and theirs < mine
         across = remark and bool(clue.levels) and not (mine <= theirs or theirs <= mine)
         if listed or set_apart or across:
-            found.insert(0, found.pop(at))
+            found.insert(first, found.pop(at))
             return
 
 

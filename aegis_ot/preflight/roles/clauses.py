@@ -69,18 +69,42 @@ def _without_codes(
 ) -> tuple[re.Match[str], ...]:
     """Without what numbers things by their first letter: "A2-F2 = milk fractions F1-F6".
 
-    Not after a word that joins wells: "A1 and A2".
+    Not after a word that joins wells, "A1 and A2"; the first ones only where several things are
+    numbered, and it is said where these are: "fractions F1-F6 in column 4".
     """
     named = [
         match
-        for match in wells[1:]
-        if match["first"]
-        and (word := tokens(piece[: match.start()])[-1:])
-        and len(word[0]) > 1
-        and not names.between.fullmatch(word[0])
-        and word[0][0].upper() == match["first"][0]
+        for at, match in enumerate(wells)
+        if (word := _numbers(piece, match))
+        and not names.between.fullmatch(word)
+        and (at > 0 or (match["last"] and _goes_on(wells)))
     ]
     return tuple(match for match in wells if match not in named)
+
+
+def numbers_things(part: Part) -> bool:
+    """Whether the first wells of a part may be numbers of what stands before: "fractions F1-F6"."""
+    first = part.wells[0]
+    before = part.text.partition(first.group())[0]
+    word = tokens(before)[-1:]
+    return bool(first["last"] and word) and _alike(word[0], first)
+
+
+def _numbers(piece: str, match: re.Match[str]) -> str:
+    """The word right before some wells if it begins with their letter, or ``""``."""
+    word = tokens(piece[: match.start()])[-1:]
+    return word[0] if word and _alike(word[0], match) else ""
+
+
+def _alike(word: str, match: re.Match[str]) -> bool:
+    """Whether a word begins with the letter of some wells."""
+    return bool(match["first"]) and len(word) > 1 and word[0].upper() == match["first"][0]
+
+
+def _goes_on(wells: tuple[re.Match[str], ...]) -> bool:
+    """Whether wells of other letters, or columns or rows, are named after the first."""
+    letter = wells[0]["first"][0]
+    return any(other["first"] is None or other["first"][0] != letter for other in wells[1:])
 
 
 def _is_left_out(before: str, common: Common) -> bool:

@@ -87,7 +87,8 @@ def drawn_lines(lines: Sequence[str], names: WellNames) -> set[int]:
 def _ragged_rows(lines: Sequence[str], at: int, names: WellNames) -> set[int]:
     """Places of the lines below "col 2   3   4      8" that begin with a row and have a gap.
 
-    What stands after the gap is of the columns above it, and not of the whole row.
+    What stands after the gap is of the columns above it, and not of the whole row; but for one
+    phrase below several of them.
     """
     column_word, row_word = _before_numbers(names)
     header = column_word.sub(_blanked, lines[at])
@@ -95,14 +96,19 @@ def _ragged_rows(lines: Sequence[str], at: int, names: WellNames) -> set[int]:
     apart = len(re.findall(r"\d\s{2,}(?=\d)", header)) >= _FEWEST_COLUMNS - 1
     if not apart or any(int(a) >= int(b) for a, b in pairwise(numbers)):
         return set()
+    second = [head.end() for head in re.finditer(r"\S+", header)][1]
     below = range(at + 1, min(at + 1 + _MOST_LINES, len(lines)))
     return {
-        line for line in below if row_word.match(lines[line]) and _GAP.search(lines[line].strip())
+        line
+        for line in below
+        if row_word.match(lines[line])
+        and len(cells := _GAP.split(lines[line].strip())) > 1
+        and not (len(cells) == 2 and len(lines[line].rstrip()) > second)
     }
 
 
 _FEWEST_COLUMNS = 3
-_GAP = re.compile(r"\S\s{3,}\S")
+_GAP = re.compile(r"(?<=\S)\s{3,}(?=\S)")
 
 
 @functools.lru_cache(maxsize=8)

@@ -12,7 +12,7 @@ from ..rules import Common
 from ..text import SourceFacts, comment_blocks, direction_in, lexicon_of, listed_levels, tokens
 from ..trace import row_column
 from .bare_numbers import with_bare_numbers
-from .clauses import Part, axis_of, parts_of
+from .clauses import Part, axis_of, numbers_things, parts_of
 from .clues import Clue, Strength, shortened
 from .deck import LEFT_OUT, Deck
 from .drawn_grids import drawn_lines
@@ -206,6 +206,8 @@ def _spoken(
         and (named := names.meant_by(part.wells, info))
     }
     called = {key: named for key, named in having.items() if key in keys}
+    if firm and not called and numbers_things(part):
+        return  # "Fractions F1-F12: tube rack slot 4"
     if firm or any((key, name) in deck.refs for key, named in called.items() for name in named):
         having = called or having  # it may name that labware in passing
     for key, named in having.items():
