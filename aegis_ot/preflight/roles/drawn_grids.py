@@ -103,7 +103,11 @@ def _ragged_rows(lines: Sequence[str], at: int, names: WellNames) -> set[int]:
         for line in below
         if row_word.match(lines[line])
         and len(cells := _GAP.split(lines[line].strip())) > 1
-        and not (len(cells) == 2 and len(lines[line].rstrip()) > second)
+        and not (
+            len(cells) == 2
+            and _LETTERS.fullmatch(row_word.sub("", cells[0]))
+            and len(lines[line].rstrip()) > second
+        )
     }
 
 
