@@ -18,6 +18,7 @@ from .item_notes import item_notes
 from .labels import labels
 from .legend_clues import explained
 from .level_spans import level_spans
+from .listed_columns import listed_columns
 from .loop_levels import loop_levels
 from .mirrored import mirrored
 from .names import call_arguments, named_wells
@@ -67,6 +68,7 @@ def gather(
         *drawn_maps(deck, facts, common),
         *trough_legends(deck, facts, common),
         *numbered_maps(deck, names, facts, common),
+        *listed_columns(deck, facts, common),
         *spotted_names(deck, names, facts, common),
         *tabled_wells(deck, names, facts, common),
         *written_tables(deck, facts, common, tables),

@@ -21,7 +21,7 @@ from .in_turn import items_after
 from .labware_nouns import LabwareNouns
 from .map_labware import used_with
 from .phrases import words_of
-from .replicates import called_alike
+from .replicates import called_alike, said_to_be_twins
 from .shared_words import Amount, with_shared_words
 from .spoken import laid_out_in_the_run
 from .topics import Topic
@@ -66,6 +66,7 @@ def _of_text(
     """What one comment or docstring says, which begins at a line."""
     topic = Topic(nouns, common)
     amount: Amount | None = None
+    twins = said_to_be_twins(text, common)
     lines = _whole_lines(with_rows(text, common).splitlines() or [text], common)
     drawn = drawn_lines(text.splitlines(), well_names(common))
     for number, written in lines:
@@ -86,7 +87,7 @@ def _of_text(
             keys = firm or topic.above() or _only_one_with(deck, parts, common)
             # "col 3  1 nM     tube A2": the column is not one of the tubes'.
             others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
-            meant = _Meant(keys - others, bool(firm), others)
+            meant = _Meant(keys - others, bool(firm), others, twins)
             said = f"{part.text}, {more[at]}"
             for clue in _spoken(deck, part, said, line + number, meant, common):
                 levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
@@ -173,11 +174,14 @@ _ALL = re.compile(r"\ball\s+\d", re.IGNORECASE)
 
 
 class _Meant(NamedTuple):
-    """The labware that a part speaks of, whether it says so itself, and those it does not mean."""
+    """The labware that a part speaks of, whether it says so itself, and those it does not mean;
+    and whether plates of one kind are said to be filled alike.
+    """
 
     keys: frozenset[str]
     firm: bool
     others: frozenset[str]
+    twins: bool
 
 
 def _spoken(
@@ -189,7 +193,7 @@ def _spoken(
     common: Common,
 ) -> Iterator[Clue]:
     names = well_names(common)
-    keys, firm, others = labware
+    keys, firm, others, twins = labware
     by_hand = lexicon_of({"hand": common.by_hand}).find(said)
     meant: dict[str, list[WellRef]] = {}
     # "Column 2 = vehicle" may leave out the rows at the edge, if all of the plate does; "A2-H2"
@@ -224,7 +228,10 @@ def _spoken(
         here = {key: wells for key, wells in meant.items() if _is_mostly_filled(deck, wells)}
         meant = here or {key: wells for key, wells in meant.items() if key in deck.filled}
     plates = [deck.trace.labware[key] for key in meant]
-    if not all(plate.label and called_alike(plate, plates[0]) for plate in plates[1:]):
+    if twins and len({plate.load_name for plate in plates}) == 1:
+        alike = [key for key in having if deck.trace.labware[key].load_name == plates[0].load_name]
+        meant |= {key: [deck.ref(key, name) for name in having[key]] for key in alike}
+    elif not all(plate.label and called_alike(plate, plates[0]) for plate in plates[1:]):
         return
     for wells in meant.values():
         yield Clue(

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from ...instrumentation import LabwareInfo
 from ...vocabulary import WellRef
-from ..text import tokens
+from ..rules import Common
+from ..text import lexicon_of, tokens
 from ..trace import Trace
 from .clues import Strength
 from .roles import Roles
@@ -24,7 +25,10 @@ def spread_over_replicates(roles: Roles, trace: Trace) -> None:
     }
     if not named:
         return
-    for one, other in _replicates(trace):
+    layouts: dict[str, dict[str, str]] = {}
+    for ref, assigned in named.items():
+        layouts.setdefault(ref.labware, {})[ref.name] = assigned.role
+    for one, other in _replicates(trace, layouts):
         roles.replicates.setdefault(one.key, set()).add(other.key)
         for ref, assigned in named.items():
             if ref.labware != one.key:
@@ -37,8 +41,14 @@ def spread_over_replicates(roles: Roles, trace: Trace) -> None:
                 roles.by_well[copy] = assigned.copied("replicate plate")
 
 
-def _replicates(trace: Trace) -> Iterator[tuple[LabwareInfo, LabwareInfo]]:
-    """Pairs of plates of one kind, called the same but for a number, and filled alike."""
+def _replicates(
+    trace: Trace, layouts: Mapping[str, Mapping[str, str]]
+) -> Iterator[tuple[LabwareInfo, LabwareInfo]]:
+    """Pairs of plates of one kind that are filled alike, and called or laid out alike.
+
+    Args:
+        layouts: For the key of a plate the roles that are said of its wells, by name.
+    """
     given: dict[str, dict[str, set[WellRef]]] = {}
     for source, well, _ in trace.feedings():
         by_name = given.setdefault(well.ref.labware, {})
@@ -46,7 +56,11 @@ def _replicates(trace: Trace) -> Iterator[tuple[LabwareInfo, LabwareInfo]]:
     plates = [info for key, info in trace.labware.items() if key in given]
     for one in plates:
         for other in plates:
-            if one is other or not called_alike(one, other):
+            if one is other or one.load_name != other.load_name:
+                continue
+            layout = layouts.get(one.key, {})
+            laid_out_alike = layout == layouts.get(other.key) and len({*layout.values()}) > 1
+            if not (laid_out_alike or called_alike(one, other)):
                 continue
             shared = given[one.key].keys() & given[other.key].keys()
             alike = sum(not given[one.key][n].isdisjoint(given[other.key][n]) for n in shared)
@@ -60,6 +74,11 @@ def _replicates(trace: Trace) -> Iterator[tuple[LabwareInfo, LabwareInfo]]:
 def called_alike(one: LabwareInfo, other: LabwareInfo) -> bool:
     """Whether two labware are of one kind and have one name but for a number."""
     return one.load_name == other.load_name and _called(one) == _called(other)
+
+
+def said_to_be_twins(text: str, common: Common) -> bool:
+    """Whether a text says that its plates share their layout: "All three plates look the same"."""
+    return bool(lexicon_of({"twins": common.twins}).find(text))
 
 
 def _called(info: LabwareInfo) -> tuple[str, ...]:

@@ -35,6 +35,7 @@ class Common:
     dried: tuple[str, ...] = ()
     replicates: tuple[str, ...] = ()
     alike: tuple[str, ...] = ()
+    twins: tuple[str, ...] = ()
     joints: tuple[str, ...] = ()
     joining: tuple[str, ...] = ()
     additives: tuple[str, ...] = ()

@@ -63,8 +63,12 @@ def _written(facts: SourceFacts) -> Iterable[dict[str, str]]:
 
 
 def _side_by_side(line: str) -> Iterable[tuple[str, str]]:
-    """The entries of a line of codes that stand apart; a list of as many goes to one each."""
-    entries = [_SPACED.fullmatch(part) for part in re.split(r"\s{3,}", line.strip())]
+    """The entries of a line of codes that stand apart; a list of as many goes to one each.
+
+    "1..4 remdesivir" may stand among them: a number is too little for a code.
+    """
+    parts = [part for part in re.split(r"\s{3,}", line.strip()) if not part[:1].isdigit()]
+    entries = [_SPACED.fullmatch(part) for part in parts]
     if len(entries) < _FEWEST or not all(entries):
         return
     for entry in filter(None, entries):

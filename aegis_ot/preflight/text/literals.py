@@ -87,7 +87,7 @@ def written_value(node: ast.expr, kinds: Collection[str] = ()) -> Any:
     try:
         return _literal_of(node, kinds)
     except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
-        return _counted(node) or _loaded(node)
+        return _counted(node) or _loaded(node) or _split(node)
 
 
 def _loaded(node: ast.expr) -> Any:
@@ -98,6 +98,17 @@ def _loaded(node: ast.expr) -> Any:
         return json.loads(plain_text(node.args[0]))
     except (ValueError, RecursionError):
         return None
+
+
+def _split(node: ast.expr) -> list[str] | None:
+    """The words of ``"U V d1 d2".split()``, or what stands between commas."""
+    if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
+        return None
+    by = [plain_text(argument) for argument in node.args]
+    text = plain_text(node.func.value)
+    if node.func.attr != "split" or not text or len(by) > 1 or not all(by) or node.keywords:
+        return None
+    return [part.strip() for part in text.split(by[0] if by else None)]
 
 
 _LONGEST_RANGE = 400
