@@ -42,6 +42,10 @@ def plate_maps(
         places = _numbers_places(facts, name)
         rest = used - {key for keys in by_key.values() for key in keys}
         told = isinstance(value, Mapping) and far_apart(_levels_told(value, written).values())
+        if _tells_nothing_apart(value, [level for _, _, level, _ in entries]):
+            refs = tuple(refs_of(deck, used or labware, all_names))
+            yield Clue(Strength.LOOSE_NAME, name, refs, line, f"plate map `{name}` at line {line}")
+            continue
         for text, wells, level, column in entries:
             keyed = [keys for key, keys in by_key.items() if text.endswith(f" {key}")]
             if column in by_key:
@@ -64,6 +68,20 @@ def plate_maps(
             if told and level is not None:
                 where = f"`{name}` at line {line}"
                 yield as_one_of_amounts(refs, line, where, (level,) * len(refs))
+
+
+def _tells_nothing_apart(value: Any, levels: Sequence[float | None]) -> bool:
+    """Whether the keys of a map are columns or rows, so that its name is all it says of each well.
+
+    ``TREATMENT = {"1": "A1", "2": "A2", "3": "A3"}``: the vehicle may well be among them.
+    """
+    return (
+        isinstance(value, Mapping)
+        and len(value) >= _FEWEST_TOLD
+        and all(level is None for level in levels)
+        and all(isinstance(key, str) and (key.isdecimal() or len(key) == 1) for key in value)
+        and all(map(_spots, value.values()))
+    )
 
 
 def _numbers_places(facts: SourceFacts, name: str) -> bool:
