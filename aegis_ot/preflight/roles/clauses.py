@@ -17,7 +17,7 @@ from .phrases import first_words
 from .well_names import WellNames, well_names
 
 _BREAKS = re.compile(
-    r"[;|]|\.\s+(?=[A-Z])|\.\s{2,}(?=\w)|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
+    r"[;|]|(?<!\.[a-z]{3})(?<!\b[a-z]{2})\.\s+(?=[A-Z])|\.\s{2,}(?=\w)|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
     r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|\d+(?:st|nd|rd|th)\b|[A-Za-z]{3,}|[A-Za-z]{1,2}\.\s*\d))"
     r"|(?<=\S)\s{3,}(?=(?:[a-z]+\s+)?[A-P]\d{1,2}\b)"
 )
@@ -62,6 +62,29 @@ def parts_of(text: str, common: Common) -> Iterator[Part]:
             if wells and _is_left_out(piece[: wells[0].start()], common):
                 wells = ()  # "PBS everywhere except column 1" says nothing of column 1
             yield Part(piece.strip(), names.spec.sub(" ", piece), wells)
+
+
+def with_what_follows(line: str, common: Common) -> tuple[list[Part], list[str]]:
+    """The parts of a line that name wells, and for each what follows without wells of its own.
+
+    A thing that follows says what that is: "A1 PBS, the blank" is "PBS (blank)".
+    """
+    parts: list[Part] = []
+    more: list[str] = []
+    for part in parts_of(line, common):
+        if part.wells:
+            parts.append(part)
+            more.append("")
+        elif more:
+            first, *words = _BRACKETS.sub(" ", part.words).split() or [""]
+            short = 0 < len(words) < _LONGEST_APPOSITION
+            if short and not more[-1] and first.lower() in first_words(common.articles):
+                parts[-1] = parts[-1]._replace(words=f"{parts[-1].words} ({' '.join(words)})")
+            more[-1] += f" {part.words}"
+    return parts, more
+
+
+_LONGEST_APPOSITION = 4
 
 
 def _without_codes(

@@ -12,7 +12,7 @@ from ..rules import Common
 from ..text import SourceFacts, comment_blocks, direction_in, lexicon_of, listed_levels, tokens
 from ..trace import row_column
 from .bare_numbers import with_bare_numbers
-from .clauses import Part, axis_of, numbers_things, parts_of
+from .clauses import Part, axis_of, numbers_things, with_what_follows
 from .clues import Clue, Strength, shortened
 from .deck import LEFT_OUT, Deck
 from .drawn_grids import drawn_lines
@@ -23,6 +23,7 @@ from .map_labware import used_with
 from .phrases import words_of
 from .replicates import called_alike, said_to_be_twins
 from .shared_words import Amount, with_shared_words
+from .side_by_side import side_by_side
 from .spoken import laid_out_in_the_run
 from .topics import Topic
 from .well_names import well_names
@@ -45,7 +46,8 @@ def written_wells(
         note: nouns.of_name(name) or _indexed_by(deck, facts, name)
         for name, note in facts.notes.items()
     }
-    for line, text in texts:
+    apart = (block for line, text in texts for block in side_by_side(line, text, common))
+    for line, text in apart:
         yield from with_bare_numbers([*_of_text(deck, nouns, noted, line, text, common)], text)
 
 
@@ -72,7 +74,7 @@ def _of_text(
     for number, written in lines:
         if number in drawn:
             continue  # "E1" may be a code there
-        parts, more = _with_what_follows(topic.entries(written), common)
+        parts, more = with_what_follows(topic.entries(written), common)
         topic.next_line(written, parts)
         parts = [nouns.without_place(topic.without_heading(part)) for part in parts]
         parts, amount = with_shared_words(parts, amount if written.strip() else None)
@@ -133,19 +135,6 @@ def _whole_lines(lines: Sequence[str], common: Common) -> Iterator[tuple[int, st
         if last not in leading or number + 1 == len(lines):
             yield first, begun
             begun = ""
-
-
-def _with_what_follows(line: str, common: Common) -> tuple[list[Part], list[str]]:
-    """The parts of a line that name wells, and for each what follows without wells of its own."""
-    parts: list[Part] = []
-    more: list[str] = []
-    for part in parts_of(line, common):
-        if part.wells:
-            parts.append(part)
-            more.append("")
-        elif more:
-            more[-1] += f" {part.words}"
-    return parts, more
 
 
 def _only_one_with(deck: Deck, parts: Sequence[Part], common: Common) -> frozenset[str]:
