@@ -72,6 +72,7 @@ def assign_roles(
     for_controls: set[WellRef] = set()
     named_by_liquid: set[tuple[WellRef, str]] = set()
     outright_liquids: set[WellRef] = set()
+    loaded = {ref for clue in clues if clue.strength is Strength.LIQUID for ref in clue.wells}
     untold: list[Clue] = []
     misplaced: list[Clue] = []
     holding = of_several(clues, lexicon, common, roles)
@@ -101,9 +102,7 @@ def assign_roles(
         if clue.lone and clue.whole:
             named = what_all_are(named, roles)
         if clue.whole and joins_others(lexicon, clue.text, common):
-            named = [role for role in named if not family.roles[role].implies_contents]
-            if not named:
-                continue
+            continue  # "vials and lysates": which are the lysates?
         side_only = says_only_the_side(clue, common)
         worth = _worth(clue, side_only, clue.whole or says_only_a_place(clue, common))
         if clue.strength is Strength.LIQUID and not names_several(lexicon, clue, common, roles):
@@ -132,9 +131,13 @@ def assign_roles(
             placed = True
             if not clue.step and clue.strength >= Strength.DESCRIPTION and not clue.whole:
                 named_outright.add(role)
-            elif clue.step and role in named_outright and family.roles[role].one_liquid:
+            elif (
+                clue.step
+                and role in named_outright
+                and (family.roles[role].one_liquid or ref in loaded)
+            ):
                 # The comment says what the step is for; which well holds that is said
-                # elsewhere, and this may be another one by mistake.
+                # elsewhere, and this may be another one by mistake, of another liquid.
                 continue
             if clue.step and _is_beside_named(first_of.get(ref), candidates):
                 continue  # its column is named by its first well

@@ -42,12 +42,14 @@ def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
     """The drawing whose column numbers stand in a line; without wells, if none does.
 
     Dots stand for more of the same: for columns in a row, for rows under one. A part of a plate
-    may be drawn, where the columns are called so: "col 3   col 4".
+    may be drawn, where the columns are called so, "col 3   col 4", or each row fills them all.
     """
     column_word, row_word = _before_numbers(names)
     header = column_word.sub(_blanked, lines[at])
     of_a_part = header != lines[at]
     columns = _columns(header, of_a_part)
+    if not columns and _are_filled(lines[at + 1 : at + 3], _columns(header, True), row_word):
+        columns, of_a_part = _columns(header, True), True
     heads = list(re.finditer(r"\S+", header))[: len(columns)]
     middles = [(head.start() + head.end()) / 2 for head in heads]
     wells_of: dict[str, list[str]] = {}
@@ -193,6 +195,19 @@ def _columns(written: str, of_a_part: bool) -> list[list[int]]:
         last = int(match[2] or match[1])
         columns.append(list(range(int(match[1]), last + 1)))
     return columns if len(columns) > 1 and all(columns) else []
+
+
+def _are_filled(rows: Sequence[str], columns: Sequence[object], row_word: re.Pattern[str]) -> bool:
+    """Whether two rows in order follow, of as many cells as there are columns, three at least."""
+    cells = [cells_of(row_word.sub(_blanked, row), len(columns) + 1) for row in rows]
+    letters = [_LETTERS.fullmatch(row[0]) if row else None for row in cells]
+    if len(columns) < _FEWEST_COLUMNS or len(rows) < _FEWEST_ROWS or not all(letters):
+        return False
+    begins = [ord(letter[1]) for letter in letters if letter]
+    return begins[0] < begins[1] and all(_filled(row[1:], len(columns)) for row in cells)
+
+
+_FEWEST_ROWS = 2
 
 
 def _filled(said: Sequence[str], count: int) -> list[str]:

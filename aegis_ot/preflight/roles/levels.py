@@ -22,7 +22,7 @@ from ..text import (
 )
 from ..trace import row_column
 from .clues import Clue, Strength
-from .phrases import first_words
+from .phrases import first_words, words_of
 
 
 def levels_of(clue: Clue, common: Common) -> tuple[float | None, ...]:
@@ -35,11 +35,13 @@ def levels_of(clue: Clue, common: Common) -> tuple[float | None, ...]:
 def levels_beside(clue: Clue, common: Common) -> tuple[float | None, ...]:
     """Levels that a clue gives its wells without a word for what they hold: ``"2 mg/ml"``.
 
-    A comment gives one only where it says nothing else.
+    A comment gives one only where it says nothing else, but for a vessel: "vial B 2 mg/ml".
     """
     if clue.levels or clue.whole or clue.step or clue.strength is Strength.LOOSE_NAME:
         return clue.levels
-    if clue.strength is Strength.COMMENT and name_without_level(clue.text, common):
+    vessels = words_of(tuple(word for words in common.labware.values() for word in words))
+    said = (w for w in name_without_level(clue.text, common) if len(w) > 1 and w not in vessels)
+    if clue.strength is Strength.COMMENT and any(said):
         return ()
     several = listed_levels(clue.text)
     if len(several) > 1:  # "0, 125, 250 ug/ml": one for each

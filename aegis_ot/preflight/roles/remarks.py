@@ -22,7 +22,7 @@ from .labware_nouns import LabwareNouns
 from .map_labware import used_with
 from .phrases import words_of
 from .replicates import called_alike, said_to_be_twins
-from .shared_words import Amount, with_shared_words
+from .shared_words import Amount, unit_in_brackets, with_shared_words, with_unit
 from .side_by_side import side_by_side
 from .spoken import laid_out_in_the_run
 from .topics import Topic
@@ -68,7 +68,7 @@ def _of_text(
     """What one comment or docstring says, which begins at a line."""
     topic = Topic(nouns, common)
     amount: Amount | None = None
-    twins = said_to_be_twins(text, common)
+    unit, twins = "", said_to_be_twins(text, common)
     lines = _whole_lines(with_rows(text, common).splitlines() or [text], common)
     drawn = drawn_lines(text.splitlines(), well_names(common))
     for number, written in lines:
@@ -77,6 +77,8 @@ def _of_text(
         parts, more = with_what_follows(topic.entries(written), common)
         topic.next_line(written, parts)
         parts = [nouns.without_place(topic.without_heading(part)) for part in parts]
+        unit = unit if parts else unit_in_brackets(written)
+        parts = with_unit(parts, unit)
         parts, amount = with_shared_words(parts, amount if written.strip() else None)
         own = [nouns.before(part) for part in parts]
         for at, (part, before) in enumerate(zip(parts, own, strict=True)):

@@ -29,6 +29,34 @@ def with_shared_words(
     return [_like(model, part) if model else part for part in parts], model
 
 
+def unit_in_brackets(heading: str) -> str:
+    """The unit of all that stands under a heading: "BSA ampoules (ug/mL):"; or ``""``."""
+    for inner in _IN_BRACKETS.findall(heading):
+        found = [match for match, _ in amounts_in(f"1 {inner}")]
+        if len(found) == 1 and len(found[0].group()) == len(f"1 {inner}"):
+            return str(inner)
+    return ""
+
+
+def with_unit(parts: Sequence[Part], unit: str) -> list[Part]:
+    """The parts of a line, with the unit of the heading after the one number that each ends in."""
+    return [_measured(part, unit) if unit else part for part in parts]
+
+
+def _measured(part: Part, unit: str) -> Part:
+    numbers = list(_NUMBER.finditer(part.words))
+    if len(numbers) != 1 or any(True for _ in amounts_in(part.words)):
+        return part
+    end = numbers[0].end()
+    rest = part.words[end:]
+    if _IN_BRACKETS.sub("", rest).strip():
+        return part
+    return part._replace(words=f"{part.words[:end]} {unit}{rest}")
+
+
+_IN_BRACKETS = re.compile(r"\(\s*(?:in\s+)?([^()]*?)\s*\)")
+
+
 class Amount:
     """An amount with its unit, and the words before and after it."""
 

@@ -74,14 +74,16 @@ class Topic:
         if keys and written.strip() and len(written) - len(written.lstrip()) >= at:
             return written
         label = _LABEL.match(written)
-        keys = self._nouns.beginning(label[1]) if label else _NONE
+        wells = well_names(self._common).spec
+        named = label is not None and not wells.search(label[1])
+        keys = self._nouns.beginning(label[1]) if label and named else _NONE
         if label is None or not keys:
             self._hanging = (0, _NONE)
             return written
         self._hanging = (label.end(), keys)
         rest = written[label.end() :]
-        said = well_names(self._common).spec.sub(" ", rest)
-        return " " * label.end() + rest if tokens(said) else written  # "dye trough   A1"
+        told = tokens(wells.sub(" ", rest))  # not in "dye trough   A1"
+        return " " * label.end() + rest if told else written
 
     def next_part(self, before: frozenset[str]) -> None:
         """Go on with a part, before whose wells this stands: "strip columns 1 and 2"."""

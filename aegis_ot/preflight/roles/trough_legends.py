@@ -17,6 +17,7 @@ _ENTRY = re.compile(
     r"(?:^|[,;/|])\s*#?(\d{1,2})(?!\w)\s*(?:[:=.)]|->|[-–](?=\s))?\s*"
     r"([^\W\d][^,;/|]{2,40}?)(?=\s*(?:[,;/|]|$))"
 )
+_IN_BRACKETS = re.compile(r"\([^()]*\)")
 _FEWEST = 3
 """So many numbers in order are a legend; fewer may be amounts."""
 
@@ -62,12 +63,13 @@ def _told_alone(
     before = (
         rf"([^.,;:\n|]{{2,60}}?) (?:in|en|im|dans|nel) (?:the )?(?:{word}) ?(\d{{1,2}})(?![\w-])"
     )
-    after = rf"(?:{word}) ?(\d{{1,2}}) ?[:=] ?([^.,;:()\n|]{{2,60}})"
+    after = rf"(?:{word}) ?(\d{{1,2}})(?: ?(?:[:=]|->|→) ?|\s{{2,}})([^\W\d][^.,;:\n|]{{1,60}})"
     found = [(match[2], match[1]) for match in re.finditer(before, text, re.IGNORECASE)]
     found += [(match[1], match[2]) for match in re.finditer(after, text, re.IGNORECASE)]
     names = list(trough.wells)
     for number, said in found:
-        if 0 < int(number) <= len(names) and len(tokens(said)) <= _LONGEST_NAME:
+        short = len(tokens(_IN_BRACKETS.sub(" ", said))) <= _LONGEST_NAME
+        if 0 < int(number) <= len(names) and short:
             ref = deck.ref(trough.key, names[int(number) - 1])
             told = f"'{shortened(said)}' in trough {number}, by the text at line {line}"
             yield Clue(Strength.COMMENT, said, (ref,), line, told, subject=False)
