@@ -102,7 +102,9 @@ def assign_roles(
         if clue.lone and clue.whole:
             named = what_all_are(named, roles)
         if clue.whole and joins_others(lexicon, clue.text, common):
-            continue  # "vials and lysates": which are the lysates?
+            named = [role for role in named if not family.roles[role].implies_contents]
+            if not named or len(clue.places) > 1:
+                continue  # "vials and lysates": which are the lysates?
         side_only = says_only_the_side(clue, common)
         worth = _worth(clue, side_only, clue.whole or says_only_a_place(clue, common))
         if clue.strength is Strength.LIQUID and not names_several(lexicon, clue, common, roles):

@@ -71,8 +71,7 @@ def what_all_are(named: Sequence[str], roles: Roles) -> list[str]:
 def joins_others(lexicon: Lexicon, text: str, common: Common) -> bool:
     """Whether a name joins what it names with something else: "sample and dilution strips"."""
     parts = parts_joined(text, common, lambda piece: piece.strip() in ("/", "+", "&"))
-    if len(parts) == 1:
-        return False
+    parts = [part for part in parts if re.search(r"[^\W\d_]", part)]  # not "channels 1 and 2"
     named = [names_any(lexicon, part) for part in parts]
     return any(named) and not all(named)
 

@@ -221,7 +221,8 @@ def _spoken(
     plates = [deck.trace.labware[key] for key in meant]
     if twins and len({plate.load_name for plate in plates}) == 1:
         alike = [key for key in having if deck.trace.labware[key].load_name == plates[0].load_name]
-        meant |= {key: [deck.ref(key, name) for name in having[key]] for key in alike}
+        there = {ref.name for wells in meant.values() for ref in wells}
+        meant |= {key: [deck.ref(key, n) for n in having[key] if n in there] for key in alike}
     elif not all(plate.label and called_alike(plate, plates[0]) for plate in plates[1:]):
         return
     for wells in meant.values():
