@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
 from ..rules import Common, Family
-from ..text import Lexicon, concentration_in, concentrations_in, name_without_level, tokens
+from ..text import Lexicon, Rank, concentration_in, concentrations_in, name_without_level, tokens
 from ..trace import Trace
 from .channels import spread_over_channels
 from .choosing import A_FEW, Candidate, choose
@@ -167,7 +167,10 @@ def assign_roles(
         assignment = choose(roles, ref, found) if found else None
         if assignment is not None and not (ref in for_controls and assignment.whole):
             told = roles.told_levels.get(ref)
-            assignment.level = told if assignment.level is None else assignment.level
+            if assignment.level is None or (
+                told is not None and isinstance(assignment.level, Rank)
+            ):
+                assignment.level = told
             spec = family.roles[assignment.role]
             if spec.dosed and assignment.level == 0 and _is_said_to_be_none(found):
                 continue  # "sorafenib 0 uM" is none

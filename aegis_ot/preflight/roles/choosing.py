@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...vocabulary import WellRef
+from ..text import Rank
 from .clues import Clue, Strength
 from .roles import Assignment, Roles
 
@@ -145,8 +146,10 @@ def _is_described(clue: Clue) -> bool:
 def _level(agreeing: Sequence[Candidate]) -> float | None:
     """The level that the strongest evidence gives.
 
-    What is said of several wells at once ("vemurafenib 10x") gives way to what is said of each.
+    What is said of several wells at once ("vemurafenib 10x") gives way to what is said of each,
+    and places in a list to amounts.
     """
     known = [(clue, level) for _, _, clue, level in agreeing if level is not None]
     each = [level for clue, level in known if clue.levels or len(clue.places) == 1]
-    return next(iter(each or [level for _, level in known]), None)
+    found = each or [level for _, level in known]
+    return next((level for level in found if not isinstance(level, Rank)), next(iter(found), None))

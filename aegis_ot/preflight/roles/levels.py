@@ -11,6 +11,7 @@ from typing import Any
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import (
+    Rank,
     concentration_in,
     direction_in,
     level_in,
@@ -76,7 +77,7 @@ def _said(clue: Clue, common: Common) -> tuple[float | None, ...]:
         # Beside a step the wells stand in the order of the run: whether they rise is the question.
         direction = 0 if clue.step or _is_block(clue) else direction_in(clue.text, common)
         if direction:
-            return tuple(float(direction * position) for position in range(count))
+            return tuple(Rank(direction * position) for position in range(count))
         several = listed_levels(clue.text)
         if len(several) > 1:  # one for each, of these wells or of others
             alike = len(several) == len(set(several)) == count

@@ -9,7 +9,15 @@ from typing import NamedTuple
 
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, comment_blocks, direction_in, lexicon_of, listed_levels, tokens
+from ..text import (
+    Rank,
+    SourceFacts,
+    comment_blocks,
+    direction_in,
+    lexicon_of,
+    listed_levels,
+    tokens,
+)
 from ..trace import row_column
 from .bare_numbers import with_bare_numbers
 from .clauses import Part, axis_of, numbers_things, with_what_follows
@@ -256,7 +264,7 @@ def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> 
     direction = direction_in(said, common)
     if len(wells) == len(part.wells) > 2 and not any(match["last"] for match in part.wells):
         # "tubes A1 B1 C1 A2 in rising order": in the order in which they are named.
-        return tuple(float(direction * at) for at in range(len(wells))) if direction else ()
+        return tuple(Rank(direction * at) for at in range(len(wells))) if direction else ()
     if axis is None and len(part.wells) == 1 and part.wells[0]["last"]:
         axis = _axis_along(wells, len(listed))
     at = [] if axis is None else [row_column(ref.name)[axis] for ref in wells]
@@ -268,7 +276,7 @@ def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> 
     # Two columns and two numbers may come together for any reason.
     if len(listed) == len(set(listed)) == len(places) > 2:
         return tuple(listed[places.index(place)] for place in at)
-    return tuple(float(direction * places.index(place)) for place in at) if direction else ()
+    return tuple(Rank(direction * places.index(place)) for place in at) if direction else ()
 
 
 def _runs_backwards(written: str) -> bool:

@@ -9,11 +9,11 @@ from functools import lru_cache
 
 from ...vocabulary import WellRef
 from ..rules import Common, RoleSpec
-from ..text import SourceFacts, comment_blocks, direction_in, tokens
+from ..text import Rank, SourceFacts, comment_blocks
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .levels import names_amounts
-from .roles import Assignment, Roles
+from .roles import Roles
 
 
 def meant_by_zero(clues: Iterable[Clue], facts: SourceFacts, common: Common) -> Iterator[Clue]:
@@ -70,7 +70,7 @@ def derive_undosed(roles: Roles, name: str, spec: RoleSpec, trace: Trace, common
     said = False
     for ref, assigned in roles.by_well.items():
         level = roles.level(ref)
-        if assigned.role in kind and level is not None and (level or _is_none(assigned, common)):
+        if assigned.role in kind and level is not None and not isinstance(level, Rank):
             by_level.setdefault(level, set()).add(ref)
             said = said or names_amounts(assigned.text, common)
     zero = by_level.pop(0, set())
@@ -91,12 +91,6 @@ def derive_undosed(roles: Roles, name: str, spec: RoleSpec, trace: Trace, common
             del roles.by_well[ref]  # what takes their place stands in the rack of the doses
     for ref in zero:
         roles.by_well[ref] = replace(roles.by_well[ref].copied("dose 0"), role=undosed, whole=False)
-
-
-def _is_none(assigned: Assignment, common: Common) -> bool:
-    """Whether the level 0 of a well is told; a list "from low to high" begins with 0."""
-    told = assigned.strength > Strength.COMMENT or "0" in tokens(assigned.text)
-    return told and not direction_in(assigned.text, common)
 
 
 def _levels_in_common(

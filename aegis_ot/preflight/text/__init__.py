@@ -6,6 +6,7 @@ from .flow import origins
 from .legends import legend_of
 from .levels import (
     UNITS,
+    Rank,
     amounts_in,
     comparable,
     concentration_in,
@@ -30,6 +31,7 @@ __all__ = [
     "Match",
     "Numbered",
     "Place",
+    "Rank",
     "SourceFacts",
     "Values",
     "amounts_in",

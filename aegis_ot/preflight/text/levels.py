@@ -43,10 +43,18 @@ class Concentration(float):
     """A level that has a unit, in the units above; plain numbers are on a scale of their own."""
 
 
+class Rank(float):
+    """A place in a rising or falling list, counted from 0: it says how much of nothing."""
+
+
 def comparable(one: float, other: float) -> bool:
-    """Whether two levels are on one scale: both with a unit, or both without; 0 is on any."""
-    of_one_kind = isinstance(one, Concentration) == isinstance(other, Concentration)
-    return of_one_kind or not (one and other)
+    """Whether two levels are on one scale: both with a unit, or both without, or both in a list;
+    0 is on any but a list's.
+    """
+    scales = [
+        next((s for s in (Rank, Concentration) if isinstance(x, s)), float) for x in (one, other)
+    ]
+    return scales[0] is scales[1] or (Rank not in scales and not (one and other))
 
 
 _WITH_UNIT = re.compile(
