@@ -95,15 +95,15 @@ class DoseOrder(Check):
     ) -> Result | None:
         """The tip carries a liquid that this well never gets."""
         mine = case.level(origin)
-        own = [case.level(other) for other in here]
+        alike = [other for other in here if _compound(case, origin) == _compound(case, other)]
+        own = [case.level(other) for other in alike or here]
         what = f"{case.title(origin)} from {place(origin)}"
         if mine is not None and any(one is not None and not comparable(mine, one) for one in own):
             mine = None  # of different scales
         if here and mine is not None and all(level is not None for level in own):
-            same = all(_compound(case, origin) == _compound(case, other) for other in here)
-            if same and all(level is not None and mine <= level for level in own):
+            if alike and all(level is not None and mine <= level for level in own):
                 return None
-            harm = "a well of a lower dose" if same else "a well of another compound"
+            harm = "a well of a lower dose" if alike else "a well of another compound"
         elif here and (mine is not None or any(level is not None for level in own)):
             return Doubt(f"the dose in {place(origin)} or of its neighbours is not known")
         elif here and all(_in_one_list(case, origin, other) for other in here):

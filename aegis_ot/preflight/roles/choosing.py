@@ -63,12 +63,25 @@ def choose(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | N
         role,
         list(dict.fromkeys([decisive.said, *(c[2].said for c in agreeing)])),
         decisive.strength,
-        clue.text,
+        _telling(clue, agreeing).text,
         level,
         conflict,
         whole=any(c[2].whole for c in agreeing) and all(_is_of_many(c[2]) for c in agreeing),
         named=found[0][1] if clue.strength > Strength.COMMENT else "",
     )
+
+
+def _telling(clue: Clue, agreeing: Sequence[Candidate]) -> Clue:
+    """What calls a well by its own name, where the name of its whole labware decides.
+
+    Of a rack of "compounds", "row A = AZD (ATR inhibitor)".
+    """
+    own = (
+        hint
+        for _, _, hint, _ in agreeing
+        if not (hint.whole or hint.step or hint.strength is Strength.LOOSE_NAME)
+    )
+    return next(own, clue) if clue.whole else clue
 
 
 def _is_of_many(clue: Clue) -> bool:

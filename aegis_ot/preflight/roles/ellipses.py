@@ -158,15 +158,14 @@ class Ellipses:
         return self._crossed(text)
 
     def _goes_on(self, text: str, last: str, follower: re.Match[str]) -> bool:
-        """Whether a layout goes on there: with the next one, or with a later one and "=", or with
-        several later ones: "columns 1-3 drug, 10-11 vehicle".
-        """
+        """Whether a layout goes on there: with the next one, a later one and "=", or later ones."""
         low, after = follower["low"], text[follower.end("of") :].lstrip()
         passed = re.findall(r"[,;|]", text[follower.start() : follower.start("of")])
-        if len(passed) > 1 and after[:1] not in ("=", ":"):
+        barred = passed[-1:] == ["|"]  # "1 untreated | 2-11 drug, low to high | 12 vehicle"
+        if len(passed) > 1 and not barred and after[:1] not in ("=", ":"):
             return False  # "columns 1-3: samples 1-3, one column each, 4 NTC wells follow"
         later = low.isdecimal() and last.isdecimal() and int(low) > int(last)
-        placed = after[:1] == "=" or bool(follower["high"] and not _TIMES.match(after))
+        placed = barred or after[:1] == "=" or bool(follower["high"] and not _TIMES.match(after))
         return _follows(last, low) or (later and placed)
 
     def _with_columns(self, text: str) -> str:

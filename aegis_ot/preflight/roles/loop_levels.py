@@ -28,9 +28,11 @@ def loop_levels(
     for line, drawn in _draws(trace, facts).items():
         for loop in facts.runs:
             turns, lines = _turns_within(drawn, loop)
-            if not turns or loop.names.isdisjoint(origins(facts, facts.draws[line], lines)):
+            made_of = origins(facts, facts.draws[line], lines)
+            if not turns or loop.names.isdisjoint(made_of):
                 continue
-            levels = _levels(loop, len(turns), names, common)
+            each = _turns_of_each([o for o in facts.runs if o.names & made_of], loop, line)
+            levels = _levels(loop, len(turns), names, common, each) if each is not None else ()
             if levels:
                 yield Clue(
                     Strength.NAME,
@@ -72,17 +74,31 @@ def _turns_within(drawn: Drawn, loop: Loop) -> tuple[list[Turn], set[int]]:
     return turns, {line for _, lines in inside for line in lines}
 
 
+def _turns_of_each(loops: Sequence[Loop], loop: Loop, line: int) -> bool | None:
+    """Whether another of these loops runs within each turn of this one, so that a number holds for
+    several wells in turn; ``None`` where one runs within and another around it.
+    """
+    spans = {(other.first, other.last) for other in loops if other.first <= line <= other.last}
+    spans.discard((loop.first, loop.last))
+    within = any(loop.first <= first and last <= loop.last for first, last in spans)
+    around = any(first <= loop.first and loop.last <= last for first, last in spans)
+    return None if within and around else within
+
+
 def _levels(
-    loop: Loop, count: int, names: Sequence[NameBinding], common: Common
+    loop: Loop, count: int, names: Sequence[NameBinding], common: Common, each: bool
 ) -> tuple[float, ...]:
-    """The one column of numbers that speaks of amounts, one for each well, again and again."""
+    """The one column of numbers that speaks of amounts, one for each well, again and again; or
+    ``each`` for several wells in turn.
+    """
     named, listed = set(), set()
     for values in loop.values:
         for name, column in _columns(values, names):
             numbers = tuple(found for found in map(number_in, column) if found is not None)
             if len(numbers) != len(column) or len(set(numbers)) < 2 or count % len(numbers):
                 continue
-            numbers *= count // len(numbers)  # within another loop it begins anew
+            times = count // len(numbers)  # within another loop it begins anew
+            numbers = tuple(n for n in numbers for _ in range(times)) if each else numbers * times
             if speaks_of_amounts(name, common):
                 named.add(numbers)
             elif speaks_of_amounts(values.source, common) and not names_counts(name, common):

@@ -19,7 +19,10 @@ _SLOT = re.compile(r"\b(?:[A-Da-d][1-4]|\d{1,2})\b")
 _WAYS = ("back", "elsewhere", "another")
 """Where a plate went, in the order of the words: "to the incubator, then return it to slot 1"."""
 
-_APART = (*_WAYS, "trough")
+_APART = (*_WAYS, "trough", "vacant")
+
+_NEAR = 3
+"""So many words after "an empty" say what is empty."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +55,8 @@ class Replacements:
 
     Args:
         words: Phrases by topic: ``replace``, ``plate``, ``tips``, ``refill``,
-            ``shake``, ``away``, ``spin``, ``trough``, ``back``, ``elsewhere``, ``another``.
+            ``shake``, ``away``, ``spin``, ``trough``, ``back``, ``elsewhere``, ``another``,
+            ``vacant``.
         joining: Words for "and".
     """
 
@@ -69,6 +73,7 @@ class Replacements:
         )
         self._ways = lexicon_of({topic: tuple(self.words.get(topic, ())) for topic in _WAYS})
         self._plates = lexicon_of({"plate": tuple(self.words.get("plate", ()))})
+        self._vacant = lexicon_of({"vacant": tuple(self.words.get("vacant", ()))})
         self._troughs = lexicon_of({"trough": tuple(self.words.get("trough", ()))})
 
     def shakes(self, text: str) -> bool:
@@ -85,6 +90,8 @@ class Replacements:
         topics = {match.topic for match in found}
         if any(m.topic == "replace" and self._plates.find(m.phrase) for m in found):
             topics.add("plate")  # "clean plate" says both
+        if self._puts_empty_one(text):
+            topics |= {"replace", "plate"}
         shaken = "shake" in topics
         refill = "refill" in topics
         tips_only = "tips" in topics and "plate" not in topics
@@ -118,6 +125,14 @@ class Replacements:
         unsure = refill or not topics
         touched = frozenset(named) or None
         return Intervention(frozenset(), "tips" in topics, shaken, unsure, refill, touched)
+
+    def _puts_empty_one(self, text: str) -> bool:
+        """Whether a text speaks of "an empty cryo plate"."""
+        words = self._vacant.words(text)
+        return any(
+            self._plates.find(" ".join(words[match.end :][:_NEAR]))
+            for match in self._vacant.find(text)
+        )
 
     def _troughs_meant(self, text: str, labware: Mapping[str, LabwareInfo]) -> set[str]:
         """All reservoirs, where the message speaks of one without saying where it stands."""
