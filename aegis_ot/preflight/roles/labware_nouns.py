@@ -23,6 +23,9 @@ _IN_SLOT = re.compile(rf"[^\W\d][^():,.]*\({_SLOT.pattern}\)(?=\s*(?:[,:;]|$))")
 _LISTED_SLOT = re.compile(r"\W*([A-D][1-4]|1[01]|[1-9])\s+((?:[^\W\d]\w*\W+){1,3})")
 """How a line of a list of the deck begins: "C2  tube rack"."""
 
+_SHORT_HEADING = 3
+"""So few words may leave out a part of a label: the "intermediate plate" is the compounds'."""
+
 _SHORTEST = 3
 """Fewer letters are short for many things."""
 
@@ -62,6 +65,9 @@ class LabwareNouns:
             return frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
         words = tokens(text)
         found = {key for label, key in self._labels if self._is_called(tuple(label.split()), words)}
+        plain = tokens(IN_BRACKETS.sub(" ", text))
+        if not found and 1 < len(plain) <= _SHORT_HEADING and plain[-1] in self._nouns:
+            found = {key for label, key in self._labels if set(plain) <= set(label.split())}
         if not found:
             for name, keys in self._deck.by_name.items():
                 telling = set(tokens(name)) - self._dull
