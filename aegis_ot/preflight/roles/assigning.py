@@ -37,7 +37,7 @@ from .phrases import (
 )
 from .replicates import spread_over_replicates
 from .roles import Roles
-from .strengths import unsay_strengths
+from .strengths import settle_scales, unsay_strengths
 from .usage import Sides, Usage, in_trough
 
 
@@ -179,6 +179,7 @@ def assign_roles(
             if told and counted and spec.level is not None and spec.parents:
                 assignment.role, assignment.level = spec.parents[0], told  # "S0 1.6 mg/ml"
     unsay_strengths(roles, common)
+    settle_scales(roles)
     unsay_contents(roles, trace, held_before(roles, candidates))
     spread_over_channels(roles, trace, candidates)
     unsay_controls(roles, trace)

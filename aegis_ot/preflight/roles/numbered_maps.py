@@ -96,7 +96,12 @@ def _column(facts: SourceFacts, place: Numbered, value: Any) -> Any:
             return [(texts[0], row[key]) for texts, row in zip(said, rows, strict=True)]
     if isinstance(value, Mapping) and all(_places_in(key) for key in value):
         return value  # by column or row itself: its items are what is there
-    at = {len(names): names.index(place.name) for names in facts.unpacked if place.name in names}
+    made_of = origins(facts, (place.name,), place.lines)
+    at: dict[int, int] = {}
+    for names in facts.unpacked:
+        held = [name for name in names if name == place.name] or [n for n in names if n in made_of]
+        if len(held) == 1:
+            at[len(names)] = names.index(held[0])
     return _narrowed(value, at) if at else value
 
 

@@ -1,9 +1,12 @@
-"""What is said of all doses alike is no dose: "inhibitor (6x)" is how strong each solution is."""
+"""On which scale the levels of one role are, and what is none of them.
+
+What is said of all doses alike is no dose: "inhibitor (6x)" is how strong each solution is.
+"""
 
 from __future__ import annotations
 
 from ..rules import Common
-from ..text import level_in, without_strength
+from ..text import Concentration, level_in, without_strength
 from .roles import Roles
 
 
@@ -19,6 +22,22 @@ def unsay_strengths(roles: Roles, common: Common) -> None:
         if all(_is_a_strength(one.text, one.level, common) for one in found.values()):
             for ref, assigned in found.items():
                 assigned.level = roles.told_levels.get(ref)
+
+
+def settle_scales(roles: Roles) -> None:
+    """Take the plain numbers of a table where it has them all, and amounts are told of some.
+
+    ``("A2", 0.0625)`` beside "standard 0.125 mg/mL".
+    """
+    for name in roles.family.roles:
+        found = [
+            (ref, one) for ref, one in roles.by_well.items() if name in roles.closure(one.role)
+        ]
+        kinds = {type(one.level) for _, one in found if one.level}
+        plain = {ref: roles.told_levels.get(ref) for ref, _ in found}
+        if kinds == {Concentration, float} and all(type(n) is float for n in plain.values()):
+            for ref, one in found:
+                one.level = plain[ref]
 
 
 def _is_a_strength(text: str, level: float | None, common: Common) -> bool:

@@ -6,6 +6,7 @@ from .flow import origins
 from .legends import legend_of
 from .levels import (
     UNITS,
+    Concentration,
     Rank,
     amounts_in,
     comparable,
@@ -26,6 +27,7 @@ from .words import Lexicon, Match, lexicon_of, tokens
 
 __all__ = [
     "UNITS",
+    "Concentration",
     "Lexicon",
     "Loop",
     "Match",
