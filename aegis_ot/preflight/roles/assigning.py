@@ -155,7 +155,7 @@ def assign_roles(
             if clue.strength is Strength.LIQUID:
                 roles.unnamed.update(clue.wells)
     _note_untold(roles, lexicon, untold)
-    roles.told_levels = _levels_beside(untold, common)
+    roles.told_levels = _levels_beside([*untold, *(c for c in misplaced if c.levels)], common)
     roles.untold = [*untold, *misplaced]
     _add_dosed(roles, candidates, sides, roles.untold, common)
     for first, group in trace.groups.items():

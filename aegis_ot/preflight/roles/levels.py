@@ -123,6 +123,12 @@ def names_counts(name: str, common: Common) -> bool:
     return bool(lexicon_of({"count": common.countings}).find(name))
 
 
+def names_zero(text: str, common: Common) -> bool:
+    """Whether a text has a word for nothing at all: "blank"."""
+    words = tuple(word for word, level in common.levels.items() if level == 0)
+    return bool(lexicon_of({"zero": words}).find(text))
+
+
 def is_number(value: Any) -> bool:
     """Whether a value of the protocol is a number, and no larger than a float can be."""
     if not isinstance(value, (int, float)) or isinstance(value, bool):

@@ -27,6 +27,7 @@ from .drawn_grids import drawn_lines
 from .ellipses import with_rows
 from .in_turn import items_after
 from .labware_nouns import LabwareNouns
+from .levels import names_zero
 from .map_labware import used_with
 from .phrases import words_of
 from .replicates import called_alike, said_to_be_twins
@@ -268,9 +269,13 @@ def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> 
     if axis is None and len(part.wells) == 1 and part.wells[0]["last"]:
         axis = _axis_along(wells, len(listed))
     at = [] if axis is None else [row_column(ref.name)[axis] for ref in wells]
+    if axis is not None and len(set(at)) == 1:  # "row A: blank, 0.1, 0.2 mg/ml": along it
+        at = [row_column(ref.name)[1 - axis] for ref in wells]
     places = sorted(set(at))
     if len(places) < 2:
         return ()
+    if listed and len(listed) + 1 == len(places) and names_zero(said, common):
+        listed = (0.0, *listed)
     if _runs_backwards(part.wells[0].group()):
         places.reverse()  # "col 8..3 = 30 10 3 1 0.3 0.1 uM"
     # Two columns and two numbers may come together for any reason.
