@@ -5,7 +5,7 @@ column      2      3      4      5      6      7
 row B     patient 1
 row C     patient 2
 row D     patient 3
-row H     no bosentan, control in each column
+row H     undosed control in each column
 """
 
 metadata = {"protocolName": "Bosentan on fibroblasts", "apiLevel": "2.13"}
