@@ -53,9 +53,12 @@ def is_dilution(case: Case, step: Transfer) -> bool:
     """Whether a transfer is a dilution step.
 
     Undiluted stock in an empty first well is none: that well never gets diluent, or only after it
-    was drawn from, when all wells are filled up for the reader. It keeps some of the stock.
+    was drawn from, when all wells are filled up for the reader. Where the stock stands in the same
+    plate and all of it goes on from there, it is one: the undiluted well is that of the stock.
     """
-    if not step.from_stock or case.has(step.well, diluent_roles(case)) or is_used_up(step.well):
+    if not step.from_stock or case.has(step.well, diluent_roles(case)):
+        return True
+    if is_used_up(step.well, step.source):
         return True
     drawn = [
         visit.index
@@ -67,8 +70,10 @@ def is_dilution(case: Case, step: Transfer) -> bool:
     return any(then is None or index < then for index in arrivals)
 
 
-def is_used_up(well: Well) -> bool:
-    """Whether the first draw takes all that a well was given in the run."""
+def is_used_up(well: Well, stock: Well | None) -> bool:
+    """Whether the first draw takes all that a well was given, by stock beside it in its plate."""
+    if stock is None or stock.ref.labware != well.ref.labware:
+        return False
     held = 0.0
     for visit in well.visits:
         if visit.kind is OperationKind.ASPIRATE and not visit.mixing:

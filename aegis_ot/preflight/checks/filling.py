@@ -213,9 +213,10 @@ def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
 
     It needs no diluent, and a later transfer into it runs the wrong way, which is SD-2's.
     """
-    if not series.directed or series.position[well] != 0 or is_used_up(well):
-        return False
     first = next(case.trace.deliveries(well), None)
+    given = first.parts[0][0] if first is not None and first.parts else None
+    if not series.directed or series.position[well] != 0 or is_used_up(well, given):
+        return False
     stock = stock_roles(case)
     drawn = [first_index(link) for link in series.links if link.source is well]
     if drawn and any(index < min(drawn) for index in diluent_arrivals(case, well)):

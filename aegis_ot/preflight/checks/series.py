@@ -143,10 +143,10 @@ def _given_alike(
     That other one is what is diluted. What all get alike is no stock, whatever its name: the
     protein that a ligand is titrated into, a dye in every well. Where other chains are filled
     with diluent, what this one is given instead is rather a mistake; and so is the wash buffer,
-    where a diluent stands elsewhere.
+    where a diluent stands unused.
     """
     alike: dict[bool, set[Well]] = {}
-    wrong = _never_diluent(roles) if any(roles.known(role) for role in diluent) else frozenset()
+    wrong = _never_diluent(roles) if _stands_unused(trace, roles, diluent) else frozenset()
     for links in groups:
         linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
         fed = _fed_from_outside(trace, linked)
@@ -158,6 +158,12 @@ def _given_alike(
                 if wells.issuperset(linked) and not roles.has(source.ref, wrong)
             )
     return alike.get(True in alike, set())
+
+
+def _stands_unused(trace: Trace, roles: Roles, diluent: frozenset[str]) -> bool:
+    """Whether a well is named for the diluent, and none of those is ever drawn from."""
+    named = {ref for ref, assigned in roles.by_well.items() if assigned.role in diluent}
+    return bool(named) and named.isdisjoint(trace.served())
 
 
 def _never_diluent(roles: Roles) -> frozenset[str]:

@@ -17,7 +17,7 @@ from .phrases import first_words
 from .well_names import WellNames, well_names
 
 _BREAKS = re.compile(
-    r"[;|]|(?<!\.[a-z]{3})(?<!\b[a-z]{2})\.\s+(?=[A-Z])|\.\s{2,}(?=\w)|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
+    r"[;|]|(?<!\.[a-z]{3})\.\s+(?=[A-Z])|\.\s{2,}(?=\w)|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
     r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|\d+(?:st|nd|rd|th)\b|[A-Za-z]{3,}|[A-Za-z]{1,2}\.\s*\d))"
     r"|(?<=\S)\s{3,}(?=(?:[a-z]+\s+)?[A-P]\d{1,2}\b)"
 )
@@ -100,7 +100,7 @@ def _without_codes(
         for at, match in enumerate(wells)
         if (word := _numbers(piece, match))
         and not names.between.fullmatch(word)
-        and (at > 0 or (match["last"] and _goes_on(wells)))
+        and (at > 0 or (match["last"] and _goes_on(piece, wells, names)))
     ]
     return tuple(match for match in wells if match not in named)
 
@@ -124,8 +124,12 @@ def _alike(word: str, match: re.Match[str]) -> bool:
     return bool(match["first"]) and len(word) > 1 and word[0].upper() == match["first"][0]
 
 
-def _goes_on(wells: tuple[re.Match[str], ...]) -> bool:
-    """Whether wells of other letters, or columns or rows, are named after the first."""
+def _goes_on(piece: str, wells: tuple[re.Match[str], ...], names: WellNames) -> bool:
+    """Whether it is said after the first wells where they are: in wells of another letter, or in a
+    column or row; more of a list, "D1-D6 and E1-E6", say no such thing.
+    """
+    if len(wells) < 2 or names.between.fullmatch(piece, wells[0].end(), wells[1].start()):
+        return False
     letter = wells[0]["first"][0]
     return any(other["first"] is None or other["first"][0] != letter for other in wells[1:])
 

@@ -63,7 +63,9 @@ def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
         letters = _LETTERS.fullmatch(first)
         begin = ord(letters[1]) - ord("A") if letters else -1
         last = begin if of_a_part and not wells_of and letters else last
-        filled = _filled(said, len(columns)) or (_sparse(plain, middles) if letters else [])
+        filled = _filled(said, len(columns))
+        if letters and (not filled or _ends_right_of(plain, heads[-1].end())):
+            filled = _sparse(plain, middles) or filled
         if letters is None and end == at + 1 and written.strip():
             end += 1  # of what each column gets
             continue
@@ -161,6 +163,11 @@ def _under(written: str, middles: Sequence[float]) -> list[str]:
             return []
         cells[nearest].append(span.group())
     return [spans[0].group(), *map(" ".join, cells)] if all(cells) else []
+
+
+def _ends_right_of(written: str, end: int) -> bool:
+    """Whether the last word of a line begins right of all columns: a remark."""
+    return re.search(r"\S*$", written.rstrip()).start() > end  # type: ignore[union-attr]
 
 
 def _sparse(written: str, middles: Sequence[float]) -> list[str]:

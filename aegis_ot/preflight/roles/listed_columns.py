@@ -11,6 +11,7 @@ from ..text import SourceFacts, lexicon_of
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
+from .labware_nouns import LabwareNouns
 from .map_labware import used_with
 
 _LONGEST = 24
@@ -19,14 +20,23 @@ _LONGEST = 24
 
 def listed_columns(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """What such a list says of each column or row, where its name or its comment says which."""
+    nouns = LabwareNouns(deck, common)
     for name, value in facts.constants.items():
         entries = _entries(value)
         axis = _axis(f"{name} {facts.notes.get(name, '')}", common) if entries else None
         if axis is None:
             continue
-        plates = [info for info in deck.plates() if len(_lines(info, axis)) == len(entries)]
-        indexed = used_with(deck, facts, name)
-        meant = [info for info in plates if info.key in (indexed or deck.filled)]
+        note = facts.notes.get(name, "")
+        said = nouns.named(note) or nouns.of_kinds_in(note)
+        indexed = said or used_with(deck, facts, name)
+        plates = [
+            info
+            for info in deck.plates()
+            if len(_lines(info, axis)) == len(entries) and (said or not info.centers_channels)
+        ]
+        meant = [info for info in plates if info.key in indexed]
+        if not meant and not said:
+            meant = [info for info in plates if info.key in deck.filled]
         if len(meant) != 1:
             continue
         line = facts.assigned.get(name)
@@ -36,8 +46,8 @@ def listed_columns(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
             used = [spot for spot in named if (meant[0].key, spot) in deck.refs]
             used += deck.passed_over(meant[0].key, named, axis)
             if wells := tuple(deck.ref(meant[0].key, spot) for spot in dict.fromkeys(used)):
-                said = f"plate map `{name}` at line {line}"
-                yield Clue(Strength.NAME, entry, wells, line, said)
+                evidence = f"plate map `{name}` at line {line}"
+                yield Clue(Strength.NAME, entry, wells, line, evidence)
 
 
 def _entries(value: Any) -> Sequence[str]:

@@ -43,7 +43,8 @@ def plate_maps(
         rest = used - {key for keys in by_key.values() for key in keys}
         told = isinstance(value, Mapping) and far_apart(_levels_told(value, written).values())
         if _tells_nothing_apart(value, [level for _, _, level, _ in entries]):
-            refs = tuple(refs_of(deck, sorted(used) or labware, all_names))
+            refs = tuple(drawn_and_filled(deck, used, all_names))
+            refs = refs or tuple(refs_of(deck, labware, all_names))
             yield Clue(Strength.LOOSE_NAME, name, refs, line, f"plate map `{name}` at line {line}")
             continue
         for text, wells, level, column in entries:

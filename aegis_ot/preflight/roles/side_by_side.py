@@ -47,7 +47,7 @@ def side_by_side(line: int, text: str, common: Common) -> Iterator[tuple[int, st
             lines[below] = here
             said = names.spec.sub(" ", here).strip(" :=")
             bare = there.strip() and not tokens(names.spec.sub(" ", there))
-            block.append(f"{there.strip()}: {said}" if bare and said else there.strip())
+            block.append(f"{there.strip()}: {said}" if bare and tokens(said) else there.strip())
         right.append((line + at, "\n".join(block)))
     yield line, "\n".join(lines)
     yield from right
