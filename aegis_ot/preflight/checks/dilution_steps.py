@@ -58,7 +58,7 @@ def is_dilution(case: Case, step: Transfer) -> bool:
     """
     if not step.from_stock or case.has(step.well, diluent_roles(case)):
         return True
-    if is_used_up(step.well, step.source):
+    if is_used_up(case, step.well, step.source):
         return True
     drawn = [
         visit.index
@@ -70,9 +70,13 @@ def is_dilution(case: Case, step: Transfer) -> bool:
     return any(then is None or index < then for index in arrivals)
 
 
-def is_used_up(well: Well, stock: Well | None) -> bool:
+def is_used_up(case: Case, well: Well, stock: Well | None) -> bool:
     """Whether the first draw takes all that a well was given, by stock beside it in its plate."""
     if stock is None or stock.ref.labware != well.ref.labware:
+        return False
+    apart = sum(abs(a - b) for a, b in zip(stock.order, well.order, strict=True))
+    plate = len(case.trace.labware[well.ref.labware].wells) >= _A_PLATE
+    if apart != 1 or not stock.prefilled or not plate:
         return False
     held = 0.0
     for visit in well.visits:
@@ -81,6 +85,9 @@ def is_used_up(well: Well, stock: Well | None) -> bool:
         held += 0.0 if visit.mixing else sum(volume for _, volume, _, _ in visit.parts)
     return False
 
+
+_A_PLATE = 48
+"""A tube of a rack of fewer may be one to put things together in."""
 
 _DREGS = 0.5
 """µL that nobody leaves in a well on purpose."""

@@ -215,7 +215,7 @@ def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
     """
     first = next(case.trace.deliveries(well), None)
     given = first.parts[0][0] if first is not None and first.parts else None
-    if not series.directed or series.position[well] != 0 or is_used_up(well, given):
+    if not series.directed or series.position[well] != 0 or is_used_up(case, well, given):
         return False
     stock = stock_roles(case)
     drawn = [first_index(link) for link in series.links if link.source is well]

@@ -92,6 +92,21 @@ class Deck:
         """The wells of these labware that the run uses."""
         return tuple(ref for (key, _), ref in self.refs.items() if key in labware)
 
+    def where_filled(self, labware: str, names: Sequence[str], axis: int) -> Sequence[str]:
+        """Those of some columns' wells that stand in rows which the run fills, if it fills any.
+
+        Cells may be loaded in rows of the edge for which there is nothing.
+
+        Args:
+            labware: Key of the labware.
+            names: Wells of some of its columns, or of some of its rows.
+            axis: 1 for columns, 0 for rows.
+        """
+        across = {row_column(name)[1 - axis] for key, name in self.received if key == labware}
+        kept = [name for name in names if row_column(name)[1 - axis] in across]
+        few = len(names) - len(kept) <= min(LEFT_OUT, len(names) // 3)  # left out by mistake
+        return names if few or not kept else kept
+
     def passed_over(self, labware: str, names: Collection[str], axis: int) -> list[str]:
         """Wells that the run does not fill, though it fills these places in all other columns.
 

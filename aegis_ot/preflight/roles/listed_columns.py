@@ -7,36 +7,29 @@ from typing import Any
 
 from ...instrumentation import LabwareInfo, is_spot
 from ..rules import Common
-from ..text import SourceFacts, lexicon_of
+from ..text import SourceFacts, lexicon_of, origins
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
-from .labware_nouns import LabwareNouns
-from .map_labware import used_with
 
 _LONGEST = 24
 """Letters of an entry; more are a sentence."""
 
+_LETTERS = "ABCDEFGHIJKLMNOP"
+
+_TURNED = frozenset({"reversed", "sorted"})
+"""Functions after which the place in the list is none on the plate."""
+
 
 def listed_columns(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
-    """What such a list says of each column or row, where its name or its comment says which."""
-    nouns = LabwareNouns(deck, common)
+    """What such a list says of each column or row of the plate that the run goes along with it."""
     for name, value in facts.constants.items():
         entries = _entries(value)
         axis = _axis(f"{name} {facts.notes.get(name, '')}", common) if entries else None
         if axis is None:
             continue
-        note = facts.notes.get(name, "")
-        said = nouns.named(note) or nouns.of_kinds_in(note)
-        indexed = said or used_with(deck, facts, name)
-        plates = [
-            info
-            for info in deck.plates()
-            if len(_lines(info, axis)) == len(entries) and (said or not info.centers_channels)
-        ]
-        meant = [info for info in plates if info.key in indexed]
-        if not meant and not said:
-            meant = [info for info in plates if info.key in deck.filled]
+        keys = _gone_along(deck, facts, name, axis)
+        meant = [i for i in deck.plates() if i.key in keys and _count(i, axis) == len(entries)]
         if len(meant) != 1:
             continue
         line = facts.assigned.get(name)
@@ -46,18 +39,21 @@ def listed_columns(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
             used = [spot for spot in named if (meant[0].key, spot) in deck.refs]
             used += deck.passed_over(meant[0].key, named, axis)
             if wells := tuple(deck.ref(meant[0].key, spot) for spot in dict.fromkeys(used)):
-                evidence = f"plate map `{name}` at line {line}"
-                yield Clue(Strength.NAME, entry, wells, line, evidence)
+                said = f"plate map `{name}` at line {line}"
+                yield Clue(Strength.NAME, entry, wells, line, said)
 
 
 def _entries(value: Any) -> Sequence[str]:
-    """The entries of a list of short texts that are not all one, or of a text of codes."""
+    """The entries of a list of short texts that are not all one, or of a text of codes; not the
+    names of rows or columns themselves.
+    """
     if isinstance(value, str) and value.isalnum():
         value = list(value)
     if not isinstance(value, (list, tuple)) or not all(isinstance(item, str) for item in value):
         return ()
     short = all(0 < len(item) <= _LONGEST and not is_spot(item) for item in value)
-    return value if short and len(set(value)) > 1 else ()
+    names = list(_LETTERS[: len(value)]), [str(at) for at in range(1, len(value) + 1)]
+    return value if short and len(set(value)) > 1 and list(value) not in names else ()
 
 
 def _axis(said: str, common: Common) -> int | None:
@@ -67,5 +63,24 @@ def _axis(said: str, common: Common) -> int | None:
     return {"column": 1, "row": 0}[found.pop()] if len(found) == 1 else None
 
 
-def _lines(info: LabwareInfo, axis: int) -> set[int]:
-    return {row_column(spot)[axis] for spot in info.wells}
+def _gone_along(deck: Deck, facts: SourceFacts, name: str, axis: int) -> set[str]:
+    """The labware whose columns or rows the run counts while it goes through a list, in order:
+    ``for i, code in enumerate(COLUMNS): ... plate.columns()[i]``, or both in one ``zip``.
+    """
+    kind = "column" if axis else "row"
+    found: set[str] = set()
+    for loop in facts.runs:
+        made_of = origins(facts, loop.names, range(loop.first, loop.last + 1))
+        if all(values.source != name for values in loop.values) or not _TURNED.isdisjoint(made_of):
+            continue
+        for place in facts.numbered:
+            within = any(loop.first <= line <= loop.last for line in place.lines)
+            if within and place.axis == kind and place.name in loop.names and place.first in (0, 1):
+                found |= deck.by_name.get(place.labware, set())
+        beside = {key for other in made_of for key in deck.by_name.get(other, ())}
+        found |= beside if len(beside) == 1 else set()
+    return found
+
+
+def _count(info: LabwareInfo, axis: int) -> int:
+    return len({row_column(spot)[axis] for spot in info.wells})

@@ -72,7 +72,7 @@ def plate_maps(
 
 
 def _tells_nothing_apart(value: Any, levels: Sequence[float | None]) -> bool:
-    """Whether the keys of a map are columns or rows, so that its name is all it says of each well.
+    """Whether the keys of a map are columns, so that its name is all it says of each well.
 
     ``TREATMENT = {"1": "A1", "2": "A2", "3": "A3"}``: the vehicle may well be among them.
     """
@@ -80,7 +80,7 @@ def _tells_nothing_apart(value: Any, levels: Sequence[float | None]) -> bool:
         isinstance(value, Mapping)
         and len(value) >= _FEWEST_TOLD
         and all(level is None for level in levels)
-        and all(isinstance(key, str) and (key.isdecimal() or len(key) == 1) for key in value)
+        and all(isinstance(key, str) and key.isdecimal() for key in value)
         and all(map(_spots, value.values()))
     )
 

@@ -219,7 +219,7 @@ def _spoken(
         if outright and 0 < len(named) - len(used) <= min(LEFT_OUT, len(used) // 3):
             used = named  # more than a few are wells for which there is nothing this time
         elif axis is not None and not by_hand:
-            used += deck.passed_over(key, named, axis)
+            used = [*deck.where_filled(key, used, axis), *deck.passed_over(key, named, axis)]
         if used:
             meant[key] = [deck.ref(key, name) for name in dict.fromkeys(used)]
     if len(meant) > 1 and not (firm and meant.keys() == keys and deck.are_alike(keys)):
@@ -229,7 +229,8 @@ def _spoken(
         meant = here or {key: wells for key, wells in meant.items() if key in deck.filled}
     plates = [deck.trace.labware[key] for key in meant]
     if twins and len({plate.load_name for plate in plates}) == 1:
-        alike = [key for key in having if deck.trace.labware[key].load_name == plates[0].load_name]
+        kind = plates[0].load_name
+        alike = [k for k in having if k in deck.filled and deck.trace.labware[k].load_name == kind]
         there = {ref.name for wells in meant.values() for ref in wells}
         meant |= {key: [deck.ref(key, n) for n in having[key] if n in there] for key in alike}
     elif not all(plate.label and called_alike(plate, plates[0]) for plate in plates[1:]):

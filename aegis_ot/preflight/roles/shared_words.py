@@ -31,7 +31,8 @@ def with_shared_words(
 
 def unit_in_brackets(heading: str) -> str:
     """The unit of all that stands under a heading: "BSA ampoules (ug/mL):"; or ``""``."""
-    for inner in _IN_BRACKETS.findall(heading):
+    for inside in _IN_BRACKETS.findall(heading):
+        inner = inside.strip().removeprefix("in ").strip()
         found = [match for match, _ in amounts_in(f"1 {inner}")]
         if len(found) == 1 and len(found[0].group()) == len(f"1 {inner}"):
             return str(inner)
@@ -47,6 +48,9 @@ def _measured(part: Part, unit: str) -> Part:
     numbers = list(_NUMBER.finditer(part.words))
     if len(numbers) != 1 or any(True for _ in amounts_in(part.words)):
         return part
+    before = tokens(part.words[: numbers[0].start()])[-1:]
+    if before and len(before[0]) > 1 and re.fullmatch(r"1?\d", numbers[0].group()):
+        return part  # "compound 7"
     end = numbers[0].end()
     rest = part.words[end:]
     if _IN_BRACKETS.sub("", rest).strip():
@@ -54,7 +58,7 @@ def _measured(part: Part, unit: str) -> Part:
     return part._replace(words=f"{part.words[:end]} {unit}{rest}")
 
 
-_IN_BRACKETS = re.compile(r"\(\s*(?:in\s+)?([^()]*?)\s*\)")
+_IN_BRACKETS = re.compile(r"\(([^()]*)\)")
 
 
 class Amount:

@@ -76,12 +76,22 @@ def laid_out_in_the_run(trace: Trace, common: Common) -> list[tuple[int, str]]:
             continue
         after = text[match.end() :].lstrip()
         if not means.isdisjoint(tokens(after)[:1]):
+            if not begin and not _is_in_one_labware(trace, match["first"]):
+                continue
             text = _CLAUSE_ENDS.split(text, maxsplit=1)[0]
         elif after[:1] not in (":", "="):
             continue
         if not _VOLUME.search(text):
             found.append((said.line or 1, text))
     return found
+
+
+def _is_in_one_labware(trace: Trace, name: str | None) -> bool:
+    """Whether the run uses a well of this name in one labware only."""
+    return (
+        name is None
+        or len({v.well.ref.labware for v in trace.visits if v.well.ref.name == name}) == 1
+    )
 
 
 _VOLUME = re.compile(r"\d\s*[uµμm]l\b", re.IGNORECASE)

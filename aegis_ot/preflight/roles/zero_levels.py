@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
@@ -18,14 +19,15 @@ from .roles import Roles
 
 def meant_by_zero(clues: Iterable[Clue], facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """For wells that a map gives the level 0, what a comment says that it stands for."""
-    said = _said_of_zero(facts, common)
+    said, of_amounts = _said_of_zero(facts, common)
     if not said:
         return
     for clue in clues:
         at_zero = tuple(
             ref for ref, level in zip(clue.wells, clue.levels, strict=False) if level == 0
         )
-        if at_zero and not clue.whole and clue.strength is Strength.NAME:
+        amounts = of_amounts or names_amounts(clue.text, common)
+        if at_zero and amounts and not clue.whole and clue.strength is Strength.NAME:
             yield replace(
                 clue,
                 text=said,
@@ -36,20 +38,26 @@ def meant_by_zero(clues: Iterable[Clue], facts: SourceFacts, common: Common) -> 
             )
 
 
-def _said_of_zero(facts: SourceFacts, common: Common) -> str:
-    """The one thing that "0 = DMSO only" or "0 means ethanol alone" tells, or ``""``."""
+def _said_of_zero(facts: SourceFacts, common: Common) -> tuple[str, bool]:
+    """The one thing that "0 = DMSO only" or "0 means ethanol alone" tells, or ``""``; and whether
+    its line speaks of amounts: "well, dose (uM); 0 = DMSO only".
+    """
     zero = _zero(common.means)
     texts = [text for _, text in (*facts.docstrings, *comment_blocks(facts))]
-    found = {match["said"].strip() for text in texts for match in zero.finditer(text)}
-    return found.pop() if len(found) == 1 else ""
+    lines = [line for text in texts for line in text.splitlines()]
+    found = {
+        (m["said"].strip(), names_amounts(ln, common)) for ln in lines for m in zero.finditer(ln)
+    }
+    return found.pop() if len(found) == 1 else ("", False)
 
 
 @lru_cache(maxsize=4)
 def _zero(means: tuple[str, ...]) -> re.Pattern[str]:
     words = "|".join(map(re.escape, means)) or r"(?!)"
     return re.compile(
-        r"(?<![\w.,:/+-])0(?:\.0)?(?: ?[munpµμ]M)?"
-        rf"(?: ?(?:=>?|->|→|:) ?|\s(?:{words})\s)"
+        # Not "day 0: ...", which is another thing's 0.
+        r"(?:^|[,;(|.–—]\s*|--?\s+|\bdose\s+)0(?:\.0)?(?: ?[munpµμ]M)?"
+        rf"(?: ?(?:=>?|->|→) ?|\s(?:{words})\s)"
         r"(?P<said>[^\W\d_][^,;.:|()=\n]{1,59})",
         re.IGNORECASE,
     )
@@ -61,8 +69,9 @@ _FEWEST_DOSES = 2
 def derive_undosed(roles: Roles, name: str, spec: RoleSpec, trace: Trace, common: Common) -> None:
     """Wells whose dose is 0, among others of this role, are of the role ``spec.undosed``.
 
-    Not where a drug goes into wells of dose 0 and of several others: the doses are of another one,
-    in a second dimension of the plate or on top of what all wells get.
+    Not where the doses may be those of one drug of several: where a drug goes into wells of dose 0
+    and of several others, or into those of dose 0 alone, or where wells get two. Nor where the
+    numbers count something, from 0 on.
     """
     (undosed,) = spec.undosed
     kind = roles.closure(name)
@@ -74,7 +83,8 @@ def derive_undosed(roles: Roles, name: str, spec: RoleSpec, trace: Trace, common
             by_level.setdefault(level, set()).add(ref)
             said = said or names_amounts(assigned.text, common)
     zero = by_level.pop(0, set())
-    if not zero or len(by_level) < _FEWEST_DOSES:
+    counted = by_level.keys() == set(range(1, len(by_level) + 1))
+    if not zero or len(by_level) < _FEWEST_DOSES or counted or min(by_level) < 0:
         return
     served = trace.served(prefilled=True)
     if not said and _levels_in_common(roles, served, by_level) < _FEWEST_DOSES:
@@ -82,9 +92,15 @@ def derive_undosed(roles: Roles, name: str, spec: RoleSpec, trace: Trace, common
     drugs = {
         ref: wells for ref, wells in served.items() if roles.has(ref, frozenset(spec.receives))
     }
-    for wells in drugs.values():
+    twice = Counter(well for wells in drugs.values() for well in wells - zero)
+    if any(count > 1 for count in twice.values()):
+        return
+    for ref, wells in drugs.items():
         levels = sum(not wells.isdisjoint(of_level) for of_level in by_level.values())
-        if levels > 1 and not wells.isdisjoint(zero):
+        other = (
+            levels == 0 and roles.level(ref) not in (*by_level, 0) and not roles.by_plate_only(ref)
+        )
+        if (levels > 1 or other) and not wells.isdisjoint(zero):
             return
     for ref, wells in drugs.items():
         if wells <= zero and (roles.by_plate_only(ref) or roles.level(ref) == 0):
