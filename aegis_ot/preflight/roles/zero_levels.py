@@ -92,21 +92,31 @@ def derive_undosed(roles: Roles, name: str, spec: RoleSpec, trace: Trace, common
     drugs = {
         ref: wells for ref, wells in served.items() if roles.has(ref, frozenset(spec.receives))
     }
-    twice = Counter(well for wells in drugs.values() for well in wells - zero)
-    if any(count > 1 for count in twice.values()):
+    if _are_of_several(roles, drugs, zero, by_level):
         return
-    for ref, wells in drugs.items():
-        levels = sum(not wells.isdisjoint(of_level) for of_level in by_level.values())
-        other = (
-            levels == 0 and roles.level(ref) not in (*by_level, 0) and not roles.by_plate_only(ref)
-        )
-        if (levels > 1 or other) and not wells.isdisjoint(zero):
-            return
     for ref, wells in drugs.items():
         if wells <= zero and (roles.by_plate_only(ref) or roles.level(ref) == 0):
             del roles.by_well[ref]  # what takes their place stands in the rack of the doses
     for ref in zero:
         roles.by_well[ref] = replace(roles.by_well[ref].copied("dose 0"), role=undosed, whole=False)
+
+
+def _are_of_several(
+    roles: Roles,
+    drugs: Mapping[WellRef, set[WellRef]],
+    zero: set[WellRef],
+    by_level: Mapping[float, set[WellRef]],
+) -> bool:
+    """Whether more than the one drug of these doses goes into the wells."""
+    given = Counter(well for wells in drugs.values() for well in wells - zero)
+    if any(count > 1 for count in given.values()):
+        return True
+    for ref, wells in drugs.items():
+        levels = sum(not wells.isdisjoint(of_level) for of_level in by_level.values())
+        known = roles.level(ref) in (*by_level, 0) or roles.by_plate_only(ref)
+        if not wells.isdisjoint(zero) and (levels > 1 or (levels == 0 and not known)):
+            return True
+    return False
 
 
 def _levels_in_common(
