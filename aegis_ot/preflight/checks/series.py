@@ -169,10 +169,10 @@ def _stands_unused(trace: Trace, roles: Roles, diluent: frozenset[str]) -> bool:
 def _never_diluent(roles: Roles) -> frozenset[str]:
     """Roles of liquids that are neither diluted nor diluted with."""
     spec = roles.family.series
-    of_series = {*spec.stock, *spec.diluent, *spec.diluent_else} if spec else set[str]()
-    return frozenset(
-        name for name, role in roles.family.roles.items() if role.side == "source"
-    ) - frozenset().union(of_series, *map(roles.closure, of_series))
+    of_series = (*spec.stock, *spec.diluent, *spec.diluent_else) if spec else ()
+    diluted = frozenset[str]().union(*map(roles.closure, of_series))
+    sources = {name for name, role in roles.family.roles.items() if role.side == "source"}
+    return frozenset(sources - diluted)
 
 
 _FEWEST_ALIKE = 3

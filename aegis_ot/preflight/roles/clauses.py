@@ -98,9 +98,9 @@ def _without_codes(
     named = [
         match
         for at, match in enumerate(wells)
-        if (word := _numbers(piece, match))
+        if (word := _numbered(piece[: match.start()], match))
         and not names.between.fullmatch(word)
-        and (at > 0 or (match["last"] and _goes_on(piece, wells, names)))
+        and (at > 0 or (match["last"] and _says_where(piece, wells, names)))
     ]
     return tuple(match for match in wells if match not in named)
 
@@ -108,23 +108,17 @@ def _without_codes(
 def numbers_things(part: Part) -> bool:
     """Whether the first wells of a part may be numbers of what stands before: "fractions F1-F6"."""
     first = part.wells[0]
-    before = part.text.partition(first.group())[0]
-    word = tokens(before)[-1:]
-    return bool(first["last"] and word) and _alike(word[0], first)
+    return bool(first["last"] and _numbered(part.text.partition(first.group())[0], first))
 
 
-def _numbers(piece: str, match: re.Match[str]) -> str:
-    """The word right before some wells if it begins with their letter, or ``""``."""
-    word = tokens(piece[: match.start()])[-1:]
-    return word[0] if word and _alike(word[0], match) else ""
+def _numbered(before: str, match: re.Match[str]) -> str:
+    """The last word before some wells if it begins with their letter, or ``""``."""
+    word = "".join(tokens(before)[-1:])
+    alike = match["first"] and len(word) > 1 and word[0].upper() == match["first"][0]
+    return word if alike else ""
 
 
-def _alike(word: str, match: re.Match[str]) -> bool:
-    """Whether a word begins with the letter of some wells."""
-    return bool(match["first"]) and len(word) > 1 and word[0].upper() == match["first"][0]
-
-
-def _goes_on(piece: str, wells: tuple[re.Match[str], ...], names: WellNames) -> bool:
+def _says_where(piece: str, wells: tuple[re.Match[str], ...], names: WellNames) -> bool:
     """Whether it is said after the first wells where they are: in wells of another letter, or in a
     column or row; more of a list, "D1-D6 and E1-E6", say no such thing.
     """

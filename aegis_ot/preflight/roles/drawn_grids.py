@@ -48,8 +48,9 @@ def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
     header = column_word.sub(_blanked, lines[at])
     of_a_part = header != lines[at]
     columns = _columns(header, of_a_part)
-    if not columns and _are_filled(lines[at + 1 : at + 3], _columns(header, True), row_word):
-        columns, of_a_part = _columns(header, True), True
+    if not columns and (part := _columns(header, True)):
+        of_a_part = _are_filled(lines[at + 1 : at + 3], len(part), row_word)
+        columns = part if of_a_part else []
     heads = list(re.finditer(r"\S+", header))[: len(columns)]
     middles = [(head.start() + head.end()) / 2 for head in heads]
     wells_of: dict[str, list[str]] = {}
@@ -154,20 +155,32 @@ def _under(written: str, middles: Sequence[float]) -> list[str]:
     count = len(middles) + 1
     if len(spans) <= count or "|" in written or len(re.split(r"\s{2,}", written.strip())) == count:
         return []
+    cells, all_placed = _by_columns(spans[1:], middles)
+    return [spans[0].group(), *cells] if all_placed and all(cells) else []
+
+
+def _by_columns(spans: Sequence[re.Match[str]], middles: Sequence[float]) -> tuple[list[str], bool]:
+    """The words under each column, and whether all of them stand there.
+
+    What stands right of all columns is left out; no cells where a word stands between two.
+    """
     half = min(later - middle for middle, later in pairwise(middles)) / 2
-    cells: list[list[str]] = [[] for _ in middles]
-    for span in spans[1:]:
+    cells, all_placed = [""] * len(middles), True
+    for span in spans:
         at = (span.start() + span.end()) / 2
         nearest = min(range(len(middles)), key=lambda column: abs(middles[column] - at))
-        if abs(middles[nearest] - at) > half:
-            return []
-        cells[nearest].append(span.group())
-    return [spans[0].group(), *map(" ".join, cells)] if all(cells) else []
+        if abs(middles[nearest] - at) <= half:
+            cells[nearest] = f"{cells[nearest]} {span.group()}".strip()
+        elif at < middles[-1]:
+            return [], False
+        else:
+            all_placed = False
+    return cells, all_placed
 
 
 def _ends_right_of(written: str, end: int) -> bool:
     """Whether the last word of a line begins right of all columns: a remark."""
-    return re.search(r"\S*$", written.rstrip()).start() > end  # type: ignore[union-attr]
+    return len(written.rstrip()) - len(written.split()[-1]) > end
 
 
 def _sparse(written: str, middles: Sequence[float]) -> list[str]:
@@ -175,15 +188,7 @@ def _sparse(written: str, middles: Sequence[float]) -> list[str]:
 
     None where a word stands between two columns.
     """
-    half = min(later - middle for middle, later in pairwise(middles)) / 2
-    cells = [""] * len(middles)
-    for span in list(re.finditer(r"[^\s|]+", written))[1:]:
-        at = (span.start() + span.end()) / 2
-        nearest = min(range(len(middles)), key=lambda column: abs(middles[column] - at))
-        if abs(middles[nearest] - at) <= half:
-            cells[nearest] = f"{cells[nearest]} {span.group()}".strip()
-        elif at < middles[-1]:
-            return []
+    cells, _ = _by_columns(list(re.finditer(r"[^\s|]+", written))[1:], middles)
     return cells if sum(map(bool, cells)) > 1 else []
 
 
@@ -204,14 +209,14 @@ def _columns(written: str, of_a_part: bool) -> list[list[int]]:
     return columns if len(columns) > 1 and all(columns) else []
 
 
-def _are_filled(rows: Sequence[str], columns: Sequence[object], row_word: re.Pattern[str]) -> bool:
+def _are_filled(rows: Sequence[str], count: int, row_word: re.Pattern[str]) -> bool:
     """Whether two rows in order follow, of as many cells as there are columns, three at least."""
-    cells = [cells_of(row_word.sub(_blanked, row), len(columns) + 1) for row in rows]
-    letters = [_LETTERS.fullmatch(row[0]) if row else None for row in cells]
-    if len(columns) < _FEWEST_COLUMNS or len(rows) < _FEWEST_ROWS or not all(letters):
+    if count < _FEWEST_COLUMNS or len(rows) < _FEWEST_ROWS:
         return False
-    begins = [ord(letter[1]) for letter in letters if letter]
-    return begins[0] < begins[1] and all(_filled(row[1:], len(columns)) for row in cells)
+    cells = [cells_of(row_word.sub(_blanked, row), count + 1) for row in rows]
+    begins = [letter[1] for row in cells if row and (letter := _LETTERS.fullmatch(row[0]))]
+    in_order = len(begins) == len(rows) and begins[0] < begins[1]
+    return in_order and all(_filled(row[1:], count) for row in cells)
 
 
 _FEWEST_ROWS = 2

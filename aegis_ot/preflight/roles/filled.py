@@ -16,6 +16,7 @@ def derive_filled(
     roles: Roles, name: str, spec: RoleSpec, trace: Trace, usage: Mapping[WellRef, Usage]
 ) -> None:
     """Give the role ``name`` to the wells that receive a liquid of ``spec.receives``."""
+    wanted = frozenset(spec.receives)
     stage = stage_of(roles, trace, name, frozenset(spec.receives_with))
     for well in trace.wells.values():
         used = usage.get(well.ref)
@@ -27,7 +28,7 @@ def derive_filled(
         unlike = assigned is not None and assigned.role not in roles.closure(name)
         if unlike and not _may_be_another(roles, well, trace):
             continue
-        if _receives(roles, well, trace, stage, frozenset(spec.receives)):
+        if _receives(roles, well, trace, stage, wanted):
             if assigned is not None and unlike:
                 del roles.by_well[well.ref]
                 if assigned.level is not None:

@@ -65,15 +65,20 @@ class LabwareNouns:
             return frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
         words = tokens(text)
         found = {key for label, key in self._labels if self._is_called(tuple(label.split()), words)}
-        plain = tokens(IN_BRACKETS.sub(" ", text))
-        if not found and 1 < len(plain) <= _SHORT_HEADING and plain[-1] in self._nouns:
-            found = {key for label, key in self._labels if set(plain) <= set(label.split())}
+        found = found or self._shortened(text)
         if not found:
             for name, keys in self._deck.by_name.items():
                 telling = set(tokens(name)) - self._dull
                 if len(keys) == 1 and telling and self._is_called(tokens(name), words):
                     found |= keys
         return frozenset(found) if len(found) == 1 else frozenset()
+
+    def _shortened(self, text: str) -> set[str]:
+        """The labware whose labels say all that a short heading says, and more."""
+        words = tokens(IN_BRACKETS.sub(" ", text))
+        if not 1 < len(words) <= _SHORT_HEADING or words[-1] not in self._nouns:
+            return set()
+        return {key for label, key in self._labels if set(words) <= set(label.split())}
 
     def begun_by(self, line: str) -> frozenset[str]:
         """The one labware that a line of the deck's list speaks of: "slot 3   tube rack, ...", or

@@ -23,7 +23,7 @@ from ..text import (
 )
 from ..trace import row_column
 from .clues import Clue, Strength
-from .phrases import first_words, words_of
+from .phrases import first_words, labware_words
 
 
 def levels_of(clue: Clue, common: Common) -> tuple[float | None, ...]:
@@ -40,15 +40,19 @@ def levels_beside(clue: Clue, common: Common) -> tuple[float | None, ...]:
     """
     if clue.levels or clue.whole or clue.step or clue.strength is Strength.LOOSE_NAME:
         return clue.levels
-    vessels = words_of(tuple(word for words in common.labware.values() for word in words))
-    said = (w for w in name_without_level(clue.text, common) if len(w) > 1 and w not in vessels)
-    if clue.strength is Strength.COMMENT and any(said):
+    if clue.strength is Strength.COMMENT and _says_more(clue.text, common):
         return ()
     several = listed_levels(clue.text)
     if len(several) > 1:  # "0, 125, 250 ug/ml": one for each
         return several if len(several) == len(set(several)) == len(clue.wells) else ()
     level = level_in(clue.text, common, plain_numbers=False)
     return () if level is None else (level,) * len(clue.wells)
+
+
+def _says_more(text: str, common: Common) -> bool:
+    """Whether a text says more than an amount, and perhaps a vessel by its letter."""
+    vessels = labware_words(common)
+    return any(len(w) > 1 and w not in vessels for w in name_without_level(text, common))
 
 
 def without_lone_middle(common: Common, clues: Iterable[Clue]) -> Common:
@@ -123,10 +127,14 @@ def names_counts(name: str, common: Common) -> bool:
     return bool(lexicon_of({"count": common.countings}).find(name))
 
 
+def words_for_zero(common: Common) -> tuple[str, ...]:
+    """The words for nothing at all: "blank"."""
+    return tuple(word for word, level in common.levels.items() if level == 0)
+
+
 def names_zero(text: str, common: Common) -> bool:
-    """Whether a text has a word for nothing at all: "blank"."""
-    words = tuple(word for word, level in common.levels.items() if level == 0)
-    return bool(lexicon_of({"zero": words}).find(text))
+    """Whether a text has a word for nothing at all."""
+    return bool(lexicon_of({"zero": words_for_zero(common)}).find(text))
 
 
 def is_number(value: Any) -> bool:

@@ -70,8 +70,10 @@ def _gone_along(deck: Deck, facts: SourceFacts, name: str, axis: int) -> set[str
     kind = "column" if axis else "row"
     found: set[str] = set()
     for loop in facts.runs:
+        if all(values.source != name for values in loop.values):
+            continue
         made_of = origins(facts, loop.names, range(loop.first, loop.last + 1))
-        if all(values.source != name for values in loop.values) or not _TURNED.isdisjoint(made_of):
+        if not _TURNED.isdisjoint(made_of):
             continue
         for place in facts.numbered:
             within = any(loop.first <= line <= loop.last for line in place.lines)

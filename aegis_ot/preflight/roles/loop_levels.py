@@ -28,8 +28,8 @@ def loop_levels(
     for line, drawn in _draws(trace, facts).items():
         for loop in facts.runs:
             turns, lines = _turns_within(drawn, loop)
-            made_of = origins(facts, facts.draws[line], lines)
-            if not turns or loop.names.isdisjoint(made_of):
+            made_of = origins(facts, facts.draws[line], lines) if turns else set()
+            if loop.names.isdisjoint(made_of):
                 continue
             each = _turns_of_each([o for o in facts.runs if o.names & made_of], loop, line)
             levels = _levels(loop, len(turns), names, common, each) if each is not None else ()

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, comment_blocks, lexicon_of, tokens
+from ..text import SourceFacts, lexicon_of, tokens, written_lines
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
@@ -71,8 +71,7 @@ def _says_alike(facts: SourceFacts, common: Common) -> bool:
     phrases = lexicon_of({"alike": common.alike})
     nouns = {word for words in common.labware.values() for word in words} | {"slot"}
     negations = first_words(common.negations)
-    texts = [text for _, text in (*facts.docstrings, *comment_blocks(facts))]
-    for line in (line for text in texts for line in text.splitlines()):
+    for line in written_lines(facts):
         words = phrases.words(line)
         for match in phrases.find(line):
             before, after = words[: match.start][-_NEAR:], words[match.end :][:_NEAR]

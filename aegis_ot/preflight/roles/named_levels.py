@@ -9,7 +9,7 @@ from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
 from ..rules import Common
 from ..text import SourceFacts, listed_levels, unit_in
-from .levels import far_apart, is_number, names_counts, speaks_of_amounts
+from .levels import far_apart, is_number, names_counts, speaks_of_amounts, words_for_zero
 
 _IN_BRACKETS = re.compile(r"\([^()\d]*\)")
 NUMBERED = re.compile(r"(.*)\[(?P<quote>['\"]?)(-?\d+(?:\.\d+)?)(?P=quote)\]([^\[\]]*)")
@@ -96,7 +96,7 @@ def listed_beside(
     note = facts.comments.get(line) or above
     if not note:
         return ()
-    nothing = [word for word, level in common.levels.items() if level == 0]
+    nothing = words_for_zero(common)
     counted = re.sub(rf"\b(?:{'|'.join(nothing)})\b", "0", note, flags=re.IGNORECASE)
     plain = _IN_BRACKETS.sub(" ", note)  # "0 (buffer blank), 25, 125 ug/ml"
     for levels in map(listed_levels, dict.fromkeys((note, counted, plain))):

@@ -218,6 +218,11 @@ def words_of(phrases: tuple[str, ...]) -> frozenset[str]:
     return frozenset(word for phrase in phrases for word in tokens(phrase))
 
 
+def labware_words(common: Common) -> frozenset[str]:
+    """All words for what stands on the deck: "tube", "plate"."""
+    return words_of(tuple(word for words in common.labware.values() for word in words))
+
+
 def _telling_part(lexicon: Lexicon, clue: Clue) -> str:
     """The field of a record, where both names together would say what neither does.
 

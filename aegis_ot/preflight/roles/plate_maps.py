@@ -10,7 +10,15 @@ from ..rules import Common
 from ..text import SourceFacts, concentration_in, lexicon_of, origins
 from .clues import Clue, Strength
 from .deck import Deck
-from .levels import as_one_of_amounts, far_apart, is_number, names_amounts, names_counts, number_in
+from .levels import (
+    as_one_of_amounts,
+    far_apart,
+    is_number,
+    names_amounts,
+    names_counts,
+    number_in,
+    words_for_zero,
+)
 from .map_labware import labware_by_field, labware_of_map, refs_of, used_with
 from .phrases import without_position
 from .well_names import wells_between
@@ -42,11 +50,9 @@ def plate_maps(
         places = _numbers_places(facts, name)
         rest = used - {key for keys in by_key.values() for key in keys}
         told = isinstance(value, Mapping) and far_apart(_levels_told(value, written).values())
+        strength = Strength.NAME
         if _tells_nothing_apart(value, [level for _, _, level, _ in entries]):
-            refs = tuple(drawn_and_filled(deck, used, all_names))
-            refs = refs or tuple(refs_of(deck, labware, all_names))
-            yield Clue(Strength.LOOSE_NAME, name, refs, line, f"plate map `{name}` at line {line}")
-            continue
+            strength, entries = Strength.LOOSE_NAME, [(name, tuple(all_names), None, "")]
         for text, wells, level, column in entries:
             keyed = [keys for key, keys in by_key.items() if text.endswith(f" {key}")]
             if column in by_key:
@@ -59,7 +65,7 @@ def plate_maps(
             if concentration_in(text) is not None or places:
                 level = None  # the text says it, or the number beside it is a column's
             yield Clue(
-                Strength.NAME,
+                strength,
                 text,
                 refs,
                 line,
@@ -190,7 +196,7 @@ def _levels_of_keys(value: Mapping[Any, Any], of_amounts: bool) -> dict[Any, flo
 
 def _written_levels(facts: SourceFacts, common: Common) -> list[Mapping[str, float]]:
     """What the text lists under names, and beside those the words for nothing at all."""
-    nothing = {word: 0.0 for word, level in common.levels.items() if level == 0}
+    nothing = dict.fromkeys(words_for_zero(common), 0.0)
     return [{**nothing, **told} for told in facts.levels.values()]
 
 

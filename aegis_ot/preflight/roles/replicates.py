@@ -46,6 +46,9 @@ def _replicates(
 ) -> Iterator[tuple[LabwareInfo, LabwareInfo]]:
     """Pairs of plates of one kind that are filled alike, and called or laid out alike.
 
+    Those that are laid out alike have nothing to learn from each other; that they are replicates
+    tells which plates a liquid was forgotten on.
+
     Args:
         layouts: For the key of a plate the roles that are said of its wells, by name.
     """

@@ -45,17 +45,23 @@ def with_unit(parts: Sequence[Part], unit: str) -> list[Part]:
 
 
 def _measured(part: Part, unit: str) -> Part:
-    numbers = list(_NUMBER.finditer(part.words))
-    if len(numbers) != 1 or any(True for _ in amounts_in(part.words)):
+    number = _only_number(part)
+    if number is None:
         return part
-    before = tokens(part.words[: numbers[0].start()])[-1:]
-    if before and len(before[0]) > 1 and re.fullmatch(r"1?\d", numbers[0].group()):
+    before = tokens(part.words[: number.start()])[-1:]
+    if before and len(before[0]) > 1 and re.fullmatch(r"1?\d", number.group()):
         return part  # "compound 7"
-    end = numbers[0].end()
+    end = number.end()
     rest = part.words[end:]
     if _IN_BRACKETS.sub("", rest).strip():
         return part
     return part._replace(words=f"{part.words[:end]} {unit}{rest}")
+
+
+def _only_number(part: Part) -> re.Match[str] | None:
+    """The one number of a part that says no amount with a unit."""
+    numbers = list(_NUMBER.finditer(part.words))
+    return None if len(numbers) != 1 or any(amounts_in(part.words)) else numbers[0]
 
 
 _IN_BRACKETS = re.compile(r"\(([^()]*)\)")
@@ -75,10 +81,9 @@ def _like(model: Amount, part: Part) -> Part:
     """A part that says a number only, as the model says its own; no more than a nought has no
     unit: "PBS (0)".
     """
-    numbers = list(_NUMBER.finditer(part.words))
-    if len(numbers) != 1 or any(True for _ in amounts_in(part.words)):
+    number = _only_number(part)
+    if number is None:
         return part
-    number = numbers[0]
     before, after = tokens(part.words[: number.start()]), tokens(part.words[number.end() :])
     if not before + after or (before == model.before and not after):
         words = (*model.before, number.group(), model.unit, *model.after)

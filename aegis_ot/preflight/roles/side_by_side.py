@@ -14,7 +14,8 @@ from collections.abc import Iterator, Sequence
 
 from ..rules import Common
 from ..text import tokens
-from .phrases import words_of
+from .labware_nouns import IN_BRACKETS
+from .phrases import labware_words
 from .well_names import WellNames, well_names
 
 _APART = re.compile(r"\s{3,}")
@@ -56,9 +57,9 @@ def side_by_side(line: int, text: str, common: Common) -> Iterator[tuple[int, st
 def _second_heading(written: str, common: Common, names: WellNames) -> int | None:
     """Where the second of two headings begins that each speak of labware, if a line has two."""
     heads = _APART.split(written.strip())
-    if len(heads) != 2 or names.spec.search(re.sub(r"\([^()]*\)", " ", written)):
+    if len(heads) != 2 or names.spec.search(IN_BRACKETS.sub(" ", written)):
         return None
-    nouns = words_of(tuple(word for words in common.labware.values() for word in words)) | {"rack"}
+    nouns = labware_words(common) | {"rack"}
     if any(len(tokens(h)) > _LONGEST_HEADING or nouns.isdisjoint(tokens(h)) for h in heads):
         return None
     return written.rindex(heads[1])

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect
+from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -18,7 +19,7 @@ from ..rules import Common
 from ..text import SourceFacts, direction_in, lexicon_of, tokens
 from ..trace import Said, Trace, Visit
 from .clues import Clue, Strength, shortened
-from .phrases import first_words, words_of
+from .phrases import first_words, labware_words
 from .well_names import well_names
 
 _LONGEST = 14
@@ -66,7 +67,10 @@ def laid_out_in_the_run(trace: Trace, common: Common) -> list[tuple[int, str]]:
     there: "B1: 16.2 uL DNA + 43.8 uL TE".
     """
     spec, means = well_names(common).spec, first_words(common.means)
-    nouns = words_of(tuple(word for words in common.labware.values() for word in words))
+    nouns = labware_words(common)
+    standing: defaultdict[str, set[str]] = defaultdict(set)
+    for visit in trace.visits if trace.comments else ():
+        standing[visit.well.ref.name].add(visit.well.ref.labware)
     found: list[tuple[int, str]] = []
     for said in dict.fromkeys(trace.comments):
         text = said.text.strip()
@@ -76,22 +80,14 @@ def laid_out_in_the_run(trace: Trace, common: Common) -> list[tuple[int, str]]:
             continue
         after = text[match.end() :].lstrip()
         if not means.isdisjoint(tokens(after)[:1]):
-            if not begin and not _is_in_one_labware(trace, match["first"]):
-                continue
+            if not begin and match["first"] and len(standing[match["first"]]) != 1:
+                continue  # which labware's well it speaks of is not said
             text = _CLAUSE_ENDS.split(text, maxsplit=1)[0]
         elif after[:1] not in (":", "="):
             continue
         if not _VOLUME.search(text):
             found.append((said.line or 1, text))
     return found
-
-
-def _is_in_one_labware(trace: Trace, name: str | None) -> bool:
-    """Whether the run uses a well of this name in one labware only."""
-    return (
-        name is None
-        or len({v.well.ref.labware for v in trace.visits if v.well.ref.name == name}) == 1
-    )
 
 
 _VOLUME = re.compile(r"\d\s*[uµμm]l\b", re.IGNORECASE)

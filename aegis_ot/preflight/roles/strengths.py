@@ -34,8 +34,10 @@ def settle_scales(roles: Roles) -> None:
             (ref, one) for ref, one in roles.by_well.items() if name in roles.closure(one.role)
         ]
         kinds = {type(one.level) for _, one in found if one.level}
+        if kinds != {Concentration, float}:
+            continue
         plain = {ref: roles.told_levels.get(ref) for ref, _ in found}
-        if kinds == {Concentration, float} and all(type(n) is float for n in plain.values()):
+        if all(type(number) is float for number in plain.values()):
             for ref, one in found:
                 one.level = plain[ref]
 

@@ -11,13 +11,13 @@ from ..rules import Common
 from ..text import SourceFacts, comment_blocks, tokens
 from .clues import Clue, Strength, shortened
 from .deck import Deck
+from .labware_nouns import IN_BRACKETS
 from .phrases import words_of
 
 _ENTRY = re.compile(
     r"(?:^|[,;/|])\s*#?(\d{1,2})(?!\w)\s*(?:[:=.)]|->|[-–](?=\s))?\s*"
     r"([^\W\d][^,;/|]{2,40}?)(?=\s*(?:[,;/|]|$))"
 )
-_IN_BRACKETS = re.compile(r"\([^()]*\)")
 _FEWEST = 3
 """So many numbers in order are a legend; fewer may be amounts."""
 
@@ -68,7 +68,7 @@ def _told_alone(
     found += [(match[1], match[2]) for match in re.finditer(after, text, re.IGNORECASE)]
     names = list(trough.wells)
     for number, said in found:
-        short = len(tokens(_IN_BRACKETS.sub(" ", said))) <= _LONGEST_NAME
+        short = len(tokens(IN_BRACKETS.sub(" ", said))) <= _LONGEST_NAME
         if 0 < int(number) <= len(names) and short:
             ref = deck.ref(trough.key, names[int(number) - 1])
             told = f"'{shortened(said)}' in trough {number}, by the text at line {line}"

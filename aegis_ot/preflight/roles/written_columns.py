@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ..rules import Common
-from ..text import Numbered, SourceFacts, comment_blocks, tokens
+from ..text import Numbered, SourceFacts, tokens, written_lines
 from ..trace import row_column
 from .clauses import parts_of
 from .deck import Deck
@@ -47,15 +47,14 @@ class WrittenColumns:
         """Nothing if no layout names the last column, which is no index counted from 0."""
         info = self._deck.trace.labware[key]
         found: list[_Said] = []
-        for _, text in (*self._facts.docstrings, *comment_blocks(self._facts)):
-            for line in text.splitlines():
-                for part in parts_of(line, self._common):
-                    if part.wells and all(m["column"] or m["columns"] for m in part.wells):
-                        columns = {
-                            row_column(well)[1] + 1
-                            for match in part.wells
-                            for well in self._names.meant(match, info)
-                        }
-                        found.append((frozenset(tokens(part.words)), frozenset(columns)))
+        for line in written_lines(self._facts):
+            for part in parts_of(line, self._common):
+                if part.wells and all(m["column"] or m["columns"] for m in part.wells):
+                    columns = {
+                        row_column(well)[1] + 1
+                        for match in part.wells
+                        for well in self._names.meant(match, info)
+                    }
+                    found.append((frozenset(tokens(part.words)), frozenset(columns)))
         last = max(row_column(well)[1] for well in info.wells) + 1
         return iter(found if any(last in columns for _, columns in found) else [])

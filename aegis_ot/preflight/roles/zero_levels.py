@@ -10,7 +10,7 @@ from functools import lru_cache
 
 from ...vocabulary import WellRef
 from ..rules import Common, RoleSpec
-from ..text import Rank, SourceFacts, comment_blocks
+from ..text import Rank, SourceFacts, written_lines
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .levels import names_amounts
@@ -43,10 +43,10 @@ def _said_of_zero(facts: SourceFacts, common: Common) -> tuple[str, bool]:
     its line speaks of amounts: "well, dose (uM); 0 = DMSO only".
     """
     zero = _zero(common.means)
-    texts = [text for _, text in (*facts.docstrings, *comment_blocks(facts))]
-    lines = [line for text in texts for line in text.splitlines()]
     found = {
-        (m["said"].strip(), names_amounts(ln, common)) for ln in lines for m in zero.finditer(ln)
+        (match["said"].strip(), names_amounts(line, common))
+        for line in written_lines(facts)
+        for match in zero.finditer(line)
     }
     return found.pop() if len(found) == 1 else ("", False)
 
@@ -89,9 +89,8 @@ def derive_undosed(roles: Roles, name: str, spec: RoleSpec, trace: Trace, common
     served = trace.served(prefilled=True)
     if not said and _levels_in_common(roles, served, by_level) < _FEWEST_DOSES:
         return  # hours, say
-    drugs = {
-        ref: wells for ref, wells in served.items() if roles.has(ref, frozenset(spec.receives))
-    }
+    dosed = frozenset(spec.receives)
+    drugs = {ref: wells for ref, wells in served.items() if roles.has(ref, dosed)}
     if _are_of_several(roles, drugs, zero, by_level):
         return
     for ref, wells in drugs.items():

@@ -1,6 +1,6 @@
 """What the text of a protocol says: its comments, its constants, the words in its names."""
 
-from .comments import comment_blocks
+from .comments import comment_blocks, written_lines
 from .facts import Loop, Numbered, Place, SourceFacts, Values
 from .flow import origins
 from .legends import legend_of
@@ -55,4 +55,5 @@ __all__ = [
     "unit_in",
     "with_u",
     "without_strength",
+    "written_lines",
 ]

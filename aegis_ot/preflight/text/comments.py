@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import io
 import tokenize
+from collections.abc import Iterator
 
 from .facts import SourceFacts
 from .lines import source_lines, without_gaps
@@ -81,6 +82,12 @@ def _noted_keys(node: ast.Dict, facts: SourceFacts) -> dict[str, tuple[str, ...]
     return {
         facts.comments[line]: tuple(held) for line, held in keys.items() if line in facts.comments
     }
+
+
+def written_lines(facts: SourceFacts) -> Iterator[str]:
+    """Each line of the docstrings and of the comments."""
+    for _, text in (*facts.docstrings, *comment_blocks(facts)):
+        yield from text.splitlines()
 
 
 def comment_blocks(facts: SourceFacts, indented: bool = False) -> list[tuple[int, str]]:

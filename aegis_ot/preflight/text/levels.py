@@ -51,10 +51,12 @@ def comparable(one: float, other: float) -> bool:
     """Whether two levels are on one scale: both with a unit, or both without, or both in a list;
     0 is on any but a list's.
     """
-    scales = [
-        next((s for s in (Rank, Concentration) if isinstance(x, s)), float) for x in (one, other)
-    ]
-    return scales[0] is scales[1] or (Rank not in scales and not (one and other))
+    mine, theirs = _scale(one), _scale(other)
+    return mine is theirs or (Rank not in (mine, theirs) and not (one and other))
+
+
+def _scale(level: float) -> type[float]:
+    return next((kind for kind in (Rank, Concentration) if isinstance(level, kind)), float)
 
 
 _WITH_UNIT = re.compile(
