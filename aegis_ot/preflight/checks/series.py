@@ -143,19 +143,25 @@ def _given_alike(
     That other one is what is diluted. What all get alike is no stock, whatever its name: the
     protein that a ligand is titrated into, a dye in every well. Where other chains are filled
     with diluent, what this one is given instead is rather a mistake; and so is the wash buffer,
-    where a diluent stands unused.
+    where a diluent stands unused, or what has another name, if the undiluted first well gets none.
     """
     alike: dict[bool, set[Well]] = {}
-    wrong = _never_diluent(roles) if _stands_unused(trace, roles, diluent) else frozenset()
+    unused = _stands_unused(trace, roles, diluent)
+    wrong = _never_diluent(roles) if unused else frozenset()
+    others = roles.named_otherwise() if unused else frozenset()
     for links in groups:
         linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
         fed = _fed_from_outside(trace, linked)
         found = alike.setdefault(any(roles.has(source.ref, diluent) for source in fed), set())
-        if len(linked) >= _FEWEST_ALIKE and _for_the_head(roles, fed, links, diluent):
+        for_the_head = _for_the_head(roles, fed, links, diluent)
+        in_line = any(source.ref.labware == linked[0].ref.labware for source in for_the_head)
+        if len(linked) >= _FEWEST_ALIKE and for_the_head:
             found.update(
                 source
                 for source, wells in fed.items()
-                if wells.issuperset(linked) and not roles.has(source.ref, wrong)
+                if wells.issuperset(linked)
+                and not roles.has(source.ref, wrong)
+                and not (in_line and source.ref in others)
             )
     return alike.get(True in alike, set())
 

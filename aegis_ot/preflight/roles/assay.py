@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..rules import Common, Database, Family
-from ..text import SourceFacts, lexicon_of, tokens
+from ..text import EVERYWHERE, SourceFacts, lexicon_of, origins, tokens
 from ..trace import Trace, shapes_of
 from .clues import Clue, Strength
 from .roles import Roles
@@ -154,8 +154,11 @@ def _texts(facts: SourceFacts, clues: Iterable[Clue], trace: Trace) -> Iterable[
             yield "liquid", clue.text
         elif clue.strength in (Strength.NAME, Strength.LOOSE_NAME):
             yield "name", clue.text
+    # The "cells" of a table's line are no cells: what comes from a text says nothing.
+    tables = {n for n, v in facts.constants.items() if isinstance(v, str) and "\n" in v}
     for name in facts.names:
-        yield "name", name
+        if not tables or name in tables or tables.isdisjoint(origins(facts, (name,), EVERYWHERE)):
+            yield "name", name
     for _, text in facts.docstrings:
         yield "text", text
     for text in facts.comments.values():

@@ -16,7 +16,7 @@ from ..trace import Trace
 from .channels import spread_over_channels
 from .choosing import A_FEW, Candidate, choose
 from .clues import Clue, Strength
-from .fitting import fitting_role, is_for_controls
+from .fitting import fitting_role, is_for_controls, named_by
 from .for_all import unsay_for_all
 from .given_on import unsay_contents
 from .helpers import unsay_controls
@@ -27,15 +27,14 @@ from .phrases import (
     joins_others,
     names_several,
     of_its_dict,
-    role_words,
     roles_denied,
-    roles_named,
     says_only_a_place,
     says_only_the_side,
     what_all_are,
     without_differing,
 )
 from .replicates import spread_over_replicates
+from .role_words import role_words
 from .roles import Roles
 from .strengths import settle_scales, unsay_strengths
 from .usage import Sides, Usage, in_trough
@@ -79,17 +78,10 @@ def assign_roles(
     holding_of = called_after(clues, lexicon, common)
     apart = named_apart(clues, lexicon, common)
     for clue in sorted(clues, key=lambda clue: bool(clue.step)):
-        named = [clue.role] if clue.role in family.roles else roles_named(lexicon, clue, common)
+        named = named_by(lexicon, clue, common, roles)
         plural = clue.text.endswith(_PLURAL) and len(clue.wells) >= _SEVERAL
         if plural or (clue.whole and len(clue.wells) > 1):
             named = without_differing(lexicon, clue, named, family)
-        if clue.step and len(clue.wells) > 1:  # "standards, blank upwards" are not all blanks
-            named = [
-                role
-                for role in named
-                if family.roles[role].level is None
-                or roles.closure(role).isdisjoint({*named} - {role})
-            ]
         if not named:
             untold.append(clue)
             continue
@@ -145,8 +137,10 @@ def assign_roles(
                 continue  # its column is named by its first well
             if clue.step and any(_is_of_a_layout(c[2]) for c in candidates.get(ref, ())):
                 continue  # the step is called after what it is for, by mistake or not
-            if level is not None and any(
-                family.roles[other].level == level for other in named if other != role
+            if (
+                level is not None
+                and not clue.levels
+                and any(family.roles[other].level == level for other in named if other != role)
             ):
                 level = family.roles[role].level  # that of the blank, not of all standards
             candidates.setdefault(ref, []).append((worth, role, clue, level))
@@ -215,7 +209,8 @@ def _note_untold(roles: Roles, lexicon: Lexicon, untold: Sequence[Clue]) -> None
 def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, float]:
     """The one level that clues without a word for what they hold give each of their wells.
 
-    What is said of several at once ("11x A1-B1") gives way to what is said of each.
+    What is said of several at once ("11x A1-B1") gives way to what is said of each, a place in a
+    rising row to an amount.
     """
     of_each: dict[WellRef, set[float]] = {}
     of_several: dict[WellRef, set[float]] = {}
@@ -224,7 +219,10 @@ def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, floa
         for ref, level in zip(clue.wells, levels_beside(clue, common), strict=False):
             if level is not None:
                 levels.setdefault(ref, set()).add(level)
-    told = {**of_several, **of_each}
+    told = {
+        ref: {level for level in levels if not isinstance(level, Rank)} or levels
+        for ref, levels in {**of_several, **of_each}.items()
+    }
     return {ref: min(levels) for ref, levels in told.items() if are_one(levels)}
 
 

@@ -38,8 +38,8 @@ def with_bare_numbers(clues: Sequence[Clue], text: str) -> Iterator[Clue]:
         if not units and are_amounts(numbers.values()):
             units = elsewhere
         if len(set(numbers.values())) >= _FEWEST and len(units) == 1:
-            worth = concentration_in(f"1 {units.pop()}")
-            levels.update((at, number * (worth or 1.0)) for at, number in numbers.items())
+            worth = concentration_in(f"1 {units.pop()}") or 1.0
+            levels.update((at, type(worth)(number * worth)) for at, number in numbers.items())
     for at, clue in enumerate(clues):
         if at in levels:
             clue = replace(clue, levels=(levels[at],) * len(clue.wells))

@@ -13,8 +13,8 @@ from typing import NamedTuple
 from ..rules import Common
 from ..text import tokens
 from .ellipses import spelled_out
-from .phrases import first_words
-from .well_names import WellNames, well_names
+from .phrases import first_words, words_of
+from .well_names import WellNames, well_names, wells_between
 
 _BREAKS = re.compile(
     r"[;|]|(?<!\.[a-z]{3})\.\s+(?=[A-Z])|\.\s{2,}(?=\w)|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
@@ -24,6 +24,10 @@ _BREAKS = re.compile(
 _TO_THE_END = re.compile(r"[;|()]|\.\s|\s{3,}")
 _BRACKETS = re.compile(r"[(\[]([^()\[\]]*)[)\]]")
 
+
+_SPAN = r"[A-P]\d{1,2}\s?[-–]\s?[A-P]\d{1,2}"
+_SPANS = re.compile(rf"\b(?P<wells>{_SPAN})\s+(?P<numbers>{_SPAN})(?=\s*(?:[,;.)]|$))")
+"""Wells, and the numbers of what stands in them: "A1-H1 S1-S8"."""
 
 _LONGEST_LINE = 2000
 """A longer line is data and not prose, and would take for ages."""
@@ -51,7 +55,7 @@ def parts_of(text: str, common: Common) -> Iterator[Part]:
     if len(text) > _LONGEST_LINE:
         yield Part(text, text, ())
         return
-    text = spelled_out(text, common)
+    text = _SPANS.sub(_without_numbers, spelled_out(text, common))
     if len(text) > _LONGEST_LINE:
         yield Part(text, text, ())
         return
@@ -64,11 +68,42 @@ def parts_of(text: str, common: Common) -> Iterator[Part]:
             yield Part(piece.strip(), names.spec.sub(" ", piece), wells)
 
 
+def _without_numbers(match: re.Match[str]) -> str:
+    """A range of wells with the numbers of what stands there: "A2-D2 G9-G12" in small letters."""
+    wells = wells_between(re.sub(r"\s?[-–]\s?", ":", match["wells"]))
+    first, last = re.split(r"\s?[-–]\s?", match["numbers"])
+    as_many = int(last[1:]) - int(first[1:]) + 1 == len(wells) > 1
+    if first[0] != last[0] or not as_many:
+        return match[0]
+    return f"{match['wells']} {match['numbers'].lower()}"
+
+
+def whole_lines(lines: Sequence[str], common: Common) -> Iterator[tuple[int, str]]:
+    """Lines by number; one that ends with "in" or the like goes on in the next.
+
+    Not where both begin with wells of their own: "1-2 untreated, nothing goes in".
+    """
+    leading = words_of((*common.joints, *common.toward))
+    spec = well_names(common).spec
+    begun, first = "", 0
+    for number, line in enumerate(lines):
+        first = first if begun else number
+        begun = f"{begun} {line.strip()}" if begun else line
+        last = begun.rstrip().rpartition(" ")[2].lower()
+        following = lines[number + 1].lstrip() if number + 1 < len(lines) else None
+        entries = following is not None and spec.match(following) and spec.match(begun.lstrip())
+        if last not in leading or following is None or entries:
+            yield first, begun
+            begun = ""
+
+
 def with_what_follows(line: str, common: Common) -> tuple[list[Part], list[str]]:
     """The parts of a line that name wells, and for each what follows without wells of its own.
 
-    A thing that follows says what that is: "A1 PBS, the blank" is "PBS (blank)".
+    A thing that follows says what that is: "A1 PBS, the blank" is "PBS (blank)". Not one that comes
+    to it: "rows A-D, the controls too".
     """
+    also = {tokens(word) for word in common.also}
     parts: list[Part] = []
     more: list[str] = []
     for part in parts_of(line, common):
@@ -77,7 +112,7 @@ def with_what_follows(line: str, common: Common) -> tuple[list[Part], list[str]]
             more.append("")
         elif more:
             first, *words = _BRACKETS.sub(" ", part.words).split() or [""]
-            short = 0 < len(words) < _LONGEST_APPOSITION
+            short = 0 < len(words) < _LONGEST_APPOSITION and tokens(words[-1])[-1:] not in also
             if short and not more[-1] and first.lower() in first_words(common.articles):
                 parts[-1] = parts[-1]._replace(words=f"{parts[-1].words} ({' '.join(words)})")
             more[-1] += f" {part.words}"

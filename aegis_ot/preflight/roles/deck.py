@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence, Set
 from functools import cached_property
 
 from ...instrumentation import LabwareInfo, NameBinding
@@ -18,6 +18,9 @@ MOST_TUBES = 24
 
 LEFT_OUT = 2
 """As many wells of those that a layout names may have been left out by mistake."""
+
+_OTHERS = 2
+"""In so many other columns or rows the run fills what it leaves out in one."""
 
 
 class Deck:
@@ -140,10 +143,21 @@ class Deck:
             and len(lines) == 1
             and any(line - 1 in others and line + 1 in others for line in lines)
         )
-        # One of several, where all else of the plate is filled: a loop ended too early.
+        # All else of the plate is filled: a loop ended too early.
         every = map(row_column, self.trace.labware[labware].wells)
-        ended = len(gap) == 1 < len(lines) and filled == {at for at in every if at[axis] not in gap}
+        ended = len(gap) == 1 and filled == {at for at in every if at[axis] not in gap}
         return missing if (few or whole or between or ended) and len(others) > 1 else []
+
+    def are_left_out(self, labware: str, missing: Sequence[str], used: Sequence[str]) -> bool:
+        """Whether a few of a range's wells may have been left out by mistake: one of three, or
+        less than half of them where the run fills these places of two more columns or rows.
+        """
+        if not 0 < len(missing) <= min(LEFT_OUT, len(used) - 1):
+            return False
+        filled = {row_column(name) for key, name in self.received if key == labware}
+        places = [row_column(name) for name in missing]
+        beside = max(len(_lines_filled_alike(filled, places, axis)) for axis in (0, 1))
+        return beside >= _OTHERS or len(missing) <= len(used) // 3
 
     def are_whole_lines(self, wells: Collection[WellRef]) -> bool:
         """Whether these are all wells of some columns, or of some rows, of one labware."""
@@ -203,6 +217,18 @@ class Deck:
                 key for key in full if any((key, name) in self.received for name in names)
             ] or full
         return full[0] if len(full) == 1 else ""
+
+
+def _lines_filled_alike(
+    filled: Set[tuple[int, int]], places: Sequence[tuple[int, int]], axis: int
+) -> set[int]:
+    """The other columns (``axis`` 1) or rows (0) in which the same places are filled."""
+    own = {place[axis] for place in places}
+    return {
+        line
+        for line in {at[axis] for at in filled} - own
+        if all(_place(axis, line, place[1 - axis]) in filled for place in places)
+    }
 
 
 def _place(axis: int, along: int, across: int) -> tuple[int, int]:

@@ -12,6 +12,7 @@ from .called_alike import derive_called_alike
 from .diluted import derive_diluted
 from .filled import derive_filled
 from .in_place import Given, derive_common, derive_given_instead, derive_used_like, given_by
+from .one_to_one import derive_called_apart, derive_one_to_one
 from .roles import Roles
 from .stages import is_shared_out
 from .usage import Usage
@@ -34,7 +35,8 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: C
         if spec.single_with:
             _derive_single(roles, name, spec, trace)
         if spec.one_to_one:
-            _derive_one_to_one(roles, name, trace)
+            derive_one_to_one(roles, name, trace)
+            derive_called_apart(roles, name, trace, common)
         if spec.loaded:
             _derive_loaded(roles, name, spec.loaded, trace)
     given = given_by(trace)
@@ -209,32 +211,6 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
             use = "shared" if len(served[ref]) >= _SHARED else "single"
         if use == kind:
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
-
-
-_FEWEST_PAIRS = 3
-
-_SMALLEST_PLATE = 24
-
-
-def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
-    """Wells of a plate that each serve one well of their own hold each something of its own.
-
-    A liquid that stands in several wells (a strip of master mix) serves several wells each.
-    """
-    served = trace.served(prefilled=True)
-    plates: dict[str, list[WellRef]] = {}
-    for ref in served:
-        info = trace.labware.get(ref.labware)
-        if info is None or info.centers_channels or len(info.wells) < _SMALLEST_PLATE:
-            continue
-        plates.setdefault(ref.labware, []).append(ref)
-    for refs in plates.values():
-        pairs = all(len(served[ref]) == 1 and not roles.of(ref) for ref in refs)
-        into = {well for ref in refs for well in served[ref]}
-        if pairs and len(refs) >= _FEWEST_PAIRS and len(into) == len(refs):
-            roles.apart.update(refs)
-            for ref in refs:
-                roles.derived.setdefault(ref, set()).update(roles.closure(name))
 
 
 _MOST_FILLED = 3

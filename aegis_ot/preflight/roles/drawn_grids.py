@@ -45,8 +45,9 @@ def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
     may be drawn, where the columns are called so, "col 3   col 4", or each row fills them all.
     """
     column_word, row_word = _before_numbers(names)
-    header = column_word.sub(_blanked, lines[at])
-    of_a_part = header != lines[at]
+    without_corner = _corner(names).sub(_blanked, lines[at])
+    header = column_word.sub(_blanked, without_corner)
+    of_a_part = header != without_corner
     columns = _columns(header, of_a_part)
     if not columns and (part := _columns(header, True)):
         of_a_part = _are_filled(lines[at + 1 : at + 3], len(part), row_word)
@@ -125,6 +126,12 @@ def _before_numbers(names: WellNames) -> tuple[re.Pattern[str], re.Pattern[str]]
     """The words in "col 1   col 2" and in "row A   DMSO", as patterns."""
     column = rf"\b(?:{names.columns}|{names.column})\.?\s+(?=\d)"
     return re.compile(column), re.compile(rf"^\s*{names.row}\s+(?=[A-P]\b)")
+
+
+@functools.lru_cache(maxsize=8)
+def _corner(names: WellNames) -> re.Pattern[str]:
+    """What a line of column numbers may begin with, above the letters of the rows: "row", "#"."""
+    return re.compile(rf"^\s*(?:{names.row}(?:\s*[/\\]\s*{names.column})?|[^\w\s|]+)\s+(?=\d)")
 
 
 def cells_of(written: str, count: int = 0) -> list[str]:

@@ -88,7 +88,7 @@ class Ellipses:
         numbered = rf"\(?(?P<columns>{span_of_list}(?:{listing}{span_of_list})*)(?!\w)"
         self._numbered_head = re.compile(rf"\b{column}\.?\s*{numbered}")
         self._down = re.compile(
-            rf"(?P<lead>[:=(,;]|\.\.\.?|…|\b(?:{names.of}))\s*(?P<low>[A-P])(?![\w.])(?:{to}(?P<high>[A-P])(?!\w))?"
+            rf"(?P<lead>[:=(,;]|\.\.\.?|…|\b(?:{names.of}))\s*(?P<low>[A-P])(?:(?:{to}|\.\.\.?)(?P<high>[A-P])(?!\w)|(?![\w.]))"
             r"(?=\s*[:=]\s*\S|\s+[^\W\d_]{2,}|\s+\d+(?:[.,]\d+)?(?!\w)|\s*[,;)])"
         )
         self._short = re.compile(rf"(?<![\w.])c(\d{{1,2}})(?:{to}c?(\d{{1,2}}))?(?!\w)")
@@ -127,9 +127,10 @@ class Ellipses:
 
     def with_columns(self, text: str) -> str:
         """One paragraph: under "Column layout" a list of "3-6   doxorubicin"."""
-        if self._names.spec.search(text) or not self._column_word.search(text):
+        said = any(map(self._names.spec.search, text.splitlines()))
+        if said or len(self._listed.findall(text)) < _FEWEST_NUMBERED:
             return text
-        if len(self._listed.findall(text)) < _FEWEST_NUMBERED:
+        if not self._column_word.search(text):
             return text
         return self._listed.sub(lambda match: f"{match[1]}{self._plural} {match[2]}", text)
 

@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterable, Sequence
 
 from ..rules import Common
-from ..text import lexicon_of, listed_levels, tokens
+from ..text import Lexicon, lexicon_of, listed_levels, tokens
 from .clues import Clue, Strength
-from .phrases import first_words, unlike
+from .phrases import first_words, names_any, parts_joined, roles_named, unlike
 from .roles import Roles
 
 
@@ -157,3 +157,52 @@ def _general(first: str, said: Sequence[str], roles: Roles, clue: Clue) -> str:
     if not above and len(listed_levels(clue.text)) > 1:
         above = list(roles.family.roles[first].parents)
     return above[0] if above else first
+
+
+def named_by(lexicon: Lexicon, clue: Clue, common: Common, roles: Roles) -> list[str]:
+    """The roles that a clue may give its wells, the likeliest first."""
+    if clue.role in roles.family.roles:
+        return [clue.role]
+    named = roles_named(lexicon, clue, common)
+    named = _without_partly_undosed(lexicon, clue, named, common, roles)
+    if clue.step and len(clue.wells) > 1:
+        named = _said_of_all_drawn(lexicon, clue, named, common, roles)
+    return named
+
+
+def _without_partly_undosed(
+    lexicon: Lexicon, clue: Clue, named: Sequence[str], common: Common, roles: Roles
+) -> list[str]:
+    """The roles without that of an undosed well where a text lacks one drug and has another:
+    "cisplatin, no nutlin".
+    """
+    found = list(lexicon.find(clue.text))
+    lacking, free = first_words(common.lacking), first_words(common.free_of)
+    undosed: set[str] = set()
+    for name, spec in roles.family.roles.items():
+        dosing = {name, *spec.receives}
+        for role in spec.undosed:
+            said = [tokens(match.phrase) for match in found if match.topic == role]
+            in_part = any(words[0] in lacking or words[-1] in free for words in said)
+            if in_part and any(match.topic in dosing for match in found):
+                undosed.update(other for other in named if role in roles.closure(other))
+    return [role for role in named if role not in undosed]
+
+
+def _said_of_all_drawn(
+    lexicon: Lexicon, clue: Clue, named: Sequence[str], common: Common, roles: Roles
+) -> list[str]:
+    """What a comment beside a step says of all that is drawn there.
+
+    "Standards, blank upwards" are not all blanks, and "controls and water" is not all water.
+    """
+    controls = lexicon_of({"control": common.controls}, common.aliases, common.endings)
+    parts = parts_joined(clue.text, common, lambda piece: piece.strip() in ("/", "+", "&"))
+    if any(controls.find(part) and not names_any(lexicon, part) for part in parts):
+        return []
+    specs = roles.family.roles
+    return [
+        role
+        for role in named
+        if specs[role].level is None or roles.closure(role).isdisjoint({*named} - {role})
+    ]

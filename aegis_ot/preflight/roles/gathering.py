@@ -16,7 +16,7 @@ from .grids import drawn_maps
 from .helpers import helper_names
 from .item_notes import item_notes
 from .labels import labels
-from .legend_clues import explained
+from .legend_clues import with_codes_explained
 from .level_spans import level_spans
 from .listed_columns import listed_columns
 from .loop_levels import loop_levels
@@ -81,7 +81,7 @@ def gather(
         *helper_names(trace, facts, common),
         *loop_levels(trace, names, facts, common),
     ]
-    clues += [*explained(clues, facts), *meant_by_zero(clues, facts, common)]
+    clues = [*with_codes_explained(clues, facts), *meant_by_zero(clues, facts, common)]
     clues += mirrored(deck, clues, facts, common)
     return list(dict.fromkeys(clue for clue in clues if clue.wells))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ...instrumentation import LabwareInfo, is_spot
@@ -12,7 +12,9 @@ from ..text import SourceFacts
 from ..trace import row_column
 from .clues import Clue, Strength
 from .deck import Deck
+from .drawn_grids import drawn_grid
 from .map_labware import called_alike, labware_of_map, refs_of, used_with
+from .well_names import WellNames, well_names
 
 _SMALLEST = 6
 """The wells of the smallest plate that anyone draws."""
@@ -45,9 +47,33 @@ def drawn_maps(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]
 def _part_drawn(
     deck: Deck, facts: SourceFacts, name: str, value: Any, common: Common
 ) -> Iterator[Clue]:
-    """Part of a plate as a spreadsheet exports it: ``,4,5,6`` and under it ``B,drug,drug,DMSO``."""
+    """Part of a plate as a spreadsheet exports it: ``,4,5,6`` and under it ``B,drug,drug,DMSO``;
+    or drawn with spaces.
+    """
     if not isinstance(value, str):
         return
+    wells_of = _exported(value) or _drawn(value, well_names(common))
+    spots = [well for wells in wells_of.values() for well in wells]
+    labware = labware_of_map(deck, facts, name, spots, common) if all(map(is_spot, spots)) else ()
+    line = facts.assigned.get(name)
+    for code, wells in wells_of.items():
+        if re.search(r"[^\W\d]", code):
+            found = tuple(refs_of(deck, labware, wells))
+            said = f"`{code}` in the map `{name}` at line {line}"
+            yield Clue(Strength.NAME, code, found, line, said)
+
+
+def _drawn(value: str, names: WellNames) -> Mapping[str, Sequence[str]]:
+    """The wells of each code of the one drawing in a text."""
+    lines = value.splitlines()
+    drawings = [
+        found for at in range(len(lines)) if (found := drawn_grid(lines, at, names).wells_of)
+    ]
+    return drawings[0] if len(drawings) == 1 else {}
+
+
+def _exported(value: str) -> Mapping[str, Sequence[str]]:
+    """The wells of each code of a table with separators."""
     lines = value.strip().splitlines() or [""]
     head, *rows = [re.split(r"[,;|\t]", line.strip()) for line in lines]
     numbers = [cell.strip() for cell in head[1:]]
@@ -59,19 +85,12 @@ def _part_drawn(
         or not all(map(str.isdecimal, numbers))
         or head[0].strip().isdecimal()
     ):
-        return
+        return {}
     wells_of: dict[str, list[str]] = {}
     for letter, row in zip(letters, rows, strict=True):
         for number, cell in zip(numbers, row[1:], strict=True):
             wells_of.setdefault(cell.strip(), []).append(f"{letter}{int(number)}")
-    spots = [well for wells in wells_of.values() for well in wells]
-    labware = labware_of_map(deck, facts, name, spots, common) if all(map(is_spot, spots)) else ()
-    line = facts.assigned.get(name)
-    for code, wells in wells_of.items():
-        if re.search(r"[^\W\d]", code):
-            found = tuple(refs_of(deck, labware, wells))
-            said = f"`{code}` in the map `{name}` at line {line}"
-            yield Clue(Strength.NAME, code, found, line, said)
+    return wells_of
 
 
 def _plates_drawn(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 
 from ..rules import Common
 from ..text import lexicon_of, tokens
@@ -10,11 +11,16 @@ from .clauses import Part
 from .deck import Deck
 from .phrases import words_of
 
-_HEADING = re.compile(r"\W*([^\W\d]\w*(?:[ -][^\W\d]\w*){0,3}[ -]?)\s*:")
-"""A line that begins with what it speaks of: "tubes: A1 lowest ... B2 highest"."""
+_HEADING = re.compile(r"\W*([^\W\d]\w*(?:[ -][^\W\d]\w*){0,3}[ -]?)\s*(?:,[^\d,:]{2,30})?:")
+"""A line that begins with what it speaks of: "tubes: A1 lowest ... B2 highest", or "tube rack,
+fractions: C1..C6".
+"""
 
 
 IN_BRACKETS = re.compile(r"\([^()]*\)")
+
+_NEXT_HEADING = re.compile(r"(?<=[.;])\s+(?=[^\W\d]\w*(?:[ -]\w+){0,3}(?: \([^()]*\))?\s?:)")
+"""Where a line may go on with what other labware holds."""
 
 _SLOT = re.compile(r"(?i:\bslot\s+)([A-Da-d][1-4]|1[01]|[1-9])\b")
 
@@ -80,24 +86,30 @@ class LabwareNouns:
             return set()
         return {key for label, key in self._labels if set(words) <= set(label.split())}
 
-    def begun_by(self, line: str) -> frozenset[str]:
+    def is_deck_heading(self, line: str) -> bool:
+        """Whether a line is no more than the heading of the deck's list: "Deck layout:"."""
+        words = tokens(line)
+        return any(found.end - found.start == len(words) for found in self._decks.find(line))
+
+    def begun_by(self, line: str, in_deck: bool) -> frozenset[str]:
         """The one labware that a line of the deck's list speaks of: "slot 3   tube rack, ...", or
-        "Tube rack (slot 3), 10x solutions".
+        "Tube rack (slot 3), 10x solutions"; "C2  cells" only below such a list's heading.
         """
         plain = line.strip(" \t#*-")
         first = _SLOT.match(plain) or _IN_SLOT.match(plain)
         if first and len(_SLOT.findall(plain)) > 1:
             return frozenset()  # prose, which speaks of both
-        slots = {first[1].lower()} if first else self._listed_slot(line)
+        slots = {first[1].lower()} if first else self._listed_slot(line, in_deck)
         found = frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
         return found if len(found) == 1 else frozenset()
 
-    def _listed_slot(self, text: str) -> set[str]:
+    def _listed_slot(self, text: str, in_deck: bool = False) -> set[str]:
         """The slot at the begin of a line of the deck's list: "C2  tube rack", no well's "tube"."""
         match = _LISTED_SLOT.match(f"{text} ")
-        if match is None or match[1] not in self._slots or self._racks.isdisjoint(tokens(match[2])):
+        if match is None or match[1] not in self._slots:
             return set()
-        return {match[1].lower()}
+        of_labware = in_deck or not self._racks.isdisjoint(tokens(match[2]))
+        return {match[1].lower()} if of_labware else set()
 
     def _is_called(self, name: tuple[str, ...], words: tuple[str, ...]) -> bool:
         """Whether a text names a labware that is called so.
@@ -139,6 +151,19 @@ class LabwareNouns:
         match = _HEADING.match(IN_BRACKETS.sub("", line))
         return self._called(tokens(match[1])) if match else frozenset()
 
+    def cut_at_headings(self, lines: Iterable[tuple[int, str]]) -> Iterator[tuple[int, str]]:
+        """Lines by number, cut where one goes on with other labware: "Plate 1: ... Plate 2: "."""
+        for number, line in lines:
+            begun, *others = _NEXT_HEADING.split(line)
+            indent = line[: len(line) - len(line.lstrip())]
+            for other in others:
+                if len(self.heading(other) or self.named(other.partition(":")[0])) == 1:
+                    yield number, begun
+                    begun = indent + other
+                else:
+                    begun = f"{begun} {other}"
+            yield number, begun
+
     def beginning(self, text: str) -> frozenset[str]:
         """The one labware that a text begins with: "rack on 1"."""
         words = tokens(text)
@@ -152,14 +177,14 @@ class LabwareNouns:
         """Whether a text ends with a word for labware: "3   compound rack"."""
         return bool(tokens(text)) and _singular(tokens(text))[-1] in self._nouns
 
-    def is_of_deck(self, part: Part) -> bool:
+    def is_of_deck(self, part: Part, in_deck: bool) -> bool:
         """Whether a part says what stands in a slot that is called like a well: "D2 tips"."""
         start = part.text.find(part.wells[0].group())
         begun = part.text[:start].strip(" :,;-*")
         return (
             (not begun or bool(self._decks.find(begun)))
             and all(match.group() in self._slots for match in part.wells)
-            and not self._on_deck.isdisjoint(_with_singulars(tokens(part.words)))
+            and (in_deck or not self._on_deck.isdisjoint(_with_singulars(tokens(part.words))))
         )
 
     def is_elsewhere(self, part: Part) -> bool:

@@ -12,22 +12,26 @@ from .clues import Clue, Strength, shortened
 _KEY = re.compile(r"\[(['\"])(.+)\1\]$")
 
 
-def explained(clues: Iterable[Clue], facts: SourceFacts) -> Iterator[Clue]:
-    """For each clue that is a code, ``layout['V']`` or a cell ``V``, what the code stands for."""
+def with_codes_explained(clues: Iterable[Clue], facts: SourceFacts) -> Iterator[Clue]:
+    """The clues, with what the code stands for where one is a code: ``layout['V']``, a cell ``V``.
+
+    Where the code is a key, ``DRUGS['V']``, what is said of all in its map is said with it.
+    """
     legend = legend_of(facts)
-    if not legend:
-        return
     for clue in clues:
-        if clue.strength not in (Strength.NAME, Strength.LOOSE_NAME) or clue.whole:
-            continue
+        named = clue.strength in (Strength.NAME, Strength.LOOSE_NAME) and not clue.whole
         key = _KEY.search(clue.text)
         in_map = clue.said.startswith("plate map")  # `LAYOUT V` there is the map and its key
-        code = key[2] if key else clue.text.rpartition(" ")[2] if in_map else clue.text
-        said = legend.get(code) or legend.get(code.rstrip("0123456789"))  # "U = urine", `U1`
-        if said and said != clue.text:
-            yield replace(
-                clue,
-                text=said,
-                said=f"{clue.said}, where `{code}` stands for '{shortened(said)}'",
-                subject=False,
-            )
+        group, code = "", clue.text
+        if key:
+            group, code = clue.text[: key.start()], key[2]
+        elif in_map:
+            group, _, code = clue.text.rpartition(" ")
+        meant = legend.get(code) or legend.get(code.rstrip("0123456789"))  # "U = urine", `U1`
+        if not named or not meant or meant == clue.text:
+            yield clue
+            continue
+        said = f"{clue.said}, where `{code}` stands for '{shortened(meant)}'"
+        if not group:
+            yield clue
+        yield replace(clue, text=f"{group} {meant}".strip(), said=said, subject=False)

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from ...instrumentation import LabwareInfo
 from ..rules import Common
-from ..text import SourceFacts, amounts_in, comment_blocks
+from ..text import SourceFacts, amounts_in, comment_blocks, with_u
 from ..trace import row_column
 from .clues import Clue, Strength, shortened
 from .deck import Deck
@@ -54,6 +54,7 @@ def level_spans(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue
 
 def _spans(text: str, names: WellNames) -> Iterator[Span]:
     """Two levels and two places in turn, "up to" in their middle and little else between."""
+    text = with_u(text)  # so that places in it are those of its amounts
     found: list[tuple[re.Match[str], float | None]] = [*amounts_in(text)]
     found += [(place, None) for place in names.spec.finditer(text)]
     found.sort(key=lambda item: item[0].start())

@@ -23,7 +23,7 @@ from ..text import (
 )
 from ..trace import row_column
 from .clues import Clue, Strength
-from .phrases import first_words, labware_words
+from .phrases import first_words, labware_words, words_of
 
 
 def levels_of(clue: Clue, common: Common) -> tuple[float | None, ...]:
@@ -36,10 +36,15 @@ def levels_of(clue: Clue, common: Common) -> tuple[float | None, ...]:
 def levels_beside(clue: Clue, common: Common) -> tuple[float | None, ...]:
     """Levels that a clue gives its wells without a word for what they hold: ``"2 mg/ml"``.
 
-    A comment gives one only where it says nothing else, but for a vessel: "vial B 2 mg/ml".
+    A comment gives one only where it says nothing else, but for a vessel: "vial B 2 mg/ml"; beside
+    a list it may say that this is "rising".
     """
     if clue.levels or clue.whole or clue.step or clue.strength is Strength.LOOSE_NAME:
         return clue.levels
+    if clue.lone and len(clue.wells) > 1 and not _is_block(clue):
+        direction = direction_in(clue.text, common) if _says_order_only(clue.text, common) else 0
+        if direction:
+            return tuple(Rank(direction * position) for position in range(len(clue.wells)))
     if clue.strength is Strength.COMMENT and _says_more(clue.text, common):
         return ()
     several = listed_levels(clue.text)
@@ -47,6 +52,15 @@ def levels_beside(clue: Clue, common: Common) -> tuple[float | None, ...]:
         return several if len(several) == len(set(several)) == len(clue.wells) else ()
     level = level_in(clue.text, common, plain_numbers=False)
     return () if level is None else (level,) * len(clue.wells)
+
+
+def _says_order_only(text: str, common: Common) -> bool:
+    """Whether a text says no more than that doses rise or fall: "rising", not "falling height"."""
+    lexicon = lexicon_of({"order": (*common.rising, *common.falling)})
+    words = lexicon.words(text)
+    said = {at for match in lexicon.find(text) for at in range(match.start, match.end)}
+    amounts = words_of((*common.amounts, *common.joints, *common.articles))
+    return bool(said) and all(at in said or word in amounts for at, word in enumerate(words))
 
 
 def _says_more(text: str, common: Common) -> bool:

@@ -99,9 +99,11 @@ def _levels(
                 continue
             times = count // len(numbers)  # within another loop it begins anew
             numbers = tuple(n for n in numbers for _ in range(times)) if each else numbers * times
+            if names_counts(name, common):
+                continue
             if speaks_of_amounts(name, common):
                 named.add(numbers)
-            elif speaks_of_amounts(values.source, common) and not names_counts(name, common):
+            elif speaks_of_amounts(values.source, common):
                 listed.add(numbers)
     for found in (named, listed):
         if found:

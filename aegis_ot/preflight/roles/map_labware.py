@@ -120,13 +120,13 @@ def labware_by_field(deck: Deck, facts: SourceFacts, name: str) -> dict[str, tup
 
 
 def _alike(deck: Deck, keys: Sequence[str], spots: Sequence[str]) -> tuple[str, ...]:
-    """Those in which all these wells are filled, if they are of one kind; or else all of them, if
-    they are of one kind and the run fills the same wells of each.
+    """Those in which all these wells are filled, if they are of one kind or each well goes into its
+    namesake; or else all of them, if they are of one kind and the run fills the same wells of each.
     """
     filled = tuple(key for key in keys if all((key, spot) in deck.received for spot in spots))
     given = {frozenset(name for key, name in deck.received if key == one) for one in keys}
     meant = filled or (tuple(keys) if len(given) == 1 else ())
-    return meant if deck.are_alike(meant) else ()
+    return meant if deck.are_alike(meant) or _is_stamped(deck, meant, spots) else ()
 
 
 def called_alike(deck: Deck, name: str, common: Common) -> str:

@@ -1,8 +1,12 @@
-"""Amounts beside wells: two lists written one below the other, or a dict that the run makes."""
+"""Amounts beside wells: two lists written one below the other, a dict that the run makes, or a list
+with a comment on where its amounts stand.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from typing import NamedTuple
 
 from ...instrumentation import NameBinding, is_spot
@@ -10,9 +14,19 @@ from ..rules import Common
 from ..text import SourceFacts
 from .clues import Clue, Strength
 from .deck import Deck
-from .levels import are_amounts, as_one_of_amounts, far_apart, is_number, names_amounts
+from .labware_nouns import LabwareNouns
+from .levels import (
+    are_amounts,
+    as_one_of_amounts,
+    far_apart,
+    is_number,
+    names_amounts,
+    names_counts,
+)
 from .map_labware import labware_of_map, refs_of
+from .well_names import well_names, wells_between
 
+_VOLUMES = re.compile(r"(?<![/\w])(?<!per )[uµμm]l\b", re.IGNORECASE)
 _FEWEST = 3
 _NEAR = 2
 """Lists that belong together stand so many lines apart at most."""
@@ -23,16 +37,20 @@ class _Pair(NamedTuple):
     spots: tuple[str, ...]
     amounts: tuple[float, ...]
     line: int | None
+    note: str = ""
 
 
 def amounts_beside(
     deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
 ) -> Iterator[Clue]:
-    """Levels of ``TUBES = ["A1", "B1", "C1"]`` above ``UG_PER_ML = [1500, 500, 0]``, or of
-    ``dict(zip(TUBES, UG_PER_ML))``.
+    """Levels of ``TUBES = ["A1", "B1", "C1"]`` above ``UG_PER_ML = [1500, 500, 0]``, of
+    ``dict(zip(TUBES, UG_PER_ML))``, or of a list below "ug/mL in tubes A1-A6".
     """
-    for pair in (*_written(facts, common), *_made(names, facts, common)):
-        labware = labware_of_map(deck, facts, pair.name, pair.spots, common)
+    nouns = LabwareNouns(deck, common)
+    written = _written(facts, common), _made(names, facts, common), _noted(facts, common)
+    for pair in chain.from_iterable(written):
+        said_there = nouns.named(pair.note) or nouns.kind_in(pair.note)
+        labware = tuple(said_there) or labware_of_map(deck, facts, pair.name, pair.spots, common)
         wells = tuple(refs_of(deck, labware, pair.spots))
         if len(wells) != len(pair.spots):
             continue
@@ -79,3 +97,21 @@ def _made(names: Sequence[NameBinding], facts: SourceFacts, common: Common) -> I
         spots, numbers = tuple(key for key, _ in items), tuple(number for _, number in items)
         if len(spots) >= _FEWEST and all(map(is_spot, spots)) and are_amounts(numbers):
             yield _Pair(name, spots, numbers, facts.assigned.get(name))
+
+
+def _noted(facts: SourceFacts, common: Common) -> Iterator[_Pair]:
+    for name, value in facts.constants.items():
+        above = facts.comments.get(facts.assigned.get(name, 0) - 1, "")
+        note = facts.notes.get(name, above)
+        if not isinstance(value, (list, tuple)) or len(value) < _FEWEST:
+            continue
+        said = list(well_names(common).spec.finditer(note))
+        if len(said) != 1 or not said[0]["last"] or not all(map(is_number, value)):
+            continue
+        spots = wells_between(f"{said[0]['first']}:{said[0]['last']}")
+        numbers = tuple(map(float, value))
+        of_amounts = names_amounts(name, common) or names_amounts(note, common)
+        if _VOLUMES.search(note) or names_counts(name, common):
+            continue  # "uL of standard in A1-A6"
+        if len(spots) == len(numbers) == len(set(numbers)) and of_amounts and are_amounts(numbers):
+            yield _Pair(name, spots, numbers, facts.assigned.get(name), note)

@@ -13,15 +13,6 @@ from .clues import Clue, Strength
 from .roles import Roles
 
 
-def role_words(family: Family, common: Common) -> Lexicon:
-    """The words of all roles of a family; those that speak against one stand under ``!role``."""
-    phrases: dict[str, Sequence[str]] = {}
-    for name, spec in family.roles.items():
-        phrases[name] = spec.words
-        phrases[f"!{name}"] = spec.never
-    return lexicon_of(phrases, common.aliases, common.endings)
-
-
 def roles_named(lexicon: Lexicon, clue: Clue, common: Common) -> list[str]:
     """The roles that the text of a clue names, the head of the phrase first.
 
@@ -96,6 +87,8 @@ def names_any(lexicon: Lexicon, text: str) -> bool:
 def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[str]]:
     """What each word or phrase of a clue may name, the head of the whole first."""
     text = _telling_part(lexicon, clue).replace("%", " percent ").replace(" + ", " plus ")
+    if what_it_is := _called_at_the_end(lexicon, text, first_words(common.articles)):
+        return [what_it_is]
     places: dict[int, list[str]] = {}
     for match in lexicon.find(text):
         places.setdefault(match.start, []).append(match.topic)
@@ -128,19 +121,25 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
         )
     ]
     if joints:
-        ordered.append(_called_at_the_end(lexicon, text))
+        ordered.append(_called_at_the_end(lexicon, text, frozenset()))
     return [[topic for topic in group if not topic.startswith("!")] for group in ordered]
 
 
 _IN_BRACKETS_AT_END = re.compile(r"\(([^()]+)\)\W*$")
 
 
-def _called_at_the_end(lexicon: Lexicon, text: str) -> list[str]:
-    """What a text says in brackets that it speaks of: "medium with DMSO only (vehicle)"."""
+def _called_at_the_end(lexicon: Lexicon, text: str, articles: frozenset[str]) -> list[str]:
+    """What a text says in brackets that it speaks of: "medium with DMSO only (vehicle)".
+
+    With one of these ``articles`` before it, if there are any: "blocking buffer (the diluent)".
+    """
     match = _IN_BRACKETS_AT_END.search(text)
-    if match is None or not is_outright(lexicon, match[1]):
+    if match is None:
         return []
-    return [found.topic for found in lexicon.find(match[1])]
+    first, _, rest = match[1].partition(" ")
+    called = rest if first.lower() in articles else "" if articles else match[1]
+    found = lexicon.find(called) if called and is_outright(lexicon, called) else ()
+    return [match.topic for match in found if not match.topic.startswith("!")]
 
 
 _SHORTEST_NAME = 3
@@ -245,14 +244,16 @@ def of_its_dict(
 ) -> list[str]:
     """The roles that the name of a source in a dict names: ``mixes["neg. desert"]`` is a mix.
 
-    A dict of one liquid tells what its items are, unless the key names another liquid or a drug.
+    A dict of one liquid, or of what dilutes a series, tells what its items are, unless the key
+    names another liquid or a drug.
     """
     match = _ITEM.fullmatch(clue.text)
-    specs = roles.family.roles
+    specs, series = roles.family.roles, roles.family.series
     if match is None or specs[named[0]].one_liquid or specs[named[0]].dosed:
         return named
     base = roles_named(lexicon, replace(clue, text=match[1]), common)
-    return base if base and specs[base[0]].one_liquid else named
+    diluting = (*series.diluent, *series.diluent_else) if series else ()
+    return base if base and (specs[base[0]].one_liquid or base[0] in diluting) else named
 
 
 def without_position(name: str, common: Common) -> str:

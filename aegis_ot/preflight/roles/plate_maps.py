@@ -51,7 +51,7 @@ def plate_maps(
         rest = used - {key for keys in by_key.values() for key in keys}
         told = isinstance(value, Mapping) and far_apart(_levels_told(value, written).values())
         strength = Strength.NAME
-        if _tells_nothing_apart(value, [level for _, _, level, _ in entries]):
+        if _tells_nothing_apart(value, [level for _, _, level, _ in entries], places):
             strength, entries = Strength.LOOSE_NAME, [(name, tuple(all_names), None, "")]
         for text, wells, level, column in entries:
             keyed = [keys for key, keys in by_key.items() if text.endswith(f" {key}")]
@@ -77,16 +77,18 @@ def plate_maps(
                 yield as_one_of_amounts(refs, line, where, (level,) * len(refs))
 
 
-def _tells_nothing_apart(value: Any, levels: Sequence[float | None]) -> bool:
+def _tells_nothing_apart(value: Any, levels: Sequence[float | None], places: bool) -> bool:
     """Whether the keys of a map are columns, so that its name is all it says of each well.
 
-    ``TREATMENT = {"1": "A1", "2": "A2", "3": "A3"}``: the vehicle may well be among them.
+    ``TREATMENT = {"1": "A1", "2": "A2", "3": "A3"}``: the vehicle may well be among them. Plain
+    numbers are columns only where the run takes them for such, ``places``.
     """
     return (
         isinstance(value, Mapping)
         and len(value) >= _FEWEST_TOLD
-        and all(level is None for level in levels)
-        and all(isinstance(key, str) and key.isdecimal() for key in value)
+        and (places or all(level is None for level in levels))
+        and all(isinstance(key, str if not places else (str, int)) for key in value)
+        and all(str(key).isdecimal() for key in value)
         and all(map(_spots, value.values()))
     )
 

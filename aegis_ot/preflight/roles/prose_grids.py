@@ -14,12 +14,15 @@ from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .drawn_grids import drawn_grid
 from .labware_nouns import LabwareNouns
-from .levels import as_one_of_amounts, far_apart, number_in
+from .levels import as_one_of_amounts, far_apart, names_amounts, number_in
 from .map_labware import refs_of
 from .well_names import WellNames, well_names
 
 _FEWEST = 3
 """So many wells side by side are a table."""
+
+_REMARK = re.compile(r"(?<=\S)\s{2,}\(([^()]*)\)\s*$")
+"""What stands right of a table's row, apart from it: "(ug/mL; 0 = buffer)"."""
 
 _HEADING_LINES = 2
 """A drawing's heading stands so near above it."""
@@ -81,7 +84,11 @@ def _tables(lines: Sequence[str]) -> Iterator[_Table]:
     Where several stand in one block, each line belongs to the wells above it; if the block
     begins with another line, to those below.
     """
-    spans = [list(re.finditer(r"[^\s|]+", written)) for written in lines]
+    remarks = [_REMARK.search(written) for written in lines]
+    spans = [
+        list(re.finditer(r"[^\s|]+", written[: remark.start()] if remark else written))
+        for written, remark in zip(lines, remarks, strict=True)
+    ]
     first = 0
     for count, block in groupby(map(len, spans)):
         end = first + len(list(block))
@@ -91,9 +98,11 @@ def _tables(lines: Sequence[str]) -> Iterator[_Table]:
         for start, at, stop in zip((first, *after), placed, (*after, end), strict=False):
             wells = spans[at][count - len(spots_at[at]) :]
             rows = []
-            for cells in (spans[row] for row in range(start, stop) if row != at):
+            for row in (row for row in range(start, stop) if row != at):
+                cells, remark = spans[row], remarks[row]
                 told = cells[count - len(wells) :]
                 title = " ".join(cell.group() for cell in cells[: count - len(wells)])
+                title = f"{title} {remark[1]}" if remark else title
                 aligned = all(
                     well.start() < cell.end() and cell.start() < well.end()
                     for well, cell in zip(wells, told, strict=True)
@@ -122,7 +131,8 @@ def _of_table(
     evidence = f"the table at line {line}"
     for title, said, aligned in table.rows:
         levels = tuple(number for number in map(number_in, said) if number is not None)
-        if len(levels) == len(wells) and level_in(f"1 {title}", common, False) is not None:
+        unit = level_in(f"1 {title}", common, False) is not None
+        if len(levels) == len(wells) and (unit or names_amounts(title, common)):
             yield Clue(Strength.NAME, heading, wells, line, evidence, subject=False, levels=levels)
             if far_apart(levels):
                 yield as_one_of_amounts(wells, line, evidence, levels)

@@ -20,21 +20,21 @@ from ..text import (
 )
 from ..trace import row_column
 from .bare_numbers import with_bare_numbers
-from .clauses import Part, axis_of, numbers_things, with_what_follows
+from .clauses import Part, axis_of, numbers_things, whole_lines, with_what_follows
 from .clues import Clue, Strength, shortened
-from .deck import LEFT_OUT, Deck
+from .deck import Deck
 from .drawn_grids import drawn_lines
 from .ellipses import with_rows
 from .in_turn import items_after
 from .labware_nouns import LabwareNouns
 from .levels import names_zero
 from .map_labware import used_with
-from .phrases import words_of
 from .replicates import called_alike, said_to_be_twins
 from .shared_words import Amount, unit_in_brackets, with_shared_words, with_unit
 from .side_by_side import side_by_side
 from .spoken import laid_out_in_the_run
 from .topics import Topic
+from .usage import in_trough
 from .well_names import well_names
 
 
@@ -78,9 +78,9 @@ def _of_text(
     topic = Topic(nouns, common)
     amount: Amount | None = None
     unit, twins = "", said_to_be_twins(text, common)
-    lines = _whole_lines(with_rows(text, common).splitlines() or [text], common)
+    lines = whole_lines(with_rows(text, common).splitlines() or [text], common)
     drawn = drawn_lines(text.splitlines(), well_names(common))
-    for number, written in lines:
+    for number, written in nouns.cut_at_headings(lines):
         if number in drawn:
             continue  # "E1" may be a code there
         parts, more = with_what_follows(topic.entries(written), common)
@@ -94,13 +94,13 @@ def _of_text(
             topic.next_part(before)
             if len(part.text) > _LONGEST_CLAUSE or not tokens(part.words):
                 continue
-            if nouns.is_of_deck(part) or nouns.is_elsewhere(part):
+            if nouns.is_of_deck(part, topic.in_deck) or nouns.is_elsewhere(part):
                 continue
             firm = topic.said(part, before, noted.get(written.strip(), frozenset()))
             keys = firm or topic.above() or _only_one_with(deck, parts, common)
             # "col 3  1 nM     tube A2": the column is not one of the tubes'.
             others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
-            meant = _Meant(keys - others, bool(firm), others, twins)
+            meant = _Meant(keys - others, bool(firm) or topic.places(keys), others, twins)
             said = f"{part.text}, {more[at]}"
             for clue in _spoken(deck, part, said, line + number, meant, common):
                 levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
@@ -133,19 +133,6 @@ def _written_out(facts: SourceFacts, others: Collection[str]) -> list[tuple[int,
 
 
 _FEWEST_LINES = 3
-
-
-def _whole_lines(lines: Sequence[str], common: Common) -> Iterator[tuple[int, str]]:
-    """Lines by number; one that ends with "in" or the like goes on in the next."""
-    leading = words_of((*common.joints, *common.toward))
-    begun, first = "", 0
-    for number, line in enumerate(lines):
-        first = first if begun else number
-        begun = f"{begun} {line.strip()}" if begun else line
-        last = begun.rstrip().rpartition(" ")[2].lower()
-        if last not in leading or number + 1 == len(lines):
-            yield first, begun
-            begun = ""
 
 
 def _only_one_with(deck: Deck, parts: Sequence[Part], common: Common) -> frozenset[str]:
@@ -185,12 +172,7 @@ class _Meant(NamedTuple):
 
 
 def _spoken(
-    deck: Deck,
-    part: Part,
-    said: str,
-    line: int,
-    labware: _Meant,
-    common: Common,
+    deck: Deck, part: Part, said: str, line: int, labware: _Meant, common: Common
 ) -> Iterator[Clue]:
     names = well_names(common)
     keys, firm, others, twins = labware
@@ -215,8 +197,9 @@ def _spoken(
     if firm or any((key, name) in deck.refs for key, named in called.items() for name in named):
         having = called or having  # it may name that labware in passing
     for key, named in having.items():
-        used = [name for name in named if (key, name) in deck.refs]
-        if outright and 0 < len(named) - len(used) <= min(LEFT_OUT, len(used) // 3):
+        told = firm and in_trough(deck.trace, key)  # unused as well: the diluent, say
+        used = [name for name in named if told or (key, name) in deck.refs]
+        if outright and deck.are_left_out(key, [name for name in named if name not in used], used):
             used = named  # more than a few are wells for which there is nothing this time
         elif axis is not None and not by_hand:
             used = [*deck.where_filled(key, used, axis), *deck.passed_over(key, named, axis)]
@@ -247,7 +230,11 @@ def _spoken(
 
 
 def _is_mostly_filled(deck: Deck, wells: Sequence[WellRef]) -> bool:
-    """Whether the run fills half of these wells at least, of those that it uses."""
+    """Whether the run fills half of these wells at least, of those that it uses; not of a trough,
+    into which goes waste.
+    """
+    if in_trough(deck.trace, *{ref.labware for ref in wells}):
+        return False
     used = [(ref.labware, ref.name) for ref in wells if (ref.labware, ref.name) in deck.refs]
     return bool(used) and 2 * sum(place in deck.received for place in used) >= len(used)
 

@@ -61,9 +61,9 @@ def _replicates(
         for other in plates:
             if one is other or one.load_name != other.load_name:
                 continue
-            layout = layouts.get(one.key, {})
-            laid_out_alike = layout == layouts.get(other.key) and len({*layout.values()}) > 1
-            if not (laid_out_alike or called_alike(one, other)):
+            mine, theirs = layouts.get(one.key, {}), layouts.get(other.key, {})
+            laid_out_alike = mine == theirs and len({*mine.values()}) > 1
+            if not (laid_out_alike or called_alike(one, other)) or _differ(mine, theirs):
                 continue
             shared = given[one.key].keys() & given[other.key].keys()
             alike = sum(not given[one.key][n].isdisjoint(given[other.key][n]) for n in shared)
@@ -72,6 +72,16 @@ def _replicates(
                 continue
             if alike * 2 > max(len(given[one.key]), len(given[other.key])):
                 yield one, other
+
+
+def _differ(one: Mapping[str, str], other: Mapping[str, str]) -> bool:
+    """Whether two layouts both name wells of some role, and none of them in the same place."""
+    return any(
+        {name for name in one if one[name] == role}.isdisjoint(
+            name for name in other if other[name] == role
+        )
+        for role in {*one.values()} & {*other.values()}
+    )
 
 
 def called_alike(one: LabwareInfo, other: LabwareInfo) -> bool:

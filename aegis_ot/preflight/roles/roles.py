@@ -125,6 +125,12 @@ class Roles:
             return True
         return any(role in extra for extra in self.derived.values())
 
+    def named_otherwise(self) -> frozenset[WellRef]:
+        """Wells without a role that have a name of their own, or a liquid's: "catalase"."""
+        outright = (Strength.NAME, Strength.LIQUID)
+        clues = (clue for clue in self.untold if clue.strength in outright and not clue.whole)
+        return frozenset(ref for clue in clues for ref in clue.wells if not self.of(ref))
+
     def title(self, ref: WellRef) -> str:
         """What a well is, for a message: "no-template control"."""
         assigned, derived = self.by_well.get(ref), sorted(self.derived.get(ref, ()))

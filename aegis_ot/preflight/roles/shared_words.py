@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ..text import amounts_in, tokens
+from ..text import amounts_in, tokens, with_u
 from .clauses import Part
 
 _NUMBER = re.compile(r"(?<![\w.])\d+(?:[.,]\d+)?(?![\w.])")
@@ -71,6 +71,7 @@ class Amount:
     """An amount with its unit, and the words before and after it."""
 
     def __init__(self, text: str) -> None:
+        text = with_u(text)
         match, _ = next(amounts_in(text))
         self.before = tokens(text[: match.start()])
         self.unit = match[2]

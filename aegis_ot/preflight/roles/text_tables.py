@@ -9,15 +9,13 @@ from typing import Any
 
 from ...instrumentation import Row, is_spot
 from ..rules import Common
-from ..text import SourceFacts, origins
+from ..text import EVERYWHERE, SourceFacts, origins
 from .clues import Clue
 from .deck import Deck
 from .run_maps import clues_of_rows, labware_of_columns, spots_in
 
 _SEPARATORS = (",", ";", r"\|", r"\t+", r"\s{2,}", r"\s+")
 _FEWEST_ROWS = 2
-_EVERYWHERE = range(1, 100_000)
-"""All lines of a protocol."""
 
 
 Tables = Mapping[str, Sequence[Row]]
@@ -54,8 +52,9 @@ def _rows(facts: SourceFacts, name: str) -> list[Row]:
     if isinstance(value, str):
         titles, cells = _table(value)
     else:
+        value = _ungrouped(value)
         titles, cells = (), _transfers(value)
-    keyed = isinstance(value, Mapping)
+    keyed = isinstance(facts.constants[name], Mapping)
     if cells and not titles:
         titles = _unpacked_to(facts, name, len(cells[0]), keyed)
         titles = titles or [str(at) for at in range(len(cells[0]))]
@@ -64,6 +63,24 @@ def _rows(facts: SourceFacts, name: str) -> list[Row]:
         titles = _unpacked_to(facts, name, len(apart[0]), keyed)
         cells = apart if titles else []
     return [Row(tuple(zip(titles, row, strict=True))) for row in cells]
+
+
+def _ungrouped(value: Any) -> Any:
+    """Lists of rows under keys as one list, each row with its key: ``{"TNF": [(1, "B1"), ...]}``.
+
+    Other values as they are.
+    """
+    if not isinstance(value, Mapping):
+        return value
+    rows = [(key, row) for key, listed in value.items() if _are_rows(listed) for row in listed]
+    whole = all(map(_are_rows, value.values()))
+    return [(key, *row) for key, row in rows] if whole and len(rows) > len(value) else value
+
+
+def _are_rows(value: Any) -> bool:
+    return isinstance(value, (list, tuple)) and all(
+        isinstance(row, (list, tuple)) and len(row) > 1 for row in value
+    )
 
 
 def _table(text: str) -> tuple[Sequence[str], list[list[Any]]]:
@@ -114,6 +131,6 @@ def _unpacked_to(facts: SourceFacts, name: str, width: int, keyed: bool) -> Sequ
     """
     for names in facts.unpacked:
         whole = len(names) == width or (keyed and len(names) + 1 == width)
-        if whole and name in origins(facts, names, _EVERYWHERE):
+        if whole and name in origins(facts, names, EVERYWHERE):
             return (*("0",) * (width - len(names)), *names)
     return ()

@@ -24,6 +24,7 @@ class Topic:
 
     Attributes:
         heading: What a line above, or the begin of this one, says of all that follows.
+        in_deck: Whether the lines list what stands in which slot: "Deck" stood above them.
     """
 
     def __init__(self, nouns: LabwareNouns, common: Common) -> None:
@@ -34,6 +35,7 @@ class Topic:
         self._begins = _NONE
         self._begun = ""
         self._hanging = (0, _NONE)
+        self._heads_next = self.in_deck = False
 
     def next_line(self, written: str, parts: Sequence[Part]) -> None:
         """Go on with a line, whose parts name wells."""
@@ -46,7 +48,8 @@ class Topic:
         opening = written.partition(",")[0]
         opens = bool(parts) and parts[0].text not in opening
         self._begins = nouns.named(opening) if opens else _NONE
-        listed = nouns.begun_by(written)
+        self.in_deck = nouns.is_deck_heading(written) or (self.in_deck and bool(written.strip()))
+        listed = nouns.begun_by(written, self.in_deck)
         self._begun = begun.strip() if self._headed or (colon and listed) else ""
         self._of_line = nouns.named(written.partition("->")[0]) or self._headed or self._hanging[1]
         self._in_line = _NONE
@@ -56,11 +59,13 @@ class Topic:
             self.heading, self._last = listed, _NONE
         elif self._of_line and _heads(written, self._common):
             self.heading = self._of_line
-        elif not written.strip():
+        elif not written.strip() and not self._heads_next:
             self.heading = self._last = _NONE
         anew = bool(parts) and (_is_headed(parts[0], begun) or nouns.ends_in_noun(begun))
         if colon and not self._of_line and anew:
             self.heading = self._last = _NONE  # "cells: column 1 ..." goes on with something else
+        # An empty line may set a heading apart from what it heads.
+        self._heads_next = bool(self.heading) and written.rstrip().endswith(":")
 
     def entries(self, written: str) -> str:
         """A line without the labware that stands at its left, of which the next ones speak, too.

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
+from ...instrumentation import is_spot
 from ...vocabulary import WellRef
 from ..rules import Common, RoleSpec
 from ..text import Rank, SourceFacts, written_lines
@@ -18,13 +19,24 @@ from .roles import Roles
 
 
 def meant_by_zero(clues: Iterable[Clue], facts: SourceFacts, common: Common) -> Iterator[Clue]:
-    """For wells that a map gives the level 0, what a comment says that it stands for."""
+    """For wells that a map gives the level 0, what a comment says that it stands for.
+
+    Not for those to which another map gives a dose as well, of another drug.
+    """
     said, of_amounts = _said_of_zero(facts, common)
     if not said:
         return
+    clues = list(clues)
+    maps: dict[WellRef, set[str]] = {}
+    for clue in clues:
+        for ref, _ in zip(clue.wells, clue.levels, strict=False):
+            if clue.said.startswith("plate map"):
+                maps.setdefault(ref, set()).add(clue.said)
     for clue in clues:
         at_zero = tuple(
-            ref for ref, level in zip(clue.wells, clue.levels, strict=False) if level == 0
+            ref
+            for ref, level in zip(clue.wells, clue.levels, strict=False)
+            if level == 0 and len(maps.get(ref, ())) < 2
         )
         amounts = of_amounts or names_amounts(clue.text, common)
         if at_zero and amounts and not clue.whole and clue.strength is Strength.NAME:
@@ -41,8 +53,13 @@ def meant_by_zero(clues: Iterable[Clue], facts: SourceFacts, common: Common) -> 
 def _said_of_zero(facts: SourceFacts, common: Common) -> tuple[str, bool]:
     """The one thing that "0 = DMSO only" or "0 means ethanol alone" tells, or ``""``; and whether
     its line speaks of amounts: "well, dose (uM); 0 = DMSO only".
+
+    Nothing beside two maps of columns and rows: where one drug is 0, the other may not be.
     """
     zero = _zero(common.means)
+    maps = [facts.constants.get(name) for name, note in facts.notes.items() if zero.search(note)]
+    if sum(isinstance(m, Mapping) and not any(map(is_spot, m)) for m in maps) > 1:
+        return "", False
     found = {
         (match["said"].strip(), names_amounts(line, common))
         for line in written_lines(facts)

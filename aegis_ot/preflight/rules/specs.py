@@ -101,7 +101,8 @@ class RoleSpec:
             another one holds one of these roles.
         replicated: Whether plates that are filled alike and called alike have it in the same wells.
         one_liquid: Whether all wells of this role hold the same liquid unless named apart.
-        one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
+        one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own;
+            or some wells, where each has a name that no other one has.
         loaded: Derived: a well with a loaded liquid whose name says no role: ``shared`` where it
             serves several wells, ``single`` where it serves one or two, ``kept`` where the run
             only adds to it.

@@ -2,7 +2,7 @@
 
 from .comments import comment_blocks, written_lines
 from .facts import Loop, Numbered, Place, SourceFacts, Values
-from .flow import origins
+from .flow import EVERYWHERE, origins
 from .legends import legend_of
 from .levels import (
     UNITS,
@@ -26,6 +26,7 @@ from .reading import read_source
 from .words import Lexicon, Match, lexicon_of, tokens
 
 __all__ = [
+    "EVERYWHERE",
     "UNITS",
     "Concentration",
     "Lexicon",

@@ -7,12 +7,13 @@ and, where that is a literal, which values each of them takes in turn.
 from __future__ import annotations
 
 import ast
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from itertools import chain
 from typing import Any
 
 from .facts import Loop, SourceFacts, Values
 from .literals import fields_in, keying_names, names_in, plain_text
+from .sequences import counted, sequence_of
 
 _DRAWN = {
     "aspirate": (1, "location"),
@@ -23,9 +24,10 @@ _DRAWN = {
 }
 """Where each liquid-moving call names its source: position and keyword."""
 
-_KEEPS_ORDER = ("list", "tuple", "iter")
-
 _ANYWHERE = (0, 1 << 30)
+
+EVERYWHERE = range(1, 100_000)
+"""All lines of a protocol."""
 
 
 def read_flow(tree: ast.Module, facts: SourceFacts) -> None:
@@ -170,7 +172,7 @@ def _loop(
             for each, given in _by_column(part, iterable):
                 for name in names_in(each):
                     _comes(facts, name, given, span)
-        rows = _sequence(iterable, {**facts.records, **facts.constants})
+        rows = sequence_of(iterable, {**facts.records, **facts.constants})
         beside = " ".join(names_in(iterable))
         if rows is not None:
             places = dict(_unread(part))
@@ -179,6 +181,9 @@ def _loop(
                 values += [Values(n, n, c) for n, c in _looked_up(column, facts)]
         elif isinstance(iterable, ast.Name):
             values += [Values(name, beside, None, at) for name, at in _unread(part)]
+        elif listed := counted(iterable, facts.constants):
+            # `for i in range(len(DOSES))`: the turns are those of its items.
+            values.append(Values(listed, listed, tuple(facts.constants[listed])))
     carriers = frozenset(names)
     if values and carriers:
         facts.runs.append(Loop(carriers, tuple(values), *span))
@@ -251,49 +256,3 @@ def _unread(target: ast.expr) -> Iterator[tuple[str, int | None]]:
         for at, part in enumerate(target.elts):
             if isinstance(part, ast.Name):
                 yield part.id, at
-
-
-def _sequence(node: ast.expr, constants: Mapping[str, Any]) -> Sequence[Any] | None:
-    """What an iterable made of literals yields, in order."""
-    if isinstance(node, ast.Name):
-        value = constants.get(node.id)
-        return list(value) if isinstance(value, (list, tuple, dict, str)) else None
-    if isinstance(node, ast.Call):
-        return _called(node, constants)
-    if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Slice):
-        rows = _sequence(node.value, constants)
-        bounds = [_literal(b) for b in (node.slice.lower, node.slice.upper, node.slice.step)]
-        if rows is None or not all(bound is None or isinstance(bound, int) for bound in bounds):
-            return None
-        return rows[slice(*bounds)]
-    value = _literal(node)
-    return list(value) if isinstance(value, (list, tuple, dict, str)) else None
-
-
-def _called(node: ast.Call, constants: Mapping[str, Any]) -> Sequence[Any] | None:
-    if isinstance(node.func, ast.Attribute) and not node.args:
-        holder = node.func.value
-        value = constants.get(holder.id) if isinstance(holder, ast.Name) else _literal(holder)
-        if isinstance(value, dict) and node.func.attr in ("items", "keys", "values"):
-            return list(getattr(value, node.func.attr)())
-        return None
-    if not isinstance(node.func, ast.Name) or len(node.args) != 1 or node.keywords:
-        return None
-    rows = _sequence(node.args[0], constants)
-    if rows is None or node.func.id in _KEEPS_ORDER:
-        return rows
-    if node.func.id == "reversed":
-        return rows[::-1]
-    if node.func.id == "sorted":
-        try:
-            return sorted(rows)
-        except TypeError:
-            return None
-    return None
-
-
-def _literal(node: ast.expr | None) -> Any:
-    try:
-        return None if node is None else ast.literal_eval(node)
-    except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):
-        return ...

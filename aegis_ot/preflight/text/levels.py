@@ -32,6 +32,12 @@ _UNITS: dict[str, float] = {
     "ng/ml": 1e-6,
     "ug/ml": 1e-3,
     "mg/ml": 1.0,
+    "u/ul": 1e3,
+    "u/ml": 1.0,
+    "u/l": 1e-3,
+    "iu/ul": 1e3,
+    "iu/ml": 1.0,
+    "iu/l": 1e-3,
     "g/l": 1.0,
     "mg/l": 1e-3,
     "%": 1.0,
@@ -61,7 +67,7 @@ def _scale(level: float) -> type[float]:
 
 _WITH_UNIT = re.compile(
     r"(?<![A-Za-z.\d])(\d+(?:[.,p]\d+)?)[\s_]*"
-    r"((?:pg|ng|ug|mg)\s*(?:/|per|_)\s*(?:ul|ml|l)|g/l|pm|nm|um|mm|m|%|x)(?![a-z])",
+    r"((?:pg|ng|ug|mg|i?u)\s*(?:/|per|_)\s*(?:ul|ml|l)|g/l|pm|nm|um|mm|m|%|x)(?![a-z])",
     re.IGNORECASE,
 )
 
@@ -191,7 +197,7 @@ def _direction_of_range(text: str) -> int:
     return (last > first) - (last < first)
 
 
-UNITS = r"(?:pg|ng|ug|mg)/(?:ul|ml|l)|g/l|pm|nm|um"
+UNITS = r"(?:pg|ng|ug|mg|i?u)/(?:ul|ml|l)|g/l|pm|nm|um"
 """Units of concentration that stand for nothing else, as a pattern."""
 _AMOUNT = re.compile(rf"(?<![\w.])(\d+(?:\.\d+)?)\s?({UNITS}|mm|m)?(?![\w.]*\w)", re.IGNORECASE)
 _UNIT_APART = re.compile(rf"(?<![\w/])(?<!\d\s)({UNITS})(?![\w/])", re.IGNORECASE)
@@ -219,7 +225,7 @@ def _joined(text: str, joint: re.Pattern[str]) -> list[list[tuple[float, str]]]:
 
 
 def amounts_in(text: str) -> Iterator[tuple[re.Match[str], float]]:
-    """Each concentration with a unit, where it stands in a text."""
+    """Each concentration with a unit, where it stands in a text as :func:`with_u` writes that."""
     for match in _AMOUNT.finditer(_plain(text)):
         if match[2]:
             yield match, Concentration(_number(match[1]) * _UNITS[match[2].lower()])
@@ -256,16 +262,35 @@ def _lowered(text: str) -> str:
     return _RAISED.sub(lambda match: "10^" + match[1].translate(_SUPERSCRIPTS), text)
 
 
+_PREFIXES = {"pico": "p", "nano": "n", "micro": "u", "mikro": "u", "milli": "m"}
+_SHORT_UNITS = {
+    prefix + unit: _PREFIXES[prefix] + short
+    for prefix in _PREFIXES
+    for short, units in {
+        "g": ("gram", "grams", "gramm", "gramme", "grammes"),
+        "l": ("liter", "liters", "litre", "litres"),
+        "M": ("molar",),
+    }.items()
+    for unit in units
+}
+_SPELLED = re.compile(
+    rf"\b(?:{'|'.join(sorted(_SHORT_UNITS, key=len, reverse=True))})\b", re.IGNORECASE
+)
+
+
 def with_u(text: str) -> str:
-    """A text with "u" for the micro sign and the Greek letter, and ``R10nM`` as "R 10nM"."""
-    return _GLUED.sub(r" \1", text.replace("µ", "u").replace("μ", "u"))
+    """A text with "u" for the micro sign and the Greek letter, and ``R10nM`` as "R 10nM"; units
+    that are spelled out are written short: "micrograms per mL" is "ug per mL".
+    """
+    short = _SPELLED.sub(lambda match: _SHORT_UNITS[match[0].lower()], text)
+    return _GLUED.sub(r" \1", short.replace("µ", "u").replace("μ", "u"))
 
 
 _DECIMAL_COMMA = re.compile(r"(?<![\d.,])(\d+),(\d+)(?![\d,])")
 
 
 def _plain(text: str) -> str:
-    """A text of the same length with "u" for micro, and decimal points where "0,2" is one number.
+    """A text as :func:`with_u` writes it, and decimal points where "0,2" is one number.
 
     One such number tells that a comma is no separator in the others: "0,5 / 1,0 mg/ml".
     """

@@ -62,7 +62,9 @@ def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
 
 
 def _is_all(chains: Iterable[Sequence[Transfer]], fed: Fed) -> bool:
-    """Whether the run fills the wells of chains alone; the surplus of their ends goes anywhere."""
+    """Whether the run fills the wells of chains alone; the surplus of their ends goes anywhere, and
+    what most of them are filled with into blanks as well.
+    """
     linked = {
         well.ref
         for chain in chains
@@ -70,7 +72,13 @@ def _is_all(chains: Iterable[Sequence[Transfer]], fed: Fed) -> bool:
         for step in chain
         for well in (step.source, step.well)
     }
-    beside = [given.keys() for well, given in fed.items() if well not in linked]
+    filling = Counter(source for well in linked for source in fed.get(well, ()))
+    common = {source for source, count in filling.items() if 2 * count > len(linked)}
+    beside = [
+        given.keys()
+        for well, given in fed.items()
+        if well not in linked and not given.keys() <= common
+    ]
     return len(beside) <= 1 and all(given <= linked for given in beside)
 
 

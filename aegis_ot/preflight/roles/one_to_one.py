@@ -1,0 +1,67 @@
+"""Wells that each serve wells of their own, and so hold each something of its own."""
+
+from __future__ import annotations
+
+from collections import Counter
+
+from ...vocabulary import WellRef
+from ..rules import Common
+from ..text import tokens
+from ..trace import Trace
+from .clues import Strength
+from .phrases import words_of
+from .roles import Roles
+from .usage import in_trough
+
+_FEWEST_PAIRS = 3
+
+_SMALLEST_PLATE = 24
+
+
+def derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
+    """Wells of a plate that each serve one well of their own hold each something of its own.
+
+    A liquid that stands in several wells (a strip of master mix) serves several wells each.
+    """
+    served = trace.served(prefilled=True)
+    plates: dict[str, list[WellRef]] = {}
+    for ref in served:
+        info = trace.labware.get(ref.labware)
+        if info is None or info.centers_channels or len(info.wells) < _SMALLEST_PLATE:
+            continue
+        plates.setdefault(ref.labware, []).append(ref)
+    for refs in plates.values():
+        pairs = all(len(served[ref]) == 1 and not roles.of(ref) for ref in refs)
+        into = {well for ref in refs for well in served[ref]}
+        if pairs and len(refs) >= _FEWEST_PAIRS and len(into) == len(refs):
+            roles.apart.update(refs)
+            for ref in refs:
+                roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+def derive_called_apart(roles: Roles, name: str, trace: Trace, common: Common) -> None:
+    """Unnamed wells of a rack or plate that have each a name of their own, whatever it means, and
+    go into wells of their own: "rhine", "danube".
+
+    Not where names share a word ("oil, first tube"), or say no more than a place or an order:
+    one liquid may stand in several tubes.
+    """
+    dull = words_of((*common.ordinals, *common.places, *common.positions))
+    called: dict[WellRef, set[str]] = {}
+    for clue in roles.untold:
+        if clue.strength in (Strength.NAME, Strength.LIQUID) and len(clue.places) == 1:
+            words = {word for word in tokens(clue.text) if word.isalpha()} - dull
+            called.setdefault(clue.wells[0], set()).update(words)
+    served = trace.served(prefilled=True)
+    racks: dict[str, list[WellRef]] = {}
+    for ref in served:
+        if ref.labware in trace.labware and not in_trough(trace, ref.labware):
+            racks.setdefault(ref.labware, []).append(ref)
+    for refs in racks.values():
+        said = Counter(word for ref in refs for word in called.get(ref, ()))
+        fed = Counter(well for ref in refs for well in served[ref])
+        alone = all(called.get(ref) for ref in refs) and max(said.values(), default=2) == 1
+        if len(refs) >= _FEWEST_PAIRS and alone and max(fed.values(), default=2) == 1:
+            for ref in refs:
+                if not roles.of(ref):
+                    roles.derived.setdefault(ref, set()).update(roles.closure(name))
