@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from aegis_ot.preflight import load_database
-from aegis_ot.preflight.roles.clauses import parts_of
+from aegis_ot.preflight.roles.clauses import parts_of, with_what_follows
 
 COMMON = load_database().common
 
@@ -37,3 +37,17 @@ def test_entries_of_a_line(line: str, entries: list[tuple[str, list[str]]]) -> N
     parts = [part for part in parts_of(line, COMMON) if part.wells]
     found = [(" ".join(p.words.split()), [match.group() for match in p.wells]) for p in parts]
     assert found == entries
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("A1 PBS, the blank", "PBS (blank)"),
+        ("stain into rows A-D, the controls too", "stain into"),
+        ("Farbstoff in A1-D1, die Kontrollen auch", "Farbstoff in"),
+        ("A1 PBS, the one that we keep in the cold room", "PBS"),
+    ],
+)
+def test_a_thing_that_follows_says_what_that_is_unless_it_comes_to_it(line, words) -> None:
+    parts, _ = with_what_follows(line, COMMON)
+    assert [" ".join(part.words.split()).rstrip(" ,") for part in parts] == [words]

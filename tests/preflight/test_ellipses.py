@@ -64,6 +64,7 @@ COMMON = load_database().common
             "Last three columns: 10 = vehicle, 11 = drug, 12 = untreated",
             "Last three columns 10 = vehicle, column 11 = drug, column 12 = untreated",
         ),
+        ("column 1: A = vehicle, B..H = drug", "column 1: A1 = vehicle, B1-H1 = drug"),
         ("c1 A-H = leaf, c2 H = NTC", "A1-H1 = leaf, H2 = NTC"),
         ("col 2 H: NTC", "H2: NTC"),
         (

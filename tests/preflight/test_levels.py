@@ -19,6 +19,10 @@ COMMON = load_database().common
         ("calibrator 2 ug/ml", 0.002),
         ("staurosporine 3 uM (100x)", 3e-6),
         ("1 mM in 0.5 % DMSO", 1e-3),
+        ("500 micrograms per mL", 0.5),
+        ("2 Milligrams/mL BSA", 2.0),
+        ("30 nanomolar", 30e-9),
+        ("0.5 micrograms per microliter", 0.5),
         ("blank", 0.0),
         ("std_3", None),
         ("CPD-007", None),
@@ -76,6 +80,7 @@ def test_the_levels_of_the_one_list_of_a_text(text: str, molar: tuple[float, ...
     [
         ("ug/mL  2000  1500  1000", "ug/ml"),
         ("µg/ml: 3 2 1", "ug/ml"),
+        ("micrograms/millilitre 3 2 1", "ug/ml"),
         ("3 2 1 (nM)", "nm"),
         ("mg/ml and ug/ml 1 2 3", ""),
         ("mg/ml/min 1 2 3", ""),

@@ -6,7 +6,8 @@ import pytest
 
 from aegis_ot.preflight import load_database
 from aegis_ot.preflight.roles import Clue, Strength
-from aegis_ot.preflight.roles.phrases import role_words, roles_named
+from aegis_ot.preflight.roles.phrases import roles_named
+from aegis_ot.preflight.roles.role_words import role_words
 
 DATABASE = load_database()
 
@@ -19,7 +20,11 @@ DATABASE = load_database()
         ("cell_treatment", "drug in DMEM", "drug"),
         ("pcr", "no gDNA", "ntc"),
         ("pcr", "NO_CDNA", "ntc"),
+        ("cell_treatment", "no LPS", "control"),
+        ("cell_treatment", "cisplatin free", "control"),
+        ("cell_treatment", "ohne Cisplatin", "control"),
         ("bradford", "QC high", "sample"),
+        ("pcr", "river water", "template"),
     ],
 )
 def test_the_head_of_a_name(family: str, text: str, role: str | None) -> None:

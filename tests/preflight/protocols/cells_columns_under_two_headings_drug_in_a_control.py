@@ -8,6 +8,7 @@ Plate:
   column 1: vehicle control
   columns 2-6: doxorubicin
 """
+
 metadata = {"apiLevel": "2.13"}
 
 

@@ -1,5 +1,6 @@
 # expect: cell_treatment pass
 """T cells: stimulation, then inhibitor."""
+
 metadata = {"apiLevel": "2.13"}
 
 

@@ -3,6 +3,7 @@
 
 Block: A1 mix, A2 gDNA, A3 water
 """
+
 metadata = {"apiLevel": "2.13"}
 
 
