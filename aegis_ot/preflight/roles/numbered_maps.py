@@ -146,6 +146,7 @@ def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
     """What a map says of its columns or rows; where it ``counts``, its numbers are no levels."""
     if isinstance(value, Mapping):
         for key, item in value.items():
+            item = _one_word(item)
             if isinstance(key, (int, str)) and _places_in(key) and _is_said(item):
                 if isinstance(item, str):
                     yield item, _places_in(key), None
@@ -168,6 +169,13 @@ def _entries(name: str, value: Any, counts: bool) -> Iterator[Entry]:
             places = [found for cell in cells if cell not in said and (found := _places_in(cell))]
             if len(places) == len(said) == 1:
                 yield said[0], places[0], None
+
+
+def _one_word(item: Any) -> Any:
+    """The one word of a row, ``("vehicle", "A1", None)``; what else stands in a map as it is."""
+    cells = item if isinstance(item, tuple) else ()
+    said = [cell for cell in cells if _is_word(cell) and not _places_in(cell)]
+    return said[0] if len(said) == 1 else item
 
 
 def _are_amounts(value: Mapping[Any, Any]) -> bool:
