@@ -19,9 +19,7 @@ def run(protocol):
     curve, rest = plate.columns()[2][:5], plate.columns()[5]
 
     p20.pick_up_tip()
-    for source, well in zip(
-        strip.columns()[0][1:5] + strip.columns()[0][:1], curve[1:] + curve[:1]
-    ):
+    for source, well in zip(strip.columns()[0][1:5] + strip.columns()[0][:1], curve[1:] + curve[:1]):
         p20.aspirate(10, source)
         p20.dispense(10, well)
     p20.drop_tip()

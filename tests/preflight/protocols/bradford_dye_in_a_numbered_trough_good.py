@@ -4,7 +4,6 @@
 Tubes A1-A5 are BSA 0, 100, 200, 400, 800 ug/ml, tubes B1-C3 the fractions.
 Roti-Nanoquant (1x) in channel 4, water in channel 1.
 """
-
 metadata = {"protocolName": "Fractions", "apiLevel": "2.13"}
 
 

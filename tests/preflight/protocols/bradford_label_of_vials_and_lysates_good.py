@@ -7,7 +7,9 @@ metadata = {"protocolName": "Coomassie, knock-downs", "apiLevel": "2.13"}
 def run(protocol):
     tips = protocol.load_labware("opentrons_96_filtertiprack_20ul", 1)
     tips_large = protocol.load_labware("opentrons_96_filtertiprack_200ul", 2)
-    rack = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 3, "vials and lysates")
+    rack = protocol.load_labware(
+        "opentrons_24_tuberack_nest_1.5ml_snapcap", 3, "vials and lysates"
+    )
     plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 4, "assay")
     coomassie = protocol.load_labware("nest_1_reservoir_195ml", 5, "Coomassie")["A1"]
     p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[tips])

@@ -13,9 +13,7 @@ def run(ctx):
     p20 = ctx.load_instrument("p20_single_gen2", "left", tip_racks=tips20)
     m300 = ctx.load_instrument("p300_multi_gen2", "right", tip_racks=tips300)
 
-    standards = [
-        tubes[w] for w in ("A1", "A2", "A3", "A4", "A5", "A6")
-    ]  # BSA 0, 125, 250, 500, 1000, 2000 ug/ml
+    standards = [tubes[w] for w in ("A1", "A2", "A3", "A4", "A5", "A6")]   # BSA 0, 125, 250, 500, 1000, 2000 ug/ml
     dye = res["A1"]
 
     lysates = tubes.rows()[1]

@@ -4,7 +4,6 @@
 Calibration rack (slot 4): B1-B3, C1-C3 = 0, 80, 160, 400, 800, 1200 ug/ml
 Eluate rack (slot 6): A1..A3, D1..D3 = eluates 1 to 6
 """
-
 metadata = {"protocolName": "Bradford 6+6", "apiLevel": "2.13"}
 
 

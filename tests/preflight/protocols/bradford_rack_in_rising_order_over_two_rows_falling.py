@@ -6,9 +6,7 @@
 """
 
 metadata = {"apiLevel": "2.14", "protocolName": "Bradford, fractions"}
-CURVE = dict(
-    zip(("A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8"), (0, 100, 200, 300, 400, 600, 800, 1000))
-)
+CURVE = dict(zip(("A1", "A2", "A3", "A4", "A5", "A6", "A7", "A8"), (0, 100, 200, 300, 400, 600, 800, 1000)))
 CURVE_TUBES = ["A1", "A2", "A3", "A4", "A5", "A6", "B1", "B2"]
 
 

@@ -3,7 +3,9 @@ metadata = {"protocolName": "Bradford, antibody fragments", "apiLevel": "2.14"}
 
 
 def run(ctx):
-    rack = ctx.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 1, "BSA standards and Fabs")
+    rack = ctx.load_labware(
+        "opentrons_24_tuberack_nest_1.5ml_snapcap", 1, "BSA standards and Fabs"
+    )
     plate = ctx.load_labware("corning_96_wellplate_360ul_flat", 2)
     trough = ctx.load_labware("nest_1_reservoir_195ml", 3, "Bradford reagent")
     t20 = ctx.load_labware("opentrons_96_filtertiprack_20ul", 4)

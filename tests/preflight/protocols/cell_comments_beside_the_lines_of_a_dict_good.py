@@ -3,19 +3,14 @@ metadata = {"protocolName": "U2OS, two agents alone and together", "apiLevel": "
 
 SOLVENT_WELLS = ["B2", "C2", "D2"]
 PAIRS = {
-    "B4": ("N1", "Z"),
-    "C4": ("N2", "Z"),
-    "B5": ("Z", "O1"),
-    "C5": ("Z", "O2"),
-    "B6": ("N1", "O1"),
-    "C6": ("N2", "O2"),
+    "B4": ("N1", "Z"), "C4": ("N2", "Z"),
+    "B5": ("Z", "O1"), "C5": ("Z", "O2"),
+    "B6": ("N1", "O1"), "C6": ("N2", "O2"),
 }
 TUBES = {
-    "Z": "A1",  # vehicle, 0.05 % DMSO in DMEM
-    "N1": "B1",
-    "N2": "B2",  # nutlin-3a 30 nM, 300 nM
-    "O1": "C1",
-    "O2": "C2",  # olaparib 1 uM, 4 uM
+    "Z": "A1",                 # vehicle, 0.05 % DMSO in DMEM
+    "N1": "B1", "N2": "B2",    # nutlin-3a 30 nM, 300 nM
+    "O1": "C1", "O2": "C2",    # olaparib 1 uM, 4 uM
 }
 
 

@@ -6,7 +6,6 @@ col 2  vehicle             tube A1
 col 3  drug 10 nM          tube A2
 col 4  drug 100 nM         tube A3
 """
-
 metadata = {"apiLevel": "2.13"}
 
 

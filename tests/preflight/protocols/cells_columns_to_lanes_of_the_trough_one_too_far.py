@@ -11,11 +11,7 @@ def run(protocol):
     reservoir = protocol.load_labware("nest_12_reservoir_15ml", 2)
     tips = protocol.load_labware("opentrons_96_filtertiprack_20ul", 3)
     m20 = protocol.load_instrument("p20_multi_gen2", "left", tip_racks=[tips])
-    untreated, vehicle_control, treated = (
-        cells.columns()[:2],
-        cells.columns()[2],
-        cells.columns()[3:7],
-    )
+    untreated, vehicle_control, treated = cells.columns()[:2], cells.columns()[2], cells.columns()[3:7]
 
     for number, column in enumerate([*untreated, vehicle_control, *treated], start=2):
         m20.transfer(10, reservoir[TREATMENT[str(number)]], column[0], new_tip="always")

@@ -8,7 +8,6 @@ Plate:
   column 1: vehicle control
   columns 2-6: doxorubicin
 """
-
 metadata = {"apiLevel": "2.13"}
 
 

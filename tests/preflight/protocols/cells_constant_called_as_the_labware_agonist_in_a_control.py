@@ -4,10 +4,7 @@ from opentrons import types
 metadata = {"protocolName": "Agonists on HEK293", "apiLevel": "2.8"}
 
 AGONIST_PLATE = {
-    "A1": "agonist 10 nM",
-    "B1": "agonist 100 nM",
-    "C1": "agonist 1 uM",
-    "D1": "vehicle",
+    "A1": "agonist 10 nM", "B1": "agonist 100 nM", "C1": "agonist 1 uM", "D1": "vehicle",
 }
 CONTROL_WELLS = ["D1", "D2", "D3"]
 TOUCH = types.Point(x=0, y=0, z=1)

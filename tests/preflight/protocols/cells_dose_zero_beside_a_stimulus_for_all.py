@@ -1,8 +1,6 @@
 # expect: cell_treatment pass
 """TNF on all wells, then inhibitor doses."""
-
 from opentrons import protocol_api
-
 metadata = {"apiLevel": "2.14"}
 INHIBITOR_NM = {"B2": 0, "B3": 1, "B4": 10, "B5": 100, "C2": 0, "C3": 1, "C4": 10, "C5": 100}
 INHIBITOR_TUBE = {0: "A1", 1: "A2", 10: "A3", 100: "A4"}

@@ -1,20 +1,9 @@
 # expect: cell_treatment fail CELL-1 CELL-2
 """Doxorubicin on A549."""
-
 from opentrons import protocol_api
-
 metadata = {"apiLevel": "2.14"}
 # well, dose (uM); 0 = DMSO only
-LAYOUT = [
-    ("B2", 0),
-    ("B3", 0.1),
-    ("B4", 1),
-    ("B5", 10),
-    ("C2", 0),
-    ("C3", 0.1),
-    ("C4", 1),
-    ("C5", 10),
-]
+LAYOUT = [("B2", 0), ("B3", 0.1), ("B4", 1), ("B5", 10), ("C2", 0), ("C3", 0.1), ("C4", 1), ("C5", 10)]
 
 
 def run(ctx: protocol_api.ProtocolContext):

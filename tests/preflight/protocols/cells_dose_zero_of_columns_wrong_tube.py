@@ -1,8 +1,6 @@
 # expect: cell_treatment fail CELL-1
 """Doxorubicin on A549, uM per column of the plate; DMSO takes the place of the drug where the dose is 0."""
-
 from opentrons import protocol_api
-
 metadata = {"apiLevel": "2.14"}
 DOSE_UM = {2: 0, 3: 0.1, 4: 1, 5: 10}
 

@@ -1,8 +1,6 @@
 # expect: cell_treatment pass
 """Checkerboard: drug A along columns, drug B along rows, A549."""
-
 from opentrons import protocol_api
-
 metadata = {"apiLevel": "2.14"}
 DOSES_A = {2: 0, 3: 0.1, 4: 1, 5: 10}
 DOSES_B = {"B": 0, "C": 5, "D": 50, "E": 500}

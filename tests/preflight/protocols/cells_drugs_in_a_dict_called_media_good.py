@@ -14,10 +14,6 @@ def run(ctx):
 
     """A549 cells. Ready-made media with 1 uM gefitinib or with DMSO."""
     media = {"DMSO": res["A1"], "gefitinib": res["A2"], "plain": res["A3"]}
-    dmso_wells, gefitinib_wells, untreated = (
-        plate.columns()[0],
-        plate.columns()[1],
-        plate.columns()[2],
-    )
+    dmso_wells, gefitinib_wells, untreated = plate.columns()[0], plate.columns()[1], plate.columns()[2]
     for name, wells in (("plain", untreated), ("DMSO", dmso_wells), ("gefitinib", gefitinib_wells)):
         m300.transfer(100, media[name], wells[0])

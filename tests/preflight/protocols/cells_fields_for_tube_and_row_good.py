@@ -1,6 +1,5 @@
 # expect: cell_treatment pass
 """Staurosporine on HeLa cells (slot 1); tubes in slot 2."""
-
 from dataclasses import dataclass
 
 metadata = {"apiLevel": "2.15", "protocolName": "Staurosporine"}

@@ -1,8 +1,6 @@
 # expect: cell_treatment pass
 """Time course with staurosporine."""
-
 from opentrons import protocol_api
-
 metadata = {"apiLevel": "2.14"}
 HOURS = {"B2": 0, "B3": 1, "B4": 4, "B5": 24, "C2": 0, "C3": 1, "C4": 4, "C5": 24}
 

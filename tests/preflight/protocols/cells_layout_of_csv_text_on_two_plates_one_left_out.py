@@ -11,9 +11,7 @@ def run(protocol):
     tips = protocol.load_labware("opentrons_96_filtertiprack_20ul", 1)
     tubes = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 2)
     plates = [
-        protocol.load_labware(
-            "corning_96_wellplate_360ul_flat", slot, f"PC-3 cells replicate {slot}"
-        )
+        protocol.load_labware("corning_96_wellplate_360ul_flat", slot, f"PC-3 cells replicate {slot}")
         for slot in (4, 5)
     ]
     p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[tips])

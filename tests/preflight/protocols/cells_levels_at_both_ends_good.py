@@ -13,8 +13,7 @@ def run(ctx):
     deep = ctx.load_labware("nest_96_wellplate_2ml_deep", 1, "rapamycin")
     hepg2 = ctx.load_labware("corning_96_wellplate_360ul_flat", 2, "HepG2")
     m300 = ctx.load_instrument(
-        "p300_multi_gen2",
-        "right",
+        "p300_multi_gen2", "right",
         tip_racks=[ctx.load_labware("opentrons_96_filtertiprack_200ul", 3)],
     )
     m300.transfer(30, deep["A11"], hepg2["A11"])

@@ -1,8 +1,6 @@
 # expect: cell_treatment pass
 """Dose response on HeLa."""
-
 from opentrons import protocol_api
-
 metadata = {"apiLevel": "2.14"}
 UNTREATED = slice(0, 1)
 VEHICLE = slice(1, 3)

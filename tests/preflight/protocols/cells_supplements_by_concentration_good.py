@@ -1,6 +1,5 @@
 # expect: cell_treatment pass
 """T cells: stimulation, then inhibitor."""
-
 metadata = {"apiLevel": "2.13"}
 
 

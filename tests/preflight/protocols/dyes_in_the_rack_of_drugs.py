@@ -8,7 +8,9 @@ def run(protocol):
     tips = protocol.load_labware("opentrons_96_tiprack_300ul", "1")
     p300 = protocol.load_instrument("p300_single_gen2", "left", tip_racks=[tips])
     cells = protocol.load_labware("corning_96_wellplate_360ul_flat", "2", "U2OS cells")
-    tubes = protocol.load_labware("opentrons_24_tuberack_nest_2ml_snapcap", "3", "inhibitors")
+    tubes = protocol.load_labware(
+        "opentrons_24_tuberack_nest_2ml_snapcap", "3", "inhibitors"
+    )
     dmso = tubes["A1"]
     doses = [tubes[name] for name in ("B1", "B2", "B3")]
     hoechst, calcein = tubes["D5"], tubes["D6"]

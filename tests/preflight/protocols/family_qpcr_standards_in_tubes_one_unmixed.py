@@ -19,7 +19,5 @@ def run(ctx):
     p300.transfer(180, te_buffer, curve[1:], new_tip="once")
     for upper, lower in zip(curve, curve[1:]):
         p20.pick_up_tip()
-        p20.transfer(
-            20, upper, lower, mix_after=(8, 20) if lower is not curve[3] else None, new_tip="never"
-        )
+        p20.transfer(20, upper, lower, mix_after=(8, 20) if lower is not curve[3] else None, new_tip="never")
         p20.drop_tip()

@@ -15,7 +15,5 @@ def run(ctx):
     # every well of the deep block is the same 20 mM Tris; it was filled by hand
     m300.pick_up_tip()
     for i in range(12):
-        m300.transfer(
-            100, deep.columns()[i][0], [p1.columns()[i][0], p2.columns()[i][0]], new_tip="never"
-        )
+        m300.transfer(100, deep.columns()[i][0], [p1.columns()[i][0], p2.columns()[i][0]], new_tip="never")
     m300.drop_tip()

@@ -12,7 +12,5 @@ def run(ctx):
     cols = plate.columns()
     pip.pick_up_tip()
     for n in range(4):
-        pip.transfer(
-            30, plate.rows()[7][n], [plate.rows()[r][n] for r in range(3)], new_tip="never"
-        )
+        pip.transfer(30, plate.rows()[7][n], [plate.rows()[r][n] for r in range(3)], new_tip="never")
     pip.drop_tip()

@@ -4,14 +4,9 @@ from opentrons import protocol_api
 metadata = {"protocolName": "Coomassie assay, source plate in duplicate", "apiLevel": "2.14"}
 
 CONTENT = {
-    "A1": ("blank", 0),
-    "B1": ("BSA", 100),
-    "C1": ("BSA", 300),
-    "D1": ("BSA", 900),
-    "A2": ("unknown", "batch 7"),
-    "B2": ("unknown", "batch 8"),
-    "C2": ("unknown", "batch 9"),
-    "D2": ("unknown", "batch 10"),
+    "A1": ("blank", 0), "B1": ("BSA", 100), "C1": ("BSA", 300), "D1": ("BSA", 900),
+    "A2": ("unknown", "batch 7"), "B2": ("unknown", "batch 8"),
+    "C2": ("unknown", "batch 9"), "D2": ("unknown", "batch 10"),
 }
 INTO = {"1": ("1", "2"), "2": ("3", "4")}
 

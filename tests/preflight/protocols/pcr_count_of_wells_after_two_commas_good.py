@@ -13,12 +13,7 @@ def run(ctx):
     # columns 1-3: samples 1-3, one column each, 4 NTC wells follow in column 5; sample 4 is in column 4
     mix, water = tubes["A1"], tubes["A2"]
     samples = tubes.rows()[1][:4]
-    p20.transfer(
-        15,
-        mix,
-        [w for c in plate.columns()[:4] for w in c] + plate.columns()[4][:4],
-        new_tip="once",
-    )
+    p20.transfer(15, mix, [w for c in plate.columns()[:4] for w in c] + plate.columns()[4][:4], new_tip="once")
     for s, column in zip(samples, plate.columns()):
         p20.transfer(5, s, column, new_tip="always")
     p20.transfer(5, water, plate.columns()[4][:4], new_tip="once")

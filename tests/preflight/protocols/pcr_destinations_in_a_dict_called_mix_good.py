@@ -12,12 +12,7 @@ def run(ctx):
 
     mastermix, water = tubes["A1"], tubes["A2"]
     dna = {"s1": tubes["B1"], "s2": tubes["B2"], "s3": tubes["B3"]}
-    mix_wells = {
-        "sample 1": plate["A1"],
-        "sample 2": plate["B1"],
-        "sample 3": plate["C1"],
-        "NTC": plate["D1"],
-    }
+    mix_wells = {"sample 1": plate["A1"], "sample 2": plate["B1"], "sample 3": plate["C1"], "NTC": plate["D1"]}
     for well in mix_wells.values():
         p20.transfer(16, mastermix, well)
     p20.transfer(4, dna["s1"], mix_wells["sample 1"], mix_after=(2, 10))

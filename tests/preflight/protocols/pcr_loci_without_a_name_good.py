@@ -11,7 +11,7 @@ def run(ctx):
     p20 = ctx.load_instrument("p20_single_gen2", "left", tip_racks=tips)
 
     mastermix, water = tubes["A1"], tubes["A6"]
-    loci = tubes.rows()[1][:4]  # Rs123, Rs220, Rs9, Rs44
+    loci = tubes.rows()[1][:4]          # Rs123, Rs220, Rs9, Rs44
     dnas = tubes.rows()[2][:5]
     ntc = plate.columns()[5][:4]
     used = [w for c in plate.columns()[:6] for w in c[:4]]

@@ -4,14 +4,7 @@
 metadata = {"protocolName": "qPCR, gene and reference", "apiLevel": "2.15"}
 MIXES = {
     "gene": {"master_mix": "A1", "buffer": "B1", "enzyme": "C1", "column": 0, "ul": 16, "dna": 4},
-    "reference": {
-        "master_mix": "A2",
-        "buffer": "B2",
-        "enzyme": "C2",
-        "column": 1,
-        "ul": 8,
-        "dna": 2,
-    },
+    "reference": {"master_mix": "A2", "buffer": "B2", "enzyme": "C2", "column": 1, "ul": 8, "dna": 2},
 }
 
 

@@ -4,7 +4,6 @@
 DNA plate: columns 1-11 DNA, A12-F12 DNA, G12 = DNA of the breed standard (positive control),
 H12 = nuclease-free water, the NTC.
 """
-
 metadata = {"protocolName": "Genotyping stamp", "apiLevel": "2.14"}
 
 

@@ -1,8 +1,6 @@
 # expect: pcr pass
 """qPCR."""
-
 from opentrons import protocol_api
-
 metadata = {"apiLevel": "2.14"}
 NTC = slice(12, 15)
 CDNA = slice(0, 12)

@@ -3,7 +3,6 @@
 
 Block: A1 mix, A2 gDNA, A3 water
 """
-
 metadata = {"apiLevel": "2.13"}
 
 

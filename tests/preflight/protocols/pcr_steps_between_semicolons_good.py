@@ -13,6 +13,4 @@ def run(protocol):
     master_mix, water = rack["D6"], rack["D5"]
     ntc = plate["C1"]
     p20.transfer(18, master_mix, plate.wells()[:3], new_tip="always")
-    p20.transfer(2, dna["A1"], plate["A1"])
-    p20.transfer(2, dna["B1"], plate["B1"])
-    p20.transfer(2, water, ntc)
+    p20.transfer(2, dna["A1"], plate["A1"]); p20.transfer(2, dna["B1"], plate["B1"]); p20.transfer(2, water, ntc)

@@ -4,7 +4,6 @@
 Strip tubes 1-8 hold the levels 10^-1 ... 10^-8 of the lysate; 90 uL SM buffer each,
 10 uL carried from tube to tube.
 """
-
 metadata = {"apiLevel": "2.14", "protocolName": "phage titration"}
 
 LEVELS = ["10^-1", "10^-2", "10^-3", "10^-4", "10^-5", "10^-6", "10^-7", "10^-8"]

@@ -6,9 +6,7 @@ metadata = {"protocolName": "IgG serial dilution", "apiLevel": "2.13"}
 
 def run(ctx):
     plate = ctx.load_labware("corning_96_wellplate_360ul_flat", 1)
-    rack = ctx.load_labware(
-        "opentrons_24_tuberack_nest_1.5ml_snapcap", 2, "stock A1 IgG 1 mg/ml, A2 EB"
-    )
+    rack = ctx.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 2, "stock A1 IgG 1 mg/ml, A2 EB")
     tips = [ctx.load_labware("opentrons_96_tiprack_300ul", s) for s in (4, 5)]
     p300 = ctx.load_instrument("p300_single_gen2", "left", tip_racks=tips)
 

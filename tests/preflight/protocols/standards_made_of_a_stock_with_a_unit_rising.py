@@ -2,7 +2,6 @@
 metadata = {"protocolName": "Bradford, standards made here", "apiLevel": "2.14"}
 STOCK_UL = [20, 50, 100, 160]
 
-
 def run(protocol):
     tips = [protocol.load_labware("opentrons_96_tiprack_300ul", slot) for slot in (7, 8)]
     p300 = protocol.load_instrument("p300_single_gen2", "right", tip_racks=tips)

@@ -15,9 +15,7 @@ def run(protocol):
     tips = protocol.load_labware("opentrons_96_tiprack_20ul", "1")
     p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[tips])
     cells = protocol.load_labware("corning_96_wellplate_360ul_flat", "2", "HeLa cells")
-    rack = protocol.load_labware(
-        "opentrons_24_tuberack_nest_1.5ml_snapcap", "3", "staurosporine tubes"
-    )
+    rack = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", "3", "staurosporine tubes")
     untreated = cells["D6"]
     vehicle_control = cells["C6"]
     doses = [rack[name] for name in ("A1", "A2", "A3", "A4")]
