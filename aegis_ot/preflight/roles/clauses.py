@@ -25,8 +25,11 @@ _TO_THE_END = re.compile(r"[;|()]|\.\s|\s{3,}")
 _BRACKETS = re.compile(r"[(\[]([^()\[\]]*)[)\]]")
 
 
-_SPAN = r"[A-P]\d{1,2}\s?[-–]\s?[A-P]\d{1,2}"
-_SPANS = re.compile(rf"\b(?P<wells>{_SPAN})\s+(?P<numbers>{_SPAN})(?=\s*(?:[,;.)]|$))")
+_NUMBERED = re.compile(
+    r"\b(?P<wells>(?P<first>[A-P]\d{1,2})\s?[-–]\s?(?P<last>[A-P]\d{1,2}))\s+"
+    r"(?P<numbers>(?P<letter>[A-P])(?P<low>\d{1,2})\s?[-–]\s?(?P=letter)(?P<high>\d{1,2}))"
+    r"(?=\s*(?:[,;.)]|$))"
+)
 """Wells, and the numbers of what stands in them: "A1-H1 S1-S8"."""
 
 _LONGEST_LINE = 2000
@@ -55,7 +58,7 @@ def parts_of(text: str, common: Common) -> Iterator[Part]:
     if len(text) > _LONGEST_LINE:
         yield Part(text, text, ())
         return
-    text = _SPANS.sub(_without_numbers, spelled_out(text, common))
+    text = _NUMBERED.sub(_without_numbers, spelled_out(text, common))
     if len(text) > _LONGEST_LINE:
         yield Part(text, text, ())
         return
@@ -70,10 +73,8 @@ def parts_of(text: str, common: Common) -> Iterator[Part]:
 
 def _without_numbers(match: re.Match[str]) -> str:
     """A range of wells with the numbers of what stands there: "A2-D2 G9-G12" in small letters."""
-    wells = wells_between(re.sub(r"\s?[-–]\s?", ":", match["wells"]))
-    first, last = re.split(r"\s?[-–]\s?", match["numbers"])
-    as_many = int(last[1:]) - int(first[1:]) + 1 == len(wells) > 1
-    if first[0] != last[0] or not as_many:
+    wells = wells_between(f"{match['first']}:{match['last']}")
+    if not int(match["high"]) - int(match["low"]) + 1 == len(wells) > 1:
         return match[0]
     return f"{match['wells']} {match['numbers'].lower()}"
 
@@ -89,10 +90,10 @@ def whole_lines(lines: Sequence[str], common: Common) -> Iterator[tuple[int, str
     for number, line in enumerate(lines):
         first = first if begun else number
         begun = f"{begun} {line.strip()}" if begun else line
-        last = begun.rstrip().rpartition(" ")[2].lower()
-        following = lines[number + 1].lstrip() if number + 1 < len(lines) else None
-        entries = following is not None and spec.match(following) and spec.match(begun.lstrip())
-        if last not in leading or following is None or entries:
+        goes_on = begun.rstrip().rpartition(" ")[2].lower() in leading and number + 1 < len(lines)
+        if goes_on and spec.match(begun.lstrip()):
+            goes_on = spec.match(lines[number + 1].lstrip()) is None
+        if not goes_on:
             yield first, begun
             begun = ""
 
@@ -103,7 +104,6 @@ def with_what_follows(line: str, common: Common) -> tuple[list[Part], list[str]]
     A thing that follows says what that is: "A1 PBS, the blank" is "PBS (blank)". Not one that comes
     to it: "rows A-D, the controls too".
     """
-    also = {tokens(word) for word in common.also}
     parts: list[Part] = []
     more: list[str] = []
     for part in parts_of(line, common):
@@ -112,7 +112,8 @@ def with_what_follows(line: str, common: Common) -> tuple[list[Part], list[str]]
             more.append("")
         elif more:
             first, *words = _BRACKETS.sub(" ", part.words).split() or [""]
-            short = 0 < len(words) < _LONGEST_APPOSITION and tokens(words[-1])[-1:] not in also
+            short = 0 < len(words) < _LONGEST_APPOSITION
+            short = short and words_of(common.also).isdisjoint(tokens(words[-1])[-1:])
             if short and not more[-1] and first.lower() in first_words(common.articles):
                 parts[-1] = parts[-1]._replace(words=f"{parts[-1].words} ({' '.join(words)})")
             more[-1] += f" {part.words}"

@@ -69,14 +69,22 @@ def _crossed(match: re.Match[str], row: re.Pattern[str], names: WellNames) -> st
     return f"{match['clause']}({wells})" if count > 1 else match[0]
 
 
+def _columns(names: WellNames) -> str:
+    """A pattern for "columns 4, 8"."""
+    span = rf"\d{{1,2}}(?:{names.to}\d{{1,2}})?"
+    listed = rf"(?P<columns>{span}(?:{names.conjunction}{span})*)(?!\w)"
+    return rf"{_column_word(names)}{listed}"
+
+
+def _column_word(names: WellNames) -> str:
+    return rf"\b(?:{names.columns}|{names.column})\.?\s*"
+
+
 @functools.lru_cache(maxsize=8)
 def _bracketed(names: WellNames) -> re.Pattern[str]:
     """A clause of columns with a bracket behind it that begins with a row."""
-    column = rf"\b(?:{names.columns}|{names.column})\.?\s*"
-    span = rf"\d{{1,2}}(?:{names.to}\d{{1,2}})?"
-    listed = rf"(?P<columns>{span}(?:{names.conjunction}{span})*)(?!\w)"
     return re.compile(
-        rf"(?P<clause>{column}{listed}(?:(?!{column}\d)[^()\n]){{0,120}})"
+        rf"(?P<clause>{_columns(names)}(?:(?!{_column_word(names)}\d)[^()\n]){{0,120}})"
         rf"\((?P<rows>(?:{names.rows}|{names.row})\s+[A-P]\b[^()\n]*)\)"
     )
 
@@ -84,9 +92,7 @@ def _bracketed(names: WellNames) -> re.Pattern[str]:
 @functools.lru_cache(maxsize=8)
 def _patterns(names: WellNames) -> tuple[re.Pattern[str], re.Pattern[str], re.Pattern[str]]:
     """A heading, which ends with a colon, and an entry under it, without or with "row"."""
-    column = rf"\b(?:{names.columns}|{names.column})\.?\s*"
-    span = rf"\d{{1,2}}(?:{names.to}\d{{1,2}})?"
-    heading = rf"{column}(?P<columns>{span}(?:{names.conjunction}{span})*)(?!\w)[^:\d]{{0,40}}:\s*$"
+    heading = rf"{_columns(names)}[^:\d]{{0,40}}:\s*$"
     letters = rf"(?P<low>[A-P])(?:(?:{names.to}|\s?[/&]\s?)(?P<high>[A-P]))?(?![\w.])"
     entry = rf"(?:^\W*|(?<=\s\s\s))(?P<at>{letters})(?=\s*[:=]|\s+\S)"
     row = rf"(?P<at>\b(?:{names.rows}|{names.row})\s+{letters})"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 
 from ...vocabulary import WellRef
 from ..rules import Common
@@ -24,13 +25,9 @@ def derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
     A liquid that stands in several wells (a strip of master mix) serves several wells each.
     """
     served = trace.served(prefilled=True)
-    plates: dict[str, list[WellRef]] = {}
-    for ref in served:
-        info = trace.labware.get(ref.labware)
-        if info is None or info.centers_channels or len(info.wells) < _SMALLEST_PLATE:
+    for key, refs in _by_labware(trace, served).items():
+        if len(trace.labware[key].wells) < _SMALLEST_PLATE:
             continue
-        plates.setdefault(ref.labware, []).append(ref)
-    for refs in plates.values():
         pairs = all(len(served[ref]) == 1 and not roles.of(ref) for ref in refs)
         into = {well for ref in refs for well in served[ref]}
         if pairs and len(refs) >= _FEWEST_PAIRS and len(into) == len(refs):
@@ -53,11 +50,7 @@ def derive_called_apart(roles: Roles, name: str, trace: Trace, common: Common) -
             words = {word for word in tokens(clue.text) if word.isalpha()} - dull
             called.setdefault(clue.wells[0], set()).update(words)
     served = trace.served(prefilled=True)
-    racks: dict[str, list[WellRef]] = {}
-    for ref in served:
-        if ref.labware in trace.labware and not in_trough(trace, ref.labware):
-            racks.setdefault(ref.labware, []).append(ref)
-    for refs in racks.values():
+    for refs in _by_labware(trace, served).values():
         said = Counter(word for ref in refs for word in called.get(ref, ()))
         fed = Counter(well for ref in refs for well in served[ref])
         alone = all(called.get(ref) for ref in refs) and max(said.values(), default=2) == 1
@@ -65,3 +58,12 @@ def derive_called_apart(roles: Roles, name: str, trace: Trace, common: Common) -
             for ref in refs:
                 if not roles.of(ref):
                     roles.derived.setdefault(ref, set()).update(roles.closure(name))
+
+
+def _by_labware(trace: Trace, served: Iterable[WellRef]) -> dict[str, list[WellRef]]:
+    """The sources in each plate and rack, by its key; not those in troughs."""
+    found: dict[str, list[WellRef]] = {}
+    for ref in served:
+        if ref.labware in trace.labware and not in_trough(trace, ref.labware):
+            found.setdefault(ref.labware, []).append(ref)
+    return found

@@ -46,11 +46,10 @@ def amounts_beside(
     """Levels of ``TUBES = ["A1", "B1", "C1"]`` above ``UG_PER_ML = [1500, 500, 0]``, of
     ``dict(zip(TUBES, UG_PER_ML))``, or of a list below "ug/mL in tubes A1-A6".
     """
-    nouns = LabwareNouns(deck, common)
     written = _written(facts, common), _made(names, facts, common), _noted(facts, common)
     for pair in chain.from_iterable(written):
-        said_there = nouns.named(pair.note) or nouns.kind_in(pair.note)
-        labware = tuple(said_there) or labware_of_map(deck, facts, pair.name, pair.spots, common)
+        labware = _called(deck, pair.note, common)
+        labware = labware or labware_of_map(deck, facts, pair.name, pair.spots, common)
         wells = tuple(refs_of(deck, labware, pair.spots))
         if len(wells) != len(pair.spots):
             continue
@@ -59,6 +58,12 @@ def amounts_beside(
         drawn = not any((ref.labware, ref.name) in deck.received for ref in wells)
         if drawn and far_apart(pair.amounts):
             yield as_one_of_amounts(wells, pair.line, said, pair.amounts)
+
+
+def _called(deck: Deck, note: str, common: Common) -> tuple[str, ...]:
+    """The labware that a comment speaks of, if there is one."""
+    nouns = LabwareNouns(deck, common) if note else None
+    return tuple(nouns.named(note) or nouns.kind_in(note)) if nouns else ()
 
 
 def _written(facts: SourceFacts, common: Common) -> Iterator[_Pair]:

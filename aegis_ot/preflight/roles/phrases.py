@@ -198,7 +198,7 @@ def _drawn(
     return {at: topics for at, topics in places.items() if at < end}
 
 
-@functools.lru_cache(maxsize=16)
+@functools.lru_cache(maxsize=64)
 def first_words(phrases: tuple[str, ...]) -> frozenset[str]:
     """The first word of each phrase of a list."""
     return frozenset(tokens(phrase)[0] for phrase in phrases)
@@ -211,7 +211,7 @@ def _says_only_labware(words: Sequence[str], common: Common) -> bool:
     return all(word in nouns for word in words if _is_telling(word))
 
 
-@functools.lru_cache(maxsize=16)
+@functools.lru_cache(maxsize=64)
 def words_of(phrases: tuple[str, ...]) -> frozenset[str]:
     """All words of the phrases of a list."""
     return frozenset(word for phrase in phrases for word in tokens(phrase))

@@ -29,8 +29,8 @@ def meant_by_zero(clues: Iterable[Clue], facts: SourceFacts, common: Common) -> 
     clues = list(clues)
     maps: dict[WellRef, set[str]] = {}
     for clue in clues:
-        for ref, _ in zip(clue.wells, clue.levels, strict=False):
-            if clue.said.startswith("plate map"):
+        if clue.levels and clue.said.startswith("plate map"):
+            for ref in clue.wells[: len(clue.levels)]:
                 maps.setdefault(ref, set()).add(clue.said)
     for clue in clues:
         at_zero = tuple(

@@ -73,11 +73,11 @@ def _is_all(chains: Iterable[Sequence[Transfer]], fed: Fed) -> bool:
         for well in (step.source, step.well)
     }
     filling = Counter(source for well in linked for source in fed.get(well, ()))
-    common = {source for source, count in filling.items() if 2 * count > len(linked)}
+    fillers = {source for source, count in filling.items() if 2 * count > len(linked)}
     beside = [
         given.keys()
         for well, given in fed.items()
-        if well not in linked and not given.keys() <= common
+        if well not in linked and not given.keys() <= fillers
     ]
     return len(beside) <= 1 and all(given <= linked for given in beside)
 
