@@ -82,3 +82,9 @@ def test_names_assigned_together_come_each_from_their_own() -> None:
     facts = read_source("for row in ROWS:\n    tube, well = row['vial'], OTHER[row['at']]\n")
     assert "OTHER" not in origins(facts, ["tube"], (2,))
     assert {key for key, _, _ in facts.asked["tube"]} == {"vial"}
+
+
+def test_lines_may_be_all_that_there_can_be() -> None:
+    facts = read_source("wells = [plate[r] for r in ROWS]\nother = name")
+    assert origins(facts, ["r"], range(1 << 60)) == {"r", "ROWS"}
+    assert origins(facts, ["other"], range(1 << 60)) == {"other", "name"}

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from itertools import chain
 from typing import Any
 
 from .facts import Loop, SourceFacts, Values
@@ -76,12 +75,20 @@ def origins(
             continue
         found.add(name)
         called = facts.called_at.get(name, set())
-        calls |= called if called.isdisjoint(lines) else set()
+        calls |= called if not any(line in lines for line in called) else set()
         keys = set() if by_keys else facts.keyed_by.get(name, set())
         for other, first, last in facts.comes_from.get(name, ()):
-            if other not in keys and any(first <= line <= last for line in chain(lines, calls)):
+            around = _meets(lines, first, last) or _meets(calls, first, last)
+            if around and other not in keys:
                 open_.append(other)
     return found
+
+
+def _meets(lines: Collection[int], first: int, last: int) -> bool:
+    """Whether any of these lines is within a span; a range of them may be as long as can be."""
+    if isinstance(lines, range):
+        return lines.start <= last and first < lines.stop
+    return any(first <= line <= last for line in lines)
 
 
 def _spread_out(
