@@ -79,9 +79,9 @@ def infer_families(
         found = _found(family, texts, database.common)
         found += _seen(family, shapes, bool(found), roles_of)
         if family.known_by and found and not (_score(found) >= SURE and _defines(found)):
-            found += _named(
-                family, roles_of(family), sum(one.worth for one in found if one.worth > 0)
-            )
+            told = _shown(found) and any(one.defining for one in found)
+            named = _named_roles(roles_of(family), in_texts=told)
+            found += _named(family, named, sum(one.worth for one in found if one.worth > 0))
         found.sort(key=lambda one: -one.worth)
         scored.append((max(_score(found), 0.0), family, found))
     scored.sort(key=lambda item: -item[0])
@@ -225,9 +225,8 @@ def _seen(
             yield _Found(signal.weight * clear, said, LONE if defining else 0.0, defining, True)
 
 
-def _named(family: Family, roles: Roles, said_by_words: float) -> Iterable[_Found]:
+def _named(family: Family, named: set[str], said_by_words: float) -> Iterable[_Found]:
     """What the roles that wells are named for say of a family, beyond what their words said."""
-    named = _named_roles(roles)
     for signal in family.known_by:
         if all(named & set(either.split("|")) for either in signal.roles):
             titles = [family.roles[either.split("|")[0]].title for either in signal.roles]
@@ -236,10 +235,12 @@ def _named(family: Family, roles: Roles, said_by_words: float) -> Iterable[_Foun
             return
 
 
-def _named_roles(roles: Roles) -> set[str]:
-    """Roles for which wells are named, by more than a comment."""
+def _named_roles(roles: Roles, in_texts: bool = False) -> set[str]:
+    """Roles for which wells are named, by more than a comment unless ``in_texts``."""
     assigned = roles.by_well.values()
-    return {a.role for a in assigned if a.strength > Strength.COMMENT} | {a.named for a in assigned}
+    weakest = Strength.MODEL if in_texts else Strength.COMMENT
+    named = {a.role for a in assigned if a.strength > weakest}
+    return named | {a.named for a in assigned}
 
 
 def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> list[_Found]:

@@ -69,7 +69,6 @@ def assign_roles(
     }
     named_outright: set[str] = set()
     for_controls: set[WellRef] = set()
-    named_by_liquid: set[tuple[WellRef, str]] = set()
     outright_liquids: set[WellRef] = set()
     loaded = {ref for clue in clues if clue.strength is Strength.LIQUID for ref in clue.wells}
     untold: list[Clue] = []
@@ -93,20 +92,25 @@ def assign_roles(
             continue  # `bsa` holds "BSA strip + lysates"
         if clue.lone and clue.whole:
             named = what_all_are(named, roles)
-        if clue.whole and joins_others(lexicon, clue.text, common):
+        if clue.whole and clue.strength is Strength.COMMENT:
+            # "Slot 2: samples and NTC" says of no well which it is.
+            named = [role for role in named if not family.roles[role].parents]
+        sentence = clue.lone and clue.strength is Strength.COMMENT
+        if clue.whole and not sentence and joins_others(lexicon, clue.text, common):
             named = [role for role in named if not family.roles[role].implies_contents]
             if not named or len(clue.places) > 1:
                 continue  # "vials and lysates": which are the lysates?
         side_only = says_only_the_side(clue, common)
         worth = _worth(clue, side_only, clue.whole or says_only_a_place(clue, common))
         if clue.strength is Strength.LIQUID and not names_several(lexicon, clue, common, roles):
-            named_by_liquid.update((ref, role) for ref in clue.wells for role in named)
+            for ref in clue.wells:
+                roles.of_liquid.setdefault(ref, set()).update(named)
             if is_outright(lexicon, " ".join(name_without_level(clue.text, common))):
                 outright_liquids.update(clue.wells)
         elif (
             clue.strength is Strength.DESCRIPTION
             and is_outright(lexicon, clue.text)
-            and named_by_liquid.isdisjoint((ref, named[0]) for ref in clue.wells)
+            and not any(named[0] in roles.of_liquid.get(ref, ()) for ref in clue.wells)
             and outright_liquids.isdisjoint(clue.wells)
         ):
             # "steroid-free serum", described as "diluent"

@@ -13,9 +13,10 @@ from .levels import are_amounts
 _FEWEST = 3
 _ENTRY = re.compile(
     rf"(?P<name>[^\d=:]*)[=:]? ?(?P<number>\d+(?:[.,]\d+)?) ?(?P<unit>{UNITS})?"
-    r" ?(?:\([^()\d]*\))?[.,;]?",
+    r" ?(?:\([^()\d]*\))?(?:, ?\d+(?:\.\d+)? ?[mu]?l\b[^\d,;]{0,20})?[.,;]?",
     re.IGNORECASE,
 )
+"""A name, a number, perhaps its unit; the last entry may say the volume of each."""
 
 
 def with_bare_numbers(clues: Sequence[Clue], text: str) -> Iterator[Clue]:

@@ -17,7 +17,7 @@ from .phrases import first_words, words_of
 from .well_names import WellNames, well_names, wells_between
 
 _BREAKS = re.compile(
-    r"[;|]|(?<!\.[a-z]{3})\.\s+(?=[A-Z])|\.\s{2,}(?=\w)|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
+    r"[;|]|(?<!\.[a-z]{3})(?<!\.)\.\s+(?=[A-Z])|\.\s{2,}(?=\w)|(?:(?<=[)\]])|(?<=[a-z]{5}))\.\s+(?=[a-z])"
     r"|,(?=\s*(?:[a-zA-Z ]{0,20}\b[A-P]\d|\d+(?:st|nd|rd|th)\b|[A-Za-z]{3,}|[A-Za-z]{1,2}\.\s*\d))"
     r"|(?<=\S)\s{3,}(?=(?:[a-z]+\s+)?[A-P]\d{1,2}\b)"
 )
@@ -68,7 +68,9 @@ def parts_of(text: str, common: Common) -> Iterator[Part]:
             wells = _without_codes(piece, _innermost(names.spec.finditer(piece)), names)
             if wells and _is_left_out(piece[: wells[0].start()], common):
                 wells = ()  # "PBS everywhere except column 1" says nothing of column 1
-            yield Part(piece.strip(), names.spec.sub(" ", piece), wells)
+            # "column 4 with 10 nM and | column 5 with 1 nM"
+            words = names.spec.sub(" ", piece)
+            yield Part(piece.strip(), names.and_at_end.sub("", words) if wells else words, wells)
 
 
 def _without_numbers(match: re.Match[str]) -> str:
@@ -77,25 +79,6 @@ def _without_numbers(match: re.Match[str]) -> str:
     if not int(match["high"]) - int(match["low"]) + 1 == len(wells) > 1:
         return match[0]
     return f"{match['wells']} {match['numbers'].lower()}"
-
-
-def whole_lines(lines: Sequence[str], common: Common) -> Iterator[tuple[int, str]]:
-    """Lines by number; one that ends with "in" or the like goes on in the next.
-
-    Not where both begin with wells of their own: "1-2 untreated, nothing goes in".
-    """
-    leading = words_of((*common.joints, *common.toward))
-    spec = well_names(common).spec
-    begun, first = "", 0
-    for number, line in enumerate(lines):
-        first = first if begun else number
-        begun = f"{begun} {line.strip()}" if begun else line
-        goes_on = begun.rstrip().rpartition(" ")[2].lower() in leading and number + 1 < len(lines)
-        if goes_on and spec.match(begun.lstrip()):
-            goes_on = spec.match(lines[number + 1].lstrip()) is None
-        if not goes_on:
-            yield first, begun
-            begun = ""
 
 
 def with_what_follows(line: str, common: Common) -> tuple[list[Part], list[str]]:
@@ -195,6 +178,7 @@ def _clauses(text: str, names: WellNames, nouns: frozenset[str]) -> Iterator[str
         inner
         for inner in _BRACKETS.findall(text)
         if names.spec.search(inner) and not nouns.issuperset(tokens(names.spec.sub(" ", inner)))
+        if not _heads_its_row(inner, text, names)
     ]  # "buffer (reservoir A1)" is one
     for inner in apart:
         text = text.replace(f"({inner})", " ").replace(f"[{inner}]", " ")
@@ -219,11 +203,20 @@ def _clauses(text: str, names: WellNames, nouns: frozenset[str]) -> Iterator[str
             start = at[1]
 
 
+def _heads_its_row(inner: str, text: str, names: WellNames) -> bool:
+    """Whether a bracket says in which row the wells after it are: "(slot 2, row A): A1 ..."."""
+    row, after = names.spec.search(inner), text.partition(f"{inner}):")[2]
+    first = names.spec.match(after.lstrip())
+    return bool(row and row["row"] and first and (first["first"] or "")[:1] == row["row"])
+
+
 def _is_begun(clause: str, rest: str, names: WellNames) -> bool:
     """Whether wells that end a clause are the first of a list that goes on to the end."""
     groups = _groups(clause, names)
     if not groups or not tokens(clause[: groups[0][0]]) or tokens(clause[groups[-1][1] :]):
         return False
+    if names.further.match(rest):
+        return True  # "in the tubes A1, A2 and A3 of the rack"
     headed = len(groups) == 1 and clause[: groups[0][0]].rstrip().endswith(":")
     if headed and _is_told_at_the_end(rest, names):
         return True  # "Standards: A1-A4, B1-B4 = 0, 125, 250, ... ug/ml"
@@ -264,7 +257,7 @@ def _is_list(clause: str, names: WellNames, nouns: frozenset[str]) -> bool:
 def _groups(clause: str, names: WellNames) -> list[tuple[int, int]]:
     """Start and end of each list of wells in a clause: of "A1, B1 and C1"."""
     found: list[tuple[int, int]] = []
-    for match in _without_codes(clause, tuple(names.spec.finditer(clause)), names):
+    for match in _without_codes(clause, _innermost(names.spec.finditer(clause)), names):
         if found and names.between.fullmatch(clause, found[-1][1], match.start()):
             found[-1] = (found[-1][0], match.end())
         else:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence, Set
 from functools import cached_property
 
@@ -24,7 +25,11 @@ _OTHERS = 2
 
 
 class Deck:
-    """Finds wells by the labware's name, label or slot and by well names."""
+    """Finds wells by the labware's name, label or slot and by well names.
+
+    Attributes:
+        described: What texts call labware, with its key: the "dose plate" in slot 3.
+    """
 
     def __init__(self, trace: Trace, names: Sequence[NameBinding], facts: SourceFacts) -> None:
         self.trace = trace
@@ -49,6 +54,7 @@ class Deck:
         for info in self.plates():
             if info.label:
                 self.by_label.setdefault(info.label, set()).add(info.key)
+        self.described: list[tuple[str, str]] = []
         self.received = {
             (well.ref.labware, well.ref.name)
             for well in trace.wells.values()
@@ -150,14 +156,17 @@ class Deck:
 
     def are_left_out(self, labware: str, missing: Sequence[str], used: Sequence[str]) -> bool:
         """Whether a few of a range's wells may have been left out by mistake: one of three, or
-        less than half of them where the run fills these places of two more columns or rows.
+        less than half of them where the run fills these places of two more columns or rows, or so
+        few in each column or row of it.
         """
-        if not 0 < len(missing) <= min(LEFT_OUT, len(used) - 1):
+        if not missing:
             return False
         filled = {row_column(name) for key, name in self.received if key == labware}
         places = [row_column(name) for name in missing]
-        beside = max(len(_lines_filled_alike(filled, places, axis)) for axis in (0, 1))
-        return beside >= _OTHERS or len(missing) <= len(used) // 3
+        beside = [len(_lines_filled_alike(filled, places, axis)) for axis in (0, 1)]
+        if len(missing) > min(LEFT_OUT, len(used) - 1):
+            return any(beside[at] >= _OTHERS and _are_few(missing, used, at) for at in (0, 1))
+        return max(beside) >= _OTHERS or len(missing) <= len(used) // 3
 
     def are_whole_lines(self, wells: Collection[WellRef]) -> bool:
         """Whether these are all wells of some columns, or of some rows, of one labware."""
@@ -229,6 +238,14 @@ def _lines_filled_alike(
         for line in {at[axis] for at in filled} - own
         if all(_place(axis, line, place[1 - axis]) in filled for place in places)
     }
+
+
+def _are_few(missing: Collection[str], used: Collection[str], axis: int) -> bool:
+    """Whether each column (``axis`` 1) or row (0) lacks a few wells at most, one of four: a helper
+    that is called for two columns may leave out the same rows in both.
+    """
+    lacking, having = (Counter(row_column(name)[axis] for name in some) for some in (missing, used))
+    return all(count <= min(LEFT_OUT, having[at] // 3) for at, count in lacking.items())
 
 
 def _place(axis: int, along: int, across: int) -> tuple[int, int]:

@@ -10,7 +10,7 @@ from ..rules import Common, RoleSpec
 from ..trace import Trace
 from .called_alike import derive_called_alike
 from .diluted import derive_diluted
-from .filled import derive_filled
+from .filled import derive_filled, derive_holding
 from .in_place import Given, derive_common, derive_given_instead, derive_used_like, given_by
 from .one_to_one import derive_called_apart, derive_one_to_one
 from .roles import Roles
@@ -48,6 +48,8 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: C
             _pass_on(roles, name, trace, given)
         if spec.receives:
             derive_filled(roles, name, spec, trace, usage)
+        if spec.holds:
+            derive_holding(roles, name, spec)
         if spec.in_place_of:
             derive_given_instead(roles, name, spec, given)
     for name, spec in roles.family.roles.items():

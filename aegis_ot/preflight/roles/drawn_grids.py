@@ -23,6 +23,7 @@ _MOST_LINES = 18
 
 _NUMBER = re.compile(r"(?:c|col)?(\d{1,2})(?:\s*[-–]\s*(\d{1,2}))?")
 _LETTERS = re.compile(r"([A-P])(?:\s*[-–]\s*([A-P]))?:?")
+_AMOUNT = re.compile(r"\d+(?:[.,]\d+)?")
 _DOTS = re.compile(r"\.{2,}|…")
 
 
@@ -32,10 +33,12 @@ class Drawing(NamedTuple):
     Attributes:
         end: The line after its last one.
         wells_of: The wells of each code, in the order of the rows.
+        numbers: The wells of each number that stands in a cell alone.
     """
 
     end: int
     wells_of: dict[str, list[str]]
+    numbers: dict[str, list[str]]
 
 
 def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
@@ -55,6 +58,7 @@ def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
     heads = list(re.finditer(r"\S+", header))[: len(columns)]
     middles = [(head.start() + head.end()) / 2 for head in heads]
     wells_of: dict[str, list[str]] = {}
+    numbers_of: dict[str, list[str]] = {}
     end, last, codes, repeated = at + 1, 0, list[str](), False
     for written in lines[at + 1 : at + 1 + _MOST_LINES] if columns else ():
         plain = row_word.sub(_blanked, written)
@@ -76,11 +80,12 @@ def drawn_grid(lines: Sequence[str], at: int, names: WellNames) -> Drawing:
         stop = ord(letters[2] or letters[1]) - ord("A") + 1
         for row in range(last, stop):
             for numbers, code in zip(columns, codes if row < begin else filled, strict=True):
-                if re.search(r"[^\W\d_]", code):
+                codes_of = numbers_of if _AMOUNT.fullmatch(code) else wells_of
+                if codes_of is numbers_of or re.search(r"[^\W\d_]", code):
                     letter = chr(ord("A") + row)
-                    wells_of.setdefault(code, []).extend(f"{letter}{n}" for n in numbers)
+                    codes_of.setdefault(code, []).extend(f"{letter}{n}" for n in numbers)
         last, codes, repeated, end = stop, filled, False, end + 1
-    return Drawing(end if wells_of else at, wells_of)
+    return Drawing(end if wells_of else at, wells_of, numbers_of)
 
 
 def drawn_lines(lines: Sequence[str], names: WellNames) -> set[int]:

@@ -9,7 +9,6 @@ from itertools import pairwise
 
 from ..rules import Common
 from ..text import tokens
-from .headed_columns import under_columns
 from .in_turn import in_turn
 from .well_names import WellNames, well_names
 
@@ -17,7 +16,11 @@ _ENDS = re.compile(r"(\d+|[A-P])$")
 _FEWEST_NUMBERED = 3
 _TIMES = re.compile(r"(?:min|sec|hour|day|week|cycle|fold|time|rpm|deg|cells?\b)", re.IGNORECASE)
 """What follows a range of numbers that are no columns: "5-10 min"."""
-_COLUMN_NUMBERS = re.compile(r"(?m)^\W*1\W+2\b[\s\d|]*$")
+
+_POINTING = re.compile(
+    r"(?P<before>^\W*)(?P<first>[A-P]\d{1,2})\s*>\s*(?P<last>[A-P]\d{1,2})(?=\s{2,}[^\W\d_]{2,}|\s*:)"
+)
+"""Wells from one to another: "A1 > A5   standards"; what "A1 > A5 50 uL" says is a transfer."""
 
 
 def spelled_out(text: str, common: Common) -> str:
@@ -29,23 +32,12 @@ def spelled_out(text: str, common: Common) -> str:
     return _ellipses(well_names(common)).spelled_out(in_turn(text, common))
 
 
-def with_rows(text: str, common: Common) -> str:
-    """A text with "row" before each letter of its lists of rows, as under "Map (row: content)".
-
-    And with "columns" before the numbers of its lists of columns, one on a line.
-    """
-    names = well_names(common)
-    read, text = _ellipses(names), under_columns(text, names)
-    paragraphs = re.split(r"(\n\s*\n)", text)
-    return "".join(read.with_columns(read.with_rows(paragraph)) for paragraph in paragraphs)
-
-
 class Ellipses:
     """What may be left out of a layout, as patterns around well names."""
 
     def __init__(self, names: WellNames) -> None:
         self._names = names
-        self._plural = names.plural_columns
+        self._plural, self._plural_rows = names.plural_columns, names.plural_rows
         to, listing = names.to, names.conjunction
         column, row = rf"(?:{names.columns}|{names.column})", rf"(?:{names.rows}|{names.row})"
         goes_on = (
@@ -64,7 +56,6 @@ class Ellipses:
             rf"\b({column}|{row})\s*:\s*(?=(?:1|A)(?![\w.])\W*\w[^\n]*[,;|]|\d{{1,2}}\s*=\s*[^\W\d])"
         )
         self._bracketed = re.compile(rf"\((?P<of>(?P<low>\d{{1,2}})(?:{to}(?P<high>\d{{1,2}}))?)\)")
-        self._lettered = re.compile(r"(?m)(?:^\s*|(?<=\s\s))([A-P])(?=\s{1,4}[:=]?\s*\w)")
         self._every_other = re.compile(
             rf"\b(?:(?P<odd>{names.odd})|{names.even})\s+(?P<columns>{names.columns})"
             rf"(?:\.?\s*(?P<low>\d{{1,2}}){to}(?P<high>\d{{1,2}})|(?!\.?\s*(?:\d|(?:{names.of})\b)))"
@@ -73,14 +64,14 @@ class Ellipses:
         self._cell = re.compile(
             rf"\b{column}\.?\s*(?P<columns>\d{{1,2}})\s+(?P<row>[A-P])(?:{to}(?P<row2>[A-P]))?(?=\s*[=:](?!\w))"
         )
-        self._strip = re.compile(rf"\b({names.strips})\s+(?=\d{{1,2}}\b)")
-        self._row_word = re.compile(rf"\b{row}\b")
-        self._column_word = re.compile(rf"\b{column}\b")
-        self._all_columns = re.compile(rf"(?m)^\W*1{to}(?:\d{{1,2}})\W*$")
-        span_of_list = rf"\d{{1,2}}(?:{to}\d{{1,2}})?"
-        self._listed = re.compile(
-            rf"(?m)^(\s*)({span_of_list}(?:{listing}{span_of_list})*)(?=\s*:\s|\s{{2,}}(?:[^\W\d]|\d[\d.]*\s?[pnuµm]?[Mg]\b))"
+        # "row A to row H, columns 3-4": no "from column 1 to column 3", which may be a transfer
+        self._ends_named = re.compile(
+            rf"(?P<before>^\W*|[,;:(]\s*)(?:(?P<column>{column}\.?\s*(?=\d))|{row}\s+)"
+            rf"(?P<low>\d{{1,2}}|[A-P])(?P<to>{to})(?:{column}\.?\s*(?=\d)|{row}\s+(?=[A-P]\b))"
+            r"(?P<high>\d{1,2}|[A-P])(?!\w)"
         )
+        self._strip = re.compile(rf"\b({names.strips})\s+(?=\d{{1,2}}\b)")
+        span_of_list = rf"\d{{1,2}}(?:{to}\d{{1,2}})?"
         self._one_of_several = re.compile(
             rf"^(\W*){names.column}\.?(?=\s*{span_of_list}(?:{listing}{span_of_list})+"
             r"(?:\s{2,}[^\W\d]|\s*[:=]))"
@@ -95,7 +86,9 @@ class Ellipses:
         self._row_head = re.compile(rf"\b{names.row}\s*\(?[A-P]\b[^:\d]{{0,20}}:")
         # "columns 3-4 lysates, rows A-D harvest 1, rows E-H harvest 2"
         several = rf",(?=\s*{row}\s[^;:\n]*,\s*{row}\s)"
-        ended = rf"(?:[^:\d]{{0,20}}:|\s+[^:;,.\d]{{2,30}}{several})"
+        # "columns 1-2 standards, duplicate; row A = blank, rows B-H = 25, 50, ..."
+        listed = rf"\s+[^:;.\d]{{2,40}};(?=\s*{row}\s[^;:\n]*,\s*{row}\s)"
+        ended = rf"(?:[^:\d]{{0,20}}:|\s+[^:;,.\d]{{2,30}}{several}|{listed})"
         self._column_head = re.compile(rf"\b{column}\.?\s*{numbered}{ended}")
         self._of_column = re.compile(rf"[^:]{{0,40}}?\b{column}\.?\s*{numbered}{ended}")
         self._of_row = re.compile(rf"[^:]{{0,40}}?\b{names.row}\s*\(?([A-P])\b[^:\d]{{0,20}}:")
@@ -103,7 +96,8 @@ class Ellipses:
             rf"\b{row}\s+(?P<row>[A-P])(?:(?:{to}|[/&+])(?P<row2>[A-P]))?\b(?P<alone>(?=\s*(?:[,;.)]|$)))?"
         )
         self._columns = re.compile(rf"\b{column}\.?\s*(\d{{1,2}})(?:{to}(\d{{1,2}}))?\b")
-        letters = rf"(?P<row>[A-P])(?![A-Za-z0-9])(?:{to}(?P<row2>[A-P])(?![A-Za-z0-9]))?"
+        letter = r"[A-P](?![A-Za-z0-9])"
+        letters = rf"(?P<row>{letter}(?:(?:{to}|{listing}){letter})*)(?P<row2>)"
         span = rf"\d{{1,2}}(?:{to}\d{{1,2}})?"
         numbers = rf"(?P<columns>{span}(?:{listing}{span})*)"
         between = rf"(?:{listing}|\s*(?:[x×;]|(?:{names.of})\b)?\s*)(?:the\s+)?"
@@ -112,31 +106,10 @@ class Ellipses:
             re.compile(rf"\b{column}\.?\s*{numbers}{between}{row}\s+{letters}"),
         )
 
-    def with_rows(self, text: str) -> str:
-        """One paragraph, see :func:`with_rows`: "A  lot 1   B  lot 2" has two entries."""
-        letters = [match[1] for match in self._lettered.finditer(text)]
-        counting = [chr(ord("A") + at) for at in range(len(letters))]
-        if len(letters) < _FEWEST_NUMBERED or letters != counting:
-            return text
-        headed = self._row_word.search(text) or self._all_columns.search(text)
-        if not headed or self._names.spec.search(text):
-            return text
-        if _COLUMN_NUMBERS.search(text):
-            return text  # drawn as a plate, see :mod:`.prose_grids`
-        return self._lettered.sub(lambda m: f" {self._names.first_word_of['row']} {m[1]} ", text)
-
-    def with_columns(self, text: str) -> str:
-        """One paragraph: under "Column layout" a list of "3-6   doxorubicin"."""
-        said = any(map(self._names.spec.search, text.splitlines()))
-        if said or len(self._listed.findall(text)) < _FEWEST_NUMBERED:
-            return text
-        if not self._column_word.search(text):
-            return text
-        return self._listed.sub(lambda match: f"{match[1]}{self._plural} {match[2]}", text)
-
     def spelled_out(self, text: str) -> str:
         """See :func:`spelled_out`."""
         text = self._strip.sub(lambda match: f"{match[1]} {self._plural} ", text)
+        text = _POINTING.sub(_spanned, self._ends_named.sub(self._span_named, text))
         text = self._every_other.sub(self._others, text)
         if len(self._short.findall(text)) > 1:  # "c1 vehicle, c2-11 drug"
             text = self._short.sub(self._spelled, text)
@@ -208,6 +181,12 @@ class Ellipses:
         others = ",".join(str(at) for at in range(low, min(high, 24) + 1) if at % 2 == odd)
         return f"{match['columns']} {match['listed'] or others}"
 
+    def _span_named(self, match: re.Match[str]) -> str:
+        kind = self._plural if match["column"] else self._plural_rows
+        if match["low"].isdecimal() != match["high"].isdecimal():
+            return match[0]
+        return f"{match['before']}{kind} {match['low']}-{match['high']}"
+
     def _spelled(self, match: re.Match[str]) -> str:
         last = f"-{match[2]}" if match[2] else ""
         return f"{self._plural} {match[1]}{last}"
@@ -250,19 +229,40 @@ class Ellipses:
         if len(rows) == 1 and rows[0]["alone"] is not None and tokens(between) and one_thing:
             wells = self._names.crossed(rows[0]["row"], rows[0]["row2"] or "", numbers)
             return f"{wells}: {between.strip(' ,;')}{rest[rows[0].end() :]}"
-        kept = text[: head.end()] if tokens(between) and len(rows) > 1 else ""
+        named = tokens(between) or head.group().endswith(";")
+        kept = text[: head.end()] if named and len(rows) > 1 else ""
         return kept + self._rows.sub(
             lambda match: self._names.crossed(match["row"], match["row2"] or "", numbers), rest
         )
 
     def _met(self, match: re.Match[str]) -> str:
         """The wells where rows and columns meet, as a list: "row B, col 1-6" is B1-B6."""
-        return self._names.crossed(match["row"], match["row2"] or "", match["columns"])
+        if match["row2"]:
+            return self._names.crossed(match["row"], match["row2"], match["columns"])
+        runs: list[str] = []
+        for letter in self._names.numbers(match["row"]):
+            if runs and _follows(runs[-1][-1], letter):
+                runs[-1] += letter
+            else:
+                runs.append(letter)
+        crossed = (
+            self._names.crossed(run[0], run[-1] if len(run) > 1 else "", match["columns"])
+            for run in runs
+        )
+        return ", ".join(crossed)
 
 
 @functools.lru_cache(maxsize=8)
 def _ellipses(names: WellNames) -> Ellipses:
     return Ellipses(names)
+
+
+def _spanned(match: re.Match[str]) -> str:
+    """A range with a hyphen, if the wells stand in one row or column and lie apart."""
+    one, other = match["first"], match["last"]
+    in_row = one[0] == other[0] and int(other[1:]) - int(one[1:]) > 1
+    in_column = one[1:] == other[1:] and ord(other[0]) - ord(one[0]) > 1
+    return f"{match['before']}{one}-{other}" if in_row or in_column else match[0]
 
 
 def _counting_on(matches: Iterable[re.Match[str]]) -> list[re.Match[str]]:

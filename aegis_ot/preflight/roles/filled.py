@@ -1,4 +1,4 @@
-"""Roles that follow from what is put into a well: a reaction is what template goes into."""
+"""Roles that follow from what a well holds: a reaction is what template goes into."""
 
 from __future__ import annotations
 
@@ -34,6 +34,18 @@ def derive_filled(
                 if assigned.level is not None:
                     roles.told_levels.setdefault(well.ref, assigned.level)
             roles.derived.setdefault(well.ref, set()).update(roles.closure(name))
+
+
+def derive_holding(roles: Roles, name: str, spec: RoleSpec) -> None:
+    """Give the role ``name`` to wells of its parents that hold a liquid of ``spec.holds`` already.
+
+    Their loaded liquid is called so. Not where it stands elsewhere too, and is given to them.
+    """
+    if any(map(roles.known, spec.holds)):
+        return
+    for ref, named in roles.of_liquid.items():
+        if not named.isdisjoint(spec.holds) and roles.of(ref) == frozenset(spec.parents):
+            roles.derived.setdefault(ref, set()).update(roles.closure(name))
 
 
 def _receives(roles: Roles, well: Well, trace: Trace, stage: Stage, wanted: frozenset[str]) -> bool:

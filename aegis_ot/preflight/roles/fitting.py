@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
 from ..rules import Common
 from ..text import Lexicon, lexicon_of, listed_levels, tokens
 from .clues import Clue, Strength
-from .phrases import first_words, names_any, parts_joined, roles_named, unlike
+from .phrases import first_words, names_any, parts_joined, roles_named, unlike, words_of
 from .roles import Roles
 
 
@@ -28,15 +29,25 @@ def _ambiguous(fitting: Sequence[str], roles: Roles, clue: Clue, common: Common)
 
 
 def _made_of_a_reagent(
-    fitting: Sequence[str], roles: Roles, clue: Clue, common: Common
+    fitting: Sequence[str], roles: Roles, side: str, clue: Clue, common: Common
 ) -> str | None:
     """The NTC in "H3: water (NTC)": what the well is, beside the reagent that it is made of."""
     specs = roles.family.roles
     passed_on = [role for role in fitting if specs[role].passed_on]
-    if clue.subject or clue.step or len(passed_on) != 1 or _joins(clue, common):
+    # One well is one thing, "H12 is left for the NTC and is filled with water", but a tube may be
+    # drawn from for several: "water and NTC".
+    one = len(clue.places) == 1 and (side != "source" or _goes_on(clue, common))
+    several = not one and _joins(clue, common)
+    if clue.subject or clue.step or len(passed_on) != 1 or several:
         return None
     reagents = all(specs[role].one_liquid for role in fitting if role not in passed_on)
     return passed_on[0] if reagents else None
+
+
+def _goes_on(clue: Clue, common: Common) -> bool:
+    """Whether a clause about the same thing follows a word that joins: "... and is filled"."""
+    words, joining, verbs = tokens(clue.text), first_words(common.joining), words_of(common.means)
+    return any(one in joining and other in verbs for one, other in pairwise(words))
 
 
 _A_PLATE = 6
@@ -83,7 +94,7 @@ def fitting_role(
     of_wells = not clue.whole or _is_dried(clue, common)
     if not fitting and passes_on and of_wells and clue.strength is not Strength.COMMENT:
         fitting = [role for role in named if specs[role].side == "source"]
-    if made_of := _made_of_a_reagent(fitting, roles, clue, common):
+    if made_of := _made_of_a_reagent(fitting, roles, side, clue, common):
         return made_of
     if blank := _said_beside_brackets(fitting, roles, clue):
         return blank

@@ -11,6 +11,7 @@ from ..text import SourceFacts
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .deck import Deck
+from .described_labware import described_labware
 from .fields import named_fields
 from .grids import drawn_maps
 from .helpers import helper_names
@@ -54,6 +55,7 @@ def gather(
         common: Words for amounts.
     """
     deck = Deck(trace, names, facts)
+    described = list(described_labware(deck, facts, common))
     tables = read_tables(facts)
     clues = [
         *_given(deck, given, common),
@@ -62,6 +64,7 @@ def gather(
         *named_fields(names, facts),
         *item_notes(deck, names, facts, common),
         *labels(deck, common),
+        *described,
         *indexing_names(deck, facts, common),
         *plate_maps(deck, facts, common, transfer_lists(deck, facts, tables)),
         *amounts_beside(deck, names, facts, common),

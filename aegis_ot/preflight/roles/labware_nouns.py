@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from ..rules import Common
 from ..text import lexicon_of, tokens
 from .clauses import Part
 from .deck import Deck
+from .in_slots import InSlots, Standing, in_slots
 from .phrases import words_of
 
 _HEADING = re.compile(r"\W*([^\W\d]\w*(?:[ -][^\W\d]\w*){0,3}[ -]?)\s*(?:,[^\d,:]{2,30})?:")
@@ -22,12 +23,11 @@ IN_BRACKETS = re.compile(r"\([^()]*\)")
 _NEXT_HEADING = re.compile(r"(?<=[.;])\s+(?=[^\W\d]\w*(?:[ -]\w+){0,3}(?: \([^()]*\))?\s?:)")
 """Where a line may go on with what other labware holds."""
 
-_SLOT = re.compile(r"(?i:\bslot\s+)([A-Da-d][1-4]|1[01]|[1-9])\b")
-
-_IN_SLOT = re.compile(rf"[^\W\d][^():,.]*\({_SLOT.pattern}\)(?=\s*(?:[,:;]|$))")
-
-_LISTED_SLOT = re.compile(r"\W*([A-D][1-4]|1[01]|[1-9])\s+((?:[^\W\d]\w*\W+){1,3})")
+_LISTED_SLOT = re.compile(r"\W*S?([A-D][1-4]|1[01]|[1-9])(\s*[:=])?\s+((?:[^\W\d]\w*\W+){1,3})")
 """How a line of a list of the deck begins: "C2  tube rack"."""
+
+_NUMBER = re.compile(r"^\W*(?:[^\W\d]+\s+)?(?:\d{1,2}(?:\.\d{1,2})*|[A-Z])[.)]?\s+")
+"""What numbers a heading: "Part A. Deck"."""
 
 _SHORT_HEADING = 3
 """So few words may leave out a part of a label: the "intermediate plate" is the compounds'."""
@@ -39,6 +39,9 @@ _WORD = re.compile(r"\w+")
 
 _NEAR = 5
 """A noun so many words after a well still says where that is."""
+
+
+_NONE: frozenset[str] = frozenset()
 
 
 class LabwareNouns:
@@ -55,61 +58,89 @@ class LabwareNouns:
         self._strips = words_of(common.labware.get("strip", ()))
         self._decks = lexicon_of({"deck": common.decks})
         self._slots = {info.slot for info in deck.trace.labware.values()}
+        self._in_slots = in_slots({info.slot.upper() for info in deck.plates()}, common)
         self._of = words_of(common.layout.get("of", ()))
         self._origins = words_of(common.origins)
         self._articles = words_of(common.articles)
         self._joints = words_of((*common.joints, *common.belonging))
         self._leading = self._articles | self._joints | words_of(common.toward)
+        called = [(info.label, info.key) for info in deck.plates() if info.label]
         self._labels = [
-            (f" {' '.join(tokens(info.label))} ", info.key) for info in deck.plates() if info.label
+            (f" {' '.join(tokens(label))} ", key) for label, key in (*called, *deck.described)
         ]
 
     def named(self, text: str) -> frozenset[str]:
         """The one labware that a text calls by its label or by the telling name of a variable."""
-        slots = {slot.lower() for slot in _SLOT.findall(text)} or self._listed_slot(text)
+        slots = self._in_slots.slots_in(text) or self._listed_slot(text)
         if len(slots) == 1:
-            return frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
+            return self._standing_in(slots)
         words = tokens(text)
         found = {key for label, key in self._labels if self._is_called(tuple(label.split()), words)}
         found = found or self._shortened(text)
         if not found:
             for name, keys in self._deck.by_name.items():
-                telling = set(tokens(name)) - self._dull
+                telling = len(name) > 1 and set(tokens(name)) - self._dull  # not in "A1"
                 if len(keys) == 1 and telling and self._is_called(tokens(name), words):
                     found |= keys
         return frozenset(found) if len(found) == 1 else frozenset()
 
     def _shortened(self, text: str) -> set[str]:
         """The labware whose labels say all that a short heading says, and more."""
-        words = tokens(IN_BRACKETS.sub(" ", text))
+        words = [word for word in tokens(IN_BRACKETS.sub(" ", text)) if not word.isdecimal()]
         if not 1 < len(words) <= _SHORT_HEADING or words[-1] not in self._nouns:
             return set()
-        return {key for label, key in self._labels if set(words) <= set(label.split())}
+        return {
+            key
+            for label, key in self._labels
+            if all(
+                {word, word.removesuffix("s")} & _with_singulars(label.split()) for word in words
+            )
+        }
 
     def is_deck_heading(self, line: str) -> bool:
         """Whether a line is no more than the heading of the deck's list: "Deck layout:"."""
-        words = tokens(line)
-        return any(found.end - found.start == len(words) for found in self._decks.find(line))
+        said = _NUMBER.sub("", line)
+        return any(m.end - m.start == len(tokens(said)) for m in self._decks.find(said))
 
     def begun_by(self, line: str, in_deck: bool) -> frozenset[str]:
         """The one labware that a line of the deck's list speaks of: "slot 3   tube rack, ...", or
         "Tube rack (slot 3), 10x solutions"; "C2  cells" only below such a list's heading.
         """
-        plain = line.strip(" \t#*-")
-        first = _SLOT.match(plain) or _IN_SLOT.match(plain)
-        if first and len(_SLOT.findall(plain)) > 1:
+        slots = self._in_slots.slots_in(line)
+        if len(slots) > 1:
             return frozenset()  # prose, which speaks of both
-        slots = {first[1].lower()} if first else self._listed_slot(line, in_deck)
-        found = frozenset(i.key for i in self._deck.plates() if i.slot.lower() in slots)
-        return found if len(found) == 1 else frozenset()
+        begins = self._in_slots.begins(line) or self.standing(line, in_deck) is not None
+        found = self._standing_in(slots or self._listed_slot(line, in_deck)) if begins else _NONE
+        return found if len(found) == 1 else _NONE
+
+    def standing(self, line: str, in_deck: bool) -> Standing | None:
+        """What a line says to stand in a slot; "C2  cells" only below the heading of a list."""
+        if told := self._in_slots.standing(line):
+            return told
+        match = _LISTED_SLOT.match(f"{line} ")
+        slots = self._listed_slot(line, in_deck)
+        return Standing(slots.pop(), match[3].strip(" ,;:(")) if match and slots else None
+
+    @property
+    def slots(self) -> InSlots:
+        """How texts name the slots."""
+        return self._in_slots
+
+    def in_slot(self, *slots: str) -> str | None:
+        """The key of the one labware that stands in the one slot, if no other took its place."""
+        keys = self._standing_in(slots) if len(slots) == 1 else _NONE
+        return next(iter(keys)) if len(keys) == 1 else None
+
+    def _standing_in(self, slots: Collection[str]) -> frozenset[str]:
+        return frozenset(i.key for i in self._deck.plates() if i.slot.upper() in slots)
 
     def _listed_slot(self, text: str, in_deck: bool = False) -> set[str]:
         """The slot at the begin of a line of the deck's list: "C2  tube rack", no well's "tube"."""
         match = _LISTED_SLOT.match(f"{text} ")
-        if match is None or match[1] not in self._slots:
+        if match is None or match[1] not in self._slots or self.is_deck_heading(text):
             return set()
-        of_labware = in_deck or not self._racks.isdisjoint(tokens(match[2]))
-        return {match[1].lower()} if of_labware else set()
+        named = not match[2] and not self._racks.isdisjoint(tokens(match[3]))
+        return {match[1]} if in_deck or named else set()
 
     def _is_called(self, name: tuple[str, ...], words: tuple[str, ...]) -> bool:
         """Whether a text names a labware that is called so.
@@ -261,8 +292,8 @@ class LabwareNouns:
         return frozenset(keys) if len(keys) == 1 else frozenset()
 
 
-def _with_singulars(words: tuple[str, ...]) -> set[str]:
-    return {*words, *(word.removesuffix("s") for word in words)}
+def _with_singulars(words: Iterable[str]) -> set[str]:
+    return {form for word in words for form in (word, word.removesuffix("s"))}
 
 
 def _singular(words: tuple[str, ...]) -> tuple[str, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
 from typing import NamedTuple
 
@@ -12,11 +13,12 @@ from ..rules import Common
 from ..text import SourceFacts, comment_blocks, level_in
 from .clues import Clue, Strength, shortened
 from .deck import Deck
+from .drawn_amounts import drawn_amounts
 from .drawn_grids import drawn_grid
 from .labware_nouns import LabwareNouns
 from .levels import as_one_of_amounts, far_apart, names_amounts, number_in
 from .map_labware import refs_of
-from .well_names import WellNames, well_names
+from .well_names import well_names
 
 _FEWEST = 3
 """So many wells side by side are a table."""
@@ -37,19 +39,24 @@ def maps_in_prose(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Cl
     for line, text in (*facts.docstrings, *comment_blocks(facts, indented=True)):
         lines = text.splitlines()
         for at in range(len(lines)):
-            yield from _grid(deck, nouns, well_names(common), lines, at, line + at)
+            yield from _grid(deck, nouns, common, lines, at, line + at)
         for table in _tables(lines):
             yield from _of_table(deck, nouns, common, table, line)
 
 
 def _grid(
-    deck: Deck, nouns: LabwareNouns, names: WellNames, lines: Sequence[str], at: int, line: int
+    deck: Deck, nouns: LabwareNouns, common: Common, lines: Sequence[str], at: int, line: int
 ) -> Iterator[Clue]:
-    wells_of = drawn_grid(lines, at, names).wells_of
+    drawing = drawn_grid(lines, at, well_names(common))
+    wells_of = drawing.wells_of
     heading = _above(lines, at)
     plates = {info.key for info in deck.plates() if not info.is_tip_rack}
     named = (nouns.named(heading) & plates) or nouns.kind_in(heading)
-    key = _labware(deck, named, [well for wells in wells_of.values() for well in wells])
+    drawn = (*wells_of.values(), *drawing.numbers.values())
+    key = _labware(deck, named, [well for wells in drawn for well in wells]) if drawn else ""
+    where = f"the map '{shortened(heading)}' at line {line}"
+    for clue in drawn_amounts(deck, key, drawing, (heading, lines), common):
+        yield replace(clue, line=line, said=f"number in {where}, '{clue.text}'")
     for code, wells in wells_of.items():
         found = tuple(refs_of(deck, (key,), wells))
         yield Clue(
@@ -57,7 +64,7 @@ def _grid(
             code,
             found,
             line,
-            f"`{code}` in the map '{shortened(heading)}' at line {line}",
+            f"`{code}` in {where}",
         )
 
 

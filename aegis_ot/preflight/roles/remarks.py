@@ -20,19 +20,19 @@ from ..text import (
 )
 from ..trace import row_column
 from .bare_numbers import with_bare_numbers
-from .clauses import Part, axis_of, numbers_things, whole_lines, with_what_follows
+from .clauses import Part, axis_of, numbers_things, with_what_follows
 from .clues import Clue, Strength, shortened
 from .deck import Deck
-from .drawn_grids import drawn_lines
-from .ellipses import with_rows
 from .in_turn import items_after
 from .labware_nouns import LabwareNouns
 from .levels import names_zero
 from .map_labware import used_with
+from .plain_lines import plain_lines
 from .replicates import called_alike, said_to_be_twins
 from .shared_words import Amount, unit_in_brackets, with_shared_words, with_unit
 from .side_by_side import side_by_side
 from .spoken import laid_out_in_the_run
+from .told_tables import told_tables
 from .topics import Topic
 from .usage import in_trough
 from .well_names import well_names
@@ -55,9 +55,13 @@ def written_wells(
         note: nouns.of_name(name) or _indexed_by(deck, facts, name)
         for name, note in facts.notes.items()
     }
-    apart = (block for line, text in texts for block in side_by_side(line, text, common))
+    alone = {info.slot: next(iter(info.wells)) for info in deck.plates() if len(info.wells) == 1}
+    plain = (block for line, text in texts for block in told_tables(line, text, common, alone))
+    apart = (block for line, text in plain for block in side_by_side(line, text, common))
     for line, text in apart:
-        yield from with_bare_numbers([*_of_text(deck, nouns, noted, line, text, common)], text)
+        layout = not facts.indents.get(line)  # comments within the run are on its steps
+        clues = _of_text(deck, nouns, noted, line, text, layout, common)
+        yield from with_bare_numbers([*clues], text)
 
 
 def _indexed_by(deck: Deck, facts: SourceFacts, name: str) -> frozenset[str]:
@@ -72,17 +76,14 @@ def _of_text(
     noted: Mapping[str, frozenset[str]],
     line: int,
     text: str,
+    layout: bool,
     common: Common,
 ) -> Iterator[Clue]:
     """What one comment or docstring says, which begins at a line."""
     topic = Topic(nouns, common)
     amount: Amount | None = None
     unit, twins = "", said_to_be_twins(text, common)
-    lines = whole_lines(with_rows(text, common).splitlines() or [text], common)
-    drawn = drawn_lines(text.splitlines(), well_names(common))
-    for number, written in nouns.cut_at_headings(lines):
-        if number in drawn:
-            continue  # "E1" may be a code there
+    for number, written in plain_lines(text, deck, nouns, common, layout):
         parts, more = with_what_follows(topic.entries(written), common)
         topic.next_line(written, parts)
         parts = [nouns.without_place(topic.without_heading(part)) for part in parts]
@@ -102,11 +103,15 @@ def _of_text(
             others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
             meant = _Meant(keys - others, bool(firm) or topic.places(keys), others, twins)
             said = f"{part.text}, {more[at]}"
-            for clue in _spoken(deck, part, said, line + number, meant, common):
+            clues = list(_spoken(deck, part, said, line + number, meant, common))
+            placed = topic.places(keys)
+            if _goes_there(part, common):
+                topic.next_part(frozenset(ref.labware for clue in clues for ref in clue.wells))
+            for clue in clues:
                 levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
                 if topic.heading and keys.isdisjoint(topic.heading):
                     levels = ()  # named by what its wells hold, perhaps
-                clue = replace(clue, placed=topic.places(keys), levels=levels)
+                clue = replace(clue, placed=placed, levels=levels)
                 yield from _one_by_one(part, said, clue, common) or [clue]
 
 

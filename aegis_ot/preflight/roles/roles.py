@@ -50,6 +50,7 @@ class Roles:
         derived: Roles that follow from what a well gives and receives.
         told_levels: Levels that are said of a well apart from what it holds.
         derived_levels: Levels that follow from the wells that a source goes into.
+        of_liquid: Roles that the name of a well's loaded liquid would mean in a source, too.
         unnamed: Wells with a loaded liquid whose name is none of the family's words.
         untold: Clues that name no role which fits their wells.
         denied: For a role, the wells whose names or liquids speak against it.
@@ -63,6 +64,7 @@ class Roles:
     derived: dict[WellRef, set[str]] = field(default_factory=dict)
     told_levels: dict[WellRef, float] = field(default_factory=dict)
     derived_levels: dict[WellRef, float] = field(default_factory=dict)
+    of_liquid: dict[WellRef, set[str]] = field(default_factory=dict)
     unnamed: set[WellRef] = field(default_factory=set)
     apart: set[WellRef] = field(default_factory=set)
     untold: list[Clue] = field(default_factory=list)

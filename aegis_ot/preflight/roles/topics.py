@@ -43,14 +43,20 @@ class Topic:
         begun, colon, _ = written.partition(":")
         short = bool(colon) and len(tokens(IN_BRACKETS.sub(" ", begun))) <= _LONGEST_HEADING
         named = nouns.named(begun) if short else _NONE
-        self._headed = nouns.heading(written) or named
+        self._headed = nouns.heading(written)
+        if named and len(self._headed) != 1:
+            self._headed = named  # "kit rack: ..." is not any rack
         # "cDNA plate, columns 1-5 samples": it begins with its labware.
-        opening = written.partition(",")[0]
+        opening = written[: IN_BRACKETS.sub(_as_long, f"{written},").index(",")]
         opens = bool(parts) and parts[0].text not in opening
         self._begins = nouns.named(opening) if opens else _NONE
         self.in_deck = nouns.is_deck_heading(written) or (self.in_deck and bool(written.strip()))
         listed = nouns.begun_by(written, self.in_deck)
-        self._begun = begun.strip() if self._headed or (colon and listed) else ""
+        # "Curve (slot 2, row A): A1 ..." still says what its wells hold.
+        plain = IN_BRACKETS.sub(" ", begun)
+        called = self._headed and (nouns.named(plain) or nouns.beginning(plain))
+        of_labware = called or nouns.ends_in_noun(plain) or (colon and listed)
+        self._begun = begun.strip() if (self._headed or listed) and of_labware else ""
         self._of_line = nouns.named(written.partition("->")[0]) or self._headed or self._hanging[1]
         self._in_line = _NONE
         if named:
@@ -59,11 +65,18 @@ class Topic:
             self.heading, self._last = listed, _NONE
         elif self._of_line and _heads(written, self._common):
             self.heading = self._of_line
+        elif self._begins and self.heading and self._begins != self.heading:
+            self.heading = self._begins
         elif not written.strip() and not self._heads_next:
             self.heading = self._last = _NONE
         anew = bool(parts) and (_is_headed(parts[0], begun) or nouns.ends_in_noun(begun))
         if colon and not self._of_line and anew:
             self.heading = self._last = _NONE  # "cells: column 1 ..." goes on with something else
+        others = _NONE if self._of_line else nouns.of_kinds_in(_before_wells(written, parts))
+        if others and others.isdisjoint(self.heading or self._last):
+            self.heading = self._last = _NONE  # "both plates" are none of the rack before
+        elif self._of_line and written.rstrip().endswith("."):
+            self._last = self._of_line  # and the next sentence, if it names none
         # An empty line may set a heading apart from what it heads.
         self._heads_next = bool(self.heading) and written.rstrip().endswith(":")
 
@@ -130,11 +143,21 @@ class Topic:
         return headed or (bool(keys) and keys == self.heading)
 
 
+def _as_long(match: re.Match[str]) -> str:
+    """As many signs that are no commas."""
+    return "_" * len(match[0])
+
+
 def _here(part: Part) -> str:
     """A part without where an arrow leads after it: "H1 water -> every H well of the plate"."""
     here, arrow, _ = part.text.partition("->")
     start = part.wells[-1].group()
     return here if arrow and start in here and tokens(here.rpartition(start)[2]) else part.text
+
+
+def _before_wells(written: str, parts: Sequence[Part]) -> str:
+    """What a line says before it names wells."""
+    return written.partition(parts[0].wells[0].group())[0] if parts else ""
 
 
 def _is_headed(part: Part, begun: str) -> bool:
@@ -150,6 +173,6 @@ def _heads(line: str, common: Common) -> bool:
     """Whether a line says which labware the next ones speak of: "rack in slot 5"."""
     if line.rstrip().endswith(":"):
         return True
-    return len(tokens(line)) <= _LONGEST_HEADING and not any(
+    return len(tokens(IN_BRACKETS.sub(" ", line))) <= _LONGEST_HEADING and not any(
         p.wells for p in parts_of(line, common)
     )

@@ -22,6 +22,10 @@ _FEWEST = 3
 """So many numbers in order are a legend; fewer may be amounts."""
 
 
+_EQUATION = re.compile(r"(?:^|[,;/|])\s*(\d{1,2})\s*=\s*([^\W\d][^,;|=]{1,60})(?=[,;/|]|$)")
+"""An entry of "12 channels: 1 = dye, 13 mL, 2 = buffer"."""
+
+
 def trough_legends(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[Clue]:
     """What a comment or docstring that speaks of a reservoir says of its troughs in turn.
 
@@ -64,8 +68,11 @@ def _told_alone(
         rf"([^.,;:\n|]{{2,60}}?) (?:in|en|im|dans|nel) (?:the )?(?:{word}) ?(\d{{1,2}})(?![\w-])"
     )
     after = rf"(?:{word}) ?(\d{{1,2}})(?: ?(?:[:=]|->|→) ?|\s{{2,}})([^\W\d][^.,;:\n|]{{1,60}})"
+    headed = rf"(?i:{word})[^\W\d_]{{0,2}}: ?(\d{{1,2}} ?= ?[^\n]+)"
     found = [(match[2], match[1]) for match in re.finditer(before, text, re.IGNORECASE)]
     found += [(match[1], match[2]) for match in re.finditer(after, text, re.IGNORECASE)]
+    found += [entry for listed in re.findall(headed, text) for entry in _EQUATION.findall(listed)]
+    found += [entry for entry in _line_by_line(text, word) if entry[0] not in dict(found)]
     names = list(trough.wells)
     for number, said in found:
         short = len(tokens(IN_BRACKETS.sub(" ", said))) <= _LONGEST_NAME
@@ -73,6 +80,15 @@ def _told_alone(
             ref = deck.ref(trough.key, names[int(number) - 1])
             told = f"'{shortened(said)}' in trough {number}, by the text at line {line}"
             yield Clue(Strength.COMMENT, said, (ref,), line, told, subject=False)
+
+
+def _line_by_line(text: str, word: str) -> list[tuple[str, str]]:
+    """Lines that begin with troughs in rising order, gaps among them: "channel 12 dye, 14 mL"."""
+    entry = re.compile(rf"\W*(?:{word}) ?(\d{{1,2}})(?!\w)[ :=.]*([^\W\d][^.,;:\n|]{{1,60}})", re.I)
+    lines = [match for written in text.splitlines() if (match := entry.match(written))]
+    numbers = [int(match[1]) for match in lines]
+    rising = all(one < other for one, other in pairwise(numbers))
+    return [(match[1], match[2]) for match in lines] if rising and len(lines) > 1 else []
 
 
 def _blocks(facts: SourceFacts) -> Iterator[tuple[int, str]]:

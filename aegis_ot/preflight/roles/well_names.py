@@ -22,11 +22,16 @@ class WellNames:
         column, columns, row, rows: What people call one or several, in any case.
         to, conjunction: What stands between the ends of a range, and between members of a list.
         between: What may stand between two wells of one list.
+        places: Wells and ranges of them, one behind the other.
+        and_at_end: What joins a clause to the next one.
+        further: What ends a list of wells: "A2, A3 and A4".
         of: What joins rows to columns: "columns 1-6 of row H".
         strips: What people call strips of tubes, of which each is a column.
         odd, even: What people call every other column: "odd columns".
+        slot, position: What people call the places of the deck; "slot C2" is none of a plate, a
+            "position" may be one of a rack.
         first_word_of: For ``column`` and ``row`` the word that is put where one is left out.
-        plural_columns: The same for several columns.
+        plural_columns, plural_rows: The same for several columns, or rows.
         spec: A well, a range of them, or columns and rows; only a plural lists several:
             "columns 1 and 2".
     """
@@ -40,18 +45,28 @@ class WellNames:
         self.of = _any(layout.get("of", ()))
         self.strips = f"(?i:(?:{_any(layout.get('strip', ()))})s?)"
         self.odd, self.even = (f"(?i:{_any(layout.get(kind, ()))})" for kind in ("odd", "even"))
+        slots = layout.get("slot", ())
+        self.position = rf"(?i:\b(?:{_any(layout.get('position', ()))})\b\.?)"
+        self.slot = rf"(?i:\b(?:{_any(slots)}))"
+        in_plate = "".join(rf"(?<!\b(?i:{re.escape(word)}) )" for word in slots)
         self.first_word_of = {kind: (*layout.get(kind, ()), kind)[0] for kind in ("column", "row")}
         self.plural_columns = (*layout.get("columns", ()), "columns")[0]
+        self.plural_rows = (*layout.get("rows", ()), "rows")[0]
         numbers = rf"(?:1\d|2[0-4]|[1-9])(?!\d)(?:{self.to}\d{{1,2}}(?!\d))?"
         letters = rf"[A-P](?![A-Za-z0-9])(?:{self.to}[A-P](?![A-Za-z0-9]))?"
         self.spec = re.compile(
-            rf"\b(?:(?P<first>{_WELL})(?:(?:{self.to}|\s*:\s*)(?P<last>{_WELL}))?"
+            rf"\b(?:{in_plate}(?P<first>{_WELL})(?:(?:{self.to}|\s*:\s*)(?P<last>{_WELL}))?"
             rf"|{self.columns}\.?\s*(?P<columns>{numbers}(?:{self.conjunction}{numbers})*)"
             rf"|{self.column}\.?\s*(?P<column>{numbers}(?:[/&+]{numbers})*)"
             rf"|{self.rows}\s+(?P<rows>{letters}(?:{self.conjunction}{letters})*)"
             rf"|{self.row}\s+(?P<row>{letters}(?:[/&+]{letters})*))\b"
         )
         self.between = re.compile(rf"[\s,/&+]*(?:\b(?:{_any(layout.get('and', ()))})\b[\s,]*)?")
+        and_ = rf"\b(?:{_any(layout.get('and', ()))})\b"
+        self.and_at_end = re.compile(rf"\s+{and_}\s*$")
+        self.further = re.compile(rf"\s*{_WELL}(?:\s*,\s*{_WELL})*\s*,?\s+{and_}\s+{_WELL}\b")
+        spots = rf"{_WELL}(?:{self.to}{_WELL})?"
+        self.places = re.compile(rf"{spots}(?:{self.conjunction}{spots})*(?!\w)")
         self._conjunction = re.compile(self.conjunction)
         self._range = re.compile(rf"(\d+|[A-P])(?:{self.to}(\d+|[A-P]))?")
 

@@ -113,6 +113,8 @@ class RoleSpec:
         receives: Derived: a destination that is given liquid of one of these roles.
         receives_with: For ``receives``: where wells get a liquid of these roles as well, straight
             from where it stands, it is they that are meant, and not what they are given on to.
+        holds: Derived, where no well is a source of these roles: wells with one of its ``parents``
+            and no other role whose loaded liquid is called so.
         dosed: Derived: a well on its side of which a concentration is said and no role, beside
             others; a source that goes into wells of one level only, in ``feeds``, has that level.
         undosed: Derived: what a well of this role, or of one above it, is whose level is 0, where
@@ -151,6 +153,7 @@ class RoleSpec:
     level: float | None = None
     receives: tuple[str, ...] = role_names()
     receives_with: tuple[str, ...] = role_names()
+    holds: tuple[str, ...] = role_names()
     dosed: bool = False
     undosed: tuple[str, ...] = role_names()
     called_alike_beside: tuple[str, ...] = role_names()

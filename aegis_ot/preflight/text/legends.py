@@ -25,9 +25,11 @@ _ENTRY = re.compile(
     re.MULTILINE,
 )
 _COLUMN = re.compile(
-    rf"^\s*(?P<code>{_CODE})\s{{2,}}(?P<said>\S(?:[^\s=:|]| (?! )){{1,60}})$", re.MULTILINE
+    rf"^\s*(?P<code>{_CODE})(?:\s*(?:\.\.+|…|-|–|to)\s*(?P<last>{_CODE}))?\s{{2,}}"
+    r"(?P<said>\S(?:[^\s=:|]| (?! )){1,60})$",
+    re.MULTILINE,
 )
-"""Codes in a column of their own, what they stand for in the next."""
+"""Codes in a column of their own, what they stand for in the next: "S1 .. S4   extracts"."""
 _SPACED = re.compile(r"(?P<codes>[A-Z]{1,2}(?:/[A-Z]{1,2})*)\s+(?P<said>\S.{1,60})")
 """Codes beside each other in one line: "U untreated   V DMSO   L/M/H 0.1, 1, 10 uM"."""
 _LETTERS = " %/" + string.ascii_letters + "µμ"
@@ -36,16 +38,21 @@ _FEWEST = 2
 _LONGEST_CODE = 4
 
 
-def legend_of(facts: SourceFacts) -> dict[str, str]:
-    """What each code stands for; codes that are explained in two ways are left out."""
+def legend_of(facts: SourceFacts, fewest: int = _FEWEST) -> dict[str, str]:
+    """What each code stands for; codes that are explained in two ways are left out.
+
+    Args:
+        facts: What the text says.
+        fewest: So many codes beside each other are a legend.
+    """
     found: dict[str, set[str]] = {}
-    for codes in (*_written(facts), *_in_dicts(facts.constants)):
+    for codes in (*_written(facts, fewest), *_in_dicts(facts.constants)):
         for code, said in codes.items():
             found.setdefault(code, set()).add(said)
     return {code: next(iter(said)) for code, said in found.items() if len(said) == 1}
 
 
-def _written(facts: SourceFacts) -> Iterable[dict[str, str]]:
+def _written(facts: SourceFacts, fewest: int) -> Iterable[dict[str, str]]:
     texts = [text for _, text in facts.docstrings]
     texts += [text for _, text in comment_blocks(facts)]
     for text in texts:
@@ -54,11 +61,12 @@ def _written(facts: SourceFacts) -> Iterable[dict[str, str]]:
             for code in _run_of(match["code"], match["last"]):
                 codes.setdefault(code, match["said"].strip())
         for match in _COLUMN.finditer(text):
-            codes.setdefault(match["code"], match["said"].strip())
+            for code in _run_of(match["code"], match["last"]) if match["last"] else [match["code"]]:
+                codes.setdefault(code, match["said"].strip())
         for line in text.splitlines():
             for code, said in _side_by_side(line):
                 codes.setdefault(code, said)
-        if len(codes) >= _FEWEST:
+        if len(codes) >= fewest:
             yield codes
 
 

@@ -11,6 +11,7 @@ from .comments import read_blocks, read_comments, read_item_notes
 from .facts import SourceFacts
 from .flow import read_flow
 from .functions import read_functions
+from .leaders import read_leaders
 from .numbered import read_numbered
 from .records import read_records
 from .syntax import SyntaxReader
@@ -31,6 +32,7 @@ def read_source(text: str, parameters: Mapping[str, Any] | None = None) -> Sourc
     except (SyntaxError, ValueError):
         return facts
     SyntaxReader(facts, parameters or {}).visit_module(tree)
+    read_leaders(facts)
     read_records(tree, facts)
     read_written_levels(facts)
     read_flow(tree, facts)
