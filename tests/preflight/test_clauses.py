@@ -30,6 +30,23 @@ COMMON = load_database().common
             [("binding buffer (res )", ["A1"]), ("ethanol (trough )", ["A3"])],
         ),
         ("lysates (eluate in B2) A1", [("lysates", ["A1"]), ("eluate in", ["B2"])]),
+        (
+            "pools in the tubes A1, A2 and A3 of the rack",
+            [("pools in the tubes , and of the rack", ["A1", "A2", "A3"])],
+        ),
+        (
+            "column 7 with 2 nM and column 9 with 8 nM",
+            [("with 2 nM", ["column 7"]), ("with 8 nM", ["column 9"])],
+        ),
+        (
+            "Curve (slot 2, row B of the rack): B1 0, B2 5",
+            [("Curve (slot 2, of the rack): 0", ["B1"]), ("5", ["B2"])],
+        ),
+        (
+            "Lots (slot 2, row B of the rack): B1-B6",
+            [("Lots (slot 2, of the rack):", ["B1-B6"])],
+        ),
+        ("plate (row A lots): B1 blank", [("plate : blank", ["B1"]), ("lots", ["row A"])]),
         ("A1, B1 and C1: standards", [(", and : standards", ["A1", "B1", "C1"])]),
     ],
 )

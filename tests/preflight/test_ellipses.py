@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from aegis_ot.preflight import load_database
-from aegis_ot.preflight.roles.ellipses import spelled_out, with_rows
+from aegis_ot.preflight.roles.ellipses import spelled_out
 
 COMMON = load_database().common
 
@@ -22,6 +22,13 @@ COMMON = load_database().common
         ("Control column (6): rows A-D RNA, rows E-H water", " A6-D6 RNA, E6-H6 water"),
         ("Row H: columns 1-3 NTC, 4-6 control", " H1-H3 NTC, H4-H6 control"),
         ("row B, col 1-6 vehicle", "B1-B6 vehicle"),
+        ("row A to row H, columns 3-4 lysates", "A3-H4 lysates"),
+        ("plate, column 2 through column 4: water", "plate, columns 2-4: water"),
+        ("A1 > A5   BSA", "A1-A5   BSA"),
+        (
+            "columns 1, 2 standards, twice; row A = 0, rows B-C = 20, 40 mg/L",
+            "columns 1, 2 standards, twice; A1-A2 = 0, B1-C2 = 20, 40 mg/L",
+        ),
         ("rows A-C, columns 7 and 8: 5 uM", "A7-C8: 5 uM"),
         ("columns 1-6 of row H: blank", "H1-H6: blank"),
         ("riga A, colonne 1-3: bianco", "A1-A3: bianco"),
@@ -111,34 +118,10 @@ def test_what_is_left_out_is_put_back(written: str, meant: str) -> None:
         "columns 1-3: siRNA (one, two, three)",
         "two strips of tubes",
         "strip the lids",
+        "from column 1 to column 3",  # a transfer, perhaps
+        "A1 > A5   50 uL",
+        "A1 > A2   dye",
     ],
 )
 def test_other_numbers_are_left_alone(written: str) -> None:
     assert spelled_out(written, COMMON) == written
-
-
-@pytest.mark.parametrize(
-    ("written", "rows"),
-    [
-        ("Map (row: lot)\nA  lot 4\nB  lot 7\nC  lot 9", ["row A", "row B", "row C"]),
-        ("each row:  A  lot 4   B  lot 7   C  lot 9", ["row A", "row B", "row C"]),
-    ],
-)
-def test_rows_listed_by_letter_are_rows(written: str, rows: list[str]) -> None:
-    said = " ".join(with_rows(written, COMMON).split())
-    assert [row for row in rows if row in said] == rows
-
-
-@pytest.mark.parametrize(
-    "written",
-    [
-        "Map (row: lot)\nA  lot 4\nB  lot 7",  # two letters may be anything
-        "Rows\nA  lot 4\nC  lot 7\nD  lot 9",  # no rows in turn
-        "Partners\nA  lot 4\nB  lot 7\nC  lot 9",  # nothing says rows
-        "Each row with its wells\nA  A1 lot 4\nB  B1 lot 7\nC  C1 lot 9",
-        "Each row\n   1  2\nA  p  q\nB  p  q\nC  p  q",  # a drawn plate
-        "Each row\n\nA  lot 4\nB  lot 7\nC  lot 9",  # another paragraph
-    ],
-)
-def test_other_letters_are_left_alone(written: str) -> None:
-    assert with_rows(written, COMMON) == written

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from aegis_ot.preflight import Database, Script, check_script, load_database
@@ -45,3 +47,10 @@ def test_the_family_is_what_defines_it(title, label, family, database: Database)
 def test_the_makers_name_of_a_plate_is_no_evidence(database: Database) -> None:
     report = check_script(Script(PROTOCOL.format(title="", label=""), "p.py"), database)
     assert all(not one.score for one in report.families if one.family == "pcr")
+
+
+def test_roles_that_a_text_places_make_a_pcr_of_master_mix(database: Database) -> None:
+    """No word says "PCR"; but extracts and an NTC stand where master mix goes."""
+    text = (Path(__file__).parent / "protocols" / "pcr_drawn_codes_good.py").read_text()
+    report = check_script(Script(text.partition("\n")[2], "p.py"), database)
+    assert report.family == "pcr"
