@@ -13,6 +13,9 @@ from ..text import tokens
 from .phrases import words_of
 from .well_names import WellNames, well_names
 
+_LONGEST_LINE = 1000
+"""Characters; what is longer lists no deck."""
+
 _LONGEST_NAME = 6
 """So many words may call what stands there; more are a sentence."""
 
@@ -120,6 +123,8 @@ class InSlots:
         )
 
     def _placed(self, line: str) -> str:
+        if len(line) > _LONGEST_LINE:
+            return line
         line = self._at_end.sub(r"\g<lead>slot ", line, count=1)
         return line if self._slot.search(line) else self._position.sub(r"\g<lead>slot ", line)
 
