@@ -106,3 +106,8 @@ def test_wells_are_left_alone(written: str) -> None:
 )
 def test_slots_of_a_flex(line: str, slot: str, what: str) -> None:
     assert FLEX.standing(FLEX.with_slots(line)) == (slot, what)
+
+
+def test_a_long_remark_behind_a_comma_is_no_part_of_the_name() -> None:
+    line = "Slot 4   extract plate, as delivered by the robot of the other laboratory"
+    assert OT2.standing(line) == ("4", "extract plate")

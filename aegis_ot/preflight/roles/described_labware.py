@@ -24,7 +24,7 @@ def described_labware(deck: Deck, facts: SourceFacts, common: Common) -> Iterato
     """
     nouns = LabwareNouns(deck, common)
     comments = comment_blocks(facts, indented=True)
-    texts = [(line, text) for line, text in comments if not facts.indents.get(line)]
+    texts = [(line, text) for line, text in comments if line not in facts.among_code]
     for first, text in (*facts.docstrings, *texts):
         lines = nouns.slots.with_slots(text).splitlines()
         sentences = list(in_sentences(lines))

@@ -140,7 +140,10 @@ class InSlots:
             if match and form is self._forms[-1] and self._is_of_wells(line[match.end() :]):
                 return None  # "albumin    rack in slot 4, D2"
             if match and match["slot"].upper() in self._slots:
-                what = " ".join(match["what"].split()).strip(" \"'“”,:-–")
+                said = " ".join(match["what"].split())
+                if len(tokens(said)) > _LONGEST_NAME:
+                    said = said.partition(",")[0]  # "extract plate, as delivered by ..."
+                what = said.strip(" \"'“”,:-–")
                 # "Curve (slot 2, row A)" is only what some of its wells hold.
                 beside = line[: match.start("slot")] + line[match.end("slot") : match.end()]
                 apart = _COLUMNS.search(match["what"]) or self._names.spec.search(beside)

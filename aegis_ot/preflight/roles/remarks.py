@@ -59,7 +59,7 @@ def written_wells(
     plain = (block for line, text in texts for block in told_tables(line, text, common, alone))
     apart = (block for line, text in plain for block in side_by_side(line, text, common))
     for line, text in apart:
-        layout = not facts.indents.get(line)  # comments within the run are on its steps
+        layout = line not in facts.among_code  # there, comments are on the run's steps
         clues = _of_text(deck, nouns, noted, line, text, layout, common)
         yield from with_bare_numbers([*clues], text)
 

@@ -22,6 +22,8 @@ def read_comments(text: str, facts: SourceFacts) -> None:
                 facts.indents[token.start[0]] = min(len(said) - len(said.lstrip()), _WIDEST)
                 if not token.line[: token.start[1]].strip():
                     facts.own_line.add(token.start[0])
+                if token.start[1]:
+                    facts.among_code.add(token.start[0])
     except (tokenize.TokenError, IndentationError, SyntaxError):
         pass
 

@@ -109,6 +109,7 @@ class SourceFacts:
         comments: Comment text by line.
         indents: Spaces between the ``#`` and the text of each comment.
         own_line: Lines that hold nothing but a comment.
+        among_code: Lines with a comment that does not begin in the first column.
         docstrings: Module and function docstrings, and other free-standing strings.
         metadata: Values of the ``metadata`` dict.
         constants: Names bound to literals, by name.
@@ -144,6 +145,7 @@ class SourceFacts:
     comments: dict[int, str] = field(default_factory=dict)
     indents: dict[int, int] = field(default_factory=dict)
     own_line: set[int] = field(default_factory=set)
+    among_code: set[int] = field(default_factory=set)
     docstrings: list[tuple[int, str]] = field(default_factory=list)
     metadata: dict[str, str] = field(default_factory=dict)
     constants: dict[str, Any] = field(default_factory=dict)
