@@ -18,7 +18,7 @@ def test_each_sentence_of_running_text_is_a_line_with_the_number_that_it_begins_
         "    columns 1 and 2. Everything else on the plate stays as it",
         "    is. It is not even read.",
     ]
-    assert list(in_sentences(lines)) == [
+    assert list(in_sentences(lines, COMMON)) == [
         (0, ["    The stain stands in the trough and goes to every well of columns 1 and 2."]),
         (1, ["    Everything else on the plate stays as it is."]),
         (2, ["    It is not even read."]),
@@ -30,7 +30,7 @@ def test_the_first_line_of_a_docstring_may_stand_further_left() -> None:
         "Six lysates stand in the first row of the rack, each of",
         "    them in one tube, and the buffer in the second one.",
     ]
-    assert [block for _, block in in_sentences(lines)] == [[f"{lines[0]} {lines[1].strip()}"]]
+    assert [block for _, block in in_sentences(lines, COMMON)] == [[f"{lines[0]} {lines[1].strip()}"]]
 
 
 def test_abbreviations_end_no_sentence() -> None:
@@ -38,7 +38,7 @@ def test_abbreviations_end_no_sentence() -> None:
         "Buffer comes first and is given to all of the wells with a",
         "tip of its own (see Lowry et al. 1951), i.e. ca. 10 times, vol. 5 uL.",
     ]
-    assert [block for _, block in in_sentences(lines)] == [[" ".join(lines)]]
+    assert [block for _, block in in_sentences(lines, COMMON)] == [[" ".join(lines)]]
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_abbreviations_end_no_sentence() -> None:
 )
 def test_other_lines_stay_as_they_are(written: str) -> None:
     lines = written.splitlines()
-    assert list(in_sentences(lines)) == [(0, lines)]
+    assert list(in_sentences(lines, COMMON)) == [(0, lines)]
 
 
 def test_paragraphs_stand_alone() -> None:
@@ -83,7 +83,7 @@ def test_paragraphs_stand_alone() -> None:
         "them with fresh tips.",
     ]
     table = ["row A   lysates", "row B   blank"]
-    assert list(in_sentences([*prose, "", *table])) == [
+    assert list(in_sentences([*prose, "", *table], COMMON)) == [
         (0, [" ".join(prose)]),
         (2, [""]),
         (3, table),
@@ -111,7 +111,7 @@ WORDS = st.sampled_from(
 
 @given(st.lists(st.lists(WORDS, max_size=14).map(" ".join), max_size=8))
 def test_no_word_is_lost_and_no_number_goes_back(lines: list[str]) -> None:
-    blocks = list(in_sentences(lines))
+    blocks = list(in_sentences(lines, COMMON))
     assert " ".join(" ".join(line for _, block in blocks for line in block).split()) == " ".join(
         " ".join(lines).split()
     )
@@ -123,7 +123,7 @@ def test_no_word_is_lost_and_no_number_goes_back(lines: list[str]) -> None:
 @given(st.lists(st.tuples(st.sampled_from("-*•"), st.text("abc A12.,", max_size=70)), max_size=8))
 def test_a_list_keeps_its_lines(items: list[tuple[str, str]]) -> None:
     lines = [f"{mark} {said}" for mark, said in items]
-    assert [line for _, block in in_sentences(lines) for line in block] == lines
+    assert [line for _, block in in_sentences(lines, COMMON) for line in block] == lines
 
 
 @pytest.mark.parametrize(

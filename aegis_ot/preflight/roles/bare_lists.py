@@ -35,7 +35,7 @@ class BareLists:
     def __init__(self, names: WellNames) -> None:
         self._names = names
         to, listing = names.to, names.conjunction
-        column, row = rf"(?:{names.columns}|{names.column})", rf"(?:{names.rows}|{names.row})"
+        column, row = names.any_column, names.any_row
         self._lettered = re.compile(r"(?m)(?:^[^\S\n]*|(?<=\s\s))([A-P])(?=\s{1,4}[:=]?\s*\w)")
         self._row_word = re.compile(rf"\b{row}\b")
         self._row_said = re.compile(rf"\b{row}\s+(?:[A-P]{to})?([A-P])\b")

@@ -27,7 +27,7 @@ def described_labware(deck: Deck, facts: SourceFacts, common: Common) -> Iterato
     texts = [(line, text) for line, text in comments if line not in facts.among_code]
     for first, text in (*facts.docstrings, *texts):
         lines = nouns.slots.with_slots(text).splitlines()
-        sentences = list(in_sentences(lines))
+        sentences = list(in_sentences(lines, common))
         yield from _names(deck, nouns, first, lines, _flowing(lines, sentences))
         for number, block in sentences:
             for at, said in enumerate(block, first + number):
@@ -53,7 +53,7 @@ def _names(
     told: dict[str, list[Clue]] = {}
     in_deck = False
     for number, line in enumerate(lines):
-        in_deck = nouns.is_deck_heading(line) or (in_deck and bool(line.strip()))
+        in_deck = nouns.is_of_deck_list(line, in_deck)
         standing = None if number in flowing else nouns.standing(line, in_deck)
         key = nouns.in_slot(standing.slot) if standing else None
         if standing and key:

@@ -15,7 +15,7 @@ import re
 from collections.abc import Iterator, Sequence
 
 from ..rules import Common
-from ..text import level_in, unit_in, with_u
+from ..text import any_of, level_in, unit_in, with_u
 from .clues import Clue, Strength
 from .deck import Deck
 from .drawn_grids import Drawing
@@ -57,8 +57,8 @@ def drawn_amounts(
 
 def _said_of_numbers(lines: Sequence[str], common: Common) -> str:
     """What one line says that the numbers are: "numbers = BSA in ug/mL (0 = blank)"."""
-    words = "|".join(map(re.escape, common.figures)) or "(?!)"
-    means = "|".join(map(re.escape, ("in", *common.means)))
+    words = any_of(common.figures)
+    means = any_of(("in", *common.means))
     told = re.compile(
         rf"(?:^|[\s(;,])(?:{words})\s*(?:=|:|(?=\()|\b(?:{means})\b)\s*\(?([^(;=:\n]{{2,60}})",
         re.IGNORECASE,

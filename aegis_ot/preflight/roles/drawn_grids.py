@@ -129,7 +129,7 @@ _GAP = re.compile(r"(?<=\S)\s{3,}(?=\S)")
 @functools.lru_cache(maxsize=8)
 def _before_numbers(names: WellNames) -> tuple[re.Pattern[str], re.Pattern[str]]:
     """The words in "col 1   col 2" and in "row A   DMSO", as patterns."""
-    column = rf"\b(?:{names.columns}|{names.column})\.?\s+(?=\d)"
+    column = rf"\b{names.any_column}\.?\s+(?=\d)"
     return re.compile(column), re.compile(rf"^\s*{names.row}\s+(?=[A-P]\b)")
 
 

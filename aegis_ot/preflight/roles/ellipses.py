@@ -39,7 +39,7 @@ class Ellipses:
         self._names = names
         self._plural, self._plural_rows = names.plural_columns, names.plural_rows
         to, listing = names.to, names.conjunction
-        column, row = rf"(?:{names.columns}|{names.column})", rf"(?:{names.rows}|{names.row})"
+        column, row = names.any_column, names.any_row
         goes_on = (
             r"(?=\s*[:=]?\s+(?:[^\W\d_]{3,}|[^\W\d_]{2,}-\w|[A-Z]\s*(?:[,;|]|$))|\s*=\s*\S"
             r"|\s*[:=]?\s+\d+(?:[.,]\d+)?\s?(?:[pnuµμm]M\b|[pnuµμm]?g/))"  # "B 10 uM"

@@ -39,7 +39,7 @@ def derive_filled(
 def derive_holding(roles: Roles, name: str, spec: RoleSpec) -> None:
     """Give the role ``name`` to wells of its parents that hold a liquid of ``spec.holds`` already.
 
-    Their loaded liquid is called so. Not where it stands elsewhere too, and is given to them.
+    Their loaded liquid is called so. Not where wells of such a role are known: from those it comes.
     """
     if any(map(roles.known, spec.holds)):
         return

@@ -77,7 +77,7 @@ def _columns(names: WellNames) -> str:
 
 
 def _column_word(names: WellNames) -> str:
-    return rf"\b(?:{names.columns}|{names.column})\.?\s*"
+    return rf"\b{names.any_column}\.?\s*"
 
 
 @functools.lru_cache(maxsize=8)
@@ -85,7 +85,7 @@ def _bracketed(names: WellNames) -> re.Pattern[str]:
     """A clause of columns with a bracket behind it that begins with a row."""
     return re.compile(
         rf"(?P<clause>{_columns(names)}(?:(?!{_column_word(names)}\d)[^()\n]){{0,120}})"
-        rf"\((?P<rows>(?:{names.rows}|{names.row})\s+[A-P]\b[^()\n]*)\)"
+        rf"\((?P<rows>{names.any_row}\s+[A-P]\b[^()\n]*)\)"
     )
 
 
@@ -95,5 +95,5 @@ def _patterns(names: WellNames) -> tuple[re.Pattern[str], re.Pattern[str], re.Pa
     heading = rf"{_columns(names)}[^:\d]{{0,40}}:\s*$"
     letters = rf"(?P<low>[A-P])(?:(?:{names.to}|\s?[/&]\s?)(?P<high>[A-P]))?(?![\w.])"
     entry = rf"(?:^\W*|(?<=\s\s\s))(?P<at>{letters})(?=\s*[:=]|\s+\S)"
-    row = rf"(?P<at>\b(?:{names.rows}|{names.row})\s+{letters})"
+    row = rf"(?P<at>\b{names.any_row}\s+{letters})"
     return re.compile(heading), re.compile(entry), re.compile(row)

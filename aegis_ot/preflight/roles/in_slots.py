@@ -9,9 +9,9 @@ from collections.abc import Collection
 from typing import NamedTuple
 
 from ..rules import Common
-from ..text import tokens
-from .phrases import words_of
-from .well_names import WellNames, well_names
+from ..text import any_of, tokens
+from .phrases import labware_words, words_of
+from .well_names import SLOT, WellNames, well_names
 
 _LONGEST_LINE = 1000
 """Characters; what is longer lists no deck."""
@@ -63,24 +63,24 @@ class InSlots:
     ) -> None:
         self._slots = frozenset(slots)
         self._names = names
-        slot = rf"{names.slot}\s*(?P<slot>[A-Da-d][1-4]|1[01]|[1-9])\b"
+        slot = rf"{names.slot}\s*(?P<slot>(?i:{SLOT}))\b"
         self._slot = re.compile(slot)
-        whole, several = _any(set(nouns) - set(tubes)), _any(tubes)
+        whole, several = any_of(set(nouns) - set(tubes)), any_of(tubes)
         noun = rf"(?i:\b(?:(?:{whole})s?|(?:{several})s)\b)"
         # The slots of a Flex are called like wells: only "plate in D1" names one.
-        bare = "|".join(sorted(slot for slot in self._slots if slot[0].isalpha())) or "(?!)"
+        bare = any_of([slot for slot in self._slots if slot[0].isalpha()])
         self._bare = re.compile(rf"{noun}(?:\s+(?:in|on|at)\s+|\s*\(\s*)(?={bare}\b)")
-        on_deck = rf"(?=[^\n]*?(?:{noun}|(?i:\b(?:{_any(others)})s?\b)))"
+        on_deck = rf"(?=[^\n]*?(?:{noun}|(?i:\b(?:{any_of(others)})s?\b)))"
         self._listed = re.compile(
             rf"(?m)^(?P<indent>[^\S\n]*)(?=[A-D][1-4](?:\s*[:=]|\s+[-–]\s|[^\S\n])[^\S\n]*\w){on_deck}"
         )
         self._position = re.compile(
             rf"(?m)(?P<lead>^{_LEAD})(?:{names.position}\s*|P(?=\d{{1,2}}\s*(?:->|[:=])))"
-            rf"(?=(?:1[01]|[1-9]|[A-D][1-4])\b{on_deck})"
+            rf"(?={SLOT}\b{on_deck})"
         )
         self._at_end = re.compile(
             rf"(?m)(?P<lead>^[^\n]*?{noun}[^\n.]*?(?:\.{{2,}}|\s{{2,}}|[,:])\s*){names.position}\s*"
-            r"(?=(?:1[01]|[1-9]|[A-D][1-4])\b)"
+            rf"(?={SLOT}\b)"
         )
         joined = (
             r"(?:\s*[,:]\s*|\s*\.{2,}\s*|\s+[-–]\s+|\s{2,}|\s+(?:in|on|at)\s+(?:the\s+)?)"
@@ -156,14 +156,9 @@ class InSlots:
         return self._names.spec.match(rest.lstrip(" ,;(")) is not None
 
 
-def _any(words: Collection[str]) -> str:
-    """Any of these words, the longest first."""
-    return "|".join(sorted(map(re.escape, words), key=len, reverse=True)) or "(?!)"
-
-
 def in_slots(slots: Collection[str], common: Common) -> InSlots:
     """The forms for one deck, in the words of the rule files; made once for equal ones."""
-    nouns = words_of(tuple(word for words in common.labware.values() for word in words))
+    nouns = labware_words(common)
     tubes = {word for word in words_of(common.labware.get("tube", ())) if "rack" not in word}
     others = words_of((*common.tips, *common.waste))
     return _made(frozenset(slots), well_names(common), nouns, frozenset(tubes), others)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable
 
 from ..rules import Common
 from ..text import lexicon_of, tokens
 from .clauses import Part
 from .deck import Deck
-from .in_slots import InSlots, Standing, in_slots
-from .phrases import words_of
+from .in_slots import Standing, in_slots
+from .phrases import labware_words, words_of
+from .well_names import SLOT
 
 _HEADING = re.compile(r"\W*([^\W\d]\w*(?:[ -][^\W\d]\w*){0,3}[ -]?)\s*(?:,[^\d,:]{2,30})?:")
 """A line that begins with what it speaks of: "tubes: A1 lowest ... B2 highest", or "tube rack,
@@ -20,10 +21,7 @@ fractions: C1..C6".
 
 IN_BRACKETS = re.compile(r"\([^()]*\)")
 
-_NEXT_HEADING = re.compile(r"(?<=[.;])\s+(?=[^\W\d]\w*(?:[ -]\w+){0,3}(?: \([^()]*\))?\s?:)")
-"""Where a line may go on with what other labware holds."""
-
-_LISTED_SLOT = re.compile(r"\W*S?([A-D][1-4]|1[01]|[1-9])(\s*[:=])?\s+((?:[^\W\d]\w*\W+){1,3})")
+_LISTED_SLOT = re.compile(rf"\W*S?({SLOT})(\s*[:=])?\s+((?:[^\W\d]\w*\W+){{1,3}})")
 """How a line of a list of the deck begins: "C2  tube rack"."""
 
 _NUMBER = re.compile(r"^\W*(?:[^\W\d]+\s+)?(?:\d{1,2}(?:\.\d{1,2})*|[A-Z])[.)]?\s+")
@@ -45,20 +43,24 @@ _NONE: frozenset[str] = frozenset()
 
 
 class LabwareNouns:
-    """Finds the labware that words stand for; an empty set where they stand for none."""
+    """Finds the labware that words stand for; an empty set where they stand for none.
+
+    Attributes:
+        slots: How texts name the slots.
+    """
 
     def __init__(self, deck: Deck, common: Common) -> None:
         self._deck = deck
         self._dull = words_of(common.pauses.get("plate", ()))
         self._kinds = [words_of(words) for words in common.labware.values()]
-        self._nouns = {word for kind in self._kinds for word in kind}
+        self._nouns = labware_words(common)
         tubes = words_of(common.labware.get("tube", ()))
         self._racks = {word for word in self._nouns if word not in tubes or "rack" in word}
         self._on_deck = self._nouns | words_of(common.tips)
         self._strips = words_of(common.labware.get("strip", ()))
         self._decks = lexicon_of({"deck": common.decks})
         self._slots = {info.slot for info in deck.trace.labware.values()}
-        self._in_slots = in_slots({info.slot.upper() for info in deck.plates()}, common)
+        self.slots = in_slots({info.slot.upper() for info in deck.plates()}, common)
         self._of = words_of(common.layout.get("of", ()))
         self._origins = words_of(common.origins)
         self._articles = words_of(common.articles)
@@ -71,7 +73,7 @@ class LabwareNouns:
 
     def named(self, text: str) -> frozenset[str]:
         """The one labware that a text calls by its label or by the telling name of a variable."""
-        slots = self._in_slots.slots_in(text) or self._listed_slot(text)
+        slots = self.slots.slots_in(text) or self._listed_slot(text)
         if len(slots) == 1:
             return self._standing_in(slots)
         words = tokens(text)
@@ -97,7 +99,11 @@ class LabwareNouns:
             )
         }
 
-    def is_deck_heading(self, line: str) -> bool:
+    def is_of_deck_list(self, line: str, above: bool) -> bool:
+        """Whether a line heads the deck's list, or goes on with it as the line ``above`` does."""
+        return self._is_deck_heading(line) or (above and bool(line.strip()))
+
+    def _is_deck_heading(self, line: str) -> bool:
         """Whether a line is no more than the heading of the deck's list: "Deck layout:"."""
         said = _NUMBER.sub("", line)
         return any(m.end - m.start == len(tokens(said)) for m in self._decks.find(said))
@@ -106,25 +112,20 @@ class LabwareNouns:
         """The one labware that a line of the deck's list speaks of: "slot 3   tube rack, ...", or
         "Tube rack (slot 3), 10x solutions"; "C2  cells" only below such a list's heading.
         """
-        slots = self._in_slots.slots_in(line)
+        slots = self.slots.slots_in(line)
         if len(slots) > 1:
             return frozenset()  # prose, which speaks of both
-        begins = self._in_slots.begins(line) or self.standing(line, in_deck) is not None
+        begins = self.slots.begins(line) or self.standing(line, in_deck) is not None
         found = self._standing_in(slots or self._listed_slot(line, in_deck)) if begins else _NONE
         return found if len(found) == 1 else _NONE
 
     def standing(self, line: str, in_deck: bool) -> Standing | None:
         """What a line says to stand in a slot; "C2  cells" only below the heading of a list."""
-        if told := self._in_slots.standing(line):
+        if told := self.slots.standing(line):
             return told
         match = _LISTED_SLOT.match(f"{line} ")
         slots = self._listed_slot(line, in_deck)
         return Standing(slots.pop(), match[3].strip(" ,;:(")) if match and slots else None
-
-    @property
-    def slots(self) -> InSlots:
-        """How texts name the slots."""
-        return self._in_slots
 
     def in_slot(self, *slots: str) -> str | None:
         """The key of the one labware that stands in the one slot, if no other took its place."""
@@ -137,7 +138,7 @@ class LabwareNouns:
     def _listed_slot(self, text: str, in_deck: bool = False) -> set[str]:
         """The slot at the begin of a line of the deck's list: "C2  tube rack", no well's "tube"."""
         match = _LISTED_SLOT.match(f"{text} ")
-        if match is None or match[1] not in self._slots or self.is_deck_heading(text):
+        if match is None or match[1] not in self._slots or self._is_deck_heading(text):
             return set()
         named = not match[2] and not self._racks.isdisjoint(tokens(match[3]))
         return {match[1]} if in_deck or named else set()
@@ -181,19 +182,6 @@ class LabwareNouns:
         """What a line speaks of that begins with a noun and a colon."""
         match = _HEADING.match(IN_BRACKETS.sub("", line))
         return self._called(tokens(match[1])) if match else frozenset()
-
-    def cut_at_headings(self, lines: Iterable[tuple[int, str]]) -> Iterator[tuple[int, str]]:
-        """Lines by number, cut where one goes on with other labware: "Plate 1: ... Plate 2: "."""
-        for number, line in lines:
-            begun, *others = _NEXT_HEADING.split(line)
-            indent = line[: len(line) - len(line.lstrip())]
-            for other in others:
-                if len(self.heading(other) or self.named(other.partition(":")[0])) == 1:
-                    yield number, begun
-                    begun = indent + other
-                else:
-                    begun = f"{begun} {other}"
-            yield number, begun
 
     def beginning(self, text: str) -> frozenset[str]:
         """The one labware that a text begins with: "rack on 1"."""

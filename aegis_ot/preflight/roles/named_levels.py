@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
 from ..rules import Common
-from ..text import SourceFacts, listed_levels, unit_in
+from ..text import SourceFacts, any_of, listed_levels, unit_in
 from .levels import far_apart, is_number, names_counts, speaks_of_amounts, words_for_zero
 
 _IN_BRACKETS = re.compile(r"\([^()\d]*\)")
@@ -97,7 +97,7 @@ def listed_beside(
     if not note:
         return ()
     nothing = words_for_zero(common)
-    counted = re.sub(rf"\b(?:{'|'.join(nothing)})\b", "0", note, flags=re.IGNORECASE)
+    counted = re.sub(rf"\b(?:{any_of(nothing)})\b", "0", note, flags=re.IGNORECASE)
     plain = _IN_BRACKETS.sub(" ", note)  # "0 (buffer blank), 25, 125 ug/ml"
     for levels in map(listed_levels, dict.fromkeys((note, counted, plain))):
         if len(levels) == len(set(levels)) == len(set(wells)) == len(wells) > 2:

@@ -7,12 +7,9 @@ import re
 from collections.abc import Collection, Mapping
 
 from ..rules import Common
-from ..text import UNITS, tokens
+from ..text import UNITS, any_of, tokens
 from .phrases import words_of
 from .well_names import WellNames, well_names
-
-_NO_CHANNELS = frozenset({"well", "position", "pos"})
-"""The "first well" may be one of a plate."""
 
 _MOST_FURTHER = 12
 _VERSION = re.compile(r"\bv\.?\s?\d")
@@ -36,7 +33,10 @@ def with_numbers(text: str, common: Common) -> str:
         return text
     if _is_of_tips(words, common) or _VERSION.search(text):
         return text
-    names, channels = well_names(common), tuple(common.layout.get("trough", ()))
+    names = well_names(common)
+    troughs = set(common.layout.get("trough", ()))
+    # The "first well" may be one of a plate.
+    channels = tuple(sorted(troughs.difference(common.places, common.positions)))
     ordinals = tuple(common.ordinal_numbers.items())
     cardinals = tuple(common.cardinal_numbers.items())
     return _made(ordinals, cardinals, channels, tuple(common.articles), names).with_numbers(text)
@@ -70,10 +70,10 @@ class _Ordinals:
         names: WellNames,
     ) -> None:
         self._ordinals, self._cardinals = ordinals, cardinals
-        article, ordinal = rf"(?i:{_any(articles)})\s+", rf"\b(?i:{_any(ordinals)})\b"
+        article, ordinal = rf"(?i:{any_of(articles)})\s+", rf"\b(?i:{any_of(ordinals)})\b"
         kind = (
-            rf"(?:(?P<column>{names.columns}|{names.column})|(?P<row>{names.rows}|{names.row})"
-            rf"|(?i:{_any(set(channels) - _NO_CHANNELS)}))\b(?!-|\s*(?!{_AMOUNT})\d)"
+            rf"(?:(?P<column>{names.any_column})|(?P<row>{names.any_row})"
+            rf"|(?i:{any_of(channels)}))\b(?!-|\s*(?!{_AMOUNT})\d)"
         )
         joint = rf"(?:{names.to}|{names.conjunction})"
         self._ordinal = re.compile(ordinal)
@@ -81,10 +81,10 @@ class _Ordinals:
             rf"(?:{article})?(?P<all>{ordinal}(?:{joint}(?:{article})?{ordinal}){{0,12}})\s+(?P<kind>{kind})"
         )
         self._first = re.compile(
-            rf"(?:{article})?(?P<one>{ordinal})\s+(?P<count>(?i:{_any(cardinals)}))\s+(?P<kind>{kind})"
+            rf"(?:{article})?(?P<one>{ordinal})\s+(?P<count>(?i:{any_of(cardinals)}))\s+(?P<kind>{kind})"
         )
         self._article = re.compile(article)
-        column, row = rf"(?:{names.column}|{names.columns})", rf"(?:{names.row}|{names.rows})"
+        column, row = names.any_column, names.any_row
         self._further = re.compile(
             rf"(?P<begun>\b(?:(?P<column>{column})|(?P<row>{row}))\s(?:\d{{1,2}}|[A-P])\b(?:[^.;:\n]|(?<=\d)\.(?=\d)){{0,120}}?)"
             rf"{article}(?P<all>{ordinal})(?=\s+(?:[a-z]{{2,4}}\b|{_AMOUNT}))"
@@ -146,8 +146,3 @@ def _made(
     names: WellNames,
 ) -> _Ordinals:
     return _Ordinals(dict(ordinals), dict(cardinals), channels, articles, names)
-
-
-def _any(words: Collection[str]) -> str:
-    """Any of these words, the longest first."""
-    return "|".join(sorted(map(re.escape, words), key=len, reverse=True)) or "(?!)"

@@ -9,14 +9,12 @@ samples      B1 ... B5             A3 ... E3
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from .table_words import TableWords
-from .tables import Entry, Table
+from .table_words import NUMBER, TableWords
+from .tables import Entry, Table, join_cells
 
-_NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 _FEWEST = 2
 
 
@@ -42,13 +40,12 @@ def paired_columns(table: Table, words: TableWords) -> Iterator[Entry]:
     if len(labware) < _FEWEST or len(others) != 1:
         return
     labels = [row.cells[others[0]] for row in table.rows]
-    if any(words.has_wells(cell) or _NUMBER.fullmatch(cell) for cell in labels):
+    if any(words.has_wells(cell) or NUMBER.fullmatch(cell) for cell in labels):
         return
     lines = _whole(table, others[0])
-    for at in labware:
-        for line, cells in lines:
-            told = _told_in_turn([_items(cells[other], words) for other in labware])
-            items = told[labware.index(at)]
+    told = [_told_in_turn([_items(cells[at], words) for at in labware]) for _, cells in lines]
+    for at, by_line in zip(labware, zip(*told, strict=True), strict=True):
+        for (line, cells), items in zip(lines, by_line, strict=True):
             said = "; ".join(
                 f"{item.wells} = {cells[others[0]]} {item.said}".strip() for item in items
             )
@@ -63,8 +60,7 @@ def _whole(table: Table, label: int) -> list[tuple[int, list[str]]]:
         if row.cells[label] or not found:
             found.append((row.at, list(row.cells)))
         else:
-            last = found[-1][1]
-            last[:] = [f"{a} {b}".strip() for a, b in zip(last, row.cells, strict=True)]
+            join_cells(found[-1][1], row.cells)
     return found
 
 
@@ -82,9 +78,9 @@ def _items(cell: str, words: TableWords) -> list[_Item]:
         _Item(match.group(), cell[match.end() : end].strip(" ,;:="))
         for match, end in zip(found, ends, strict=True)
     ]
-    unit = _NUMBER.sub("", items[-1].said, count=1) if items else ""
+    unit = NUMBER.sub("", items[-1].said, count=1) if items else ""
     numbers = [item.said for item in items[:-1]]
-    if unit.strip() and numbers and all(map(_NUMBER.fullmatch, numbers)):
+    if unit.strip() and numbers and all(map(NUMBER.fullmatch, numbers)):
         items = [_Item(i.wells, i.said + unit) for i in items[:-1]] + items[-1:]
     return items
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator
 
 from ..rules import Common
 from .bare_lists import with_rows
@@ -37,10 +38,30 @@ def plain_lines(
     written = with_places_first(with_rows(text, common).splitlines() or [text], names)
     lines = (
         (first + number, with_numbers(line, common) if layout else line)
-        for first, block in in_sentences(written)
+        for first, block in in_sentences(written, common)
         for number, line in whole_lines(block, common)
     )
     drawn = drawn_lines(text.splitlines(), names)
-    for number, line in nouns.cut_at_headings(lines):
+    for number, line in _cut_at_headings(lines, nouns):
         if number not in drawn:
             yield from ((number, said) for said in statements(line, common))
+
+
+_NEXT_HEADING = re.compile(r"(?<=[.;])\s+(?=[^\W\d]\w*(?:[ -]\w+){0,3}(?: \([^()]*\))?\s?:)")
+"""Where a line may go on with what other labware holds."""
+
+
+def _cut_at_headings(
+    lines: Iterable[tuple[int, str]], nouns: LabwareNouns
+) -> Iterator[tuple[int, str]]:
+    """Lines by number, cut where one goes on with other labware: "Plate 1: ... Plate 2: "."""
+    for number, line in lines:
+        begun, *others = _NEXT_HEADING.split(line)
+        indent = line[: len(line) - len(line.lstrip())]
+        for other in others:
+            if len(nouns.heading(other) or nouns.named(other.partition(":")[0])) == 1:
+                yield number, begun
+                begun = indent + other
+            else:
+                begun = f"{begun} {other}"
+        yield number, begun

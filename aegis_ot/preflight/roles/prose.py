@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
@@ -23,26 +24,30 @@ _ARRANGED = re.compile(r"\S(?<![.!?])\s{2,}\S|[|\t]|\.{3,}|->|=>")
 
 _ITEM = re.compile(r"\s*(?:[-*•#>+]|\(?\d{1,2}(?:\.\d{1,2})*[.)]\s|[A-Za-z][.)]\s)")
 _DEFINES = re.compile(r"\s*[^\s:=,.]+(?: [^\s:=,.]+){0,5}\s?[:=](?=\s|$)")
-_FUNCTION_WORD = re.compile(r"\b[a-z]{1,3}$")
-_SENTENCE_END = re.compile(
-    r"(?<=[.!?])(?<!\b[A-Za-z]\.)(?<!\b(?:ca|vs|cf|no|al)\.)(?<!\b(?:vol|max|min|fig)\.)(?<!conc\.)(?<!approx\.)(?<!resp\.)\s+(?=[A-Z\"“(])"
-)
+_SHORT_WORD = re.compile(r"\b[a-z]{1,3}$")
 
 
-def in_sentences(lines: Sequence[str]) -> Iterator[tuple[int, list[str]]]:
+def in_sentences(lines: Sequence[str], common: Common) -> Iterator[tuple[int, list[str]]]:
     """Lines by number, in blocks: each sentence of running text is one line of its own.
 
     Yields:
         The number of a block's first line, and its lines: a sentence, or all others in turn.
     """
-    numbered = enumerate(lines)
+    numbered, ends = enumerate(lines), _sentence_ends(common.abbreviations)
     for blank, group in groupby(numbered, key=lambda item: not item[1].strip()):
         paragraph = list(group)
         first, written = paragraph[0][0], [line for _, line in paragraph]
         if blank or not _is_prose(written):
             yield first, written
         else:
-            yield from ((first + at, [said]) for at, said in _sentences(written))
+            yield from ((first + at, [said]) for at, said in _sentences(written, ends))
+
+
+@functools.lru_cache(maxsize=8)
+def _sentence_ends(abbreviations: tuple[str, ...]) -> re.Pattern[str]:
+    """What stands between two sentences; the dot of an abbreviation, or of "A.", ends none."""
+    short = "".join(rf"(?<!\b{re.escape(word)}\.)" for word in abbreviations)
+    return re.compile(rf"(?<=[.!?])(?<!\b[A-Za-z]\.){short}\s+(?=[A-Z\"“(])")
 
 
 def _is_prose(lines: Sequence[str]) -> bool:
@@ -57,7 +62,7 @@ def _is_prose(lines: Sequence[str]) -> bool:
     straight = len(set(indents)) == 1 and abs(indents[0] - first) <= _DEEPEST_INDENT
     ends = [(one.rstrip(), other.lstrip()) for one, other in pairwise(lines)]
     flowing = sum(
-        (other[:1].islower() and one[-1] not in ".:;") or bool(_FUNCTION_WORD.search(one))
+        (other[:1].islower() and one[-1] not in ".:;") or bool(_SHORT_WORD.search(one))
         for one, other in ends
     )
     ended = sum(one[-1] in ".!?" and not other[:1].islower() for one, other in ends)
@@ -66,12 +71,12 @@ def _is_prose(lines: Sequence[str]) -> bool:
     return straight and whole and flowing > 0 and flowing >= 2 * broken
 
 
-def _sentences(lines: Sequence[str]) -> Iterator[tuple[int, str]]:
+def _sentences(lines: Sequence[str], ends: re.Pattern[str]) -> Iterator[tuple[int, str]]:
     """The sentences of some lines, each with the number of the line that it begins in."""
     starts = [0, *accumulate(len(line.strip()) + 1 for line in lines)]
     text, at = " ".join(line.strip() for line in lines), 0
     indent = lines[0][: len(lines[0]) - len(lines[0].lstrip())]
-    for said in _SENTENCE_END.split(text):
+    for said in ends.split(text):
         at = text.find(said, at)
         yield bisect_right(starts, at) - 1, indent + said
         at += len(said)

@@ -7,16 +7,15 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ..rules import Common
-from ..text import level_in, tokens
+from ..text import any_of, level_in, tokens
 from .labware_nouns import IN_BRACKETS
 from .phrases import labware_words, words_of
 from .shared_words import unit_in_brackets
-from .well_names import WellNames, well_names
+from .well_names import SLOT, WellNames, well_names
 
-_NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 _WORD = re.compile(r"\w+")
 _LONGEST_NAME = 3
-_SLOT = r"[A-D][1-4]|1[01]|[1-9]"
 
 
 class Place(NamedTuple):
@@ -43,9 +42,9 @@ class TableWords:
         self._slots = words_of(common.layout.get("slot", ()))
         joining = words_of((*common.joints, *common.belonging, *common.articles))
         self._leading = self._nouns | joining
-        said = "|".join(map(re.escape, sorted(self._slots))) or "(?!)"
-        self._slot = re.compile(rf"(?i:\b(?:{said})\s*)({_SLOT})\b")
-        self._bare_slot = re.compile(rf"(?i:(?:{said})\s*)?({_SLOT})")
+        said = any_of(self._slots)
+        self._slot = re.compile(rf"(?i:\b(?:{said})\s*)({SLOT})\b")
+        self._bare_slot = re.compile(rf"(?i:(?:{said})\s*)?({SLOT})")
         self._dots = re.compile(r"\b([A-P]\d{1,2})\s*(?:\.{2,}|…)\s*(?=[A-P]\d)")
 
     def are_slots(self, title: str, cells: Sequence[str]) -> bool:
@@ -78,7 +77,7 @@ class TableWords:
 
     def with_unit(self, cell: str, title: str) -> str:
         """A number with the unit of its column, ``""`` if that has none; others as they are."""
-        if not _NUMBER.fullmatch(cell):
+        if not NUMBER.fullmatch(cell):
             return cell
         unit = unit_in_brackets(title) or title
         return f"{cell} {unit}" if level_in(f"1 {unit}", self._common, False) is not None else ""

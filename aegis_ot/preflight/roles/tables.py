@@ -17,7 +17,7 @@ from .well_names import WellNames
 _DASHES = "-=_"
 _DRAWN = frozenset(f"{_DASHES} |+:\t")
 _BARRED = re.compile(r"\s*[|+]")
-_GAP = re.compile(r"\s{2,}")
+GAP = re.compile(r"\s{2,}")
 _NEAR = 3
 """Spaces by which a cell may begin beside its title."""
 
@@ -28,7 +28,11 @@ _LONGEST_TITLE = 5
 _FEWEST = 2
 """Rows of a table, and its columns."""
 
-_LONGEST_LINE = 400
+LONGEST_LINE = 400
+"""Characters; a longer line is none of a table."""
+
+FILLER = "-"
+"""No blank line, which ends what a heading speaks of."""
 
 
 class Row(NamedTuple):
@@ -36,6 +40,11 @@ class Row(NamedTuple):
 
     at: int
     cells: list[str]
+
+
+def join_cells(cells: list[str], further: Sequence[str]) -> None:
+    """Append to each cell of a line what the next one says below it."""
+    cells[:] = [f"{cell} {more}".strip() for cell, more in zip(cells, further, strict=True)]
 
 
 class Entry(NamedTuple):
@@ -84,7 +93,7 @@ def tables_in(lines: Sequence[str], names: WellNames) -> Iterator[Table]:
 def _end_of_bars(lines: Sequence[str], at: int) -> int:
     """The line after the last one that begins with a bar, of those from a line on."""
     end = at
-    while end < len(lines) and _BARRED.match(lines[end]) and len(lines[end]) <= _LONGEST_LINE:
+    while end < len(lines) and _BARRED.match(lines[end]) and len(lines[end]) <= LONGEST_LINE:
         end += 1
     return end
 
@@ -119,7 +128,7 @@ def _in_line(lines: Sequence[str], at: int) -> Table | None:
     What stands left of all titles is a column without one, and so is what stands right of them.
     """
     starts, titles = _titles(lines[at])
-    goes_on = at > 0 and len(_GAP.split(lines[at - 1].strip())) > 1
+    goes_on = at > 0 and len(GAP.split(lines[at - 1].strip())) > 1
     if len(titles) < _FEWEST or goes_on:
         return None
     rows: list[Row] = []
@@ -128,7 +137,7 @@ def _in_line(lines: Sequence[str], at: int) -> Table | None:
         if _is_rule(written):
             end = place + 1
             continue
-        cells = _below(starts, written) if len(written) <= _LONGEST_LINE else None
+        cells = _below(starts, written) if len(written) <= LONGEST_LINE else None
         if cells is None or not written.strip():
             break
         rows.append(Row(place, cells))
@@ -145,11 +154,11 @@ def _is_filled(rows: Sequence[Row], column: int) -> bool:
 
 def _titles(written: str) -> tuple[list[int], list[str]]:
     """Where the titles of a line begin, and these; none where a line is too long for them."""
-    if not written.strip() or len(written) > _LONGEST_LINE:
+    if not written.strip() or len(written) > LONGEST_LINE:
         return [], []
-    gaps = [gap.end() for gap in _GAP.finditer(written) if gap.start() > 0]
+    gaps = [gap.end() for gap in GAP.finditer(written) if gap.start() > 0]
     starts = [len(written) - len(written.lstrip()), *(g for g in gaps if g < len(written.rstrip()))]
-    titles = _GAP.split(written.strip())
+    titles = GAP.split(written.strip())
     if any(len(title.split()) > _LONGEST_TITLE or _NUMBERED.search(title) for title in titles):
         return [], []
     return starts, titles
@@ -161,7 +170,7 @@ def _below(starts: Sequence[int], written: str) -> list[str] | None:
     """
     cells = [""] * (len(starts) + 2)
     left = len(written) - len(written.lstrip())
-    gaps = [gap.end() for gap in _GAP.finditer(written) if gap.start() > 0]
+    gaps = [gap.end() for gap in GAP.finditer(written) if gap.start() > 0]
     bounds = [left, *(gap for gap in gaps if gap < len(written.rstrip()))]
     for start, stop in zip(bounds, (*bounds[1:], len(written)), strict=True):
         said = written[start:stop].strip()

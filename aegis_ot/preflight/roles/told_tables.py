@@ -14,17 +14,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from itertools import groupby
 from typing import NamedTuple
 
 from ..rules import Common
 from .paired_columns import paired_columns
 from .table_words import TableWords
-from .tables import Entry, Table, tables_in
+from .tables import FILLER, Entry, Table, join_cells, tables_in
 from .tubes_to_rows import tubes_to_rows
-
-FILLER = "-"
-"""No blank line, which ends what a heading speaks of."""
 
 _ARROW = re.compile(r"->|→|=>")
 
@@ -154,16 +152,16 @@ def _hangs(cells: list[str], column: int) -> bool:
     return not any(cell for at, cell in enumerate(cells) if at != column)
 
 
+@dataclass
 class _Line:
     """What one or several lines of a table say together; ``slot`` and ``labware`` stay until the
     next ones.
     """
 
-    def __init__(self, at: int, slot: str, labware: list[str], cells: list[str]) -> None:
-        self.at = at
-        self.slot = slot
-        self.labware = labware
-        self.cells = cells
+    at: int
+    slot: str
+    labware: list[str]
+    cells: list[str]
 
 
 def _whole(table: Table, kinds: _Kinds, words: TableWords) -> list[_Line]:
@@ -183,8 +181,7 @@ def _whole(table: Table, kinds: _Kinds, words: TableWords) -> list[_Line]:
         if anew:
             found.append(_Line(row.at, slot, labware, list(row.cells)))
         else:
-            last = found[-1].cells
-            last[:] = [f"{a} {b}".strip() for a, b in zip(last, row.cells, strict=True)]
+            join_cells(found[-1].cells, row.cells)
     return found
 
 

@@ -50,7 +50,7 @@ class Topic:
         opening = written[: IN_BRACKETS.sub(_as_long, f"{written},").index(",")]
         opens = bool(parts) and parts[0].text not in opening
         self._begins = nouns.named(opening) if opens else _NONE
-        self.in_deck = nouns.is_deck_heading(written) or (self.in_deck and bool(written.strip()))
+        self.in_deck = nouns.is_of_deck_list(written, self.in_deck)
         listed = nouns.begun_by(written, self.in_deck)
         # "Curve (slot 2, row A): A1 ..." still says what its wells hold.
         plain = IN_BRACKETS.sub(" ", begun)

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from ...instrumentation import LabwareInfo
 from ..rules import Common
-from ..text import SourceFacts, comment_blocks, tokens
+from ..text import SourceFacts, any_of, comment_blocks, tokens
 from .clues import Clue, Strength, shortened
 from .deck import Deck
 from .labware_nouns import IN_BRACKETS
@@ -41,7 +41,7 @@ def trough_legends(deck: Deck, facts: SourceFacts, common: Common) -> Iterator[C
     called = {
         word for kind in ("trough", "column", "columns") for word in common.layout.get(kind, ())
     }
-    any_called = "|".join(map(re.escape, called)) or "(?!)"
+    any_called = any_of(called)
     number_of = re.compile(rf"(?im)((?:^|[,;/|])\s*)(?:{any_called})\.?\s*(?=\d)")
     numbered = set(common.layout.get("trough", ())).difference(common.places, common.positions)
     for line, text in _blocks(facts):
@@ -61,9 +61,9 @@ def _told_alone(
     deck: Deck, trough: LabwareInfo, line: int, text: str, called: Collection[str]
 ) -> Iterator[Clue]:
     """What a text says to be "in trough 3", or "channel 3" to be."""
-    word = "|".join(sorted(map(re.escape, called)))
-    if not word:
+    if not called:
         return
+    word = any_of(called)
     before = (
         rf"([^.,;:\n|]{{2,60}}?) (?:in|en|im|dans|nel) (?:the )?(?:{word}) ?(\d{{1,2}})(?![\w-])"
     )

@@ -6,7 +6,7 @@ import re
 
 from ...instrumentation import LabwareInfo
 from ..rules import Common
-from ..text import tokens
+from ..text import any_of, tokens
 from .deck import Deck
 from .labware_nouns import LabwareNouns
 from .well_names import WellNames, well_names
@@ -20,7 +20,7 @@ def with_troughs(text: str, deck: Deck, nouns: LabwareNouns, common: Common) -> 
     told: list[str] = []
     depth, in_deck = 0, False
     for line in text.split("\n"):
-        in_deck = nouns.is_deck_heading(line) or (in_deck and bool(line.strip()))
+        in_deck = nouns.is_of_deck_list(line, in_deck)
         standing, indent = nouns.standing(line, in_deck), len(line) - len(line.lstrip())
         if standing is not None:
             info = deck.trace.labware.get(nouns.in_slot(standing.slot) or "")
@@ -64,9 +64,9 @@ class _Numbers:
 
     def __init__(self, info: LabwareInfo | None, names: WellNames, common: Common) -> None:
         self._count = len(info.wells) if info else 0
-        words = sorted(map(re.escape, common.layout.get("trough", ())), key=len, reverse=True)
+        words = any_of(common.layout.get("trough", ()))
         one = rf"\d{{1,2}}(?:{names.to}\d{{1,2}})?"
-        called = rf"(?i:\b(?:{'|'.join(words) or '(?!)'})s?)\.?\s*"
+        called = rf"(?i:\b(?:{words})s?)\.?\s*"
         self._called = re.compile(rf"{called}(?P<all>{one}(?:{names.conjunction}{one})*)(?![\w.])")
         self._first = re.compile(r"(?P<before>\s*(?:[-*•]\s+)?)(?P<all>\d{1,2})(?=[:=]?\s+[^\W\d])")
         self._further = re.compile(r"(?P<before>\s{3,}|[;|]\s*)(?P<all>\d{1,2})(?=[:=]?\s+[^\W\d])")

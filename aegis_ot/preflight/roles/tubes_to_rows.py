@@ -13,13 +13,11 @@ import re
 from collections.abc import Iterator, Sequence
 
 from .table_words import Place, TableWords
-from .tables import Entry
+from .tables import FILLER, GAP, LONGEST_LINE, Entry
 from .well_names import WellNames
 
-_GAP = re.compile(r"\s{2,}")
 _FEWEST = 2
 _FEWEST_CELLS = 3
-_LONGEST_LINE = 400
 
 
 def tubes_to_rows(lines: Sequence[str], words: TableWords) -> Iterator[list[Entry]]:
@@ -39,7 +37,7 @@ def tubes_to_rows(lines: Sequence[str], words: TableWords) -> Iterator[list[Entr
 
 def _row(written: str, words: TableWords) -> tuple[Place, str, Place] | None:
     """From where, what and to where, if a line says it: a tube, and rows or columns."""
-    cells = _GAP.split(written.strip()) if len(written) <= _LONGEST_LINE else []
+    cells = GAP.split(written.strip()) if len(written) <= LONGEST_LINE else []
     if len(cells) < _FEWEST_CELLS:
         return None
     tube, wells = words.place(cells[0].rstrip(" :=")), words.place(cells[-1])
@@ -64,12 +62,9 @@ def _entries(
             where = words.names.crossed(match["row"], "", columns)
         yield Entry(
             place,
-            f"{heading}:" if heading else _NO_HEADING,
+            f"{heading}:" if heading else FILLER,
             f"{where} = {said} {wells.rest}".strip(),
         )
-
-
-_NO_HEADING = "-"
 
 
 def _columns_in(above: str, names: WellNames) -> str:
@@ -81,5 +76,5 @@ def _columns_in(above: str, names: WellNames) -> str:
 @functools.lru_cache(maxsize=8)
 def _row_of(names: WellNames) -> re.Pattern[str]:
     """What stands before a plate of which rows or columns are meant: "row of the"."""
-    kinds = f"(?:{names.rows}|{names.row}|{names.columns}|{names.column})"
+    kinds = f"(?:{names.any_row}|{names.any_column})"
     return re.compile(rf"\b{kinds}\s+(?:{names.of})\s+(?:\w{{2,3}}\s+)?")

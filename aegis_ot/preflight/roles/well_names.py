@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from ...instrumentation import LabwareInfo
 from ..rules import Common
+from ..text import any_of
 from ..trace import row_column
+
+SLOT = r"(?:[A-D][1-4]|1[01]|[1-9])"
+"""A slot of a Flex, or of an OT-2."""
 
 _WELL = r"[A-P](?:0?[1-9]|1\d|2[0-4])"
 
@@ -20,6 +24,7 @@ class WellNames:
 
     Attributes:
         column, columns, row, rows: What people call one or several, in any case.
+        any_column, any_row: Either of the two.
         to, conjunction: What stands between the ends of a range, and between members of a list.
         between: What may stand between two wells of one list.
         places: Wells and ranges of them, one behind the other.
@@ -38,16 +43,18 @@ class WellNames:
 
     def __init__(self, layout: dict[str, tuple[str, ...]]) -> None:
         self.column, self.columns, self.row, self.rows = (
-            f"(?i:{_any(layout.get(kind, ()))})" for kind in ("column", "columns", "row", "rows")
+            f"(?i:{any_of(layout.get(kind, ()))})" for kind in ("column", "columns", "row", "rows")
         )
-        self.to = rf"\s*(?:-|–|—|…|\.\.+|\b(?:{_any(layout.get('to', ()))})\b)\s*"
-        self.conjunction = rf"\s*(?:,|/|&|\+|\b(?:{_any(layout.get('and', ()))})\b)\s*"
-        self.of = _any(layout.get("of", ()))
-        self.strips = f"(?i:(?:{_any(layout.get('strip', ()))})s?)"
-        self.odd, self.even = (f"(?i:{_any(layout.get(kind, ()))})" for kind in ("odd", "even"))
+        self.any_column = f"(?:{self.columns}|{self.column})"
+        self.any_row = f"(?:{self.rows}|{self.row})"
+        self.to = rf"\s*(?:-|–|—|…|\.\.+|\b(?:{any_of(layout.get('to', ()))})\b)\s*"
+        self.conjunction = rf"\s*(?:,|/|&|\+|\b(?:{any_of(layout.get('and', ()))})\b)\s*"
+        self.of = any_of(layout.get("of", ()))
+        self.strips = f"(?i:(?:{any_of(layout.get('strip', ()))})s?)"
+        self.odd, self.even = (f"(?i:{any_of(layout.get(kind, ()))})" for kind in ("odd", "even"))
         slots = layout.get("slot", ())
-        self.position = rf"(?i:\b(?:{_any(layout.get('position', ()))})\b\.?)"
-        self.slot = rf"(?i:\b(?:{_any(slots)}))"
+        self.position = rf"(?i:\b(?:{any_of(layout.get('position', ()))})\b\.?)"
+        self.slot = rf"(?i:\b(?:{any_of(slots)}))"
         in_plate = "".join(rf"(?<!\b(?i:{re.escape(word)}) )" for word in slots)
         self.first_word_of = {kind: (*layout.get(kind, ()), kind)[0] for kind in ("column", "row")}
         self.plural_columns = (*layout.get("columns", ()), "columns")[0]
@@ -61,8 +68,8 @@ class WellNames:
             rf"|{self.rows}\s+(?P<rows>{letters}(?:{self.conjunction}{letters})*)"
             rf"|{self.row}\s+(?P<row>{letters}(?:[/&+]{letters})*))\b"
         )
-        self.between = re.compile(rf"[\s,/&+]*(?:\b(?:{_any(layout.get('and', ()))})\b[\s,]*)?")
-        and_ = rf"\b(?:{_any(layout.get('and', ()))})\b"
+        self.between = re.compile(rf"[\s,/&+]*(?:\b(?:{any_of(layout.get('and', ()))})\b[\s,]*)?")
+        and_ = rf"\b(?:{any_of(layout.get('and', ()))})\b"
         self.and_at_end = re.compile(rf"\s+{and_}\s*$")
         self.further = re.compile(rf"\s*{_WELL}(?:\s*,\s*{_WELL})*\s*,?\s+{and_}\s+{_WELL}\b")
         spots = rf"{_WELL}(?:{self.to}{_WELL})?"
@@ -151,11 +158,6 @@ def well_names(common: Common) -> WellNames:
 @functools.lru_cache(maxsize=8)
 def _made(layout: tuple[tuple[str, tuple[str, ...]], ...]) -> WellNames:
     return WellNames(dict(layout))
-
-
-def _any(words: Sequence[str]) -> str:
-    """A pattern for one of these words; for nothing at all if there are none."""
-    return "|".join(map(re.escape, words)) or "(?!)"
 
 
 def _number(text: str) -> int:

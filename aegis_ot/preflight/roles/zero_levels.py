@@ -11,7 +11,7 @@ from functools import lru_cache
 from ...instrumentation import is_spot
 from ...vocabulary import WellRef
 from ..rules import Common, RoleSpec
-from ..text import Rank, SourceFacts, written_lines
+from ..text import Rank, SourceFacts, any_of, written_lines
 from ..trace import Trace
 from .clues import Clue, Strength, shortened
 from .levels import names_amounts
@@ -70,7 +70,7 @@ def _said_of_zero(facts: SourceFacts, common: Common) -> tuple[str, bool]:
 
 @lru_cache(maxsize=4)
 def _zero(means: tuple[str, ...]) -> re.Pattern[str]:
-    words = "|".join(map(re.escape, means)) or r"(?!)"
+    words = any_of(means)
     return re.compile(
         # Not "day 0: ...", which is another thing's 0.
         r"(?:^|[,;(|.–—]\s*|--?\s+|\bdose\s+)0(?:\.0)?(?: ?[munpµμ]M)?"

@@ -22,6 +22,7 @@ class Common:
     curves: tuple[str, ...] = ()
     countings: tuple[str, ...] = ()
     figures: tuple[str, ...] = ()
+    abbreviations: tuple[str, ...] = ()
     tips: tuple[str, ...] = ()
     decks: tuple[str, ...] = ()
     waste: tuple[str, ...] = ()

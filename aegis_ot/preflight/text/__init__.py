@@ -23,7 +23,7 @@ from .levels import (
 )
 from .lines import source_lines
 from .reading import read_source
-from .words import Lexicon, Match, lexicon_of, tokens
+from .words import Lexicon, Match, any_of, lexicon_of, tokens
 
 __all__ = [
     "EVERYWHERE",
@@ -38,6 +38,7 @@ __all__ = [
     "SourceFacts",
     "Values",
     "amounts_in",
+    "any_of",
     "comment_blocks",
     "comparable",
     "concentration_in",
