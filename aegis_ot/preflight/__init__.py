@@ -8,6 +8,8 @@ Each step is a room of its own, and imports run down this list only (a contract 
     judging     a recording to a verdict: cases, findings, waivers
     checks      predicates over trace and roles, of which rules are made
     roles       what each well is for, and which assay it is
+    evidence    all that speaks for the role of a well: names, plate maps, labels, texts
+    layouts     how people write where things stand
     trace       the recording read as tips, wells and liquids
     text        what the protocol's text says
     rules       what a rule file may say

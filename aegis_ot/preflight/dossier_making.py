@@ -11,11 +11,12 @@ from ..vocabulary import Severity, WellRef
 from . import record
 from .database import load_database, shipped_rules
 from .dossier import DeckItem, Dossier, RoleLine, RuleBrief
+from .evidence import Strength
 from .judging import Options, Report, RoleEvidence, judge
 from .rehearsal import Recording, Script
-from .roles import Assignment, Roles, Strength, implied_contents, usage_of
+from .roles import Assignment, Roles, implied_contents
 from .rules import Database, RuleSpec
-from .trace import Replacements, Trace, build_trace, places, row_column, trace_table
+from .trace import Replacements, Trace, build_trace, places, row_column, trace_table, usage_of
 
 LONGEST_SOURCE = 40_000
 """Characters of source that are shown; what is cut is said."""

@@ -7,7 +7,7 @@ import time
 import pytest
 
 from aegis_ot.preflight import Report, Script, check_script, load_database
-from aegis_ot.preflight.roles.ellipses import spelled_out
+from aegis_ot.preflight.layouts.ellipses import spelled_out
 from aegis_ot.preflight.rules import Common
 from aegis_ot.vocabulary import VerdictWord
 

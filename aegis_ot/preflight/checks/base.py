@@ -8,9 +8,9 @@ from itertools import islice
 from typing import Any, ClassVar
 
 from ...vocabulary import Site, WellRef
-from ..roles import Roles, Usage
+from ..roles import Roles
 from ..rules import Common, Family
-from ..trace import Met, Trace, Visit, Well
+from ..trace import Met, Trace, Usage, Visit, Well
 from .same_liquid import is_same_liquid
 from .series import Series, find_series
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
-from ..roles import Strength
+from ..evidence import Strength
 from ..rules import Word
 from ..text import lexicon_of, tokens
 from ..trace import Well

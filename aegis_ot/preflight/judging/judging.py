@@ -9,8 +9,9 @@ from dataclasses import replace
 
 from ...vocabulary import Remark, Severity, Undecided
 from ..checks import Case, Doubt, Violation, make_check
+from ..evidence import Strength
 from ..rehearsal import Recording
-from ..roles import Roles, Strength
+from ..roles import Roles
 from ..rules import Database, Family, RuleSpec
 from ..text import source_lines
 from .findings import Broken, findings_of

@@ -8,24 +8,20 @@ from dataclasses import dataclass
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..checks import Case
+from ..evidence import Clue, Strength, gather
 from ..rehearsal import Recording
 from ..roles import (
-    Clue,
     Inference,
     Roles,
-    Strength,
-    Usage,
     assign_roles,
     derive,
-    gather,
     implied_contents,
     infer_families,
     settle_diluent,
-    usage_of,
 )
 from ..rules import Common, Database, Family, RuleSpec
 from ..text import SourceFacts, lexicon_of, read_source, tokens
-from ..trace import Replacements, Trace, build_trace
+from ..trace import Replacements, Trace, Usage, build_trace, usage_of
 from .options import Options
 
 

@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from ..evidence import Clue, Strength
 from ..rules import Common, Database, Family
 from ..text import EVERYWHERE, SourceFacts, lexicon_of, origins, tokens
 from ..trace import Trace, shapes_of
-from .clues import Clue, Strength
 from .roles import Roles
 
 PLACES = {"metadata": 3.0, "liquid": 2.0, "name": 1.5, "text": 1.0, "string": 0.7}

@@ -10,18 +10,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
+from ..evidence import Clue, Strength, are_one, levels_beside, levels_of, without_lone_middle
 from ..rules import Common, Family
 from ..text import Lexicon, Rank, concentration_in, concentrations_in, name_without_level, tokens
-from ..trace import Trace
+from ..trace import Sides, Trace, Usage, in_trough
 from .channels import spread_over_channels
 from .choosing import A_FEW, Candidate, choose
-from .clues import Clue, Strength
+from .fed_to_controls import unsay_controls
 from .fitting import fitting_role, is_for_controls, named_by
 from .for_all import unsay_for_all
 from .given_on import unsay_contents
-from .helpers import unsay_controls
 from .labware_roles import called_after, held_before, named_apart, of_several, shared
-from .levels import are_one, levels_beside, levels_of, without_lone_middle
 from .phrases import (
     is_outright,
     joins_others,
@@ -37,7 +36,6 @@ from .replicates import spread_over_replicates
 from .role_words import role_words
 from .roles import Roles
 from .strengths import settle_scales, unsay_strengths
-from .usage import Sides, Usage, in_trough
 
 
 def assign_roles(

@@ -9,11 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from ...vocabulary import WellRef
+from ..evidence import Clue, Strength
 from ..rules import Common, RoleSpec
-from ..text import tokens
+from ..text import tokens, words_of
 from ..trace import Trace
-from .clues import Clue, Strength
-from .phrases import words_of
 from .roles import Roles
 
 _SHORTEST = 3

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
+from ..evidence import Strength
 from ..trace import Trace
 from .choosing import Candidate
-from .clues import Strength
 from .roles import Roles
 
 

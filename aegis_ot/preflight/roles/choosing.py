@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...vocabulary import WellRef
+from ..evidence import Clue, Strength
 from ..text import Rank
-from .clues import Clue, Strength
 from .roles import Assignment, Roles
 
 A_FEW = 3

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ...vocabulary import WellRef
+from ..evidence import Strength
 from ..trace import Trace, Well, chains_of, links_of
-from .clues import Strength
 from .roles import Roles
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ...vocabulary import WellRef
 from ..rules import Common, RoleSpec
-from ..trace import Trace
+from ..trace import Trace, Usage
 from .called_alike import derive_called_alike
 from .diluted import derive_diluted
 from .filled import derive_filled, derive_holding
@@ -15,8 +15,7 @@ from .in_place import Given, derive_common, derive_given_instead, derive_used_li
 from .one_to_one import derive_called_apart, derive_one_to_one
 from .roles import Roles
 from .stages import is_shared_out
-from .usage import Usage
-from .zero_levels import derive_undosed
+from .undosed import derive_undosed
 
 
 def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage], common: Common) -> None:

@@ -6,10 +6,9 @@ from collections.abc import Mapping
 
 from ...vocabulary import WellRef
 from ..rules import RoleSpec
-from ..trace import Trace, Well
+from ..trace import Trace, Usage, Well
 from .roles import Roles
 from .stages import Stage, stage_of
-from .usage import Usage
 
 
 def derive_filled(

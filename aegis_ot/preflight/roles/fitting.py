@@ -6,10 +6,10 @@ import re
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
+from ..evidence import Clue, Strength
 from ..rules import Common
-from ..text import Lexicon, lexicon_of, listed_levels, tokens
-from .clues import Clue, Strength
-from .phrases import first_words, names_any, parts_joined, roles_named, unlike, words_of
+from ..text import Lexicon, first_words, lexicon_of, listed_levels, tokens, words_of
+from .phrases import names_any, parts_joined, roles_named, unlike
 from .roles import Roles
 
 

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from ..evidence import Strength
 from ..trace import Trace
-from .clues import Strength
 from .roles import Roles
 
 

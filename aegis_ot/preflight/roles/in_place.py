@@ -12,9 +12,8 @@ from collections.abc import Collection, Mapping
 
 from ...vocabulary import WellRef
 from ..rules import RoleSpec
-from ..trace import Trace
+from ..trace import Trace, Usage, in_trough
 from .roles import Roles
-from .usage import Usage, in_trough
 
 Given = Mapping[WellRef, Mapping[WellRef, float]]
 """µL that each source gives to each well, in the whole run."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from ...vocabulary import WellRef
+from ..evidence import Clue, Strength
 from ..rules import Common
-from ..text import Lexicon, tokens
+from ..text import Lexicon, first_words, tokens
 from .choosing import A_FEW, Candidate
-from .clues import Clue, Strength
-from .phrases import first_words, names_any, names_several, parts_joined, roles_named
+from .phrases import names_any, names_several, parts_joined, roles_named
 from .roles import Roles
 
 

@@ -6,13 +6,11 @@ from collections import Counter
 from collections.abc import Iterable
 
 from ...vocabulary import WellRef
+from ..evidence import Strength
 from ..rules import Common
-from ..text import tokens
-from ..trace import Trace
-from .clues import Strength
-from .phrases import words_of
+from ..text import tokens, words_of
+from ..trace import Trace, in_trough
 from .roles import Roles
-from .usage import in_trough
 
 _FEWEST_PAIRS = 3
 

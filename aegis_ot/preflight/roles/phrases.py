@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import functools
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
+from ..evidence import Clue, Strength
 from ..rules import Common, Family
-from ..text import Lexicon, concentrations_in, lexicon_of, tokens
-from .clues import Clue, Strength
+from ..text import Lexicon, concentrations_in, first_words, lexicon_of, tokens, words_of
 from .roles import Roles
 
 
@@ -198,28 +197,11 @@ def _drawn(
     return {at: topics for at, topics in places.items() if at < end}
 
 
-@functools.lru_cache(maxsize=64)
-def first_words(phrases: tuple[str, ...]) -> frozenset[str]:
-    """The first word of each phrase of a list."""
-    return frozenset(tokens(phrase)[0] for phrase in phrases)
-
-
 def _says_only_labware(words: Sequence[str], common: Common) -> bool:
     """Whether words name no more than a vessel: what is in a "trough with PBS" is PBS."""
     listed = (*common.labware.values(), common.pauses.get("trough", ()))
     nouns = words_of(tuple(word for several in listed for word in several))
     return all(word in nouns for word in words if _is_telling(word))
-
-
-@functools.lru_cache(maxsize=64)
-def words_of(phrases: tuple[str, ...]) -> frozenset[str]:
-    """All words of the phrases of a list."""
-    return frozenset(word for phrase in phrases for word in tokens(phrase))
-
-
-def labware_words(common: Common) -> frozenset[str]:
-    """All words for what stands on the deck: "tube", "plate"."""
-    return words_of(tuple(word for words in common.labware.values() for word in words))
 
 
 def _telling_part(lexicon: Lexicon, clue: Clue) -> str:
@@ -254,25 +236,6 @@ def of_its_dict(
     base = roles_named(lexicon, replace(clue, text=match[1]), common)
     diluting = (*series.diluent, *series.diluent_else) if series else ()
     return base if base and (specs[base[0]].one_liquid or base[0] in diluting) else named
-
-
-def without_position(name: str, common: Common) -> str:
-    """A name that holds where something stands, without the word for that: ``LYSATE_POS``.
-
-    Only where it is the last of several: ``POS_WELL`` is a positive control's.
-    """
-    base, bracket, key = name.partition("[")
-    words = tokens(base)
-    if len(words) < 2 or words[-1] not in first_words(common.positions):
-        return name
-    return " ".join(words[:-1]) + bracket + key
-
-
-def told_once(name: str) -> str:
-    """A field without the words that its record's name has: ``NO_DNA.dna_tube`` holds no DNA."""
-    record, dot, field = name.rpartition(".")
-    told = set(tokens(record))
-    return f"{record}.{' '.join(w for w in tokens(field) if w not in told)}" if dot else name
 
 
 def says_only_the_side(clue: Clue, common: Common) -> bool:

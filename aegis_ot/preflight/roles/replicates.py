@@ -6,10 +6,8 @@ from collections.abc import Iterator, Mapping
 
 from ...instrumentation import LabwareInfo
 from ...vocabulary import WellRef
-from ..rules import Common
-from ..text import lexicon_of, tokens
+from ..evidence import Strength, called_alike
 from ..trace import Trace
-from .clues import Strength
 from .roles import Roles
 
 
@@ -82,17 +80,3 @@ def _differ(one: Mapping[str, str], other: Mapping[str, str]) -> bool:
         )
         for role in {*one.values()} & {*other.values()}
     )
-
-
-def called_alike(one: LabwareInfo, other: LabwareInfo) -> bool:
-    """Whether two labware are of one kind and have one name but for a number."""
-    return one.load_name == other.load_name and _called(one) == _called(other)
-
-
-def said_to_be_twins(text: str, common: Common) -> bool:
-    """Whether a text says that its plates share their layout: "All three plates look the same"."""
-    return bool(lexicon_of({"twins": common.twins}).find(text))
-
-
-def _called(info: LabwareInfo) -> tuple[str, ...]:
-    return tuple(word for word in tokens(info.label) if len(word) > 1 and not word.isdigit())

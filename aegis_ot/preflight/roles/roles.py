@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from ...vocabulary import WellRef
+from ..evidence import Clue, Strength
 from ..rules import Family
-from .clues import Clue, Strength
 
 
 @dataclass

@@ -23,6 +23,7 @@ from .levels import (
 )
 from .lines import source_lines
 from .reading import read_source
+from .word_lists import first_words, labware_words, words_of
 from .words import Lexicon, Match, any_of, lexicon_of, tokens
 
 __all__ = [
@@ -44,6 +45,8 @@ __all__ = [
     "concentration_in",
     "concentrations_in",
     "direction_in",
+    "first_words",
+    "labware_words",
     "legend_of",
     "level_in",
     "lexicon_of",
@@ -57,5 +60,6 @@ __all__ = [
     "unit_in",
     "with_u",
     "without_strength",
+    "words_of",
     "written_lines",
 ]

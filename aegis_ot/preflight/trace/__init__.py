@@ -11,6 +11,7 @@ from .shapes import SHAPES, shapes_of
 from .table import places, trace_table
 from .tips import Layer, Met, Tip, TipBox
 from .trace import PlaceKey, Said, Trace
+from .usage import Sides, Usage, in_trough, usage_of
 from .visits import Imbalance, Visit
 from .wells import Composition, Well, row_column
 
@@ -25,17 +26,21 @@ __all__ = [
     "Plates",
     "Replacements",
     "Said",
+    "Sides",
     "Tip",
     "TipBox",
     "Trace",
     "Transfer",
+    "Usage",
     "Visit",
     "Well",
     "build_trace",
     "chains_of",
+    "in_trough",
     "links_of",
     "places",
     "row_column",
     "shapes_of",
     "trace_table",
+    "usage_of",
 ]
