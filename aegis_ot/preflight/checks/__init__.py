@@ -15,8 +15,9 @@ from .carry import Carry
 from .dilution import SeriesDirection, SeriesMixed
 from .dose_order import DoseOrder
 from .filling import SeriesFilledFirst, SeriesFilledFrom
+from .never_receives import NeverReceives
 from .order import MixedAfter, ReceivedBefore, RisingOrder
-from .receiving import NeverReceives, Receives
+from .receiving import Receives
 from .series_tip import SeriesTip
 from .uniform_volume import UniformVolume
 from .volumes import VolumeBookkeeping

@@ -129,6 +129,7 @@ def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
     """Unnamed sources that each go into wells of their own, beside a liquid common to all."""
     common, beside = frozenset(spec.single_with), frozenset(spec.single_beside)
     likes = frozenset({name})
+    known = {ref.labware for ref in roles.by_well if roles.has(ref, likes)}
     served = trace.served()
     sources: dict[WellRef, set[WellRef]] = {}
     for ref, wells in served.items():
@@ -147,7 +148,7 @@ def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
             and len(served.get(well, ())) < _SHARED  # no mix that is made in the run
             for well in wells
         )
-        and 2 * sum(_is_control(roles, well) for well in wells) < len(wells)
+        and _is_for_others_than_controls(roles, name, wells, among_such=ref.labware in known)
     }
     own = {
         ref: wells
@@ -156,7 +157,6 @@ def _derive_single(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
     }
     if beside:
         own = _in_racks_of_their_own(roles, single, own, beside)
-    known = {ref.labware for ref in roles.by_well if roles.has(ref, likes)}
     for ref in own:
         if len(own) >= _FEWEST_SINGLES or ref.labware in known:
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
@@ -186,10 +186,23 @@ def _in_racks_of_their_own(
 _MOST = 0.75
 
 
-def _is_control(roles: Roles, ref: WellRef) -> bool:
-    """Whether a well has a role that is named apart from what it receives."""
-    assigned = roles.by_well.get(ref)
-    return assigned is not None and bool(roles.family.roles[assigned.role].parents)
+def _is_for_others_than_controls(
+    roles: Roles, name: str, wells: Collection[WellRef], among_such: bool
+) -> bool:
+    """Whether a source serves other wells than controls: mostly, or at all ``among_such`` ones.
+
+    Some controls are of that kind, too: a positive control is a template.
+    """
+    specs = roles.family.roles
+    of_its_kind = {
+        fed for role, spec in specs.items() if name in roles.closure(role) for fed in spec.feeds
+    }
+    controls = 0
+    for well in wells:
+        assigned = roles.by_well.get(well)
+        apart = assigned is not None and bool(specs[assigned.role].parents)
+        controls += apart and assigned is not None and assigned.role not in of_its_kind
+    return controls < len(wells) if among_such else 2 * controls < len(wells)
 
 
 _SHARED = 3

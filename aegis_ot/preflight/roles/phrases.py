@@ -89,13 +89,15 @@ def _named_by_words(lexicon: Lexicon, clue: Clue, common: Common) -> list[list[s
     if what_it_is := _called_at_the_end(lexicon, text, first_words(common.articles)):
         return [what_it_is]
     places: dict[int, list[str]] = {}
+    ends: dict[int, int] = {}
     for match in lexicon.find(text):
         places.setdefault(match.start, []).append(match.topic)
+        ends[match.start] = match.end
     words = lexicon.words(text)
     places = _without_additives(places, words, common)
     places = _without_what_is_not(places, words, common)
     if clue.step == "source":
-        places = _drawn(places, words, common)
+        places = _without_wells(_drawn(places, words, common), ends, words, common)
     apart = first_words(common.replicates)  # "lysates in triplicate + BSA curve" is two things
     joints = [
         at
@@ -195,6 +197,22 @@ def _drawn(
                 end = at
                 break
     return {at: topics for at, topics in places.items() if at < end}
+
+
+def _without_wells(
+    places: dict[int, list[str]], ends: Mapping[int, int], words: Sequence[str], common: Common
+) -> dict[int, list[str]]:
+    """What a comment beside a transfer names apart from wells, where it names several things:
+    "treated columns, then controls" says where something goes.
+    """
+    if len(places) < 2:
+        return places
+    wells = first_words(common.places)
+    return {
+        at: topics
+        for at, topics in places.items()
+        if wells.isdisjoint(words[ends[at] : ends[at] + 1])
+    }
 
 
 def _says_only_labware(words: Sequence[str], common: Common) -> bool:

@@ -1,0 +1,70 @@
+"""What must not be given to some wells as a measured volume."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...vocabulary import Site
+from ..trace import Well
+from .base import Case, Check, Doubt, Result, Violation, at, delivered, place, role_field
+
+
+@dataclass(frozen=True)
+class NeverReceives(Check):
+    """No measured volume of ``liquid`` is dispensed into a well of ``wells``.
+
+    Attributes:
+        wells: Roles of the wells.
+        liquid: Roles of the liquid.
+    """
+
+    name: ClassVar[str] = "never_receives"
+    wells: tuple[str, ...] = role_field()
+    liquid: tuple[str, ...] = role_field()
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Look at what each such well is given."""
+        wanted, liquid = frozenset(self.wells), frozenset(self.liquid)
+        for well in case.wells(wanted):
+            seen: set[int] = set()
+            for visit in case.trace.deliveries(well):
+                for origin, volume, source, line in delivered(visit):
+                    if volume <= 1e-6 or id(origin) in seen:
+                        continue
+                    if not case.of(origin) and self._is_of_few(case, origin, well):
+                        seen.add(id(origin))
+                        yield Doubt(
+                            f"nothing says what {place(origin)} holds, which goes into the "
+                            f"{case.title(well)} {place(well)} as well"
+                        )
+                    if not case.has(origin, liquid):
+                        continue
+                    if case.has(origin, wanted):
+                        continue
+                    seen.add(id(origin))
+                    what = case.title(origin)
+                    yield Violation(
+                        f"{visit.volume:.4g} µL drawn from {what} in {place(source)} "
+                        f"{at(line)} are dispensed into the {case.title(well)} {place(well)} "
+                        f"{at(visit.line)}.",
+                        (
+                            Site(line, source.ref, f"drew {what}"),
+                            Site(visit.line, well.ref, f"gave it to the {case.title(well)}"),
+                        ),
+                        well,
+                        (visit.line, line, what, case.title(well)),
+                        (origin, well),
+                    )
+
+    def _is_of_few(self, case: Case, source: Well, well: Well) -> bool:
+        """Whether a source also goes into some of the other wells of a plate, but not most."""
+        wanted = frozenset(self.wells)
+        others = {
+            other
+            for other in case.meant
+            if other.ref.labware == well.ref.labware and not case.has(other, wanted)
+        }
+        served = others.intersection(case.destinations.get(source, ()))
+        return 0 < 2 * len(served) < len(others)
