@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 from ...vocabulary import WellRef
 from ..layouts import (
@@ -16,7 +15,6 @@ from ..layouts import (
     Topic,
     axis_of,
     items_after,
-    numbers_things,
     plain_lines,
     side_by_side,
     told_tables,
@@ -33,16 +31,16 @@ from ..text import (
     SourceFacts,
     comment_blocks,
     direction_in,
-    lexicon_of,
     listed_levels,
     tokens,
 )
-from ..trace import in_trough, row_column
+from ..trace import row_column
 from .bare_numbers import with_bare_numbers
 from .clues import Clue, Strength, shortened
 from .levels import names_zero
+from .meant_wells import Meant, goes_there, wells_meant
 from .spoken import laid_out_in_the_run
-from .twins import called_alike, said_to_be_twins
+from .twins import said_to_be_twins
 
 
 def written_wells(
@@ -108,11 +106,14 @@ def _of_text(
             keys = firm or topic.above() or _only_one_with(deck, parts, common)
             # "col 3  1 nM     tube A2": the column is not one of the tubes'.
             others = frozenset[str]().union(*own[at:]).difference(*own[: at + 1])
-            meant = _Meant(keys - others, bool(firm) or topic.places(keys), others, twins)
+            meant = Meant(keys - others, bool(firm) or topic.places(keys), others, twins)
             said = f"{part.text}, {more[at]}"
-            clues = list(_spoken(deck, part, said, line + number, meant, common))
+            clues = [
+                _clue(part, wells, line + number)
+                for wells in wells_meant(deck, part, said, meant, common)
+            ]
             placed = topic.places(keys)
-            if _goes_there(part, common):
+            if goes_there(part, common):
                 topic.next_part(frozenset(ref.labware for clue in clues for ref in clue.wells))
             for clue in clues:
                 levels = _across(part, f"{part.words}, {more[at]}", clue.wells, common)
@@ -120,6 +121,11 @@ def _of_text(
                     levels = ()  # named by what its wells hold, perhaps
                 clue = replace(clue, placed=placed, levels=levels)
                 yield from _one_by_one(part, said, clue, common) or [clue]
+
+
+def _clue(part: Part, wells: Sequence[WellRef], line: int) -> Clue:
+    said = f"'{shortened(part.text)}' at line {line}"
+    return Clue(Strength.COMMENT, part.words, tuple(wells), line, said, subject=False)
 
 
 def _one_by_one(part: Part, said: str, clue: Clue, common: Common) -> list[Clue]:
@@ -168,93 +174,6 @@ def _only_one_with(deck: Deck, parts: Sequence[Part], common: Common) -> frozens
 
 
 _LONGEST_CLAUSE = 160
-
-_ALL = re.compile(r"\ball\s+\d", re.IGNORECASE)
-
-
-class _Meant(NamedTuple):
-    """The labware that a part speaks of, whether it says so itself, and those it does not mean;
-    and whether plates of one kind are said to be filled alike.
-    """
-
-    keys: frozenset[str]
-    firm: bool
-    others: frozenset[str]
-    twins: bool
-
-
-def _spoken(
-    deck: Deck, part: Part, said: str, line: int, labware: _Meant, common: Common
-) -> Iterator[Clue]:
-    names = well_names(common)
-    keys, firm, others, twins = labware
-    by_hand = lexicon_of({"hand": common.by_hand}).find(said)
-    meant: dict[str, list[WellRef]] = {}
-    # "Column 2 = vehicle" may leave out the rows at the edge, if all of the plate does; "A2-H2"
-    # and "all 8" do not.
-    ranges = any(match["last"] for match in part.wells)
-    outright = ranges or _ALL.search(part.words) or all(match["first"] for match in part.wells)
-    axis = axis_of(part)
-    filled = deck.filled if _goes_there(part, common) else None
-    having = {
-        info.key: named
-        for info in deck.plates()
-        if info.key not in others
-        and (filled is None or info.key in filled)
-        and (named := names.meant_by(part.wells, info))
-    }
-    called = {key: named for key, named in having.items() if key in keys}
-    if firm and not called and numbers_things(part):
-        return  # "Fractions F1-F12: tube rack slot 4"
-    if firm or any((key, name) in deck.refs for key, named in called.items() for name in named):
-        having = called or having  # it may name that labware in passing
-    for key, named in having.items():
-        told = firm and in_trough(deck.trace, key)  # unused as well: the diluent, say
-        used = [name for name in named if told or (key, name) in deck.refs]
-        if outright and deck.are_left_out(key, [name for name in named if name not in used], used):
-            used = named  # more than a few are wells for which there is nothing this time
-        elif axis is not None and not by_hand:
-            used = [*deck.where_filled(key, used, axis), *deck.passed_over(key, named, axis)]
-        if used:
-            meant[key] = [deck.ref(key, name) for name in dict.fromkeys(used)]
-    if len(meant) > 1 and not (firm and meant.keys() == keys and deck.are_alike(keys)):
-        # Of several labware that have such wells it speaks of those that the run fills there, or
-        # else of those that it fills at all: what is untreated gets nothing.
-        here = {key: wells for key, wells in meant.items() if _is_mostly_filled(deck, wells)}
-        meant = here or {key: wells for key, wells in meant.items() if key in deck.filled}
-    plates = [deck.trace.labware[key] for key in meant]
-    if twins and len({plate.load_name for plate in plates}) == 1:
-        kind = plates[0].load_name
-        alike = [k for k in having if k in deck.filled and deck.trace.labware[k].load_name == kind]
-        there = {ref.name for wells in meant.values() for ref in wells}
-        meant |= {key: [deck.ref(key, n) for n in having[key] if n in there] for key in alike}
-    elif not all(plate.label and called_alike(plate, plates[0]) for plate in plates[1:]):
-        return
-    for wells in meant.values():
-        yield Clue(
-            Strength.COMMENT,
-            part.words,
-            tuple(wells),
-            line,
-            f"'{shortened(part.text)}' at line {line}",
-            subject=False,
-        )
-
-
-def _is_mostly_filled(deck: Deck, wells: Sequence[WellRef]) -> bool:
-    """Whether the run fills half of these wells at least, of those that it uses; not of a trough,
-    into which goes waste.
-    """
-    if in_trough(deck.trace, *{ref.labware for ref in wells}):
-        return False
-    used = [(ref.labware, ref.name) for ref in wells if (ref.labware, ref.name) in deck.refs]
-    return bool(used) and 2 * sum(place in deck.received for place in used) >= len(used)
-
-
-def _goes_there(part: Part, common: Common) -> bool:
-    """Whether a part says what goes into its wells: "diluent to columns 2-12"."""
-    before = part.text[: part.text.find(part.wells[0].group())].split()
-    return bool(before) and before[-1].lower() in common.toward
 
 
 def _across(part: Part, said: str, wells: Sequence[WellRef], common: Common) -> tuple[float, ...]:
