@@ -66,6 +66,25 @@ def _last_line(case: Case, well: Well) -> int | None:
     return lines[-1] if lines else None
 
 
+def _never_received(
+    case: Case, well: Well, title: str, given: tuple[int | None, Well, Well] | None
+) -> Violation:
+    """A well without the liquid of this title.
+
+    Args:
+        given: The line that draws the liquid for others, from where, and what it came from.
+    """
+    total, line = filled(case, well)
+    message = f"The {case.title(well)} {place(well)} never receives {title}" + (
+        f", though it receives {total:.4g} µL {at(line)}." if total > 0 else "."
+    )
+    lacking = Site(line or _last_line(case, well), well.ref, f"receives no {title}")
+    if given is None:
+        return Violation(message, (lacking,), well, (case.title(well),), (well,))
+    others = Site(given[0], given[1].ref, f"{title} is given to other wells")
+    return Violation(message, (others, lacking), well, (case.title(well),), (well, given[2]))
+
+
 _AS_FULL = 0.05
 """Volumes that differ by no more than this share are alike."""
 
@@ -126,7 +145,6 @@ class Receives(Check):
         ]
         # The best evidence for what the liquid is: a comment alone makes no error.
         given.sort(key=lambda one: case.roles.by_comment_only(one[2].ref))
-        source_line = given[0] if given else None
         title = " or ".join(case.family.roles[role].title for role in self.liquid)
         for well in judged:
             place_key = (well.ref.labware, well.ref.name)
@@ -134,51 +152,35 @@ class Receives(Check):
                 continue
             if well.ref.labware not in plates:
                 continue
-            if unknown := _unknown_source(case, well, served):
-                yield Doubt(
-                    f"{place(well)} receives something from {place(unknown)}, and nothing says "
-                    "what stands there"
-                )
-                continue
-            if (
-                case.loose_volumes
-                and not case.has(well, frozenset(self.always))
-                and (
-                    _is_of_another_stage(case, well, served)
-                    or _is_handed_on(case, well, frozenset(self.wells))
-                )
-            ):
-                yield Doubt(f"{place(well)} is filled from elsewhere, after a clean-up perhaps")
-                continue
-            if self._is_ready_made(case, well, served):
-                yield Doubt(
-                    f"{place(well)} may get all of its liquid from one tube, as the others do"
-                )
-                continue
-            total, line = filled(case, well)
-            if case.roles.by_plate_only(well.ref):
-                yield Doubt(f"nothing but its plate's name says what {place(well)} is for")
-                continue
-            if self._is_filled_otherwise(case, well, total, served):
-                yield Doubt(f"{place(well)} may be a blank of the instrument: it is filled up")
+            if reason := self._why_not_judged(case, well, served):
+                yield Doubt(reason)
                 continue
             reported.add(place_key)
-            others = (
-                Site(source_line[0], source_line[1].ref, f"{title} is given to other wells")
-                if source_line
-                else None
+            yield _never_received(case, well, title, given[0] if given else None)
+
+    def _why_not_judged(self, case: Case, well: Well, served: set[tuple[str, str]]) -> str:
+        """Why nobody can say whether a well that lacks the liquid should have it, or ``""``."""
+        if unknown := _unknown_source(case, well, served):
+            return (
+                f"{place(well)} receives something from {place(unknown)}, and nothing says "
+                "what stands there"
             )
-            message = f"The {case.title(well)} {place(well)} never receives {title}" + (
-                f", though it receives {total:.4g} µL {at(line)}." if total > 0 else "."
+        if (
+            case.loose_volumes
+            and not case.has(well, frozenset(self.always))
+            and (
+                _is_of_another_stage(case, well, served)
+                or _is_handed_on(case, well, frozenset(self.wells))
             )
-            sites = (Site(line or _last_line(case, well), well.ref, f"receives no {title}"),)
-            yield Violation(
-                message,
-                (others, *sites) if others else sites,
-                well,
-                (case.title(well),),
-                (well, source_line[2]) if source_line else (well,),
-            )
+        ):
+            return f"{place(well)} is filled from elsewhere, after a clean-up perhaps"
+        if self._is_ready_made(case, well, served):
+            return f"{place(well)} may get all of its liquid from one tube, as the others do"
+        if case.roles.by_plate_only(well.ref):
+            return f"nothing but its plate's name says what {place(well)} is for"
+        if self._is_filled_otherwise(case, well, filled(case, well)[0], served):
+            return f"{place(well)} may be a blank of the instrument: it is filled up"
+        return ""
 
     def _is_ready_made(self, case: Case, well: Well, served: set[tuple[str, str]]) -> bool:
         """Whether an NTC comes out of an NTC tube, and no well beside it is put together."""
