@@ -19,7 +19,7 @@ def is_same_liquid(case: Case, one: Well, other: Well) -> bool:
         return True
     if _laid_out_alike(case, one, other) or _rolls_over(case, one, other):
         return True
-    if _is_one_of_a_recipe(case, one, other):
+    if _is_one_of_a_recipe(case, one, other) or _fill_a_reservoir(case, one, other):
         return True
     if (
         one.liquids
@@ -79,6 +79,21 @@ def _rolls_over(case: Case, one: Well, other: Well) -> bool:
         and len(served & also) <= 1
         and _by_one_statement(one, other)
     )
+
+
+def _fill_a_reservoir(case: Case, one: Well, other: Well) -> bool:
+    """Whether both are called as their whole reservoir is: ``glycerol`` of "50 % glycerol".
+
+    Not by a plural, "antibodies", which may be a different one in each channel.
+    """
+    info = case.trace.labware.get(one.ref.labware)
+    if info is None or not info.centers_channels or one.ref.labware != other.ref.labware:
+        return False
+    mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
+    if mine is None or theirs is None or mine.text != theirs.text or mine.text.endswith("s"):
+        return False
+    label = name_without_level(info.label, case.common)
+    return label == name_without_level(mine.text, case.common) != ()
 
 
 _NUMBERED = re.compile(r"(.+\[)['\"]?\d+['\"]?\]")

@@ -1,4 +1,4 @@
-"""What must not be given to a control: where nothing says what it is given, the rule is undecided."""
+"""What must not be given to a control; what it is given may be unknown."""
 
 from __future__ import annotations
 
