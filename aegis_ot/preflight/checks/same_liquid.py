@@ -92,6 +92,8 @@ def _fill_a_reservoir(case: Case, one: Well, other: Well) -> bool:
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
     if mine is None or theirs is None or mine.text != theirs.text or mine.text.endswith("s"):
         return False
+    if mine.whole or case.family.roles[mine.role].dosed or case.level(one) != case.level(other):
+        return False  # "bortezomib" has another dose in each
     label = name_without_level(info.label, case.common)
     return label == name_without_level(mine.text, case.common) != ()
 
