@@ -20,7 +20,8 @@ class VolumeBookkeeping(Check):
     """No well is filled beyond its capacity or drawn below what it holds.
 
     Wells of unknown volume are judged only by what the run put into them; so are plates from
-    which so much is drawn that someone must have filled them by hand.
+    which so much is drawn that someone must have filled them by hand. A pause that does not say
+    what is done in it leaves open whether someone filled or emptied wells.
     """
 
     name: ClassVar[str] = "volume_bookkeeping"
@@ -54,6 +55,27 @@ class VolumeBookkeeping(Check):
                 )
                 continue
             yield _violation(imbalance)
+        for imbalance in case.trace.doubtful:
+            well = imbalance.well
+            key = (id(well), imbalance.overfilled)
+            undeclared = not imbalance.overfilled and well.declared is None
+            if key in seen or undeclared or well.ref in case.waste:
+                continue
+            seen.add(key)
+            yield Doubt(_if_nobody_did(imbalance))
+
+
+def _if_nobody_did(imbalance: Imbalance) -> str:
+    """What would be wrong if nobody changed a volume by hand in a pause."""
+    if imbalance.overfilled:
+        return (
+            f"{place(imbalance.well)} would hold {imbalance.volume:.4g} µL {at(imbalance.line)}, "
+            f"of {imbalance.limit:.4g} µL, if nobody emptied it in the pause before"
+        )
+    return (
+        f"{imbalance.volume:.4g} µL are drawn from {place(imbalance.well)} {at(imbalance.line)}, "
+        f"which held {imbalance.limit:.4g} µL if nobody filled it in the pause before"
+    )
 
 
 def _is_far_short(well: Well) -> bool:

@@ -216,10 +216,15 @@ class _Builder:
         held = well.volume
         if not well.prefilled:
             tip.unsure += max(step.volume - well.least, 0.0)
+        reckoned = well.reckoned
         missing = well.draw(step.volume)
         if missing > _slack(step.volume):
             self._trace.imbalances.append(
                 Imbalance(well, self._index, step.line, False, step.volume, held)
+            )
+        elif reckoned is not None and step.volume > reckoned + _slack(step.volume):
+            self._trace.doubtful.append(
+                Imbalance(well, self._index, step.line, False, step.volume, reckoned)
             )
         tip.push(well, step.volume, liquid, step.line)
         self._last[tip] = visit
@@ -232,9 +237,14 @@ class _Builder:
             unsure = min(tip.unsure, volume)
             tip.unsure -= unsure
             well.add(volume, liquid, unsure)
-        if well.least > well.capacity + _slack(well.capacity) and visit.volume > 0:
+        most = well.capacity + _slack(well.capacity)
+        if well.least > most and visit.volume > 0:
             self._trace.imbalances.append(
                 Imbalance(well, self._index, step.line, True, well.least, well.capacity)
+            )
+        elif well.reckoned is not None and well.reckoned > most and visit.volume > 0:
+            self._trace.doubtful.append(
+                Imbalance(well, self._index, step.line, True, well.reckoned, well.capacity)
             )
         visit.below = step.from_top is None or step.from_top < 0
         clear = well.clear_of_liquid(step.from_bottom, step.from_liquid)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 from ...instrumentation import LabwareInfo
 from ..text import lexicon_of, tokens
+from .pause_objects import PauseObjects
 
 _SLOT = re.compile(r"\b(?:[A-Da-d][1-4]|\d{1,2})\b")
 
@@ -19,7 +20,7 @@ _SLOT = re.compile(r"\b(?:[A-Da-d][1-4]|\d{1,2})\b")
 _WAYS = ("back", "elsewhere", "another")
 """Where a plate went, in the order of the words: "to the incubator, then return it to slot 1"."""
 
-_APART = (*_WAYS, "trough", "vacant")
+_APART = (*_WAYS, "trough", "vacant", "taking", "bins", "things", "fillers")
 
 _NEAR = 3
 """So many words after "an empty" say what is empty."""
@@ -56,7 +57,8 @@ class Replacements:
     Args:
         words: Phrases by topic: ``replace``, ``plate``, ``tips``, ``refill``,
             ``shake``, ``away``, ``spin``, ``trough``, ``back``, ``elsewhere``, ``another``,
-            ``vacant``.
+            ``vacant``, ``taking``, ``bins``, ``things``,
+            ``fillers``.
         joining: Words for "and".
     """
 
@@ -73,6 +75,7 @@ class Replacements:
         )
         self._ways = lexicon_of({topic: tuple(self.words.get(topic, ())) for topic in _WAYS})
         self._plates = lexicon_of({"plate": tuple(self.words.get("plate", ()))})
+        self._objects = PauseObjects(self.words)
         self._vacant = lexicon_of({"vacant": tuple(self.words.get("vacant", ()))})
         self._troughs = lexicon_of({"trough": tuple(self.words.get("trough", ()))})
 
@@ -90,14 +93,24 @@ class Replacements:
         topics = {match.topic for match in found}
         if any(m.topic == "replace" and self._plates.find(m.phrase) for m in found):
             topics.add("plate")  # "clean plate" says both
+        named = self._named(text, labware, slots)
+        others = {
+            topic
+            for topic in topics & {"replace", "away"}
+            if not self._objects.are_plates(text, topic, bool(named))
+        }
+        shaken = "shake" in topics
+        # "Replace the empty tip racks" fills and empties nothing.
+        refill = "refill" in topics and self._objects.may_change_volumes(text, "refill")
+        new_tips = "replace" in topics and "tips" in topics
+        if new_tips and "plate" not in topics:
+            unsure = refill or self._objects.may_change_volumes(text, "replace")
+            return Intervention(
+                all_tips=True, shaken=shaken, volumes_unsure=unsure, refilled=unsure
+            )
+        topics -= others  # "new gloves", "remove the seal"
         if self._puts_empty_one(text):
             topics |= {"replace", "plate"}
-        shaken = "shake" in topics
-        refill = "refill" in topics
-        tips_only = "tips" in topics and "plate" not in topics
-        if "replace" in topics and tips_only:
-            return Intervention(all_tips=True, shaken=shaken)
-        named = self._named(text, labware, slots)
         if refill and not any(
             m.topic == "plate" and not self._troughs.find(m.phrase) for m in found
         ):
@@ -105,7 +118,7 @@ class Replacements:
             if named and all(labware[key].centers_channels for key in named):
                 # "Refill the trough with fresh buffer" brings no fresh plate.
                 return Intervention(
-                    all_tips="replace" in topics and "tips" in topics,
+                    all_tips=new_tips,
                     shaken=shaken,
                     volumes_unsure=True,
                     refilled=True,
@@ -122,9 +135,12 @@ class Replacements:
             return Intervention(
                 frozenset(), "tips" in topics, shaken, True, refill, plates, returned=plates
             )
-        unsure = refill or not topics
+        # Beside "empty the trash" a message may speak of anything, but of tips.
+        unsaid = "tips" not in topics and (not topics or "refill" in topics)
+        unsure = refill or bool(others) or unsaid
         touched = frozenset(named) or None
-        return Intervention(frozenset(), "tips" in topics, shaken, unsure, refill, touched)
+        filled = refill or "replace" in others  # a new tube, say
+        return Intervention(frozenset(), "tips" in topics, shaken, unsure, filled, touched)
 
     def _puts_empty_one(self, text: str) -> bool:
         """Whether a text speaks of "an empty cryo plate"."""
