@@ -8,12 +8,15 @@ from typing import ClassVar
 
 from ...vocabulary import Site
 from ..trace import Well
-from .base import Case, Check, Doubt, Result, Violation, at, delivered, place, role_field
+from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
 
 
 @dataclass(frozen=True)
 class NeverReceives(Check):
     """No measured volume of ``liquid`` is dispensed into a well of ``wells``.
+
+    Where nothing says what such a well is given, that may be ``liquid``, too, if it stands in
+    the place of that in some other wells.
 
     Attributes:
         wells: Roles of the wells.
@@ -33,12 +36,13 @@ class NeverReceives(Check):
                 for origin, volume, source, line in delivered(visit):
                     if volume <= 1e-6 or id(origin) in seen:
                         continue
-                    if not case.of(origin) and self._is_of_few(case, origin, well):
+                    if not case.of(origin) and self._may_be(case, origin, well, liquid):
                         seen.add(id(origin))
                         yield Doubt(
                             f"nothing says what {place(origin)} holds, which goes into the "
                             f"{case.title(well)} {place(well)} as well"
                         )
+                        continue
                     if not case.has(origin, liquid):
                         continue
                     if case.has(origin, wanted):
@@ -58,13 +62,14 @@ class NeverReceives(Check):
                         (origin, well),
                     )
 
-    def _is_of_few(self, case: Case, source: Well, well: Well) -> bool:
-        """Whether a source also goes into some of the other wells of a plate, but not most."""
+    def _may_be(self, case: Case, source: Well, well: Well, liquid: RoleSet) -> bool:
+        """Whether some other wells of a plate, but not most, get a source and no ``liquid``."""
         wanted = frozenset(self.wells)
         others = {
-            other
-            for other in case.meant
+            other: origins
+            for other, origins in case.meant.items()
             if other.ref.labware == well.ref.labware and not case.has(other, wanted)
         }
-        served = others.intersection(case.destinations.get(source, ()))
-        return 0 < 2 * len(served) < len(others)
+        served = [origins for other, origins in others.items() if source in origins]
+        in_its_place = any(not any(case.has(o, liquid) for o in origins) for origins in served)
+        return in_its_place and 2 * len(served) < len(others)

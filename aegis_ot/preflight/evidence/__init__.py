@@ -8,17 +8,17 @@ from .clues import Clue, Strength
 from .gathering import gather
 from .helpers import SAID_BY_FUNCTION
 from .levels import are_one, levels_beside, levels_of, names_amounts, without_lone_middle
-from .twins import called_alike
+from .twins import may_be_twins
 
 __all__ = [
     "SAID_BY_FUNCTION",
     "Clue",
     "Strength",
     "are_one",
-    "called_alike",
     "gather",
     "levels_beside",
     "levels_of",
+    "may_be_twins",
     "names_amounts",
     "without_lone_middle",
 ]

@@ -2,7 +2,7 @@
 
 A name speaks of what is drawn while the function is at work, if it says what is done and with
 one thing. Where several functions around a draw say something, each is heard; the one that
-draws from fewer wells knows better (see :mod:`..roles.assigning`).
+draws from fewer wells knows better (see :mod:`..roles.choosing`).
 """
 
 from __future__ import annotations

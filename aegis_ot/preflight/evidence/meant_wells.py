@@ -11,7 +11,7 @@ from ..layouts import Deck, Part, axis_of, numbers_things, well_names
 from ..rules import Common
 from ..text import lexicon_of
 from ..trace import in_trough
-from .twins import called_alike
+from .twins import may_be_twins
 
 _ALL = re.compile(r"\ball\s+\d", re.IGNORECASE)
 
@@ -62,7 +62,7 @@ def wells_meant(
         alike = [k for k in having if k in deck.filled and deck.trace.labware[k].load_name == kind]
         there = {ref.name for wells in meant.values() for ref in wells}
         meant |= {key: [deck.ref(key, n) for n in having[key] if n in there] for key in alike}
-    elif not all(plate.label and called_alike(plate, plates[0]) for plate in plates[1:]):
+    elif not all(plate.label and may_be_twins(plate, plates[0]) for plate in plates[1:]):
         return
     yield from meant.values()
 

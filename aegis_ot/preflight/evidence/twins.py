@@ -7,7 +7,7 @@ from ..rules import Common
 from ..text import lexicon_of, tokens
 
 
-def called_alike(one: LabwareInfo, other: LabwareInfo) -> bool:
+def may_be_twins(one: LabwareInfo, other: LabwareInfo) -> bool:
     """Whether two labware are of one kind and have one name but for a number."""
     return one.load_name == other.load_name and _called(one) == _called(other)
 

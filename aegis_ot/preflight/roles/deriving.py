@@ -189,7 +189,11 @@ _MOST = 0.75
 def _is_for_others_than_controls(
     roles: Roles, name: str, wells: Collection[WellRef], among_such: bool
 ) -> bool:
-    """Whether a source serves other wells than controls: mostly, or at all ``among_such`` ones.
+    """Whether a source serves mostly other wells than controls, or, ``among_such`` sources, one at
+    least that is called so itself.
+
+    Where it serves controls at all, what these should get must be known: it may be their water.
+    Or else the others are not called so by their plate alone.
 
     Some controls are of that kind, too: a positive control is a template.
     """
@@ -197,12 +201,18 @@ def _is_for_others_than_controls(
     of_its_kind = {
         fed for role, spec in specs.items() if name in roles.closure(role) for fed in spec.feeds
     }
-    controls = 0
-    for well in wells:
-        assigned = roles.by_well.get(well)
-        apart = assigned is not None and bool(specs[assigned.role].parents)
-        controls += apart and assigned is not None and assigned.role not in of_its_kind
-    return controls < len(wells) if among_such else 2 * controls < len(wells)
+    controls = {
+        well
+        for well in wells
+        if well in roles.by_well
+        and specs[(role := roles.by_well[well].role)].parents
+        and role not in of_its_kind
+    }
+    outright = any(well not in controls and roles.is_named(well) for well in wells)
+    mostly = 2 * len(controls) < len(wells)
+    return not controls or (
+        ((mostly or among_such) and outright) or (mostly and all(map(roles.has_its_own, controls)))
+    )
 
 
 _SHARED = 3

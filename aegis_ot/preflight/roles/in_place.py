@@ -66,12 +66,15 @@ def derive_used_like(
         if not spec.dosed and in_trough(trace, ref.labware):
             continue
         own = into.keys() - others
-        apart = sum(roles.is_set_apart(well) for well in own)
-        mostly_own = len(own) >= _MOSTLY * len(into) and apart < _MOSTLY * len(own)
+        controls = [well for well in own if roles.is_set_apart(well)]
+        mostly_own = len(own) >= _MOSTLY * len(into) and len(controls) < _MOSTLY * len(own)
         for_all = len(others & into.keys()) >= _MOSTLY * len(others)
         alone = own.isdisjoint(taken) and all(fed[well] == 1 for well in own)
         as_much = all(_is_one_of(volume, volumes) for volume in into.values())
         there = all(well.labware in plates and not _feeds(usage, well) for well in own)
+        told = any(well not in controls and roles.is_named(well) for well in own)
+        if not (told or spec.dosed or all(map(roles.has_its_own, controls))):
+            continue  # what controls get beside wells of which nothing is said may be water
         if own and mostly_own and not for_all and alone and as_much and there:
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
 

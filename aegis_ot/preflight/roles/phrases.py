@@ -202,17 +202,13 @@ def _drawn(
 def _without_wells(
     places: dict[int, list[str]], ends: Mapping[int, int], words: Sequence[str], common: Common
 ) -> dict[int, list[str]]:
-    """What a comment beside a transfer names apart from wells, where it names several things:
+    """Nothing of a comment beside a transfer that names several things, one of them as wells:
     "treated columns, then controls" says where something goes.
     """
-    if len(places) < 2:
-        return places
-    wells = first_words(common.places)
-    return {
-        at: topics
-        for at, topics in places.items()
-        if wells.isdisjoint(words[ends[at] : ends[at] + 1])
-    }
+    lines = (common.layout.get(kind, ()) for kind in ("column", "columns", "row", "rows"))
+    wells = first_words(common.places).union(*map(words_of, lines))
+    of_wells = any(not wells.isdisjoint(words[ends[at] : ends[at] + 1]) for at in places)
+    return {} if len(places) > 1 and of_wells else places
 
 
 def _says_only_labware(words: Sequence[str], common: Common) -> bool:

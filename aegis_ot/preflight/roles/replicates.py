@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from ...instrumentation import LabwareInfo
 from ...vocabulary import WellRef
-from ..evidence import Strength, called_alike
+from ..evidence import Strength, may_be_twins
 from ..trace import Trace
 from .roles import Roles
 
@@ -61,7 +61,7 @@ def _replicates(
                 continue
             mine, theirs = layouts.get(one.key, {}), layouts.get(other.key, {})
             laid_out_alike = mine == theirs and len({*mine.values()}) > 1
-            if not (laid_out_alike or called_alike(one, other)) or _differ(mine, theirs):
+            if not (laid_out_alike or may_be_twins(one, other)) or _differ(mine, theirs):
                 continue
             shared = given[one.key].keys() & given[other.key].keys()
             alike = sum(not given[one.key][n].isdisjoint(given[other.key][n]) for n in shared)

@@ -95,6 +95,18 @@ class Roles:
         assigned = self.by_well.get(ref)
         return assigned is not None and assigned.whole and not self.derived.get(ref)
 
+    def is_named(self, ref: WellRef) -> bool:
+        """Whether something says of a well itself what it is for, not of its plate alone."""
+        assigned = self.by_well.get(ref)
+        return assigned is not None and not assigned.whole
+
+    def has_its_own(self, ref: WellRef) -> bool:
+        """Whether what a well gets in another liquid's place is known to stand somewhere: the water
+        of a no-template control.
+        """
+        assigned = self.by_well.get(ref)
+        return assigned is not None and any(map(self.known, self.family.roles[assigned.role].gets))
+
     def is_set_apart(self, ref: WellRef) -> bool:
         """Whether a well is named for something that does not follow from what it receives."""
         assigned = self.by_well.get(ref)

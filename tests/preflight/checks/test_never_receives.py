@@ -18,7 +18,8 @@ def run(ctx):
     templates = rack.columns()[1]
     reactions = plate.wells()[:4]
     ntc_wells = [plate["H1"], plate["H2"]]
-    for well in reactions + ntc_wells:
+    spare = [plate["G1"], plate["G2"]]
+    for well in reactions + spare + ntc_wells:
         p20.transfer(10, master_mix, well.top(-1), new_tip="always")
     for template, well in zip(templates, reactions):
         p20.transfer(4, template, well, mix_after=(2, 5), new_tip="always")
@@ -32,16 +33,20 @@ def _undecided(first: str, second: str) -> dict[str, str]:
     report: Report = check_script(
         Script(PROTOCOL.format(first=first, second=second), "loci.py"), load_database()
     )
-    assert not report.findings
+    assert not [found for found in report.findings if found.rule != "PCR-6"]
     return {undecided.rule: undecided.reason for undecided in report.undecided}
 
 
-def test_an_unknown_tube_of_some_reactions_leaves_it_open_in_a_control() -> None:
-    reason = _undecided("[reactions[0], ntc_wells[0]]", "[*reactions[1:], ntc_wells[1]]")["PCR-4"]
+def test_an_unknown_tube_in_the_templates_place_leaves_it_open_in_a_control() -> None:
+    reason = _undecided("[spare[0], ntc_wells[0]]", "reactions")["PCR-4"]
     assert "D6" in reason
     assert "H1" in reason
 
 
 def test_what_goes_into_all_wells_or_into_controls_alone_leaves_nothing_open() -> None:
-    assert "PCR-4" not in _undecided("reactions + ntc_wells", "reactions + ntc_wells")
-    assert "PCR-4" not in _undecided("ntc_wells", "reactions")
+    assert "PCR-4" not in _undecided("reactions + spare + ntc_wells", "reactions")
+    assert "PCR-4" not in _undecided("ntc_wells", "reactions + spare")
+
+
+def test_nor_does_what_goes_where_template_goes_as_well() -> None:
+    assert "PCR-4" not in _undecided("[reactions[0], ntc_wells[0]]", "[*reactions[1:], *spare]")
