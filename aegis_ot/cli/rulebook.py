@@ -115,7 +115,7 @@ def write_docs(
     if check:
         stale = [name for name, text in pages.items() if _text(out / name) != text]
         for name in stale:
-            typer.echo(f"{out / name} is out of date; run: aegis-ot rules docs")
+            typer.echo(f"{out / name} is out of date; run: aegis-ot rules docs --out {out}")
         raise typer.Exit(FINDINGS if stale else CLEAN)
     for name, text in pages.items():
         write_text(out / name, text)
