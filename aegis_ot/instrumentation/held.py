@@ -73,15 +73,21 @@ class Reader:
 
     def __init__(self, wells: WellResolver) -> None:
         from opentrons.protocol_api import Labware, Well
+        from opentrons.types import Location
 
         # Asked for by type: a protocol's own objects may answer any attribute, or raise at it.
         self._well_type: type = Well
+        self._location_type: type = Location
         self.labware_type: type = Labware
         self._wells = wells
         self.modules: set[str] = {"builtins"}
 
     def wells(self, value: Any, depth: int = 0) -> tuple[WellRef, ...]:
-        """The wells that a value is or lists, in order; tips are no wells."""
+        """The wells that a value is or lists, or is a place in (``well.top(-2)``), in order; tips
+        are no wells.
+        """
+        if issubclass(type(value), self._location_type) and value.labware.is_well:
+            value = value.labware.as_well()
         if issubclass(type(value), self._well_type):
             core = value._core
             info = self._wells.info_of(core)

@@ -74,6 +74,11 @@ class Carry(Check):
                 continue
             if self.shared and not is_shared(case, well):
                 continue
+            if well.ref in case.waste and (
+                visit.kind is not OperationKind.ASPIRATE
+                or all(dest.ref in case.waste for dest in case.destinations.get(well, ()))
+            ):
+                continue  # it is meant for all
             if self.stock and not case.destinations.get(well):
                 continue  # tips are rinsed in it; nothing is made of it
             key = (visit.tip, well)

@@ -35,9 +35,7 @@ def _joined(broken: Broken) -> Iterable[Finding]:
         wells = list(dict.fromkeys(violation.well.ref for violation in group))
         message = first.message
         if len(wells) > 1:
-            shown = ", ".join(ref.name for ref in wells[1:7])
-            more = f" and {len(wells) - 7} more" if len(wells) > 7 else ""
-            message = f"{message} Likewise {shown}{more}."
+            message = f"{message} Likewise {_listed(wells[1:])}."
         severity = broken.severity
         if first.on_comment:
             # spec/rules.md puts comments below names, liquids and labels: they are believed
@@ -48,6 +46,23 @@ def _joined(broken: Broken) -> Iterable[Finding]:
         for violation in group[1:]:
             sites.update(dict.fromkeys(violation.sites))
         yield Finding(rule.id, severity, message, tuple(sites), why=rule.rationale, fix=rule.fix)
+
+
+_MOST_SHOWN = 6
+
+
+def _listed(wells: Sequence[WellRef]) -> str:
+    """The first wells of a list, by labware if they are in several: "B1, C1 of PCR plate"."""
+    shown: dict[str, list[WellRef]] = {}
+    for ref in wells[:_MOST_SHOWN]:
+        shown.setdefault(ref.labware, []).append(ref)
+    several = len({ref.labware for ref in wells}) > 1
+    parts = [
+        ", ".join([*(ref.name for ref in refs[:-1]), str(refs[-1]) if several else refs[-1].name])
+        for refs in shown.values()
+    ]
+    more = f" and {len(wells) - _MOST_SHOWN} more" if len(wells) > _MOST_SHOWN else ""
+    return ", ".join(parts) + more
 
 
 def without_replaced(found: Sequence[Broken]) -> list[Broken]:
