@@ -77,7 +77,7 @@ class Reader:
 
         # Asked for by type: a protocol's own objects may answer any attribute, or raise at it.
         self._well_type: type = Well
-        self._location_type: type = Location
+        self._location_type: Any = Location
         self.labware_type: type = Labware
         self._wells = wells
         self.modules: set[str] = {"builtins"}
@@ -86,7 +86,7 @@ class Reader:
         """The wells that a value is or lists, or is a place in (``well.top(-2)``), in order; tips
         are no wells.
         """
-        if issubclass(type(value), self._location_type) and value.labware.is_well:
+        if self.is_place(value):
             value = value.labware.as_well()
         if issubclass(type(value), self._well_type):
             core = value._core
@@ -94,6 +94,10 @@ class Reader:
             return () if info.is_tip_rack else (self._wells.ref(info.key, str(core.get_name())),)
         found = items(value) if depth < DEEPEST else ()
         return tuple(ref for item in found for ref in self.wells(item, depth + 1))
+
+    def is_place(self, value: Any) -> bool:
+        """Whether a value is a place in a well, and not of a type of the protocol's own making."""
+        return type(value) is self._location_type and bool(value.labware.is_well)
 
     def labware(self, value: Any, depth: int = 0) -> tuple[str, ...]:
         """Keys of the labware that a value is or lists, in order."""

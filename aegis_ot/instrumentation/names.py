@@ -74,11 +74,19 @@ class NameCollector:
         self._returns: Counter[tuple[str, int]] = Counter()
         self._looks: dict[tuple[str, str], tuple[int, ...]] = {}
         self._labware: dict[str, Any] = {}
+        self._places: set[NameBinding] = set()
 
     @property
     def bindings(self) -> tuple[NameBinding, ...]:
-        """What was found so far, each once, in order of appearance."""
-        return tuple(self._bindings)
+        """What was found so far, each once, in order of appearance.
+
+        The name of a place in a well, which a loop often binds anew, only where no other name
+        holds that well: ``position = tube.bottom(1)``.
+        """
+        named = {ref for one in self._bindings if one not in self._places for ref in one.wells}
+        return tuple(
+            one for one in self._bindings if one not in self._places or named.isdisjoint(one.wells)
+        )
 
     def look(self, names: Mapping[str, Any], function: str, line: int) -> None:
         """Take in the local (or global) names of one function."""
@@ -128,6 +136,8 @@ class NameCollector:
         )
         if len(binding.labware) == 1 and issubclass(type(value), read.labware_type):
             self._labware[binding.labware[0]] = value
+        if read.is_place(value):
+            self._places.add(binding)
         self._add(binding)
 
     def _add(self, found: NameBinding) -> None:

@@ -35,7 +35,7 @@ def _joined(broken: Broken) -> Iterable[Finding]:
         wells = list(dict.fromkeys(violation.well.ref for violation in group))
         message = first.message
         if len(wells) > 1:
-            message = f"{message} Likewise {_listed(wells[1:])}."
+            message = f"{message} Likewise {_listed(wells)}."
         severity = broken.severity
         if first.on_comment:
             # spec/rules.md puts comments below names, liquids and labels: they are believed
@@ -52,16 +52,17 @@ _MOST_SHOWN = 6
 
 
 def _listed(wells: Sequence[WellRef]) -> str:
-    """The first wells of a list, by labware if they are in several: "B1, C1 of PCR plate"."""
+    """The wells behind the first one, by labware if they are in several: "B1, C1 of PCR plate"."""
     shown: dict[str, list[WellRef]] = {}
-    for ref in wells[:_MOST_SHOWN]:
+    further = wells[1:]
+    for ref in further[:_MOST_SHOWN]:
         shown.setdefault(ref.labware, []).append(ref)
     several = len({ref.labware for ref in wells}) > 1
     parts = [
         ", ".join([*(ref.name for ref in refs[:-1]), str(refs[-1]) if several else refs[-1].name])
         for refs in shown.values()
     ]
-    more = f" and {len(wells) - _MOST_SHOWN} more" if len(wells) > _MOST_SHOWN else ""
+    more = f" and {len(further) - _MOST_SHOWN} more" if len(further) > _MOST_SHOWN else ""
     return ", ".join(parts) + more
 
 

@@ -3,15 +3,33 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import NamedTuple
 
-from ..text import Match, lexicon_of
+from ..text import Match, first_words, lexicon_of
 
 _CLAUSE = re.compile(r"(?<!\d)[.,](?!\d)|[;:!?\n]")
 """What stands between two clauses; "0.5 mL" is one."""
 
+_MOST = 50
+"""So many words of a clause are looked at; a message of more is none."""
 
-_KINDS = ("plate", "tips", "bins", "things")
+_KINDS = ("plate", "tips", "dry", "liquids")
+
+
+class _Said(NamedTuple):
+    """A word for what is done, and the clause that it stands in."""
+
+    match: Match
+    clause: str
+    kinds: list[Match]
+    """Words for things of any kind, in order; of several in a row the last: "plate seal"."""
+
+    @property
+    def after(self) -> list[Match]:
+        """Those behind the word."""
+        return [kind for kind in self.kinds if kind.start >= self.match.end]
 
 
 class PauseObjects:
@@ -19,15 +37,29 @@ class PauseObjects:
 
     Args:
         words: Phrases by topic: what is done (``replace``, ``refill``, ``away``, of which those of
-            ``taking`` may be done with anything), and with what: ``plate``, ``tips``, ``bins``,
-            ``things`` that are no labware, and ``fillers``, which say nothing of it.
+            ``taking`` may be done with anything; ``qualities``, of ``replace``, stand right before
+            what they are said of), and with what: ``plate``, ``vessels`` that mean the same here,
+            ``tips``, ``liquids`` and what holds them (``tubes``), what is ``dry`` and no labware,
+            and ``fillers``, which say nothing of it.
+        joining: Words for "and".
     """
 
-    def __init__(self, words: Mapping[str, Sequence[str]]) -> None:
-        topics = ("replace", "away", "refill", *_KINDS, "fillers")
-        self._lexicon = lexicon_of({topic: tuple(words.get(topic, ())) for topic in topics})
-        self._taking = lexicon_of({"taking": tuple(words.get("taking", ()))})
-        self._plates = lexicon_of({"plate": tuple(words.get("plate", ()))})
+    def __init__(self, words: Mapping[str, Sequence[str]], joining: Sequence[str]) -> None:
+        listed = {topic: tuple(words.get(topic, ())) for topic in words}
+        topics = ("replace", "away", "refill", "tips", "dry", "liquids", "fillers")
+        plates = (*listed.get("plate", ()), *listed.get("vessels", ()))
+        self._lexicon = lexicon_of({t: listed.get(t, ()) for t in topics} | {"plate": plates})
+        self._plates = lexicon_of({"plate": plates})
+        self._taking = lexicon_of({"taking": listed.get("taking", ())})
+        self._qualities = lexicon_of({"qualities": listed.get("qualities", ())})
+        self._tubes = frozenset(listed.get("tubes", ()))
+        self._joining = first_words(tuple(joining))
+        small = (*listed.get("fillers", ()), *listed.get("qualities", ()))
+        self._between = self._joining | first_words(small)
+
+    def name_plates(self, text: str) -> bool:
+        """Whether a text has a word for plates."""
+        return bool(self._plates.find(text))
 
     def are_plates(self, text: str, topic: str, named: bool) -> bool:
         """Whether a text says of plates what the words of a topic say of anything.
@@ -40,54 +72,66 @@ class PauseObjects:
             topic: ``replace`` or ``away``.
             named: Whether it names labware that stands on the deck.
         """
-        anywhere = named or bool(self._plates.find(text))
-        clauses = [clause for clause in _CLAUSE.split(text) if clause.strip()]
-        return any(
-            self._is_of_plates(clause, match, anywhere)
-            for clause in clauses
-            for match in self._lexicon.find(clause)
-            if match.topic == topic
-        )
+        anywhere = named or self.name_plates(text)
+        return any(self._is_of_plates(said, anywhere) for said in self._said(text, topic))
 
     def may_change_volumes(self, text: str, topic: str) -> bool:
         """Whether what a text says by the words of a topic may be done with what wells hold.
 
         "Refill the tips, empty the trash" is not.
         """
-        found = {match.topic for match in self._lexicon.find(text)}
-        for clause in _CLAUSE.split(text):
-            matches = self._lexicon.find(clause)
-            for match in matches:
-                after = {m.topic for m in matches if m.start >= match.end and m.topic in _KINDS}
-                of_wells = not after.isdisjoint(("plate", "things"))
-                if match.topic == topic and (of_wells or not (after or "tips" in found)):
-                    return True
+        of_tips = any(match.topic == "tips" for match in self._lexicon.find(text))
+        for said in self._said(text, topic):
+            after = said.after
+            kinds = self._joined(after, said.clause) if after else set()
+            if not kinds.isdisjoint(("plate", "liquids")) or not (kinds or of_tips):
+                return True
         return False
 
-    def _first_after(self, clause: str, match: Match) -> Match | None:
-        """The first thing of any kind that a clause names after a word."""
-        after = (m for m in self._lexicon.find(clause) if m.start >= match.end)
-        return next((m for m in after if m.topic in _KINDS), None)
+    def _said(self, text: str, topic: str) -> Iterator[_Said]:
+        """The words of a topic, each with what its clause names."""
+        for clause in _CLAUSE.split(text):
+            matches = self._lexicon.find(clause)[:_MOST]
+            found = [match for match in matches if match.topic in _KINDS]
+            kinds = [one for one, then in pairwise(found) if then.start > one.end] + found[-1:]
+            yield from (_Said(m, clause, kinds) for m in matches if m.topic == topic)
 
-    def _is_of_plates(self, clause: str, match: Match, anywhere: bool) -> bool:
-        """Whether one such word of a clause is said of plates.
+    def _is_of_plates(self, said: _Said, anywhere: bool) -> bool:
+        """Whether one such word is said of plates.
 
         Args:
-            clause: The clause.
-            match: The word.
+            said: The word.
             anywhere: Whether the text speaks of plates at all.
         """
+        match = said.match
         if self._plates.find(match.phrase) or (
             match.topic == "away" and not self._taking.find(match.phrase)
         ):
             return True  # "clean plate" says both, and so does "to the incubator"
-        found = [m for m in self._lexicon.find(clause) if m.topic in _KINDS]
-        if first := self._first_after(clause, match):
-            of_it = any(m.start == first.end and m.topic == "things" for m in found)
-            return first.topic == "plate" and not of_it  # "the plate seal"
-        if anywhere:
-            return not found or found[-1].topic == "plate"  # "the plate is full: replace it"
-        return self._says_nothing_else(clause)
+        if said.after:
+            return "plate" in self._joined(said.after, said.clause) or self._are_tubes(said)
+        if anywhere or said.kinds:
+            # "The plate is full, replace it"
+            return not said.kinds or said.kinds[0].topic == "plate"
+        if not self._qualities.find(match.phrase):
+            return True  # "exchange source"
+        return self._says_nothing_else(said.clause)
+
+    def _joined(self, after: Sequence[Match], clause: str) -> set[str]:
+        """What the first of these things is, and those that "and" joins to it."""
+        words = self._lexicon.words(clause)
+        found = {after[0].topic}
+        for one, then in pairwise(after):
+            between = {word for word in words[one.end : then.start] if not word.isdecimal()}
+            if between.isdisjoint(self._joining) or not between <= self._between:
+                break
+            found.add(then.topic)
+        return found
+
+    def _are_tubes(self, said: _Said) -> bool:
+        """Whether it is said of several tubes; one new tube leaves the others as they are."""
+        phrase = said.after[0].phrase
+        return phrase in self._tubes and f"{phrase}s" in said.clause.lower()
 
     def _says_nothing_else(self, clause: str) -> bool:
         """Whether all words of a clause say what is done, and none of what: "Swap and resume"."""

@@ -20,7 +20,18 @@ _SLOT = re.compile(r"\b(?:[A-Da-d][1-4]|\d{1,2})\b")
 _WAYS = ("back", "elsewhere", "another")
 """Where a plate went, in the order of the words: "to the incubator, then return it to slot 1"."""
 
-_APART = (*_WAYS, "trough", "vacant", "taking", "bins", "things", "fillers")
+_APART = (
+    *_WAYS,
+    "trough",
+    "vacant",
+    "taking",
+    "qualities",
+    "dry",
+    "liquids",
+    "tubes",
+    "vessels",
+    "fillers",
+)
 
 _NEAR = 3
 """So many words after "an empty" say what is empty."""
@@ -57,8 +68,7 @@ class Replacements:
     Args:
         words: Phrases by topic: ``replace``, ``plate``, ``tips``, ``refill``,
             ``shake``, ``away``, ``spin``, ``trough``, ``back``, ``elsewhere``, ``another``,
-            ``vacant``, ``taking``, ``bins``, ``things``,
-            ``fillers``.
+            ``vacant``, and those of :class:`PauseObjects`.
         joining: Words for "and".
     """
 
@@ -75,7 +85,7 @@ class Replacements:
         )
         self._ways = lexicon_of({topic: tuple(self.words.get(topic, ())) for topic in _WAYS})
         self._plates = lexicon_of({"plate": tuple(self.words.get("plate", ()))})
-        self._objects = PauseObjects(self.words)
+        self._objects = PauseObjects(self.words, self.joining)
         self._vacant = lexicon_of({"vacant": tuple(self.words.get("vacant", ()))})
         self._troughs = lexicon_of({"trough": tuple(self.words.get("trough", ()))})
 
@@ -91,8 +101,9 @@ class Replacements:
             return Intervention(volumes_unsure=True)
         found = self._lexicon.find(text)
         topics = {match.topic for match in found}
-        if any(m.topic == "replace" and self._plates.find(m.phrase) for m in found):
-            topics.add("plate")  # "clean plate" says both
+        if self._objects.name_plates(text):
+            topics.add("plate")  # "clean plate" says it as well
+        said = frozenset(topics)
         named = self._named(text, labware, slots)
         others = {
             topic
@@ -135,11 +146,13 @@ class Replacements:
             return Intervention(
                 frozenset(), "tips" in topics, shaken, True, refill, plates, returned=plates
             )
+        filled = refill or any(  # a new tube, say
+            self._objects.may_change_volumes(text, topic) for topic in others
+        )
         # Beside "empty the trash" a message may speak of anything, but of tips.
-        unsaid = "tips" not in topics and (not topics or "refill" in topics)
-        unsure = refill or bool(others) or unsaid
+        unsaid = "tips" not in said and (not said or "refill" in said)
+        unsure = filled or unsaid
         touched = frozenset(named) or None
-        filled = refill or "replace" in others  # a new tube, say
         return Intervention(frozenset(), "tips" in topics, shaken, unsure, filled, touched)
 
     def _puts_empty_one(self, text: str) -> bool:

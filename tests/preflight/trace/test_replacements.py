@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from aegis_ot.instrumentation import LabwareInfo
@@ -68,6 +70,15 @@ def test_other_things_are_no_new_plates(message: str) -> None:
         "Swap what is in slot 3",
         "Remove the dish",
         "Neue Platte, dann weiter",
+        "Replace the master mix plate",
+        "Replace tips and plate",
+        "Replace the lid and the plate",
+        "Exchange the source",
+        "Insert a fresh 96-well block",
+        "Put new PCR tubes into the block",
+        "Die Platte auf Eis stellen und eine neue einsetzen",
+        "Discard the plate in the bin and load a new one",
+        "Neue Zielplatte einsetzen",
     ],
 )
 def test_another_plate_holds_nothing_of_the_first(message: str) -> None:
@@ -100,3 +111,9 @@ def test_tips_and_trash_change_no_volumes(message: str) -> None:
     said = _read(message)
     assert said.all_tips
     assert not said.volumes_unsure
+
+
+def test_a_long_message_is_read_in_no_time() -> None:
+    begun = time.process_time()
+    _read("new tube " * 20_000)
+    assert time.process_time() - begun < 5
