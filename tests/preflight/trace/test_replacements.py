@@ -71,6 +71,8 @@ def test_other_things_are_no_new_plates(message: str) -> None:
         "Remove the dish",
         "Neue Platte, dann weiter",
         "Replace the master mix plate",
+        "Change the sheet on the deck",
+        "Place the column into a new collection tube",
         "Replace tips and plate",
         "Replace the lid and the plate",
         "Exchange the source",
