@@ -43,9 +43,7 @@ class NeverReceives(Check):
                             f"{case.title(well)} {place(well)} as well"
                         )
                         continue
-                    if not case.has(origin, liquid):
-                        continue
-                    if case.has(origin, wanted):
+                    if not case.has(origin, liquid) or case.has(origin, wanted):
                         continue
                     seen.add(id(origin))
                     what = case.title(origin)

@@ -100,7 +100,7 @@ class Candidates:
             self.untold.append(clue)
             return
         meant = self._meant(clue, named)
-        if meant is None or self._place(clue, meant, self._worth(clue, meant)):
+        if meant is None or self._place(clue, meant, self._weighed(clue, meant)):
             return
         self.misplaced.append(clue)
         if clue.strength is Strength.LIQUID:
@@ -130,7 +130,7 @@ class Candidates:
                 return None  # "vials and lysates": which are the lysates?
         return named
 
-    def _worth(self, clue: Clue, named: Sequence[str]) -> tuple[float, ...]:
+    def _weighed(self, clue: Clue, named: Sequence[str]) -> tuple[float, ...]:
         """How much a clue is worth, beside what was heard before; liquids with a name are noted."""
         lexicon, common = self._lexicon, self._common
         of_the_labware = clue.whole or says_only_a_place(clue, common)
@@ -168,7 +168,10 @@ class Candidates:
             if clue.whole and ref in self._apart.get(clue.text, ()):
                 continue
             placed = True
-            if self._says_only_the_aim(clue, ref, role):
+            if not clue.step:
+                if clue.strength >= Strength.DESCRIPTION and not clue.whole:
+                    self._named_outright.add(role)
+            elif self._says_only_the_aim(ref, role):
                 continue
             others = (roles.family.roles[other].level for other in named if other != role)
             if level is not None and not clue.levels and level in others:
@@ -176,13 +179,9 @@ class Candidates:
             self.of_well.setdefault(ref, []).append((worth, role, clue, level))
         return placed
 
-    def _says_only_the_aim(self, clue: Clue, ref: WellRef, role: str) -> bool:
+    def _says_only_the_aim(self, ref: WellRef, role: str) -> bool:
         """Whether a comment beside a step says what that is for, and not what its well holds."""
         spec = self._roles.family.roles[role]
-        if not clue.step:
-            if clue.strength >= Strength.DESCRIPTION and not clue.whole:
-                self._named_outright.add(role)
-            return False
         if role in self._named_outright and (spec.one_liquid or ref in self._loaded):
             # Which well holds that is said elsewhere, and this may be another one by mistake, of
             # another liquid.

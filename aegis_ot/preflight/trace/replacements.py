@@ -20,18 +20,8 @@ _SLOT = re.compile(r"\b(?:[A-Da-d][1-4]|\d{1,2})\b")
 _WAYS = ("back", "elsewhere", "another")
 """Where a plate went, in the order of the words: "to the incubator, then return it to slot 1"."""
 
-_APART = (
-    *_WAYS,
-    "trough",
-    "vacant",
-    "taking",
-    "qualities",
-    "dry",
-    "liquids",
-    "tubes",
-    "vessels",
-    "fillers",
-)
+_TOPICS = ("replace", "plate", "tips", "refill", "shake", "away", "spin")
+"""What is looked for together, so that the longest phrase wins."""
 
 _NEAR = 3
 """So many words after "an empty" say what is empty."""
@@ -80,9 +70,7 @@ class Replacements:
         self._slots = re.compile(
             rf"(?i:\bslots?\W{{0,3}}{_SLOT.pattern}(?:(?:{joint})+\s*{_SLOT.pattern})*)"
         )
-        self._lexicon = lexicon_of(
-            {topic: tuple(words) for topic, words in self.words.items() if topic not in _APART}
-        )
+        self._lexicon = lexicon_of({topic: tuple(self.words.get(topic, ())) for topic in _TOPICS})
         self._ways = lexicon_of({topic: tuple(self.words.get(topic, ())) for topic in _WAYS})
         self._plates = lexicon_of({"plate": tuple(self.words.get("plate", ()))})
         self._objects = PauseObjects(self.words, self.joining)
