@@ -6,6 +6,9 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ..account.levels import mark_at, share_of
+from ..account.pictures import close_up, whole_frame
+from ..account.wells import Axis, Box, Inspection, Level, SeenFrame, SeenWell
 from ..evaluation.layer2 import Progress, find_tips
 from ..evaluation.layer2.cascade import JudgedWell, run_cascade
 from ..evaluation.layer2.evaluate import own_threshold
@@ -18,9 +21,6 @@ from ..vision.tips import TipGeometry, tip_for
 from ..vision.types import Scorer, TipDetection, TrajectorySample
 from ..vocabulary import KeyframeKind
 from .choosing import pictured
-from .levels import mark_at, share_of
-from .pictures import close_up, whole_frame
-from .wells import Axis, Box, Inspection, Level, SeenFrame, SeenWell
 
 
 def inspect_dataset(

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 
+from ..account import Inspection, Level, SeenWell
 from ..reports.html_page import KEYFRAME_TITLES, data_url, html_page
-from .wells import Inspection, Level, SeenWell
 
 
 def inspection_html(inspection: Inspection) -> str:

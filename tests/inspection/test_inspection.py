@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from aegis_ot.account.levels import mark_at
 from aegis_ot.evaluation.layer2.recorded import open_store
 from aegis_ot.inspection import inspect_dataset, inspect_run, inspection_html
 from aegis_ot.inspection.choosing import pictured
-from aegis_ot.inspection.levels import mark_at
 from aegis_ot.vision.dataset import load_dataset
 from aegis_ot.vocabulary import KeyframeKind
 from tests.sidecar.browser import CHROMIUM, chromium

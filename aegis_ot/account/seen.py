@@ -1,0 +1,131 @@
+"""What there is to see of one delivery of a recorded run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ..vision.tips import TipGeometry, pipette_class, tip_for
+from ..vocabulary import KeyframeKind
+from .levels import axis_of, mark_at, share_of
+from .wells import Axis, Box, Level, Picture, SeenFrame, SeenWell
+
+Pictures = Callable[[int, "Box | None"], "tuple[Picture | None, Picture | None, str]"]
+"""From a keyframe's number and the tip's box: the whole frame, the tip close up, and what there
+is to say where the frame is missing."""
+
+
+def no_pictures(_sequence: int, _box: Box | None) -> tuple[None, None, str]:
+    """Numbers are enough."""
+    return None, None, ""
+
+
+def state_of(trajectory: Mapping[str, Any]) -> str:
+    """How a delivery stands, in one word: ``fail``, ``undecided``, ``pass``, ``calibration``,
+    ``waiting`` (for its verdict), ``running`` (keyframes are still to come) or ``abandoned``.
+    """
+    if trajectory["abandoned"] is not None:
+        return "abandoned"
+    verdict = trajectory["verdict"]
+    if trajectory.get("awaiting"):
+        return "undecided"
+    if verdict:
+        calibrates = verdict["outcome"] == "pass" and verdict["route"] == "calibration"
+        return "calibration" if calibrates else str(verdict["outcome"])
+    kinds = {keyframe["kind"] for keyframe in trajectory["keyframes"]}
+    return "waiting" if KeyframeKind.POST_DISPENSE.value in kinds else "running"
+
+
+def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictures) -> SeenWell:
+    """Gather one delivery.
+
+    Args:
+        run: Identifier of the run.
+        entry: The delivery in the run's overview.
+        pictures: Where its frames come from.
+    """
+    verdict: Mapping[str, Any] = entry["verdict"] or {}
+    evidence: Mapping[str, Any] = entry["evidence"]
+    last: Mapping[str, Any] = entry["keyframes"][-1] if entry["keyframes"] else {}
+    pipette, reagent = str(last.get("pipette", "")), last.get("reagent") or ""
+    wells = last.get("destinations") or last.get("sources") or ()
+    route, reason = str(verdict.get("route", "")), str(verdict.get("reason", ""))
+    state = state_of(entry)
+    if entry["abandoned"] is not None:
+        reason = f"Given up: {entry['abandoned']}"
+    band = evidence.get("band")
+    return SeenWell(
+        id=f"{run}-{entry['trajectory']}",
+        group=", ".join(filter(None, (f"{last.get('mount', '')} {pipette}".strip(), reagent))),
+        well=str(wells[0]["name"]) if wells else "-",
+        title=f"{entry['well']}, {float(last.get('commanded_ul', 0.0)):g} µL {reagent}".rstrip(),
+        outcome="calibration" if state == "calibration" else str(verdict.get("outcome", "")),
+        route=route,
+        gate=str(verdict.get("gate", "")),
+        failure=str(verdict.get("failure") or ""),
+        reason=reason,
+        truth="",
+        agreement="",
+        score=verdict.get("score"),
+        limit=band[1] if band else None,
+        frames=_frames(entry, pictures),
+    )
+
+
+def _frames(entry: Mapping[str, Any], pictures: Pictures) -> dict[KeyframeKind, SeenFrame]:
+    evidence = entry["evidence"]
+    frames = {}
+    for keyframe in entry["keyframes"]:
+        kind = KeyframeKind(keyframe["kind"])
+        tip = tip_for(pipette_class(keyframe["pipette"]), keyframe["capacity_ul"])
+        box = _box(evidence.get("boxes", {}).get(kind.value))
+        whole, close, missing = pictures(int(keyframe["sequence"]), box)
+        # The store keeps no axes: an upright tip is drawn, which is a pixel or two off.
+        axis = None if box is None else axis_of(box)
+        measured = evidence.get("measured_ul", {}).get(kind.value)
+        frames[kind] = SeenFrame(
+            whole,
+            close,
+            box,
+            evidence.get("confidence", {}).get(kind.value),
+            None,
+            axis,
+            _level(tip, float(keyframe["expected_ul"]), axis, box),
+            None if not measured else _measured(tip, measured, axis, box),
+            missing,
+        )
+    return frames
+
+
+def _box(found: Any) -> Box | None:
+    if not isinstance(found, list) or len(found) != 4 or None in found:
+        return None
+    x, y, w, h = map(float, found)
+    return x, y, w, h
+
+
+def _measured(
+    tip: TipGeometry, reading: Mapping[str, Any], axis: Axis | None, box: Box | None
+) -> Level:
+    return _level(
+        tip,
+        float(reading["volume"]),
+        axis,
+        box,
+        float(reading["uncertainty"] or 0.0),
+        float(reading["air"] or 0.0),
+    )
+
+
+def _level(
+    tip: TipGeometry,
+    volume: float,
+    axis: Axis | None,
+    box: Box | None,
+    sigma: float = 0.0,
+    air: float = 0.0,
+) -> Level:
+    mark = None
+    if axis is not None and box is not None:
+        mark = mark_at(axis, box, share_of(tip, volume + air))
+    return Level(volume, sigma, air, mark)

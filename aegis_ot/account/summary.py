@@ -1,0 +1,142 @@
+"""A whole run in figures: counts, calibration, holds, time, costs. Plain values, as the JSON
+report of a run holds them."""
+
+from __future__ import annotations
+
+import statistics
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from .plates import PlateMap, plate_maps
+from .seen import state_of
+
+FORMAT = "aegis-ot run report"
+VERSION = 1
+
+ALWAYS = ("run", "protocol", "robot", "robot_name", "api_level", "package", "registered")
+
+
+def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
+    """Everything about a run but its pictures.
+
+    Args:
+        overview: Answer of ``GET /v1/runs/{run}``.
+
+    Returns:
+        ``run``, ``protocol``, ``robot`` and the like; ``frames`` (``"simulated"`` or ``"real"``);
+        ``finished``; ``counts`` by state; ``plates``; ``wells``; ``flagged`` (numbers of the
+        deliveries that failed, are undecided, or that a person decided); ``calibration`` per
+        liquid and pipette; ``holds``; ``decisions``; ``latency`` (s); ``costs``; ``incidents``;
+        ``layer1``; ``guard`` and ``sidecar`` (settings and versions).
+    """
+    trajectories: Sequence[Mapping[str, Any]] = overview["trajectories"]
+    states = Counter(state_of(trajectory) for trajectory in trajectories)
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        **{name: overview.get(name, "") for name in ALWAYS},
+        "frames": "simulated" if overview.get("simulated") else "real",
+        "finished": overview.get("finished"),
+        "counts": dict(states) | {"wells": len(trajectories)},
+        "plates": [_plate(plate) for plate in plate_maps(trajectories)],
+        "wells": [_well(trajectory) for trajectory in trajectories],
+        "flagged": [t["trajectory"] for t in trajectories if is_flagged(t)],
+        "calibration": _calibration(trajectories),
+        "holds": [t["hold"] | {"well": t["well"]} for t in trajectories if t["hold"]],
+        "decisions": _decisions(trajectories) + _actions(overview),
+        "latency": _latency(trajectories),
+        "costs": overview.get("costs"),
+        "incidents": overview.get("incidents") or [],
+        "layer1": overview.get("layer1"),
+        "guard": overview.get("guard"),
+        "sidecar": overview.get("sidecar"),
+    }
+
+
+def is_flagged(trajectory: Mapping[str, Any]) -> bool:
+    """Whether a person should look at it: it failed, is undecided, or somebody changed it."""
+    return state_of(trajectory) in ("fail", "undecided") or bool(trajectory["decisions"])
+
+
+def _plate(plate: PlateMap) -> dict[str, Any]:
+    return {
+        "labware": plate.key,
+        "title": plate.title,
+        "wells": {well: cell.state for well, cell in plate.cells.items()},
+    }
+
+
+def _well(trajectory: Mapping[str, Any]) -> dict[str, Any]:
+    last = trajectory["keyframes"][-1] if trajectory["keyframes"] else {}
+    verdict = trajectory["verdict"] or {}
+    said = ("outcome", "failure", "route", "gate", "score", "reason", "measured_ul", "expected_ul")
+    return {
+        "trajectory": trajectory["trajectory"],
+        "well": trajectory["well"],
+        "state": state_of(trajectory),
+        "commanded_ul": last.get("commanded_ul"),
+        "pipette": last.get("pipette"),
+        "line": last.get("line"),
+        **{name: verdict.get(name) for name in said},
+        "band": trajectory["evidence"].get("band"),
+        "judged_first": (trajectory["judged"] or {}).get("outcome"),
+        "abandoned": trajectory["abandoned"],
+    }
+
+
+def _calibration(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Per liquid and pipette: which wells calibrated, and the band that came of it."""
+    streams: dict[tuple[str, ...], dict[str, Any]] = {}
+    for trajectory in trajectories:
+        evidence = trajectory["evidence"]
+        stream = tuple(map(str, (evidence.get("calibration") or {}).get("stream") or ()))
+        if not stream:
+            continue
+        known = streams.setdefault(stream, {"stream": list(stream), "wells": [], "band": None})
+        if state_of(trajectory) == "calibration":
+            known["wells"].append(trajectory["well"])
+        known["band"] = evidence.get("band") or known["band"]
+    return list(streams.values())
+
+
+def _decisions(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    return [
+        decision | {"trajectory": trajectory["trajectory"], "well": trajectory["well"]}
+        for trajectory in trajectories
+        for decision in trajectory["decisions"]
+    ]
+
+
+def _actions(overview: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """What people told the robot from the page: resume, stop."""
+    return [dict(action) for action in overview.get("actions") or ()]
+
+
+def _latency(trajectories: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Where the time went, s: trigger to exposure, last frame to verdict, holds."""
+    exposures = [k["exposed_after_s"] for t in trajectories for k in t["keyframes"]]
+    verdicts = [
+        t["judged_at"] - t["keyframes"][-1]["captured"]
+        for t in trajectories
+        if t["judged_at"] is not None and t["keyframes"]
+    ]
+    holds = [t["hold"]["seconds"] for t in trajectories if t["hold"]]
+    return {
+        "trigger_to_exposure_s": _spread(exposures),
+        "last_frame_to_verdict_s": _spread(verdicts),
+        "hold_s": _spread(holds) | {"sum": round(sum(holds), 3)},
+    }
+
+
+def _spread(values: Sequence[float]) -> dict[str, Any]:
+    if not values:
+        return {"count": 0, "median": None, "p95": None, "longest": None}
+    ordered = sorted(values)
+    place = min(len(ordered) - 1, round(0.95 * (len(ordered) - 1)))
+    return {
+        "count": len(ordered),
+        "median": round(statistics.median(ordered), 4),
+        "p95": round(ordered[place], 4),
+        "longest": round(ordered[-1], 4),
+    }
