@@ -14,15 +14,24 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from contextvars import ContextVar
 from types import FrameType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .errors import AegisError, ProtocolRejected, RehearsalError
 from .instrumentation import NameCollector, Tap, tapped
 from .settings import Settings, load_settings
 
 if TYPE_CHECKING:
+    from .preflight.judging import Report
     from .preflight.rehearsal import Recording
     from .runtime import Watcher
+
+
+class _Layer1(NamedTuple):
+    """What Layer 1 says: a line for the run log, and the report where there is one."""
+
+    text: str
+    report: Report | None = None
+
 
 # Which context is guarded, and not merely that one is: a robot server runs the next protocol
 # in a thread of the same pool, and a mark left there must not leave that one unguarded.
@@ -77,7 +86,7 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
     try:
         settings = load_settings(**keywords)
         layer1 = _preflight(protocol, settings, file_name)
-        watcher = _new_watcher(protocol, settings, file_name)
+        watcher = _new_watcher(protocol, settings, file_name, layer1)
         with ExitStack() as beginning:
             beginning.callback(_GUARDED.reset, _GUARDED.set(weakref.ref(protocol)))
             if watcher is not None:
@@ -139,7 +148,7 @@ def _rehearse_by_running(
     with tapped(protocol, listeners, file_name) as tap:
         if recorder is None:
             result = _call_watched(call, watcher, tap)
-            _say(protocol, "", watcher)
+            _say(protocol, _Layer1(""), watcher)
             return result
         names = NameCollector(tap.wells, file_name)
         text = _text_of(file_name, protocol)
@@ -153,16 +162,16 @@ def _rehearse_by_running(
     return result
 
 
-def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
+def _preflight(protocol: Any, settings: Settings, file_name: str) -> _Layer1:
     """Rehearse and judge before anything moves; what there is to say of it."""
     if settings.rules == "off":
-        return ""
+        return _Layer1("")
     from .preflight.rehearsal import Recorder, find_script, recording_of, rehearse
     from .runtime.runstate import RunState
 
     script = find_script(file_name, protocol)
     if script is None:
-        return "Layer 1 could not find the protocol's text, so it was not checked."
+        return _Layer1("Layer 1 could not find the protocol's text, so it was not checked.")
     recorder, state = Recorder(), RunState(protocol)
     try:
         rehearsal = rehearse(
@@ -176,14 +185,14 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> str:
     except RehearsalError as error:
         # A protocol that fails by itself fails with its own error; that is not the guard's to
         # change.
-        return f"Layer 1 could not rehearse the protocol: {error}"
+        return _Layer1(f"Layer 1 could not rehearse the protocol: {error}")
     return _judge(recording_of(script, recorder, rehearsal), protocol, settings)
 
 
 def _watched(
-    call: Callable[[], Any], protocol: Any, settings: Settings, file_name: str, layer1: str
+    call: Callable[[], Any], protocol: Any, settings: Settings, file_name: str, layer1: _Layer1
 ) -> Any:
-    watcher = _new_watcher(protocol, settings, file_name)
+    watcher = _new_watcher(protocol, settings, file_name, layer1)
     if watcher is None:
         result = call()
     else:
@@ -207,7 +216,7 @@ def _call_watched(call: Callable[[], Any], watcher: Watcher | None, tap: Tap) ->
 
 
 def _end(
-    by_itself: bool, protocol: Any, layer1: str, watcher: Watcher | None, ending: ExitStack
+    by_itself: bool, protocol: Any, layer1: _Layer1, watcher: Watcher | None, ending: ExitStack
 ) -> None:
     try:
         if watcher is not None:
@@ -237,7 +246,9 @@ def _at_return_of(frame: FrameType, action: Callable[[bool], None]) -> None:
     sys.setprofile(hook)
 
 
-def _new_watcher(protocol: Any, settings: Settings, file_name: str) -> Watcher | None:
+def _new_watcher(
+    protocol: Any, settings: Settings, file_name: str, layer1: _Layer1 | None = None
+) -> Watcher | None:
     """Layer 2, where a sidecar is configured.
 
     In an analysis it only moves as it will in the live run, so that both show the Opentrons App
@@ -247,7 +258,7 @@ def _new_watcher(protocol: Any, settings: Settings, file_name: str) -> Watcher |
         return None
     from .runtime import Watcher
 
-    return Watcher(protocol, settings, file_name)
+    return Watcher(protocol, settings, file_name, layer1.report if layer1 else None)
 
 
 def _text_of(file_name: str, protocol: Any) -> str:
@@ -258,8 +269,8 @@ def _text_of(file_name: str, protocol: Any) -> str:
     return script.text if script is not None else ""
 
 
-def _judge(recording: Recording, protocol: Any, settings: Settings) -> str:
-    """Layer 1's summary.
+def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
+    """Layer 1's report and its summary.
 
     Raises:
         ProtocolRejected: It found errors, and ``rules="on"``.
@@ -275,15 +286,15 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> str:
     except AegisError:
         raise
     except Exception as error:  # a fault of ours must not keep a good protocol from running
-        return f"Layer 1 failed and judged nothing ({type(error).__name__}: {error})."
+        return _Layer1(f"Layer 1 failed and judged nothing ({type(error).__name__}: {error}).")
     if settings.rules == "on" and is_rejected(report):
         raise ProtocolRejected(rejection(report))
-    return summary(report)
+    return _Layer1(summary(report), report)
 
 
-def _say(protocol: Any, layer1: str, watcher: Watcher | None) -> None:
+def _say(protocol: Any, layer1: _Layer1, watcher: Watcher | None) -> None:
     """One closing comment in analysis and live alike."""
-    parts = [layer1] if layer1 else []
+    parts = [layer1.text] if layer1.text else []
     if watcher is not None:
         parts.append(watcher.summary())
     if parts:

@@ -22,7 +22,7 @@ from .steps import Abandon, Capture, Hold, Lift, Step
 from .stopping import LAST_WORDS_S, Stopping, Waits
 from .summary import WatchSummary
 from .tracker import Tracker
-from .words import about_run, working_volume
+from .words import about_guard, about_layer1, about_run, working_volume
 
 LiftMove = Callable[[Operation], None]
 _GOODBYE_S = 3.0
@@ -47,9 +47,12 @@ class Watcher:
         protocol: The context of the run.
         settings: In force for this run; ``settings.sidecar`` must not be ``None``.
         file_name: ``co_filename`` of the protocol's code.
+        layer1: Layer 1's report, for the sidecar's page.
     """
 
-    def __init__(self, protocol: Any, settings: Settings, file_name: str) -> None:
+    def __init__(
+        self, protocol: Any, settings: Settings, file_name: str, layer1: Any = None
+    ) -> None:
         self._settings = settings
         self._simulating = bool(protocol.is_simulating())
         self.run_id = settings.new_run_id()
@@ -60,7 +63,10 @@ class Watcher:
         self._tracker = Tracker(self.run_id, settings.hold, settings.lift, working_volume)
         self._lift: LiftMove = lambda operation: None
         self._line: _Line | None = None
-        self._about = about_run(protocol, self.run_id, file_name, self._simulating)
+        self._about = about_run(protocol, self.run_id, file_name, self._simulating) | {
+            "guard": about_guard(settings),
+            "layer1": None if layer1 is None else about_layer1(layer1),
+        }
         self._refuse: Callable[[RunAborted], None] = lambda error: refuse_everything(
             protocol, error, file_name
         )

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import platform
 import time
 from pathlib import PurePath
 from typing import Any
 
 from .._version import __version__
 from ..instrumentation import Operation, OperationKind
-from ..vocabulary import Outcome, Verdict
+from ..settings import Settings
+from ..vocabulary import Finding, Outcome, Verdict, one_line
+
+_MOST = 20
+"""Findings that are told; the registration of a run has to stay small."""
 
 
 def working_volume(operation: Operation) -> float | None:
@@ -28,10 +33,46 @@ def about_run(protocol: Any, run: str, file_name: str, simulating: bool) -> dict
         "run": run,
         "protocol": PurePath(file_name).name,
         "robot": str(getattr(core, "robot_type", "")),
+        "robot_name": platform.node()[:200],
         "api_level": str(getattr(protocol, "api_version", "")),
         "simulated": simulating,
         "started": time.time(),
         "package": __version__,
+    }
+
+
+def about_guard(settings: Settings) -> dict[str, Any]:
+    """What the guard will do, for the page: its policies and its patience."""
+    return {
+        "hold": settings.hold,
+        "on_fail": settings.on_fail,
+        "on_undecided": settings.on_undecided,
+        "on_link_loss": settings.on_link_loss,
+        "verdict_timeout_s": settings.verdict_timeout_s,
+    }
+
+
+def about_layer1(report: Any) -> dict[str, Any]:
+    """What Layer 1 found (an ``aegis_ot.preflight`` report), short enough for a registration."""
+    return {
+        "verdict": report.verdict.value,
+        "findings": [_about_finding(finding) for finding in report.findings[:_MOST]],
+        "more": max(0, len(report.findings) - _MOST),
+        "undecided": [
+            {"rule": one.rule, "reason": one_line(one.reason)} for one in report.undecided[:_MOST]
+        ],
+    }
+
+
+def _about_finding(finding: Finding) -> dict[str, Any]:
+    return {
+        "rule": finding.rule,
+        "severity": finding.severity.value,
+        "message": one_line(finding.message, 500),
+        "why": one_line(finding.why, 500),
+        "fix": one_line(finding.fix, 500),
+        "lines": list(finding.lines[:10]),
+        "wells": [well.address for well in finding.wells[:10]],
     }
 
 

@@ -57,16 +57,57 @@ class Body(BaseModel):
     model_config = ConfigDict(frozen=True, allow_inf_nan=False)
 
 
+class GuardWords(Body):
+    """What the guard will do: its policies, and how long it waits for a verdict, s."""
+
+    hold: Word = ""
+    on_fail: Word = ""
+    on_undecided: Word = ""
+    on_link_loss: Word = ""
+    verdict_timeout_s: Annotated[float, Field(ge=0, le=86_400)] | None = None
+
+
+class Layer1Finding(Body):
+    """One finding of Layer 1, for the page."""
+
+    rule: Word
+    severity: Word = "warning"
+    message: Text = ""
+    why: Text = ""
+    fix: Text = ""
+    lines: Annotated[list[int], Field(max_length=50)] = []
+    wells: Annotated[list[Word], Field(max_length=50)] = []
+
+
+class Layer1Open(Body):
+    """A rule that Layer 1 could not judge."""
+
+    rule: Word
+    reason: Text = ""
+
+
+class Layer1Words(Body):
+    """What Layer 1 said of the protocol, for the page."""
+
+    verdict: Word = ""
+    findings: Annotated[list[Layer1Finding], Field(max_length=50)] = []
+    more: Count = 0
+    undecided: Annotated[list[Layer1Open], Field(max_length=50)] = []
+
+
 class RunStart(Body):
     """A run registers."""
 
     run: str
     protocol: Word = ""
     robot: Word = ""
+    robot_name: Word = ""
     api_level: Word = ""
     simulated: bool = False
     started: float = 0.0
     package: Word = ""
+    guard: GuardWords | None = None
+    layer1: Layer1Words | None = None
 
 
 class Abandon(Body):
