@@ -64,7 +64,6 @@ class Case:
         common: Words of no family.
         confident: Whether the family is more than a guess.
         waste: Wells that are called waste.
-        loose_volumes: Whether this kind of protocol starts from wells filled by hand.
         unsure: Wells that may have held liquid before the run, as the labware's name goes.
         left_over: Whether the family is judged only because no other one fits.
     """
@@ -75,7 +74,6 @@ class Case:
     common: Common
     confident: bool = True
     waste: frozenset[WellRef] = frozenset()
-    loose_volumes: bool = False
     unsure: frozenset[WellRef] = frozenset()
     left_over: bool = False
     _meant: dict[Well, dict[Well, int]] | None = None

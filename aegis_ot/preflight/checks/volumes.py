@@ -41,8 +41,7 @@ class VolumeBookkeeping(Check):
                 continue
             undeclared = not imbalance.overfilled and well.declared is None
             if undeclared and (
-                case.loose_volumes
-                or well.ref in case.unsure
+                well.ref in case.unsure
                 or well.ref.labware in by_hand
                 or well.generation  # brought by hand in a pause: nobody says what it holds
             ):

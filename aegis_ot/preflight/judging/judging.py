@@ -9,11 +9,11 @@ from dataclasses import replace
 
 from ...vocabulary import Remark, Severity, Undecided
 from ..checks import Case, Doubt, Violation, make_check
-from ..evidence import Strength
+from ..evidence import Kind
 from ..rehearsal import Recording
 from ..roles import Roles
 from ..rules import Database, Family, RuleSpec
-from ..text import source_lines
+from ..source import source_lines
 from .findings import Broken, findings_of
 from .options import Options, check_options
 from .reading import Reading, read_recording
@@ -97,9 +97,9 @@ def _plain(violation: Violation, roles: Roles) -> bool:
     Loaded liquids and the run alone say what the wells are for that it rests on; or names and
     labels do, and nothing is open in what happened.
     """
-    least = Strength.NAME if violation.sure else Strength.LIQUID
+    least = Kind.NAME if violation.sure else Kind.LIQUID
     return all(
-        well.liquids or well.ref not in roles.by_well or roles.by_well[well.ref].strength >= least
+        well.liquids or well.ref not in roles.by_well or roles.by_well[well.ref].kind >= least
         for well in violation.rests_on
     )
 
@@ -107,8 +107,8 @@ def _plain(violation: Violation, roles: Roles) -> bool:
 def _comment_alone(violation: Violation, roles: Roles) -> str:
     """The comment that a violation rests on, ``""`` if it rests on better evidence."""
     for well in violation.rests_on:
-        if roles.by_comment_only(well.ref):
-            return roles.by_well[well.ref].evidence[0]
+        if roles.is_doubtful(well.ref):
+            return roles.by_well[well.ref].evidence[0].citation
     return ""
 
 
@@ -161,7 +161,7 @@ def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:
                 roles.family.family,
                 ref,
                 assigned.role,
-                tuple(assigned.evidence),
+                tuple(one.citation for one in assigned.evidence),
                 roles.level(ref),
                 assigned.conflict,
             )

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from ..text import Match, first_words, lexicon_of
+from ..source import Match, lexicon_of, tokens
 
 _CLAUSE = re.compile(r"(?<!\d)[.,](?!\d)|[;:!?\n]")
 """What stands between two clauses; "0.5 mL" is one."""
@@ -53,9 +53,9 @@ class PauseObjects:
         self._taking = lexicon_of({"taking": listed.get("taking", ())})
         self._qualities = lexicon_of({"qualities": listed.get("qualities", ())})
         self._tubes = frozenset(listed.get("tubes", ()))
-        self._joining = first_words(tuple(joining))
+        self._joining = frozenset(tokens(word)[0] for word in joining)
         small = (*listed.get("fillers", ()), *listed.get("qualities", ()))
-        self._between = self._joining | first_words(small)
+        self._between = self._joining | frozenset(tokens(word)[0] for word in small)
 
     def name_plates(self, text: str) -> bool:
         """Whether a text has a word for plates."""

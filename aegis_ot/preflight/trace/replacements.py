@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ...instrumentation import LabwareInfo
-from ..text import lexicon_of, tokens
+from ..source import lexicon_of, tokens
 from .pause_objects import PauseObjects
 
 _SLOT = re.compile(r"\b(?:[A-Da-d][1-4]|\d{1,2})\b")
