@@ -21,7 +21,7 @@ from ..roles import (
 )
 from ..rules import Common, Database, Family, RuleSpec
 from ..text import SourceFacts, lexicon_of, read_source, tokens
-from ..trace import Replacements, Trace, Usage, build_trace, usage_of
+from ..trace import Pauses, Trace, Usage, build_trace, usage_of
 from .options import Options
 
 
@@ -84,8 +84,8 @@ def read_recording(recording: Recording, database: Database, options: Options) -
     """Read a recording with the eyes of every family that applies."""
     common = database.common
     facts = read_source(recording.text, recording.parameters)
-    replacements = Replacements(common.pauses, common.layout.get("and", ()))
-    trace = build_trace(recording.log, recording.labware, replacements)
+    pauses = Pauses(common.pauses)
+    trace = build_trace(recording.log, recording.labware, pauses)
     clues = gather(trace, recording.names, facts, options.roles, common)
     usage = usage_of(trace)
     assigned: dict[str, Roles] = {}
@@ -105,7 +105,7 @@ def read_recording(recording: Recording, database: Database, options: Options) -
     empty = _said_to_be_empty(clues, common)
     prefilled -= empty
     if prefilled & usage.keys():
-        trace = build_trace(recording.log, recording.labware, replacements, prefilled.__contains__)
+        trace = build_trace(recording.log, recording.labware, pauses, prefilled.__contains__)
         usage = usage_of(trace)
     for one in roles:
         settle_diluent(one, trace)
