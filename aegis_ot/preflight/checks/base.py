@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from ...vocabulary import Site, WellRef
 from ..roles import Roles
 from ..rules import Common, Family
-from ..trace import Met, Trace, Usage, Visit, Well
+from ..trace import Contact, Met, Trace, Usage, Visit, Well
 from .same_liquid import is_same_liquid
 from .series import Series, find_series
 
@@ -30,7 +30,7 @@ class Violation:
             what one of them is for, the finding is a warning at most.
         on_comment: That comment, in words; filled in by the judge.
         sure: Whether it happened surely: no tip may after all have stayed clear of a liquid.
-        touched: Whether the tip surely touched what it carries: no unknown volume leaves it open.
+        contact: How surely the tips touched what it rests on.
     """
 
     message: str
@@ -40,7 +40,7 @@ class Violation:
     rests_on: tuple[Well, ...] = ()
     on_comment: str = ""
     sure: bool = False
-    touched: bool = True
+    contact: Contact = Contact.WET
 
 
 @dataclass(frozen=True)

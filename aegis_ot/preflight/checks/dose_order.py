@@ -45,7 +45,7 @@ class DoseOrder(Check):
         collected = self._collected(case, liquid, wanted)
         seen: set[tuple[int, int]] = set()
         for visit in case.trace.visits:
-            if not visit.below or not visit.carried or not case.has(visit.well, wanted):
+            if not visit.contact or not visit.carried or not case.has(visit.well, wanted):
                 continue
             if visit.well in collected:
                 continue
@@ -123,6 +123,7 @@ class DoseOrder(Check):
             visit.well,
             (visit.line, met.line, harm),
             (origin, visit.well),
+            contact=min(met.contact(visit.index), visit.contact),
         )
 
     def _higher(
@@ -157,13 +158,15 @@ class DoseOrder(Check):
                     visit.well,
                     (visit.line, met.line, "falling"),
                     (other, visit.well),
+                    contact=min(met.contact(visit.index), visit.contact),
                 )
         return None
 
     @staticmethod
     def _touched_later(visit: Visit, other: Well, first: int) -> bool:
         return any(
-            v.tip is visit.tip and v.touch and first <= v.index < visit.index for v in other.visits
+            v.tip is visit.tip and v.touches and first <= v.index < visit.index
+            for v in other.visits
         )
 
 

@@ -14,6 +14,7 @@ from ..rehearsal import Recording
 from ..roles import Roles
 from ..rules import Database, Family, RuleSpec
 from ..source import source_lines
+from ..trace import Contact
 from .findings import Broken, findings_of
 from .options import Options, check_options
 from .reading import Reading, read_recording
@@ -80,7 +81,7 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
                 doubts.append(result.reason)
             elif not sure and not _plain(result, case.roles):
                 doubts.append(_UNKNOWN_ASSAY)
-            elif case.left_over and not result.touched:
+            elif case.left_over and result.contact is Contact.NEAR:
                 doubts.append(_UNKNOWN_VOLUME)
             else:
                 comment = _comment_alone(result, case.roles)

@@ -20,7 +20,7 @@ from ..roles import (
 )
 from ..rules import Common, Database, Family, RuleSpec
 from ..source import SourceFacts, lexicon_of, read_source, tokens
-from ..trace import Replacements, Trace, Usage, build_trace, usage_of
+from ..trace import Pauses, Trace, Usage, build_trace, usage_of
 from .options import Options
 
 _PLAUSIBLE = 1.0
@@ -108,8 +108,8 @@ def _read(
     more: Sequence[Evidence],
 ) -> Reading:
     common = database.common
-    replacements = Replacements(common.pauses, common.joining)
-    trace = build_trace(recording.log, recording.labware, replacements)
+    pauses = Pauses(common.pauses)
+    trace = build_trace(recording.log, recording.labware, pauses)
     evidence = [*gather(trace, recording.names, facts, options.roles, common), *more]
     usage = usage_of(trace)
     assigned: dict[str, Roles] = {}
@@ -126,7 +126,7 @@ def _read(
     # Read again, now that roles say which wells held liquid before the run.
     prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
     if prefilled & usage.keys():
-        trace = build_trace(recording.log, recording.labware, replacements, prefilled.__contains__)
+        trace = build_trace(recording.log, recording.labware, pauses, prefilled.__contains__)
         usage = usage_of(trace)
     for one in roles:
         settle_diluent(one, trace)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 import pytest
 
-from aegis_ot.instrumentation import LabwareInfo
+from aegis_ot.instrumentation import LabwareInfo, WellInfo
 from aegis_ot.preflight import Report, Script, check_script, load_database
-from aegis_ot.preflight.trace import Intervention, Replacements
+from aegis_ot.preflight.trace import Intervention, Pauses
 
 PROTOCOL = """
 metadata = {{"apiLevel": "2.15"}}
@@ -42,14 +43,9 @@ def _check(message: str) -> set[str]:
         "Change gloves, then resume",
         "Thaw a new tube of master mix and put it in A1",
         "Please check the new samples",
-        "Swap the ice block",
-        "Take out the primer tube",
         "Remove the lid of the reservoir",
         "Remove the foil from the plate",
-        "Spin the plate, add a fresh seal",
         "Replace the plate seal and resume",
-        "Switch off the UV lamp",
-        "Let's change the flow rate",
         "Wechseln Sie die Handschuhe",
         "Changer de gants",
         "Remove 0.5 mL, vortex",
@@ -68,19 +64,16 @@ def test_other_things_are_no_new_plates(message: str) -> None:
         "Replace and resume",
         "Take the plate away and put on fresh gloves",
         "Swap what is in slot 3",
+        "Swap what is in slots 2 and 3",
         "Remove the dish",
         "Neue Platte, dann weiter",
         "Replace the master mix plate",
-        "Change the sheet on the deck",
-        "Place the column into a new collection tube",
         "Replace tips and plate",
         "Replace the lid and the plate",
         "Exchange the source",
-        "Insert a fresh 96-well block",
         "Put new PCR tubes into the block",
         "Die Platte auf Eis stellen und eine neue einsetzen",
         "Discard the plate in the bin and load a new one",
-        "Neue Zielplatte einsetzen",
     ],
 )
 def test_another_plate_holds_nothing_of_the_first(message: str) -> None:
@@ -88,22 +81,27 @@ def test_another_plate_holds_nothing_of_the_first(message: str) -> None:
 
 
 def _read(message: str) -> Intervention:
-    common = load_database().common
-    info = LabwareInfo("one", "opentrons_96_tiprack_20ul", "Tips", "", "1", True, False)
-    return Replacements(common.pauses, common.joining).read(message, {"one": info}, {"one": "1"})
+    tips = LabwareInfo("tips", "opentrons_96_tiprack_20ul", "Tips", "", "1", True, False)
+    wells = dict.fromkeys("ABCDEF", WellInfo(100, 10))
+    plate = LabwareInfo("plate", "plate", "Plate", "", "2", False, False, wells=wells)
+    trough = replace(plate, key="trough", slot="3", centers_channels=True)
+    labware = {info.key: info for info in (tips, plate, trough)}
+    slots = {key: info.slot for key, info in labware.items()}
+    return Pauses(load_database().common.pauses).read(message, labware, slots)
 
 
-def test_a_new_tube_and_new_tips_may_be_told_together() -> None:
-    said = _read("Replace the tips. Put a new tube of enzyme in the rack.")
-    assert said.all_tips
+def test_a_plate_and_tips_may_be_told_together() -> None:
+    said = _read("Replace the tips. Put a new plate in.")
+    assert said.tips
     assert said.volumes_unsure
-    assert not said.replaced
+    assert said.replaced == {"plate"}
 
 
-def test_tips_and_a_trough_may_be_told_together() -> None:
-    said = _read("Refill the reservoir and replace the tips")
-    assert said.all_tips
+def test_a_refilled_trough_is_no_plate() -> None:
+    said = _read("Refill the reservoir with fresh buffer and replace the tips")
+    assert said.tips
     assert said.volumes_unsure
+    assert said.replaced == {"trough"}
 
 
 @pytest.mark.parametrize(
@@ -111,8 +109,14 @@ def test_tips_and_a_trough_may_be_told_together() -> None:
 )
 def test_tips_and_trash_change_no_volumes(message: str) -> None:
     said = _read(message)
-    assert said.all_tips
+    assert said.tips
     assert not said.volumes_unsure
+    assert not said.replaced
+
+
+def test_shaking_is_heard() -> None:
+    assert _read("Vortex the plate, put it back").shaken
+    assert not _read("Put the plate back").shaken
 
 
 def test_a_long_message_is_read_in_no_time() -> None:

@@ -1,4 +1,4 @@
-"""Hand-made streams of operations, for tests of the trace without a simulator."""
+"""Traces built by hand, step by step, for tests of trace and checks without a simulator."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from aegis_ot.instrumentation import (
 )
 from aegis_ot.preflight.database import load_database
 from aegis_ot.preflight.rehearsal import Recorder
-from aegis_ot.preflight.trace import Replacements, Trace, Well, build_trace
+from aegis_ot.preflight.trace import Pauses, Trace, Well, build_trace
 from aegis_ot.vocabulary import WellRef
 
 PIPETTE = Pipette("left", "p300_single_gen2", "left", 1, 300.0)
@@ -73,7 +73,7 @@ class Bench:
 
     def trace(self) -> Trace:
         words = load_database().common.pauses
-        return build_trace(self.recorder.log, self.recorder.labware, Replacements(words))
+        return build_trace(self.recorder.log, self.recorder.labware, Pauses(words))
 
     def _do(
         self,
