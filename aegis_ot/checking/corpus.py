@@ -52,9 +52,9 @@ def check_corpus(
 ) -> Results:
     """Judge protocols, each in a process of its own, and add a row of each to a table.
 
-    A protocol whose row is there already is not judged again, as long as neither it, nor what lies
-    beside it, nor this package and its rules have changed. Rows of other protocols stay as they are,
-    but for those of files that are gone from these folders.
+    A protocol whose row is there already is not judged again, as long as neither it, nor what
+    lies beside it, nor what judges it has changed. Rows of other protocols stay as they are, but
+    for those of files that are gone from these folders.
 
     Args:
         protocols: Of the shelf.
@@ -174,7 +174,7 @@ def _judge_digest(settings: CorpusSettings) -> hashlib._Hash:
     """Of all that a verdict depends on, the protocol apart."""
     digest = hashlib.sha256(str(settings.timeout_s).encode())
     package = Path(__file__).resolve().parents[1]
-    sources = [package / room for room in ("instrumentation", "preflight", "checking")]
+    sources = [package / room for room in ("instrumentation", "preflight")]
     for place in [*sources, shipped_rules(), *map(Path, settings.rules)]:
         files = [place] if place.is_file() else sorted(place.rglob("*.py"))
         for file in files or sorted(place.glob("*.json")):
