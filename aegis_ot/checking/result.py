@@ -25,11 +25,13 @@ class Problem:
         message: One sentence for people, without file name and line.
         line: 1-based source line at which it stopped, if known.
         missing: The module that it imports and that is not found, if that is why.
+        bug: Whether aegis-ot itself failed.
     """
 
     message: str
     line: int | None = None
     missing: str = ""
+    bug: bool = False
 
 
 @dataclass(frozen=True)

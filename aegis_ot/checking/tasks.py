@@ -4,11 +4,20 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import time
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 from ..errors import AegisError
-from ..preflight import Database, Options, Report, check_script, load_database
+from ..preflight import (
+    Database,
+    Options,
+    Report,
+    check_script,
+    judge,
+    load_database,
+    record,
+)
 from ..preflight.dossier import Dossier
 from ..preflight.dossier_making import check_with_dossier
 from ..preflight.examples import ExampleResult, run_examples
@@ -61,6 +70,28 @@ class Check(_OfProtocol):
     def perform(self) -> Report:
         """Judge."""
         return check_script(self.script, _database(self.rules), self.options, self.timeout_s)
+
+
+@dataclass(frozen=True)
+class Timed:
+    """A report, and what it took to come to it, s."""
+
+    report: Report
+    rehearsal_s: float
+    verdict_s: float
+
+
+@dataclass(frozen=True)
+class TimedCheck(_OfProtocol):
+    """Rehearse a protocol and judge it, by the clock."""
+
+    def perform(self) -> Timed:
+        """Judge."""
+        start = time.perf_counter()
+        recording = record(self.script, self.timeout_s)
+        recorded = time.perf_counter()
+        report = judge(recording, _database(self.rules), self.options)
+        return Timed(report, recorded - start, time.perf_counter() - recorded)
 
 
 @dataclass(frozen=True)

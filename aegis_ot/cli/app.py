@@ -66,6 +66,7 @@ def run() -> None:
 # Each module adds its commands to the app.
 from . import (  # noqa: E402
     checks,  # noqa: F401
+    corpora,  # noqa: F401
     datasets,  # noqa: F401
     demo,  # noqa: F401
     dryruns,  # noqa: F401
