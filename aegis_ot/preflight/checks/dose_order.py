@@ -198,6 +198,10 @@ def _in_one_list(case: Case, one: Well, other: Well) -> bool:
         return False
     # `INHIBITORS gefitinib 3` and `... 4`: a compound has a name beside its numbers.
     kind = {match.phrase for match in kinds.find(mine.text) if match.topic == "distinct"}
-    own = [word for word in name_without_level(mine.text, case.common.undescriptive) if word not in kind]
+    own = [
+        word
+        for word in name_without_level(mine.text, case.common.undescriptive)
+        if word not in kind
+    ]
     of_one_name = mine.text != theirs.text and any(len(word) > _SHORTEST_NAME for word in own)
     return "dosed" in said or "distinct" not in said or of_one_name

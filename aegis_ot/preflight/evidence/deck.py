@@ -71,8 +71,7 @@ class Deck:
         found = [
             info.key
             for info in self.plates()
-            if wanted
-            and wanted in map(tokens, (info.slot, info.label, info.key, info.load_name))
+            if wanted and wanted in map(tokens, (info.slot, info.label, info.key, info.load_name))
         ]
         return found or sorted(self.by_name.get(words.strip(), ()))
 

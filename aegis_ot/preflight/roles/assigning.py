@@ -115,9 +115,7 @@ def _chosen(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | 
         finer = best.role in roles.closure(other.role) - {other.role}
         if finer and not other.evidence.whole and other.evidence.kind is not Kind.PASSING_NAME:
             best = other
-    rivals = [
-        other for other in found if other.worth == best.worth and _differ(roles, best, other)
-    ]
+    rivals = [other for other in found if other.worth == best.worth and _differ(roles, best, other)]
     conflict = ""
     if rivals:
         conflict = f"{best.evidence.citation} against {rivals[0].evidence.citation}"

@@ -80,9 +80,7 @@ def _bind(flow: Flow, target: ast.expr, value: ast.expr, looped: bool) -> None:
             flow.comes_from.setdefault(name, set()).update(origins - {name})
 
 
-def _parts(
-    target: ast.expr, value: ast.expr, looped: bool
-) -> Iterator[tuple[ast.expr, ast.expr]]:
+def _parts(target: ast.expr, value: ast.expr, looped: bool) -> Iterator[tuple[ast.expr, ast.expr]]:
     """Which part of a target takes its values from which expression."""
     if isinstance(target, (ast.Tuple, ast.List)):
         width = len(target.elts)
