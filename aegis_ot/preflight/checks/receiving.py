@@ -190,7 +190,7 @@ class Receives(Check):
         A well that is given what stood in such a well before, liquid and all, is another stage.
         """
         wells = frozenset(self.wells)
-        plates = {
+        return {
             visit.well.ref.labware
             for visit in case.trace.visits
             for origin, volume, source, _ in delivered(visit)
@@ -200,7 +200,6 @@ class Receives(Check):
                 or (case.has(origin, liquid) and not case.has(source, wells))
             )
         }
-        return plates
 
     @staticmethod
     def _stands_unused(case: Case, liquid: RoleSet) -> bool:
