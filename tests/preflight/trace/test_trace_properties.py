@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from itertools import pairwise
 
 import pytest
 from hypothesis import given, settings
@@ -134,7 +135,7 @@ def test_what_a_tip_has_met_never_grows_less(moves: list[tuple[str, str, float, 
         bench.draw(source, volume)
         bench.give(target, volume, top=1.0 if high else -9.0)
     visits = bench.trace().visits
-    for before, after in zip(visits, visits[1:], strict=False):
+    for before, after in pairwise(visits):
         assert before.carried <= after.carried
         assert before.met <= after.met
     for visit in visits:
