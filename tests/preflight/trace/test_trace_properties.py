@@ -40,6 +40,7 @@ heights = st.floats(0, 30)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
+@settings(deadline=None)
 @given(low=heights, high=heights)
 def test_more_stands_below_a_greater_height(shape: str, low: float, high: float) -> None:
     geometry = Geometry(SHAPES[shape])
@@ -66,6 +67,7 @@ def test_shapes_hold_what_their_formulas_say() -> None:
 
 
 @pytest.mark.parametrize("shape", SHAPES)
+@settings(deadline=None)
 @given(
     volume=st.floats(0, 300),
     low=st.floats(0.1, 12),
@@ -83,6 +85,7 @@ def test_a_deeper_tip_touches_no_less(
     assert deep >= shallow
 
 
+@settings(deadline=None)
 @given(st.lists(st.tuples(st.booleans(), st.floats(0.5, 100)), max_size=20))
 def test_what_leaves_a_tip_had_been_drawn(moves: list[tuple[bool, float]]) -> None:
     tip, source = Tip(0), Well(WellRef("source", "A1"))
