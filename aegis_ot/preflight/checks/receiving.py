@@ -227,5 +227,4 @@ class Receives(Check):
             if ref.labware in drawn:
                 continue  # among sources: a tube that this run leaves out
             if ref not in visited and not always.isdisjoint(case.roles.of(ref)):
-                info = case.trace.labware.get(ref.labware)
-                yield Well(ref, 0, info.wells.get(ref.name) if info else None, (0, 0))
+                yield Well(ref)
