@@ -90,9 +90,8 @@ def _read_nodes(tree: ast.Module, facts: SourceFacts) -> None:
     documents: set[int] = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Expr) and _is_text(node.value):
-            if isinstance(node.value.value, str):
-                facts.docstrings.append((node.value.lineno, node.value.value))
-                documents.add(id(node.value))
+            facts.docstrings.append((node.value.lineno, str(node.value.value)))
+            documents.add(id(node.value))
         elif isinstance(node, ast.Name):
             facts.names.add(node.id)
             if isinstance(node.ctx, ast.Store):
@@ -102,7 +101,7 @@ def _read_nodes(tree: ast.Module, facts: SourceFacts) -> None:
         elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
             facts.names.add(node.name)
         elif _is_text(node) and id(node) not in documents and len(facts.strings) < _MOST_TEXTS:
-            facts.strings.append((node.lineno, node.value))
+            facts.strings.append((node.lineno, str(node.value)))
         if isinstance(node, ast.Assign) and _is_metadata(node):
             facts.metadata.update(_texts_of(node.value))
 
