@@ -100,7 +100,6 @@ class Tap:
                 result = original(*args, **kwargs)
             finally:
                 reader.busy = False
-            reader.done(operation)
             for listener in self._listeners:
                 listener.after(operation)
             return result
