@@ -92,28 +92,25 @@ def _assumed(info: WellInfo) -> tuple[Mapping[str, Any], ...]:
 
     A V is as high as makes the well hold its nominal volume, a U as high as a half ball.
     """
-    depth = info.depth
-    area = (
-        math.pi / 4 * info.diameter**2 if info.diameter else (info.x_size or 0) * (info.y_size or 0)
-    )
-    width = info.diameter or min(info.x_size or 0, info.y_size or 0)
+    depth, x, y = info.depth, info.x_size or 0.0, info.y_size or 0.0
+    width = info.diameter or min(x, y)
+    area = math.pi / 4 * info.diameter**2 if info.diameter else x * y
     tip = 0.0
-    if info.bottom == "v" and area > 0:
+    if info.bottom == "v":
         tip = min(max((depth - info.max_volume / area) * 1.5, width / 2), depth)
     elif info.bottom == "u":
         tip = min(width / 2, depth)
+    body: dict[str, Any]
     if info.diameter:
-        mouth = {"bottomDiameter": info.diameter, "topDiameter": info.diameter}
-        ends = {"shape": "conical", "bottomDiameter": 0.0, "topDiameter": info.diameter}
-        body = {"shape": "conical", **mouth}
+        body = {"shape": "conical", "bottomDiameter": width, "topDiameter": width}
+        end = {**body, "bottomDiameter": 0.0}
+        if info.bottom == "u":
+            end = {"shape": "spherical", "radiusOfCurvature": width / 2}
     else:
-        x, y = info.x_size or 0.0, info.y_size or 0.0
-        sides = {"topXDimension": x, "topYDimension": y}
-        ends = {"shape": "cuboidal", **sides, "bottomXDimension": 0.0, "bottomYDimension": y}
-        body = {"shape": "cuboidal", **sides, "bottomXDimension": x, "bottomYDimension": y}
-    if info.bottom == "u" and info.diameter:
-        ends = {"shape": "spherical", "radiusOfCurvature": info.diameter / 2}
+        sides = {"topXDimension": x, "topYDimension": y, "bottomYDimension": y}
+        body = {"shape": "cuboidal", **sides, "bottomXDimension": x}
+        end = {**body, "bottomXDimension": 0.0}
     return (
-        {**ends, "bottomHeight": 0.0, "topHeight": tip},
+        {**end, "bottomHeight": 0.0, "topHeight": tip},
         {**body, "bottomHeight": tip, "topHeight": depth},
     )
