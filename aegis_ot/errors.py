@@ -13,6 +13,9 @@
     │   ├── SidecarUnreachable   no answer in time
     │   ├── SidecarRefused       the token or the request was refused
     │   └── SidecarGarbled       the answer made no sense
+    ├── RobotError               the robot's server could not do what was asked
+    │   ├── RobotUnreachable     no answer in time
+    │   └── RobotRefused         it answered, and refused
     ├── CameraError              no usable frame
     ├── StoreError               the sidecar could not keep what it received
     ├── ModelError               a vision model file cannot be used
@@ -72,6 +75,26 @@ class SidecarRefused(LinkError):
 
 class SidecarGarbled(LinkError):
     """The sidecar's answer made no sense."""
+
+
+class RobotError(AegisError):
+    """The robot's server could not do what was asked."""
+
+
+class RobotUnreachable(RobotError):
+    """The robot's server gave no answer in time."""
+
+
+class RobotRefused(RobotError):
+    """The robot's server answered, and refused.
+
+    Attributes:
+        status: HTTP status.
+    """
+
+    def __init__(self, message: str, status: int) -> None:
+        super().__init__(message)
+        self.status = status
 
 
 class CameraError(AegisError):
