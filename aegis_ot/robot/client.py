@@ -57,17 +57,22 @@ class RobotClient:
 
     def health(self) -> Mapping[str, Any]:
         """Name, model and versions of the robot."""
-        return self._ask("GET", "/health")
+        found: Mapping[str, Any] = self._ask("GET", "/health")
+        return found
 
-    def upload(self, protocol: Path) -> str:
-        """Upload a protocol file, which the server begins to analyse; its identifier.
+    def upload(self, protocol: Path) -> tuple[str, bool]:
+        """Upload a protocol file.
+
+        Returns:
+            Its identifier, and whether the server knew the very same file: then it keeps the old
+            analysis, else it begins one.
 
         Raises:
             OSError: The file cannot be read.
         """
         files = [("files", (protocol.name, protocol.read_bytes()))]
-        answer = self._ask("POST", "/protocols", files=files, timeout=UPLOAD_TIMEOUT_S)
-        return str(answer["data"]["id"])
+        answer = self._send("POST", "/protocols", {"files": files, "timeout": UPLOAD_TIMEOUT_S})
+        return str(self._read(answer)["data"]["id"]), answer.status_code == 200
 
     def analyse_again(self, protocol: str) -> None:
         """Begin a new analysis: the server keeps the old one of the same file whatever changed."""
@@ -155,13 +160,15 @@ class RobotClient:
             raise RobotError(f"The robot at {self.url} does not tell its time.") from None
 
     def _ask(self, method: str, path: str, **options: Any) -> Any:
-        answer = self._send(method, path, options)
+        return self._read(self._send(method, path, options))
+
+    def _read(self, answer: httpx.Response) -> Any:
         try:
             return answer.json()
         except json.JSONDecodeError:
             raise RobotError(
-                f"What answers {method} {path} at {self.url} is no robot of Opentrons. Check the "
-                "address and the port."
+                f"What answers at {self.url} is no robot of Opentrons. Check the address and the "
+                "port."
             ) from None
 
     def _send(self, method: str, path: str, options: dict[str, Any]) -> httpx.Response:

@@ -22,9 +22,7 @@ class RobotClock:
         round_trip_s: Of the look that counts; half of it is how exact a time is.
     """
 
-    def __init__(
-        self, ask: Callable[[], float], now: Callable[[], float] = time.monotonic
-    ) -> None:
+    def __init__(self, ask: Callable[[], float], now: Callable[[], float] = time.monotonic) -> None:
         self._ask = ask
         self._now = now
         self._ahead: float | None = None

@@ -1,6 +1,6 @@
 """Protocols that the tests of this room upload."""
 
-GOOD = '''
+GOOD = """
 metadata = {"apiLevel": "2.15", "protocolName": "Good"}
 
 def run(protocol):
@@ -9,16 +9,22 @@ def run(protocol):
     pipette = protocol.load_instrument("p300_single_gen2", "left", [tips])
     protocol.comment("hello")
     pipette.transfer(50, plate.wells()[:2], plate.wells()[8:10])
-'''
-PAUSES = GOOD + '''    protocol.pause("Take the lid off.")
+"""
+PAUSES = (
+    GOOD
+    + """    protocol.pause("Take the lid off.")
     protocol.comment("after the pause")
-'''
-WAITS = GOOD + '''    for _ in range(100):
+"""
+)
+WAITS = (
+    GOOD
+    + """    for _ in range(100):
         protocol.delay(0.2)
-'''
-BAD = '''
+"""
+)
+BAD = """
 metadata = {"apiLevel": "2.15"}
 
 def run(protocol):
     raise ValueError("no such thing")
-'''
+"""

@@ -19,7 +19,7 @@ from .protocols import BAD, GOOD, PAUSES, WAITS
 def uploaded(client: RobotClient, folder: Path, text: str) -> str:
     path = folder / "protocol.py"
     path.write_text(text, encoding="utf-8")
-    return client.upload(path)
+    return client.upload(path)[0]
 
 
 @pytest.mark.parametrize(
@@ -155,7 +155,10 @@ def test_a_robot_that_stays_away_is_given_up(robot: RobotServer) -> None:
 
 def test_what_is_no_robot_is_told_so() -> None:
     transport = httpx.MockTransport(lambda _: httpx.Response(200, text="<html>"))
-    with RobotClient("router", transport=transport) as client, pytest.raises(RobotError, match="no robot"):
+    with (
+        RobotClient("router", transport=transport) as client,
+        pytest.raises(RobotError, match="no robot"),
+    ):
         client.health()
 
 

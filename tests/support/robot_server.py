@@ -377,7 +377,7 @@ def _run_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
         return _error(404, "RunNotFound", "Run Not Found", f"Run {run} was not found.")
 
     @app.get("/runs")
-    async def runs(pageLength: int = 20) -> Any:  # noqa: N803
+    async def runs(pageLength: int = 20) -> Any:
         data = [run.view() for run in list(robot.runs.values())[-pageLength:]]
         links = {"current": {"href": f"/runs/{robot.current}"}} if robot.current else {}
         meta = {"cursor": 0, "totalLength": len(robot.runs)}
@@ -409,7 +409,7 @@ def _run_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
         return body({"data": [_plain(definition) for definition in found]})
 
     @app.get("/runs/{run}/commands")
-    async def commands(run: str, cursor: int | None = None, pageLength: int = 20) -> Any:  # noqa: N803
+    async def commands(run: str, cursor: int | None = None, pageLength: int = 20) -> Any:
         if run not in robot.runs:
             return unknown(run)
         return body(robot.runs[run].commands(cursor, pageLength))
@@ -428,4 +428,3 @@ def _run_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
         if refusal:
             return _error(409, "RunActionNotAllowed", "Run Action Not Allowed", refusal)
         return body({"data": await found.act(kind)}, 201)
-
