@@ -7,7 +7,7 @@
     ├── RehearsalError           the protocol could not be rehearsed
     │   └── RehearsalTimeout     it did not end in the time allowed
     ├── RuleError                a rule file is wrong: file, rule and field
-    ├── ProtocolRejected         Layer 1 found errors; nothing has moved
+    ├── ProtocolRejected         Layer 1 found errors; no tip has moved
     ├── RunAborted               Layer 2 ended the run, as configured
     ├── LinkError                robot and sidecar could not talk
     │   ├── SidecarUnreachable   no answer in time
@@ -54,7 +54,15 @@ class RuleError(AegisError):
 
 
 class ProtocolRejected(AegisError):
-    """Layer 1 found errors. On a robot it is raised before anything moves."""
+    """Layer 1 found errors. On a robot it is raised before a tip moves.
+
+    Attributes:
+        line: 1-based source line of the first of them, if known.
+    """
+
+    def __init__(self, message: str, line: int | None = None) -> None:
+        super().__init__(message)
+        self.line = line
 
 
 class RunAborted(AegisError):

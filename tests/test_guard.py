@@ -62,8 +62,12 @@ def simulated(text: str) -> list[str]:
     return [entry["payload"].get("text", "") for entry in log]
 
 
+OPENING = "aegis_ot: Layer 1 rehearses the protocol; then the run begins."
+
+
 def of_guard(lines: list[str]) -> list[str]:
-    return [line for line in lines if line.startswith("aegis_ot: ")]
+    said = [line for line in lines if line.startswith("aegis_ot: ")]
+    return [line for line in said if line != OPENING]
 
 
 class TestDecoration:
@@ -118,7 +122,7 @@ def run(ctx):
     ctx.comment("ran")
 """
         lines = simulated(text)
-        assert lines[:2] == ["announced", "ran"]
+        assert lines[1:3] == ["announced", "ran"]
         assert len(of_guard(lines)) == 1
 
     def test_the_public_face(self):

@@ -240,8 +240,24 @@ def test_a_legacy_protocol_pauses_and_plays_on(legacy: str, sidecar: FakeSidecar
     assert run.error is None
     assert run.status == "succeeded"
     assert len(sidecar.stored()) == 8
-    comments = [c.params.message for c in run.commands if c.commandType == "comment"]
-    assert any("partial dispense" in comment for comment in comments)
+    kinds = [command.commandType for command in run.commands]
+    pause = kinds.index("waitForResume")
+    assert "partial dispense" in run.commands[pause].params.message
+    # The command that had to wait for the verdict is the next one.
+    assert kinds[pause - 1 : pause + 2] == ["dispense", "waitForResume", "aspirate"]
+
+
+def test_a_legacy_protocol_tells_its_reason_while_it_is_paused(
+    legacy: str, sidecar: FakeSidecar
+) -> None:
+    sidecar.outcomes[0] = "fail"
+    run = LiveRun(two_wells, settings(sidecar), legacy).start()
+    run.wait_for_status("paused")
+    seen = run.seen()
+    assert seen[-1].commandType == "waitForResume"
+    assert "partial dispense" in seen[-1].params.message
+    run.play()
+    run.join()
 
 
 def test_a_legacy_protocol_is_stopped_during_its_pause(legacy: str, sidecar: FakeSidecar) -> None:
