@@ -54,7 +54,7 @@ class TerminalScreen:
     def analysing(self, seconds: float) -> None:
         """The bar runs by itself."""
 
-    def began(self, commands: int) -> None:
+    def began(self, commands: int | None) -> None:
         """From here on the run is steered from the keyboard."""
         self._bar.update(self._task, description="Running", total=commands, completed=0)
         self._typing = self._keys.open()

@@ -1,4 +1,4 @@
-"""``aegis-ot run``: from a protocol file to the end of its run on a robot."""
+"""``aegis-ot run`` and ``aegis-ot watch``: a protocol on a robot, seen from the terminal."""
 
 from __future__ import annotations
 
@@ -82,6 +82,54 @@ def run(
     raise typer.Exit(_code(result))
 
 
+@app.command()
+def watch(
+    robot: Robot,
+    sidecar: SidecarUrl = None,
+    token: Token = None,
+    on_fail: Annotated[
+        str, typer.Option(help="When a delivery fails: pause or continue.")
+    ] = "pause",
+    on_undecided: Annotated[
+        str, typer.Option(help="When one cannot be judged: pause or continue.")
+    ] = "pause",
+    on_link_loss: Annotated[
+        str, typer.Option(help="When the sidecar is lost: pause or continue.")
+    ] = "pause",
+    report: Annotated[Path | None, typer.Option(help="Write a JSON report here.")] = None,
+) -> None:
+    """Watch the run on a robot whose protocol carries no guard; waits until one begins."""
+    from ..robot import Analysis, RobotClient
+    from ..robot.moments import PastLink
+    from ..robot.running import RobotRun
+    from ..robot.watching import WatchPolicies, await_run, watch_run
+    from .judging import one_of
+    from .robot_screen import TerminalScreen, show_end
+
+    choices = ("pause", "continue")
+    policies = WatchPolicies(
+        one_of("--on-fail", on_fail, choices),
+        one_of("--on-undecided", on_undecided, choices),
+        one_of("--on-link-loss", on_link_loss, choices),
+    )
+    url, secret = _sidecar_of(sidecar, token)
+    if url is None:
+        raise ConfigurationError("Watching needs a sidecar: --sidecar http://127.0.0.1:7645.")
+    with RobotClient(robot) as client:
+        name = str(client.health().get("name") or client.url)
+        _say(f"Waiting for a run on {name}")
+        identifier = await_run(client)
+        analysis = Analysis("", done=False)
+        result = RobotRun(client.protocol_name(identifier), name, client.url, identifier, analysis)
+        with TerminalScreen(console) as screen:
+            screen.began(None)
+            watch_run(client, result, PastLink(url, secret), screen, policies)
+    show_end(console, result)
+    if report is not None:
+        _write_report(report, result)
+    raise typer.Exit(_code(result))
+
+
 def _show_analysis(protocol: Path, analysis: Analysis) -> bool:
     """Say what the analysis found; whether the protocol must not start."""
     if not analysis.ok:
@@ -121,15 +169,22 @@ def _ask_to_start(name: str, yes: bool) -> None:
 
 def _verdicts(sidecar: str | None, token: str | None, protocol: Path) -> VerdictReader | None:
     from ..robot.verdicts import VerdictReader
+
+    url, secret = _sidecar_of(sidecar, token)
+    if url is None:
+        return None
+    reader = VerdictReader(url, secret, protocol.name)
+    reader.check()
+    return reader
+
+
+def _sidecar_of(sidecar: str | None, token: str | None) -> tuple[str | None, str | None]:
+    """Its address and token: given here, or the guard's own settings on this machine."""
     from ..settings import load_settings
 
     given = {"sidecar": sidecar, "token": token}
     settings = load_settings(**{name: value for name, value in given.items() if value})
-    if settings.sidecar is None:
-        return None
-    reader = VerdictReader(settings.sidecar, settings.token, protocol.name)
-    reader.check()
-    return reader
+    return settings.sidecar, settings.token
 
 
 def _write_report(path: Path, result: RobotRun) -> None:

@@ -123,6 +123,14 @@ class RobotClient:
         """A run as it stands."""
         return read_run(self._ask("GET", f"/runs/{run}")["data"])
 
+    def protocol_name(self, run: str) -> str:
+        """File name of the protocol of a run, ``""`` where it cannot be told."""
+        try:
+            found = self._ask("GET", f"/protocols/{self.run(run).protocol}")["data"]["files"]
+        except RobotRefused:
+            return ""
+        return str(found[0]["name"]) if found else ""
+
     def commands(self, run: str, cursor: int, length: int = PAGE) -> Page:
         """Commands from number ``cursor`` on; none where there are not so many."""
         params = {"cursor": cursor, "pageLength": length}

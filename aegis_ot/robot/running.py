@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
-from ..errors import LinkError, RobotRefused
+from ..errors import LinkError, RobotError
 from .client import RobotClient
 from .following import PATIENCE_S, POLL_S, Completed, Found, Lost, Started, StatusChanged, follow
 from .shapes import OWN_WORDS, PAUSED, Analysis, Command, RunView
@@ -23,8 +23,8 @@ class Screen(Protocol):
     def analysing(self, seconds: float) -> None:
         """The robot analyses the protocol."""
 
-    def began(self, commands: int) -> None:
-        """The run has started; its analysis has so many commands."""
+    def began(self, commands: int | None) -> None:
+        """The run has started; its analysis has so many commands (``None``: not known)."""
 
     def doing(self, command: Command) -> None:
         """A command has begun."""
@@ -121,7 +121,7 @@ def run_analysed(
             waits, without this program.
     """
     run.id = robot.create_run(identifier)
-    driver = _Driver(robot, run, screen, verdicts)
+    driver = RunDriver(robot, run, screen, verdicts)
     robot.act(run.id, "play")
     screen.began(len(run.analysis.kinds))
     began = time.monotonic()
@@ -136,13 +136,19 @@ def run_analysed(
     return run
 
 
-class _Driver:
+class RunDriver:
+    """Shows a run, and does with it what the person at the terminal asks.
+
+    Args:
+        robot, run, screen, verdicts: As for :func:`run_analysed`.
+    """
+
     def __init__(
         self,
         robot: RobotClient,
         run: RobotRun,
         screen: Screen,
-        verdicts: VerdictReader | None,
+        verdicts: VerdictReader | None = None,
         now: Callable[[], float] = time.monotonic,
     ) -> None:
         self._robot = robot
@@ -174,7 +180,7 @@ class _Driver:
         if wanted:
             try:
                 self._robot.act(self._run.id, wanted)
-            except RobotRefused as error:
+            except RobotError as error:
                 self._screen.says(str(error))
         if self._now() >= self._next_look:
             self._next_look = self._now() + VERDICTS_EVERY_S

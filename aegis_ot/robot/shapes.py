@@ -103,6 +103,7 @@ class RunView:
         errors: What ended it, in words.
         pipettes, labware: Loaded so far.
         actions: ``"play"``, ``"pause"``, ``"stop"``: what people and programs did.
+        liquids: Names of the liquids that it declares, by identifier.
     """
 
     id: str
@@ -112,6 +113,7 @@ class RunView:
     pipettes: tuple[Pipette, ...] = ()
     labware: tuple[Labware, ...] = ()
     actions: tuple[str, ...] = ()
+    liquids: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def ended(self) -> bool:
@@ -166,6 +168,10 @@ def read_run(data: Mapping[str, Any]) -> RunView:
         ),
         labware=tuple(_read_labware(labware) for labware in data.get("labware") or ()),
         actions=tuple(str(a.get("actionType", "")) for a in data.get("actions") or ()),
+        liquids={
+            str(known["id"]): str(known.get("displayName", ""))
+            for known in data.get("liquids") or ()
+        },
     )
 
 

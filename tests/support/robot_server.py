@@ -211,7 +211,7 @@ class _Run:
             "pipettes": [_plain(pipette) for pipette in summary.pipettes],
             "modules": [],
             "labware": [_plain(labware) for labware in summary.labware],
-            "liquids": [],
+            "liquids": [_plain(liquid) for liquid in summary.liquids],
             "labwareOffsets": [],
             "runTimeParameters": [],
             "protocolId": self.protocol["id"],
@@ -337,6 +337,13 @@ def _protocol_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
         _begin(robot.analyse(protocol))
         await asyncio.sleep(0)
         return body(view(protocol), 201)
+
+    @app.get("/protocols/{protocol}")
+    async def one(protocol: str) -> Any:
+        if protocol not in robot.protocols:
+            detail = f"Protocol {protocol} not found"
+            return _error(404, "ProtocolNotFound", "Protocol Not Found", detail)
+        return body(view(robot.protocols[protocol]))
 
     @app.get("/protocols/{protocol}/analyses")
     async def analyses(protocol: str) -> Any:
