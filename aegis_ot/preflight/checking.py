@@ -42,11 +42,16 @@ def is_rejected(report: Report) -> bool:
     return report.verdict is VerdictWord.FAIL
 
 
+def errors_of(report: Report) -> list[Finding]:
+    """The findings for which it is refused."""
+    return [finding for finding in report.findings if finding.severity is Severity.ERROR]
+
+
 def rejection(report: Report) -> str:
     """Why a protocol is refused: every error with its rule, wells and lines."""
-    errors = [finding for finding in report.findings if finding.severity is Severity.ERROR]
+    errors = errors_of(report)
     count = "an error" if len(errors) == 1 else f"{len(errors)} errors"
-    lines = [f"Layer 1 found {count} in {report.file}; nothing has moved."]
+    lines = [f"Layer 1 found {count} in {report.file}; no tip has moved."]
     lines += [_tell(finding) for finding in errors]
     return "\n".join(lines)
 

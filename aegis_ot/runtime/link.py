@@ -84,8 +84,13 @@ class SidecarLink:
                 "install the same version of aegis-ot on both machines",
             )
 
-    def keyframe(self, keyframe: Keyframe, timeout_s: float) -> Captured:
+    def keyframe(self, keyframe: Keyframe, timeout_s: float, ago_s: float = 0.0) -> Captured:
         """Have one keyframe captured.
+
+        Args:
+            keyframe: Which.
+            timeout_s: How long it may take.
+            ago_s: How long ago its moment was, where the robot has not waited for this, s.
 
         Raises:
             CameraSilent: The camera gave no frame in time.
@@ -93,6 +98,8 @@ class SidecarLink:
             RunUnknown: The run has to be registered again.
         """
         path = f"/v1/runs/{quote(keyframe.run, safe='')}/keyframes"
+        if ago_s:
+            path += f"?ago={ago_s:.4f}"
         answer = self._request("POST", path, to_json(keyframe), timeout_s)
         if answer.get("captured") is not True or answer.get("sequence") != keyframe.sequence:
             raise self._garbled(f"it did not acknowledge keyframe {keyframe.sequence}")

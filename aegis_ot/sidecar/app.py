@@ -20,6 +20,7 @@ from ..vision.camera import Camera
 from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
 from .cameras import open_camera
+from .cameras.history import HISTORY_S
 from .config import SidecarConfig
 from .pages import router as pages
 from .reasoning_routes import opinion_router, opinions_of
@@ -53,6 +54,8 @@ async def _run_name(run: Annotated[str, Path()]) -> str:
 Run = Annotated[str, Depends(_run_name)]
 Number = Annotated[int, Path(ge=0, le=MAX_COUNT)]
 Wait = Annotated[float, Query(ge=0, allow_inf_nan=False)]
+Ago = Annotated[float, Query(ge=-HISTORY_S, le=HISTORY_S, allow_inf_nan=False)]
+"""How long before its arrival the moment of a keyframe was, s; negative: it is still to come."""
 
 
 def create_app(
@@ -122,11 +125,12 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
 
     @app.post("/v1/runs/{run}/keyframes")
     async def keyframe(
-        run: Run, arrived: Annotated[float, Depends(_now)], request: Request
+        run: Run, arrived: Annotated[float, Depends(_now)], request: Request, ago: Ago = 0.0
     ) -> dict[str, Any]:
         keyframe = parse(Keyframe, await read_body(request))
         _must_match(run, keyframe.run)
-        captured = await run_in_threadpool(lambda: sidecar.session(run).capture(keyframe, arrived))
+        moment = arrived - ago
+        captured = await run_in_threadpool(lambda: sidecar.session(run).capture(keyframe, moment))
         return {
             "sequence": keyframe.sequence,
             "captured": True,

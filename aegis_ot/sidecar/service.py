@@ -62,6 +62,8 @@ class Sidecar:
     def register(self, start: RunStart) -> None:
         """A run starts, or the robot says again that it has."""
         self.store.register(start)
+        if start.mode == "watch" and isinstance(self.camera, FreeRunning):
+            self.camera.remember()
         self.session(start.run)
         self.bell.ring()
 
