@@ -18,6 +18,7 @@ from .linkloss import LinkLoss
 from .operator import Operator
 from .refusal import refuse_everything
 from .runstate import RunState
+from .slices import CheckStop
 from .steps import Abandon, Capture, Hold, Lift, Step
 from .stopping import LAST_WORDS_S, Stopping, Waits
 from .summary import WatchSummary
@@ -194,13 +195,18 @@ class Watcher:
     # The line to the sidecar
 
     def _connect(self) -> _Line:
-        assert self._settings.sidecar is not None
-        link = SidecarLink(self._settings.sidecar, self._settings.token, self._waits.check)
-        courier = Courier(link, self.run_id, self._about, self._waits.rest)
+        url, token = self._settings.sidecar, self._settings.token
+        assert url is not None
+
+        def link(check: CheckStop) -> SidecarLink:
+            return SidecarLink(url, token, check)
+
+        courier = Courier(link(self._waits.check), self.run_id, self._about, self._waits.rest)
         loss = LinkLoss(courier, self._settings, self._operator, self._simulating, self.result)
         holding = Holding(
-            courier, loss, self._settings, self._operator, self._state, self._waits, self.result
-        )
+            courier, loss, self._settings, self._operator, self._state, self._waits, self.result,
+            link, self.run_id,
+        )  # fmt: skip
         return _Line(courier, loss, holding)
 
     def _connected(self) -> _Line:

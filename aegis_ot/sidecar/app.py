@@ -21,7 +21,7 @@ from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
 from .cameras import open_camera
 from .config import SidecarConfig
-from .pages import router as pages
+from .pages import page_router
 from .reasoning_routes import opinion_router, opinions_of
 from .security import Doorkeeper
 from .service import Sidecar
@@ -31,6 +31,7 @@ from .wire import (
     MAX_WAIT,
     WIRE,
     Abandon,
+    Action,
     Decision,
     Finish,
     Hold,
@@ -52,6 +53,7 @@ async def _run_name(run: Annotated[str, Path()]) -> str:
 
 Run = Annotated[str, Depends(_run_name)]
 Number = Annotated[int, Path(ge=0, le=MAX_COUNT)]
+After = Annotated[int | None, Query(ge=0, le=2**53)]
 Wait = Annotated[float, Query(ge=0, allow_inf_nan=False)]
 
 
@@ -99,7 +101,7 @@ def create_app(
     _robot_routes(app, sidecar)
     _reader_routes(app, sidecar)
     app.include_router(opinion_router(opinions, read_body))
-    app.include_router(pages)
+    app.include_router(page_router(sidecar, read_body))
     return app
 
 
@@ -136,11 +138,17 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
     @app.get("/v1/runs/{run}/trajectories/{number}/verdict")
     async def verdict(run: Run, number: Number, wait: Wait = 0.0) -> dict[str, Any]:
         session = await run_in_threadpool(sidecar.session, run)
-        found = await sidecar.bell.until(lambda: session.verdict(number), min(wait, MAX_WAIT))
+        found = await sidecar.bell.until(lambda: session.ask(number), min(wait, MAX_WAIT))
         answer: dict[str, Any] = {"verdict": None if found is None else to_json(found)}
         if found is None and session.awaiting_operator(number):
             answer["awaiting"] = "operator"
         return answer
+
+    @app.get("/v1/runs/{run}/trajectories/{number}/action")
+    async def action(run: Run, number: Number, wait: Wait = 0.0) -> dict[str, Any]:
+        session = await run_in_threadpool(sidecar.session, run)
+        found = await sidecar.bell.until(lambda: session.action(number), min(wait, MAX_WAIT))
+        return {"action": found}
 
     @app.post("/v1/runs/{run}/trajectories/{number}/abandon")
     async def abandon(
@@ -161,20 +169,36 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
 
 
 def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
+    """For people, their page, and programs that follow runs."""
+
     async def news(after: int | None, wait: float) -> None:
         if after is not None:
             await sidecar.bell.until(
                 lambda: True if sidecar.bell.rings != after else None, min(wait, PAGE_WAIT)
             )
 
+    @app.get("/v1/news")
+    async def version(after: After = None, wait: Wait = 0.0) -> dict[str, Any]:
+        await news(after, wait)
+        return {"version": sidecar.bell.rings}
+
     @app.get("/v1/runs")
-    async def runs(after: int | None = None, wait: Wait = 0.0) -> dict[str, Any]:
+    async def runs(
+        after: After = None,
+        wait: Wait = 0.0,
+        search: Annotated[str, Query(max_length=200)] = "",
+        most: Annotated[int, Query(ge=1, le=1000)] = 200,
+    ) -> dict[str, Any]:
         await news(after, wait)
         version = sidecar.bell.rings
-        return {"runs": await run_in_threadpool(sidecar.runs), "version": version}
+        return {"runs": await run_in_threadpool(sidecar.runs, search, most), "version": version}
+
+    @app.get("/v1/camera/view")
+    async def view() -> dict[str, Any]:
+        return (await run_in_threadpool(sidecar.aim.look)).to_json()
 
     @app.get("/v1/runs/{run}")
-    async def overview(run: Run, after: int | None = None, wait: Wait = 0.0) -> dict[str, Any]:
+    async def overview(run: Run, after: After = None, wait: Wait = 0.0) -> dict[str, Any]:
         await news(after, wait)
         return await run_in_threadpool(sidecar.overview, run)
 
@@ -193,6 +217,13 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
     ) -> dict[str, Any]:
         decided = await run_in_threadpool(lambda: sidecar.session(run).decide(number, body))
         return {"verdict": to_json(decided)}
+
+    @app.post("/v1/runs/{run}/trajectories/{number}/action")
+    async def act(
+        run: Run, number: Number, body: Annotated[Action, _body(Action)]
+    ) -> dict[str, Any]:
+        await run_in_threadpool(lambda: sidecar.session(run).act(number, body))
+        return {}
 
 
 async def _now() -> float:

@@ -51,6 +51,7 @@ def serve(
     with _listening(config) as (listener, url):
         sys.setswitchinterval(SWITCH_S)
         app = create_app(config, camera, analyser)
+        app.state.sidecar.address = url
         server = _Server(app, lambda: ready(url) if ready else None)
         server.run(sockets=[listener])
 
@@ -69,6 +70,7 @@ def running_sidecar(
     """
     with _listening(config) as (listener, url):
         app = create_app(config, camera, analyser)
+        app.state.sidecar.address = url
         started = threading.Event()
         server = _Server(app, started.set)
         thread = threading.Thread(
