@@ -7,13 +7,15 @@ import functools
 import time
 from collections.abc import Callable, Mapping
 from importlib.resources import files
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
 
 from .. import __version__
-from ..account import Level
 from ..vocabulary import KeyframeKind
+
+if TYPE_CHECKING:  # `aegis-ot check` does without numpy and OpenCV
+    from ..account import Level
 
 Filters = Mapping[str, Callable[..., Any]]
 """Functions that a template calls, by name."""

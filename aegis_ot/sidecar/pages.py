@@ -8,10 +8,14 @@ from urllib.parse import parse_qs
 
 from fastapi import APIRouter, Query, Request
 from starlette.concurrency import run_in_threadpool
-from starlette.responses import HTMLResponse, RedirectResponse, Response
+from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 
+from ..account import run_account
+from ..errors import StoreError
 from ..reports.html_page import html_page, shared_file
+from ..reports.run_html import ReportedRun, report_run, run_report_html
 from ..vocabulary import Outcome
+from .frames import folder_name
 from .journal import event
 from .security import COOKIE_S, LoginThrottle, client_of, same, set_cookie
 from .service import Sidecar
@@ -70,6 +74,16 @@ def _reading(router: APIRouter, sidecar: Sidecar) -> None:
     @router.get("/runs/{run}")
     async def run_page(request: Request, run: str, well: Well = None) -> Response:
         return await _run_page(sidecar, request, check_run(run), well, run_address(run), "run")
+
+    @router.get("/runs/{run}/report.html")
+    async def report_html(run: str) -> Response:
+        page = await run_in_threadpool(lambda: run_report_html([_report(sidecar, run)]))
+        return HTMLResponse(page, headers=_download(run, "html"))
+
+    @router.get("/runs/{run}/report.json")
+    async def report_json(run: str) -> Response:
+        account = await run_in_threadpool(lambda: run_account(sidecar.overview(check_run(run))))
+        return JSONResponse(account, headers=_download(run, "json"))
 
     @router.get("/camera")
     def camera() -> Response:
@@ -140,6 +154,22 @@ def _logging_in(router: APIRouter, sidecar: Sidecar, read_body: ReadBody) -> Non
             event("login", ok=True, address=who)
             set_cookie(answer, token.get_secret_value())
         return answer
+
+
+def _report(sidecar: Sidecar, run: str) -> ReportedRun:
+    overview = sidecar.overview(check_run(run))
+
+    def frame(sequence: int) -> bytes | None:
+        try:
+            return sidecar.store.frame(run, sequence)
+        except StoreError:
+            return None
+
+    return report_run(overview, frame)
+
+
+def _download(run: str, suffix: str) -> dict[str, str]:
+    return {"Content-Disposition": f'attachment; filename="{folder_name(run)}.{suffix}"'}
 
 
 async def _run_page(
