@@ -108,7 +108,8 @@ def dry_run(
     begun = time.monotonic()
     outcome, detail, told, overview, frames = _run(script, settings, analyser, camera, progress)
     wells = rows_of(overview)
-    touched, notes = (), []
+    touched: tuple[str, ...] = ()
+    notes: list[str] = []
     if outcome == "stopped":
         touched = _touched_after(told, wells)
         notes = [f"Wells touched after the failed dispense: {', '.join(touched) or 'none'}."]

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import cv2
 import numpy as np
 
+from ..errors import AegisError, CameraError
 from ..vision.camera import Camera, Frame
 from ..vision.detection import load_detector
 from ..vision.types import Detector, Image
@@ -100,12 +101,18 @@ class Aim:
             ModelError: The detector cannot be loaded.
         """
         with self._looking:
-            frame = self._last() or self._camera.frame_after(
-                time.monotonic(), self._config.camera.timeout_s
-            )
+            frame = self._last() or self._fresh()
             if self._detector is None:
                 self._detector = load_detector(self._config.cascade.detector or "default")
             return measure(frame, self._detector)
+
+    def _fresh(self) -> Frame:
+        try:
+            return self._camera.frame_after(time.monotonic(), self._config.camera.timeout_s)
+        except AegisError:
+            raise
+        except Exception as error:  # whatever a driver raises
+            raise CameraError(f"The camera failed: {type(error).__name__}: {error}") from error
 
 
 def measure(frame: Frame, detector: Detector) -> View:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Annotated, Any, TypeVar
@@ -21,6 +22,7 @@ from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
 from .cameras import open_camera
 from .config import SidecarConfig
+from .description import ERRORS, describe, takes
 from .pages import page_router
 from .reasoning_routes import opinion_router, opinions_of
 from .security import Doorkeeper
@@ -92,9 +94,13 @@ def create_app(
         title="aegis-ot sidecar",
         version=__version__,
         lifespan=lifespan,
+        openapi_url="/v1/openapi.json",
         # The interactive pages load scripts from elsewhere; wire.md is the reference.
-        openapi_url=None,
+        docs_url=None,
+        redoc_url=None,
+        responses=ERRORS,
     )
+    app.openapi = functools.cache(lambda: describe(app))  # type: ignore[method-assign]
     app.state.sidecar = sidecar
     app.add_middleware(Doorkeeper, config=config)
     _answer_errors(app)
@@ -116,13 +122,13 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
             "camera": {"kind": sidecar.camera.kind, "ok": camera.ok, "detail": camera.detail},
         }
 
-    @app.put("/v1/runs/{run}")
+    @app.put("/v1/runs/{run}", openapi_extra=takes(RunStart))
     async def register(run: Run, start: Annotated[RunStart, _body(RunStart)]) -> dict[str, Any]:
         _must_match(run, start.run)
         await run_in_threadpool(sidecar.register, start)
         return {"run": run, "wire": WIRE}
 
-    @app.post("/v1/runs/{run}/keyframes")
+    @app.post("/v1/runs/{run}/keyframes", openapi_extra=takes(Keyframe))
     async def keyframe(
         run: Run, arrived: Annotated[float, Depends(_now)], request: Request
     ) -> dict[str, Any]:
@@ -150,19 +156,19 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         found = await sidecar.bell.until(lambda: session.action(number), min(wait, MAX_WAIT))
         return {"action": found}
 
-    @app.post("/v1/runs/{run}/trajectories/{number}/abandon")
+    @app.post("/v1/runs/{run}/trajectories/{number}/abandon", openapi_extra=takes(Abandon))
     async def abandon(
         run: Run, number: Number, body: Annotated[Abandon, _body(Abandon)]
     ) -> dict[str, Any]:
         await run_in_threadpool(lambda: sidecar.session(run).abandon(number, body.reason))
         return {}
 
-    @app.post("/v1/runs/{run}/hold")
+    @app.post("/v1/runs/{run}/hold", openapi_extra=takes(Hold))
     async def hold(run: Run, body: Annotated[Hold, _body(Hold)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.hold, run, body)
         return {}
 
-    @app.post("/v1/runs/{run}/finish")
+    @app.post("/v1/runs/{run}/finish", openapi_extra=takes(Finish))
     async def finish(run: Run, body: Annotated[Finish, _body(Finish)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.finish, run, body)
         return {}
@@ -211,14 +217,14 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
             jpeg, media_type="image/jpeg", headers={"Cache-Control": "private, max-age=86400"}
         )
 
-    @app.post("/v1/runs/{run}/trajectories/{number}/decision")
+    @app.post("/v1/runs/{run}/trajectories/{number}/decision", openapi_extra=takes(Decision))
     async def decide(
         run: Run, number: Number, body: Annotated[Decision, _body(Decision)]
     ) -> dict[str, Any]:
         decided = await run_in_threadpool(lambda: sidecar.session(run).decide(number, body))
         return {"verdict": to_json(decided)}
 
-    @app.post("/v1/runs/{run}/trajectories/{number}/action")
+    @app.post("/v1/runs/{run}/trajectories/{number}/action", openapi_extra=takes(Action))
     async def act(
         run: Run, number: Number, body: Annotated[Action, _body(Action)]
     ) -> dict[str, Any]:
@@ -301,6 +307,10 @@ def _answer_errors(app: FastAPI) -> None:
                 503, "store", str(error), "Check the workstation; the keyframe can be resent."
             )
         ),
+    )
+    app.add_exception_handler(
+        AegisError,
+        answer(lambda error: WireError(503, "trouble", str(error), "Run aegis-ot doctor.")),
     )
     app.add_exception_handler(RequestValidationError, answer(invalid))
     app.add_exception_handler(HTTPException, answer(http))

@@ -18,6 +18,7 @@ from .analysis import Analyser
 from .bell import Bell
 from .cameras import FreeRunning, Health, camera_health
 from .config import SidecarConfig
+from .housekeeping import Housekeeper, Tidied
 from .journal import event
 from .messages import compose
 from .notices import Notice
@@ -72,6 +73,7 @@ class Sidecar:
             contextlib.nullcontext() if isinstance(camera, FreeRunning) else threading.Lock()
         )
         self._closed = False
+        self._housekeeper = Housekeeper(self.store, config.retention, self._tidied)
 
     def register(self, start: RunStart) -> None:
         """A run starts, or the robot says again that it has."""
@@ -190,6 +192,7 @@ class Sidecar:
         self._closed = True
         for session in self._sessions.values():
             session.close()
+        self._housekeeper.close()
         self.camera.close()
         self.notifier.close()
         self.store.close()
@@ -209,6 +212,17 @@ class Sidecar:
     def _frame_to_show(self) -> Frame | None:
         """Of a camera that shows what runs announce, the last frame; others give a fresh one."""
         return None if isinstance(self.camera, FreeRunning) else self._last_frame
+
+    def _tidied(self, done: Tidied) -> None:
+        for run in done.removed:
+            with self._opening:
+                session = self._sessions.pop(run, None)
+            if session is not None:
+                session.close()
+        for run in done.closed:
+            seen = "The robot has said nothing for long; its run was closed."
+            self.notifier.send(Notice(run, "silent", "a run ended without a word", seen))
+        self.bell.ring()
 
     def _compose(self, notices: Sequence[Notice]) -> Message:
         return compose(self.store, notices, self.address)
