@@ -120,8 +120,8 @@ def _last_keyframe(overview: Mapping[str, Any]) -> Mapping[str, Any] | None:
 
 def _paused(overview: Mapping[str, Any]) -> Iterator[Situation]:
     """The robot told of a hold that ends in a pause, and has gone on with nothing since."""
-    last = _last_keyframe(overview)
-    moved = 0.0 if last is None else float(last["captured"])
+    keyframes = [k for t in overview["trajectories"] for k in t["keyframes"]]
+    moved = max((float(k["captured"]) for k in keyframes), default=0.0)
     for trajectory in overview["trajectories"]:
         hold = trajectory["hold"]
         if not hold or hold["policy"] != "pause" or hold["paused_s"] is not None:
