@@ -148,14 +148,30 @@ class Courier:
         self._messages.append(self._abandonment(number, reason))
         self._tell()
 
-    def report_hold(self, number: int, seconds: float, ended_by: str, policy: str | None) -> None:
-        """Tell likewise how a hold went."""
+    def action(self, number: int) -> str | None:
+        """Ask once what a person told the robot that is paused at a trajectory."""
+        return self._link.action(self._run, number, _REQUEST_S)
+
+    def report_hold(
+        self,
+        number: int,
+        seconds: float,
+        ended_by: str,
+        policy: str | None,
+        paused_s: float | None = None,
+        answered: str | None = None,
+    ) -> None:
+        """Tell likewise how a hold went, and, when it is over, how long the robot was paused and
+        where that was answered.
+        """
         body = {
             "trajectory": number,
             "seconds": round(seconds, 4),
             "resolution": ended_by,
             "policy": policy,
         }
+        if paused_s is not None:
+            body |= {"paused_s": round(paused_s, 3), "answered": answered}
         self._messages.append(lambda most: self._link.report_hold(self._run, body, most))
         self._tell()
 

@@ -123,6 +123,13 @@ class SidecarLink:
             raise self._garbled(f"it sent another trajectory's verdict for trajectory {number}")
         return verdict
 
+    def action(self, run: str, number: int, timeout_s: float) -> str | None:
+        """What a person told the robot that is paused at a trajectory: ``"resume"``, ``"stop"``,
+        or ``None`` as long as nobody did."""
+        answer = self._request("GET", f"{_trajectory(run, number)}/action", None, timeout_s)
+        action = answer.get("action")
+        return str(action.get("action")) if isinstance(action, dict) else None
+
     def abandon(self, run: str, number: int, reason: str, timeout_s: float) -> None:
         """Say that a trajectory will have no further keyframes."""
         self._request("POST", f"{_trajectory(run, number)}/abandon", {"reason": reason}, timeout_s)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..errors import LinkError, RunAborted
+from ..http_client import CheckStop
 from ..instrumentation import Event, Operation
 from ..settings import Settings
 from ..vocabulary import Keyframe, KeyframeKind
@@ -201,9 +202,13 @@ class Watcher:
     # The line to the sidecar
 
     def _connect(self) -> _Line:
-        assert self._settings.sidecar is not None
-        link = SidecarLink(self._settings.sidecar, self._settings.token, self._waits.check)
-        courier = Courier(link, self.run_id, self._about, self._waits.rest)
+        url, token = self._settings.sidecar, self._settings.token
+        assert url is not None
+
+        def link(check: CheckStop) -> SidecarLink:
+            return SidecarLink(url, token, check)
+
+        courier = Courier(link(self._waits.check), self.run_id, self._about, self._waits.rest)
         loss = LinkLoss(
             courier,
             self._settings,
@@ -214,8 +219,9 @@ class Watcher:
             self.result,
         )
         holding = Holding(
-            courier, loss, self._settings, self._operator, self._state, self._waits, self.result
-        )
+            courier, loss, self._settings, self._operator, self._state, self._waits, self.result,
+            link, self.run_id,
+        )  # fmt: skip
         return _Line(courier, loss, holding)
 
     def _connected(self) -> _Line:

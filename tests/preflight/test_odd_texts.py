@@ -5,9 +5,9 @@ from __future__ import annotations
 import time
 
 import pytest
+from aegis_ot.preflight.layouts.ellipses import spelled_out
 
 from aegis_ot.preflight import Report, Script, check_script, load_database
-from aegis_ot.preflight.layouts.ellipses import spelled_out
 from aegis_ot.preflight.rules import Common
 from aegis_ot.vocabulary import VerdictWord
 

@@ -12,6 +12,7 @@ import pytest
 from aegis_ot.errors import RunAborted
 from aegis_ot.runtime import operator as operator_module
 from aegis_ot.settings import Settings
+from aegis_ot.vocabulary import Outcome
 
 from .fake_sidecar import FakeSidecar, Handler
 from .live import LiveRun
@@ -232,7 +233,7 @@ def _die_at(handler: Handler, sidecar: FakeSidecar, count: int) -> bool:
     return False
 
 
-def test_where_nobody_can_resume_the_operator_decides_on_the_page(
+def test_where_nobody_can_resume_the_operator_answers_on_the_page(
     sidecar: FakeSidecar, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(operator_module, "can_be_resumed", lambda: False)
@@ -240,9 +241,14 @@ def test_where_nobody_can_resume_the_operator_decides_on_the_page(
     run = LiveRun(two_wells, settings(sidecar)).start()
     in_time(lambda: bool(sidecar.holds))
     sidecar.decided[0] = "pass"
-    in_time(lambda: len(sidecar.holds) == 2)
+    sidecar.actions[0] = "resume"
+    in_time(lambda: len(sidecar.holds) == 3)
+    assert [hold.get("answered") for hold in sidecar.holds] == [None, "page", None]
     sidecar.decided[1] = "fail"
+    sidecar.actions[1] = "stop"
     run.join()
+    assert run.watcher is not None
+    assert run.watcher.result.verdicts[0].outcome is Outcome.PASS
     assert isinstance(run.error, RunAborted)
     assert "waitForResume" not in [c.commandType for c in run.commands]
 
