@@ -33,7 +33,7 @@ def sidecar(
     ] = None,
 ) -> None:
     """Watch the robot's tips: capture, score, judge, and show a page."""
-    from ..sidecar import SidecarConfig, make_analyser, serve
+    from ..sidecar import SidecarConfig, make_analyser, make_detector, serve
     from ..sidecar.reasoning_routes import gates_of
 
     settings = SidecarConfig.load(
@@ -50,5 +50,6 @@ def sidecar(
     def ready(url: str) -> None:
         typer.echo(f"aegis-ot sidecar: {url} (camera {settings.camera.spec}, data {settings.data})")
 
-    analyser = make_analyser(settings.cascade, gates_of(settings))
-    serve(settings, analyser=analyser, ready=ready)
+    detector = make_detector(settings.cascade)
+    analyser = make_analyser(settings.cascade, gates_of(settings), detector)
+    serve(settings, analyser=analyser, ready=ready, detector=detector)

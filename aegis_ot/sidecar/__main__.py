@@ -7,7 +7,7 @@ import sys
 
 from ..errors import AegisError
 from .config import SidecarConfig
-from .judging import make_analyser
+from .judging import make_analyser, make_detector
 from .server import serve
 
 
@@ -16,10 +16,12 @@ def main(arguments: list[str]) -> int:
     logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s: %(message)s")
     try:
         config = SidecarConfig.load(arguments[0] if arguments else None)
-        analyser = make_analyser(config.cascade)
+        detector = make_detector(config.cascade)
+        analyser = make_analyser(config.cascade, detector=detector)
         serve(
             config,
             analyser=analyser,
+            detector=detector,
             ready=lambda url: logging.info("The sidecar answers at %s", url),
         )
     except AegisError as error:

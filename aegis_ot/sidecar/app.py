@@ -17,6 +17,7 @@ from starlette.responses import JSONResponse, Response
 from .._version import __version__
 from ..errors import AegisError, CameraError, StoreError
 from ..vision.camera import Camera
+from ..vision.types import Detector
 from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
 from .cameras import open_camera
@@ -56,7 +57,10 @@ Wait = Annotated[float, Query(ge=0, allow_inf_nan=False)]
 
 
 def create_app(
-    config: SidecarConfig, camera: Camera | None = None, analyser: Analyser | None = None
+    config: SidecarConfig,
+    camera: Camera | None = None,
+    analyser: Analyser | None = None,
+    detector: Detector | None = None,
 ) -> FastAPI:
     """Build the sidecar's application. It holds the camera and store until it is shut down.
 
@@ -64,6 +68,7 @@ def create_app(
         config: Settings.
         camera: Instead of the one that ``config.camera.spec`` names.
         analyser: What judges wells; without one every well is undecided.
+        detector: With one, a frame counts only if the camera's view tells something.
 
     Returns:
         The application; ``app.state.sidecar`` is the :class:`~.service.Sidecar` behind it, whose
@@ -76,7 +81,7 @@ def create_app(
     opinions = opinions_of(config)
     camera = open_camera(config.camera) if camera is None else camera
     try:
-        sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser)
+        sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser, detector)
     except AegisError:
         camera.close()
         raise

@@ -57,6 +57,8 @@ class CameraSettings(Section):
             kind of camera.
         width, height: What a USB camera is asked for, px; ``None``: its own default.
         fps: What a USB camera or the test pattern is asked for, frames/s.
+        watch_view: Hold the run while the camera is frozen, covered, dark, blown out, blurred or
+            misaimed.
     """
 
     spec: str = "usb:0"
@@ -65,6 +67,7 @@ class CameraSettings(Section):
     width: Annotated[int, Field(ge=16, le=10_000)] | None = None
     height: Annotated[int, Field(ge=16, le=10_000)] | None = None
     fps: Annotated[float, Field(gt=0, le=240)] = 30.0
+    watch_view: bool = True
 
 
 class CascadeSettings(Section):

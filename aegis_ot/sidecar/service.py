@@ -10,6 +10,8 @@ from typing import Any
 
 from ..errors import AegisError, CameraError
 from ..vision.camera import Camera, Frame
+from ..vision.types import Detector
+from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser
 from .bell import Bell
@@ -37,17 +39,28 @@ class Sidecar:
         config: Settings.
         camera: Where frames come from; closed with the sidecar.
         analyser: Judges wells.
+        detector: Finds the tip where it is in doubt that the camera sees it; without one, frames
+            are not asked whether they show anything.
 
     Raises:
         StoreError: The data folder cannot be used.
     """
 
-    def __init__(self, config: SidecarConfig, camera: Camera, analyser: Analyser) -> None:
+    def __init__(
+        self,
+        config: SidecarConfig,
+        camera: Camera,
+        analyser: Analyser,
+        detector: Detector | None = None,
+    ) -> None:
         self.config = config
         self.camera = camera
         self.bell = Bell()
         self.store = Store(config.data)
         self._analyser = analyser
+        # A test pattern shows no pipette, and is not meant to.
+        watched = config.camera.watch_view and camera.kind != "pattern"
+        self._detector = detector if watched else None
         self._notifier = Notifier(config.notifications.urls)
         self._sessions: dict[str, Session] = {}
         self._opening = threading.Lock()
@@ -84,6 +97,7 @@ class Sidecar:
                     self._grab,
                     self._notifier.send,
                     self.config.operator.timeout_s,
+                    None if self._detector is None else ViewWatch(self._detector),
                 )
             session.asked = time.monotonic()
             return session
@@ -151,12 +165,11 @@ class Sidecar:
         self._notifier.close()
         self.store.close()
 
-    def _grab(self, keyframe: Keyframe, moment: float) -> Frame:
+    def _grab(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
         try:
             with self._camera_lock:
                 self.camera.announce(keyframe)
-                frame = self.camera.frame_after(moment, self.config.camera.timeout_s)
-            _check_frame(frame, moment)
+                frame = self._usable(keyframe, moment, view)
         except Exception as error:
             if not isinstance(error, AegisError):
                 log.exception("The camera failed")
@@ -167,6 +180,18 @@ class Sidecar:
             raise error from None
         self._camera_trouble = ""
         return frame
+
+    def _usable(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
+        """A frame that tells something; a second one is taken before that is given up."""
+        trouble = None
+        for _ in range(2):
+            frame = self.camera.frame_after(moment, self.config.camera.timeout_s)
+            _check_frame(frame, moment)
+            trouble = None if view is None else view.look(keyframe, frame.image)
+            if trouble is None:
+                return frame
+            moment = time.monotonic()
+        raise CameraError("" if trouble is None else trouble.message)
 
     def _evict(self) -> None:
         if len(self._sessions) < SESSIONS_KEPT:

@@ -10,6 +10,7 @@ from typing import Any
 
 from ..errors import StoreError
 from ..vision.camera import Frame
+from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, Outcome, Verdict
 from .analysis import Analyser
 from .bell import Bell
@@ -20,8 +21,9 @@ from .worker import AnalysisWorker
 
 log = logging.getLogger(__name__)
 
-Grab = Callable[[Keyframe, float], Frame]
-"""Grabs the first frame exposed at or after a moment; raises CameraError."""
+Grab = Callable[[Keyframe, float, ViewWatch | None], Frame]
+"""Grabs the first frame exposed at or after a moment, in which the view shows what it should;
+raises CameraError."""
 Tell = Callable[[str, str], None]
 """Sends a notification: title, text."""
 
@@ -35,6 +37,7 @@ class Session:
         grab: Takes a frame.
         tell: Sends a notification.
         operator_timeout: How long an undecided verdict is held back for the operator, s.
+        view: Looks at each frame before it counts; ``None``: every frame counts.
 
     Attributes:
         asked: When it was last asked for, ``time.monotonic``, s.
@@ -49,6 +52,7 @@ class Session:
         grab: Grab,
         tell: Tell,
         operator_timeout: float = 0.0,
+        view: ViewWatch | None = None,
     ) -> None:
         self.run = run
         self.asked = time.monotonic()
@@ -57,6 +61,7 @@ class Session:
         self._grab = grab
         self._tell = tell
         self._operator_timeout = operator_timeout
+        self._view = view
         self._capturing = threading.Lock()
         self._state = threading.Lock()
         store.forget_torn(run)
@@ -87,7 +92,7 @@ class Session:
 
         Raises:
             WireError: 409, with the number expected, if one is missing or taken.
-            CameraError: No frame in time; the number is not used up.
+            CameraError: No frame in time, or none that tells anything; the number is not used up.
             StoreError: It could not be kept; the number is not used up.
         """
         # A resent keyframe waits here for its twin, and is then answered from the store.
@@ -102,7 +107,7 @@ class Session:
                     "Resend from the expected number.",
                     expected=self._next,
                 )
-            frame = self._grab(keyframe, moment)
+            frame = self._grab(keyframe, moment, self._view)
             captured = Captured(keyframe, max(0.0, frame.exposed_at - moment), time.time())
             self._store.add_keyframe(captured, frame.jpeg)
             self._next += 1
