@@ -84,6 +84,8 @@ class CascadeSettings(Section):
             which sends most normal wells to the gate; the default is wider).
         blank_floor: Scores below it are a blank view; ``None``: the preset's (1e-4).
         always_gate: Send every well after calibration to the gates.
+        first_wells: ``ask``: the operator looks at a first well in which no liquid is seen to leave
+            the tip; ``trust``: it is taken for normal.
         gates: Asked in this order, the operator after them: ``volumetric``, ``vlm``.
     """
 
@@ -94,6 +96,7 @@ class CascadeSettings(Section):
     band: Annotated[float, Field(gt=0, le=100)] | None = None
     blank_floor: Annotated[float, Field(ge=0)] | None = None
     always_gate: bool = False
+    first_wells: Literal["ask", "trust"] = "ask"
     gates: tuple[str, ...] = ("volumetric",)
 
     @field_validator("gates")

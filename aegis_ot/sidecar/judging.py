@@ -11,12 +11,11 @@ from ..errors import ConfigurationError, ModelError
 from ..vision.calibration import PRESETS
 from ..vision.column_reader import MeasuredColumns
 from ..vision.detection import load_detector
-from ..vision.gates import ConfirmingGate, OperatorGate
+from ..vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
 from ..vision.models import SHIPPED, load_model
 from ..vision.monitor import MonitorSettings, RunMonitor
 from ..vision.scorers import make_scorer
 from ..vision.types import Detector, Scorer
-from ..vision.volumetric_gate import VolumetricGate
 from .analysis import Analyser
 from .config import CascadeSettings
 
@@ -67,7 +66,7 @@ def make_analyser(
     return RunMonitor(
         detector or make_detector(cascade),
         _world_model(cascade),
-        MonitorSettings(calibration, cascade.always_gate),
+        MonitorSettings(calibration, cascade.always_gate, cascade.first_wells == "ask"),
         [*(known[name] for name in cascade.gates), OperatorGate()],
         MeasuredColumns,
     )

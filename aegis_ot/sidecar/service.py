@@ -113,6 +113,7 @@ class Sidecar:
         """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
         self.require(run)
         self.store.add_hold(run, hold)
+        self.session(run).held(hold.trajectory, hold.policy)
         self.bell.ring()
         if hold.resolution not in ("verdict", "stopped"):
             policy = f"; policy: {hold.policy}" if hold.policy else ""
@@ -184,10 +185,10 @@ class Sidecar:
     def _usable(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
         """A frame that tells something; a second one is taken before that is given up."""
         trouble = None
-        for _ in range(2):
+        for again in (True, False):
             frame = self.camera.frame_after(moment, self.config.camera.timeout_s)
             _check_frame(frame, moment)
-            trouble = None if view is None else view.look(keyframe, frame.image)
+            trouble = None if view is None else view.look(keyframe, frame.image, again=again)
             if trouble is None:
                 return frame
             moment = time.monotonic()

@@ -70,6 +70,7 @@ class Session:
         self._verdicts: dict[int, Verdict] = {v.trajectory: v for v, _, _ in judged}
         self._decisions = store.decisions(run)
         self._release: dict[int, float] = {}
+        self._paused: set[int] = set()
         self._worker = AnalysisWorker(
             run, analyser, [(v, evidence) for v, evidence, _ in judged], store, self._publish
         )
@@ -111,6 +112,7 @@ class Session:
             captured = Captured(keyframe, max(0.0, frame.exposed_at - moment), time.time())
             self._store.add_keyframe(captured, frame.jpeg)
             self._next += 1
+            self._resumed()
             self._worker.submit(keyframe, frame)
         self._bell.ring()
         return captured
@@ -134,6 +136,21 @@ class Session:
         self._worker.drop(trajectory)
         self._bell.ring()
 
+    def held(self, trajectory: int, policy: str | None) -> None:
+        """The robot says how a hold ended: by a pause, if the operator is to look at the well."""
+        with self._state:
+            verdict = self._verdicts.get(trajectory)
+            if policy == "pause" and verdict is not None and verdict.outcome is Outcome.UNDECIDED:
+                self._paused.add(trajectory)
+
+    def _resumed(self) -> None:
+        """The robot moves: whoever was asked by a pause has looked, and let the run go on."""
+        with self._state:
+            paused, self._paused = self._paused, set()
+            going = [number for number in paused if number not in self._decisions]
+        for trajectory in sorted(going):
+            self._worker.confirm(trajectory)
+
     def decide(self, trajectory: int, decision: Decision) -> Verdict:
         """The operator decides a failed or undecided trajectory; deciding again is allowed.
 
@@ -149,6 +166,8 @@ class Session:
             self._store.add_decision(self.run, trajectory, decision)
             self._decisions = self._store.decisions(self.run)
             decided = effective(verdict, self._decisions[trajectory])
+        if decision.outcome is Outcome.PASS and verdict.outcome is Outcome.UNDECIDED:
+            self._worker.confirm(trajectory)
         self._bell.ring()
         return decided
 

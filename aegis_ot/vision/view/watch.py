@@ -45,6 +45,9 @@ _ALIKE_WITHIN, _ALIKE_SHARE = 8.0, 0.85
 """A view is the same if so many of its blocks are the same within so many grey levels: a pipette, a
 tip rack and a plate more or less are less than that."""
 
+_EXPOSURE = 1.4
+"""A frame so many times brighter or darker than the one before cannot be compared with it."""
+
 _REFERENCE = 8
 """Latest good frames that tell what the view is."""
 
@@ -69,14 +72,24 @@ class ViewWatch:
         self._tip_seen = False
         self._strange = False
 
-    def look(self, keyframe: Keyframe, image: Image) -> ViewTrouble | None:
+    def look(self, keyframe: Keyframe, image: Image, *, again: bool = False) -> ViewTrouble | None:
         """What is wrong with the view at this keyframe, if anything.
 
         Only a frame in which nothing is wrong changes what is known of the view, so that the same
         keyframe may be tried again.
+
+        Args:
+            keyframe: Which moment the frame shows.
+            image: The frame.
+            again: Whether another frame can be had at once; then one that is merely exposed
+                unlike those before is refused too.
         """
         seen = measure_view(image)
         kind = self._in_itself(seen) or self._against_time(keyframe, seen)
+        if kind is None and again and self._good:
+            light = float(np.median(seen.blocks)), float(np.median(self._good[-1]))
+            if not 1 / _EXPOSURE < (light[0] + 1) / (light[1] + 1) < _EXPOSURE:
+                kind = TroubleKind.BLOWN_OUT if light[0] > light[1] else TroubleKind.DARK
         if kind is not None:
             return ViewTrouble.of(kind)
         return self._aim(keyframe, seen, image)
