@@ -13,7 +13,7 @@ from .calibration import CalibrationState
 from .camera import Frame
 from .cascade import Triage
 from .consistency import second_look
-from .delivery import delivery_of
+from .delivery import Delivery, delivery_of
 from .evidence import evidence_of
 from .first_wells import FirstWells, Liquid
 from .gates import Case, GateDecision, Gates, in_sentences
@@ -122,7 +122,11 @@ class RunAnalyser:
         case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
         left = self._leftovers.known(last)
-        if left is not None and decision.outcome is not Outcome.PASS and explains(left, case):
+        if (
+            left is not None
+            and decision.outcome is not Outcome.PASS
+            and explains(left, case, self._delivery(seen, last, left.volume_ul))
+        ):
             decision = still_there(left, decision)
         else:
             well = _Well(stream, _liquid(last), case, dict(seen.looks))
@@ -189,12 +193,16 @@ class RunAnalyser:
         readings = stream.reader.read(seen.looks, sample.expected_ul)
         score = stream.scorer.score(sample, seen.excused)
         p_value = stream.p_value(score)
-        shown = delivery_of(seen.looks, sample.expected_ul)
         return Case(
             sample, Route.GREY_ZONE, score, readings, missing, stream.learned > 0, p_value,
             clearly_absent=seen.clearly_absent,
-            delivery=self._first.held_against(_liquid(last), shown),
+            delivery=self._delivery(seen, last),
         )  # fmt: skip
+
+    def _delivery(self, seen: OpenTrajectory, last: Keyframe, left_ul: float = 0.0) -> Delivery:
+        """What a trajectory shows of its delivery, if the tip held so much before and after, µL."""
+        expected = {kind: frame.expected_ul + left_ul for kind, frame in seen.keyframes.items()}
+        return self._first.held_against(_liquid(last), delivery_of(seen.looks, expected))
 
     def _look(
         self, stream: Stream, seen: OpenTrajectory, kind: KeyframeKind, detection: TipDetection
@@ -240,13 +248,12 @@ class RunAnalyser:
 
     def _decide(self, stream: Stream, case: Case, triage: Triage) -> GateDecision:
         if triage.route is Route.CALIBRATION:
-            stream.first_wells += 1
             gross = self._gates.screen(case)
             if gross.outcome is Outcome.FAIL:
                 return gross
             if case.alarming or triage.missing:
                 return replace(gross, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR)
-            number = f"Calibration well {stream.first_wells} of {stream.settings.wells}."
+            number = f"Calibration well {stream.learned + 1} of {stream.settings.wells}."
             return replace(gross, outcome=Outcome.PASS, gate=Gate.NONE, reason=number)
         if not triage.to_gate:
             after = case.readings.get(KeyframeKind.POST_DISPENSE)
@@ -281,6 +288,8 @@ class RunAnalyser:
     def _take(self, well: _Well, decision: GateDecision) -> None:
         stream, case, looks = well.stream, well.case, well.looks
         normal = decision.outcome is Outcome.PASS
+        if not normal and self._first.proven(well.liquid):
+            return  # the others were not taken on trust, so this one casts no doubt on them
         collecting = stream.cascade.state is CalibrationState.COLLECTING
         whole = len(case.sample.frames) == len(KeyframeKind) and not case.missing
         if collecting and normal and whole and not stream.scorer.ready:

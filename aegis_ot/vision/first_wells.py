@@ -46,7 +46,7 @@ class FirstWells:
         shown = Shown.UNKNOWN if delivery is None else delivery.shown
         if not self._ask or self.vouched or shown is Shown.EMPTIED:
             return ""
-        if self._strengths.get(liquid):
+        if self.proven(liquid):
             return ""  # it shows, and what did not here is for the gate
         if delivery is not None and delivery.spoiled and self._spoiled < _SPOILED_MOST:
             self._spoiled += 1
@@ -56,6 +56,10 @@ class FirstWells:
             "to be seen in this view. Please look at the tip and the well. If they are right, "
             "resume: the wells after it are then compared with this one."
         )
+
+    def proven(self, liquid: Liquid) -> bool:
+        """Whether wells of this run showed the liquid leave the tip."""
+        return bool(self._strengths.get(liquid))
 
     def held_against(self, liquid: Liquid, delivery: Delivery) -> Delivery:
         """``delivery`` in the light of earlier wells: where the liquid was seen to leave them,

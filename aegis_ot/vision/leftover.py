@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..vocabulary import FailureType, Gate, Keyframe, KeyframeKind, Outcome
-from .delivery import Shown
+from .delivery import Delivery, Shown
 from .gates import Case, GateDecision
 
 _STAYED = (FailureType.PARTIAL_DISPENSE, FailureType.NO_DISPENSE)
@@ -66,25 +66,29 @@ class Leftovers:
         self._of[mount] = left
 
 
-def explains(left: Leftover, case: Case) -> bool:
-    """Whether a well shows no more than the leftover."""
-    if case.missing:
+def explains(left: Leftover, case: Case, delivery: Delivery) -> bool:
+    """Whether a well shows no more than the leftover.
+
+    Args:
+        left: What the tip held before.
+        case: The well, as it is judged without that.
+        delivery: What it shows of its delivery if the tip held that before and after.
+    """
+    if case.missing or delivery.shown is Shown.NOTHING:
         return False
     commanded = case.sample.volume_ul
     for kind, base in ((KeyframeKind.TRANSIT, commanded), (KeyframeKind.POST_DISPENSE, 0.0)):
         reading = case.readings.get(kind)
         if reading is None or reading.vague:
             continue
-        slack = max(4.0 * reading.sigma_ul, 0.2 * commanded)
+        # The leftover itself was read with the same errors.
+        slack = max(2.0 * reading.sigma_ul, 0.15 * commanded)
         most = case.sample.expected_ul.get(kind, base) + left.volume_ul * (1 + _UNSURE) + slack
         if reading.volume_ul > most:
             return False
         if kind is KeyframeKind.TRANSIT and reading.volume_ul < _EMPTY * commanded:
             return False
-    shown = case.delivery
-    if shown is None or shown.shown is not Shown.LEFT or shown.left_ul is None:
-        return True
-    return shown.left_ul <= left.volume_ul * (1 + _UNSURE) + 0.2 * commanded
+    return delivery.shown is not Shown.LEFT
 
 
 def still_there(left: Leftover, decision: GateDecision) -> GateDecision:

@@ -83,7 +83,6 @@ class Stream:
         if kin is not None and isinstance(reader, MeasuredColumns):
             reader.share_tip(kin.reader)
         self.learned = 0
-        self.first_wells = 0
         self.vouched = False
         self.doubt = ""
         self._first: list[tuple[Mapping[KeyframeKind, object], TrajectorySample]] = []

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from aegis_ot.vision.delivery import Delivery, Shown
 from aegis_ot.vision.gates import Case, GateDecision
 from aegis_ot.vision.leftover import Leftover, Leftovers, explains
 from aegis_ot.vision.measuring import ColumnReading
@@ -17,6 +18,7 @@ from .test_monitor import keyframes
 TRANSIT, LAST = KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE
 KEYFRAME = next(iter(keyframes(1)))
 LEFT = Leftover("1:A1", 50.0, "A1")
+UNKNOWN = Delivery(Shown.UNKNOWN)
 
 
 def case(transit: float | None = None, last: float | None = None) -> Case:
@@ -44,11 +46,20 @@ def fail(measured: float | None, expected: float | None) -> GateDecision:
     ],
 )
 def test_only_what_was_left_is_explained(transit, last, explained) -> None:
-    assert explains(LEFT, case(transit, last)) is explained
+    assert explains(LEFT, case(transit, last), UNKNOWN) is explained
 
 
 def test_a_missing_tip_is_not_explained_by_a_leftover() -> None:
-    assert not explains(LEFT, replace(case(), missing=(LAST,)))
+    assert not explains(LEFT, replace(case(), missing=(LAST,)), UNKNOWN)
+
+
+@pytest.mark.parametrize(
+    ("shown", "explained"), [(Shown.EMPTIED, True), (Shown.NOTHING, False), (Shown.LEFT, False)]
+)
+def test_what_leaves_a_tip_that_held_the_leftover_all_along_is_what_counts(
+    shown: Shown, explained: bool
+) -> None:
+    assert explains(LEFT, case(), Delivery(shown)) is explained
 
 
 @pytest.mark.parametrize(
