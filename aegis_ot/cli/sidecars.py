@@ -33,7 +33,7 @@ def sidecar(
     ] = None,
 ) -> None:
     """Watch the robot's tips: capture, score, judge, and show a page."""
-    from ..sidecar import SidecarConfig, make_analyser, serve
+    from ..sidecar import SidecarConfig, make_analyser, make_detector, serve
     from ..sidecar.config import TOKEN_FILE, kept_token
     from ..sidecar.journal import event, set_up
     from ..sidecar.reasoning_routes import gates_of
@@ -72,6 +72,7 @@ def sidecar(
         elif settings.token is not None:
             typer.echo("Log in with the sidecar's token.")
 
-    analyser = make_analyser(settings.cascade, gates_of(settings))
-    serve(settings, analyser=analyser, ready=ready)
+    detector = make_detector(settings.cascade)
+    analyser = make_analyser(settings.cascade, gates_of(settings), detector)
+    serve(settings, analyser=analyser, ready=ready, detector=detector)
     event("stopped")

@@ -220,7 +220,7 @@ class Courier:
             camera = self._link.health(_GLANCE_S).get("camera")
         except LinkError:
             return None
-        said = str(camera.get("detail", ""))[:200].rstrip(".") if isinstance(camera, dict) else ""
+        said = str(camera.get("detail", ""))[:400].rstrip(".") if isinstance(camera, dict) else ""
         return CameraSilent(
             f"The sidecar at {self._link.url} is there, but took no frame within {waited_s:g} s"
             f"{f' ({said})' if said else ''}. Look at the camera and at the sidecar's page."

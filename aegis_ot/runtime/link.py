@@ -37,7 +37,8 @@ class SequenceGap(LinkError):
 
 
 class CameraSilent(LinkError):
-    """503: the sidecar is there, its camera gave no frame; the keyframe may be sent again."""
+    """503: the sidecar is there, its camera gave no frame that tells anything; the keyframe may be
+    sent again."""
 
 
 @dataclass(frozen=True)
@@ -179,8 +180,8 @@ class SidecarLink:
             raise self._gap(answer, said)
         if status == 503:
             raise CameraSilent(
-                f"The sidecar at {self.url} got no frame from its camera{said}. Look at the "
-                "camera's cable and at the sidecar's page."
+                f"The sidecar at {self.url} got no usable frame from its camera{said}. Its page "
+                "shows what the camera sees."
             )
         if status in (400, 405, 413, 415, 422):
             raise SidecarRefused(
@@ -221,4 +222,4 @@ def _error_text(answer: Any) -> str:
     error = answer.get("error") if isinstance(answer, dict) else None
     if isinstance(error, dict):
         error = error.get("message")
-    return f" ({str(error)[:200].rstrip('.')})" if error else ""
+    return f" ({str(error)[:400].rstrip('.')})" if error else ""

@@ -18,6 +18,7 @@ from starlette.responses import JSONResponse, Response
 from .._version import __version__
 from ..errors import AegisError, CameraError, StoreError
 from ..vision.camera import Camera
+from ..vision.types import Detector
 from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
 from .cameras import open_camera
@@ -63,7 +64,10 @@ Ago = Annotated[float, Query(ge=-HISTORY_S, le=HISTORY_S, allow_inf_nan=False)]
 
 
 def create_app(
-    config: SidecarConfig, camera: Camera | None = None, analyser: Analyser | None = None
+    config: SidecarConfig,
+    camera: Camera | None = None,
+    analyser: Analyser | None = None,
+    detector: Detector | None = None,
 ) -> FastAPI:
     """Build the sidecar's application. It holds the camera and store until it is shut down.
 
@@ -71,6 +75,7 @@ def create_app(
         config: Settings.
         camera: Instead of the one that ``config.camera.spec`` names.
         analyser: What judges wells; without one every well is undecided.
+        detector: With one, a frame counts only if the camera's view tells something.
 
     Returns:
         The application; ``app.state.sidecar`` is the :class:`~.service.Sidecar` behind it, whose
@@ -83,7 +88,7 @@ def create_app(
     opinions = opinions_of(config)
     camera = open_camera(config.camera) if camera is None else camera
     try:
-        sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser)
+        sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser, detector)
     except AegisError:
         camera.close()
         raise

@@ -1,14 +1,15 @@
-"""Gates: the second look that confirms or rejects a flagged well."""
+"""What a gate gets to see of a well, and what it says."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
-from .measuring import ColumnReading
-from .types import TrajectorySample
+from ...vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
+from ..delivery import Delivery
+from ..measuring import ColumnReading
+from ..types import TrajectorySample
 
 RUN_ALARM = 3e-4
 """Of a hundred normal wells, three in a hundred runs have one that looks more unusual."""
@@ -30,6 +31,8 @@ class Case:
             left to the operator. In a run of a hundred wells it has to be small; on a plate of
             few wells, of which one is known to be normal, the scorer's own threshold serves.
         clearly_absent: Whether nothing like this run's tips is in the frames without one.
+        delivery: What the trajectory shows by itself of its delivery, in the light of the run's
+            earlier wells; ``None`` if it was not looked at.
     """
 
     sample: TrajectorySample
@@ -41,6 +44,7 @@ class Case:
     p_value: float | None = None
     alarm_p: float = RUN_ALARM
     clearly_absent: bool = True
+    delivery: Delivery | None = None
 
     @property
     def alarming(self) -> bool:
@@ -49,8 +53,39 @@ class Case:
 
 
 @dataclass(frozen=True)
+class Cost:
+    """What asking took.
+
+    Attributes:
+        model: Who was asked.
+        calls: How often.
+        tokens_in, tokens_out: Read and written.
+        amount: In ``currency``; ``None`` if the model has no price here.
+        currency: ``"USD"``.
+        seconds: From question to answer.
+    """
+
+    model: str
+    calls: int = 1
+    tokens_in: int = 0
+    tokens_out: int = 0
+    amount: float | None = None
+    currency: str = "USD"
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
 class GateDecision:
-    """What a gate says. ``UNDECIDED`` passes the case on to the next gate."""
+    """What a gate says. ``UNDECIDED`` passes the case on to the next gate.
+
+    Attributes:
+        outcome: Its word.
+        gate: Which gate it was.
+        reason: One sentence for the operator.
+        failure: What went wrong, for a fail.
+        measured_ul, expected_ul: Left in the tip, µL, where it was measured.
+        costs: Of all that was asked, one entry for each model.
+    """
 
     outcome: Outcome
     gate: Gate
@@ -58,51 +93,20 @@ class GateDecision:
     failure: FailureType | None = None
     measured_ul: float | None = None
     expected_ul: float | None = None
+    costs: tuple[Cost, ...] = ()
 
 
 class ConfirmingGate(Protocol):
-    """Anything that can confirm or reject a flagged well: volumes, a VLM, a person."""
+    """Anything that can confirm or reject a flagged well: volumes, a VLM, a person.
+
+    Attributes:
+        gate: Its name.
+        screens: Whether it costs nothing and takes no time, so that it is asked about every well,
+            before anybody knows whether it is to be flagged.
+    """
 
     gate: Gate
+    screens: bool
 
     def examine(self, case: Case) -> GateDecision:
         """Judge one case. Must not raise for a case that it cannot judge: ``UNDECIDED``."""
-
-
-class OperatorGate:
-    """A person decides: the robot pauses, and the page shows the frames."""
-
-    gate = Gate.OPERATOR
-
-    def examine(self, case: Case) -> GateDecision:
-        return GateDecision(
-            Outcome.UNDECIDED, self.gate, "No gate could settle this well; please look at it."
-        )
-
-
-def examine_in_turn(gates: Sequence[ConfirmingGate], case: Case) -> GateDecision:
-    """Ask the gates one after another until one decides.
-
-    If none does, the last one's answer stands, with the first one's reason and readings.
-    """
-    decisions: list[GateDecision] = []
-    for gate in gates:
-        decision = gate.examine(case)
-        if decision.outcome is not Outcome.UNDECIDED:
-            return decision
-        decisions.append(decision)
-    if not decisions:
-        return GateDecision(Outcome.UNDECIDED, Gate.NONE, "No gate is configured.")
-    first, last = decisions[0], decisions[-1]
-    reason = in_sentences(first.reason, last.reason)
-    return GateDecision(
-        Outcome.UNDECIDED, last.gate, reason, None, first.measured_ul, first.expected_ul
-    )
-
-
-def in_sentences(*reasons: str) -> str:
-    """Reasons one after another; what a later one says again is said once."""
-    later = [" ".join(reasons[number + 1 :]) for number in range(len(reasons))]
-    return " ".join(
-        said for said, rest in zip(reasons, later, strict=True) if said and said not in rest
-    )

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
-from .gates import Case, GateDecision
-from .measuring import ColumnReading
-from .types import FREE, TrajectorySample
-from .usual import ENOUGH
+from ...vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
+from ..delivery import Shown
+from ..measuring import ColumnReading
+from ..types import FREE, TrajectorySample
+from ..usual import ENOUGH
+from .case import Case, GateDecision
 
 
 @dataclass(frozen=True)
@@ -45,11 +46,13 @@ class VolumetricGate:
     tip hangs free. A tip missing in both is a missing tip: no volume is needed to say so.
 
     It fails a well that is clearly outside what the protocol expects, by the reading's own
-    uncertainty (see :mod:`.usual`). Agreement explains away no alarming look: a bubble takes
-    hardly any volume, and a film or a drop none.
+    uncertainty (see :mod:`..usual`), or whose own two frames show that liquid stayed in the tip or
+    that none was there (see :mod:`..delivery`). Agreement explains away
+    no alarming look: a bubble takes hardly any volume, and a film or a drop none.
     """
 
     gate = Gate.VOLUMETRIC
+    screens = True
 
     def __init__(self, limits: VolumetricLimits | None = None) -> None:
         self.limits = limits or VolumetricLimits()
@@ -77,7 +80,7 @@ class VolumetricGate:
             contradiction = self._contradiction(kind, reading, case)
             if contradiction is not None:
                 return contradiction
-        return self._agreement(case, sample)
+        return self._undelivered(case) or self._agreement(case, sample)
 
     def tolerance(self, reading: ColumnReading, commanded_ul: float, gross: bool) -> float:
         """Difference that still agrees, µL."""
@@ -141,6 +144,36 @@ class VolumetricGate:
             f"expected {expected:.0f}.",
             measured,
             expected,
+        )
+
+    def _undelivered(self, case: Case) -> GateDecision | None:
+        """What the trajectory's own frames show, whatever the run was calibrated on."""
+        shown = case.delivery
+        if shown is None or shown.shown in (Shown.EMPTIED, Shown.UNKNOWN):
+            return None
+        expected = case.sample.expected_ul.get(KeyframeKind.POST_DISPENSE, 0.0)
+        if shown.shown is Shown.LEFT and shown.left_ul is not None:
+            nothing = shown.left_ul - expected >= 0.9 * case.sample.volume_ul
+            return self._fail(
+                FailureType.NO_DISPENSE if nothing else FailureType.PARTIAL_DISPENSE,
+                f"The lower part of the column, about {shown.left_ul:.0f} µL, looks the same "
+                "before and after the dispense: it stayed in the tip.",
+                shown.left_ul,
+                expected,
+            )
+        full = case.readings.get(KeyframeKind.TRANSIT)
+        half = 0.5 * case.sample.expected_ul.get(KeyframeKind.TRANSIT, 0.0)
+        seen = full is not None and not full.vague
+        failure = FailureType.OTHER
+        if seen and full is not None:
+            drawn = full.volume_ul > half
+            failure = FailureType.NO_DISPENSE if drawn else FailureType.NO_ASPIRATE
+        return GateDecision(
+            Outcome.FAIL,
+            self.gate,
+            "The tip looks the same before and after the dispense, unlike in the wells before: "
+            "nothing was drawn, or nothing was delivered.",
+            failure,
         )
 
     def _fail(
