@@ -11,9 +11,9 @@ from itertools import starmap
 from typing import Any
 
 from ..errors import LinkError, SidecarRefused, SidecarUnreachable
+from ..http_client import SLICE_S
 from ..vocabulary import Keyframe, Verdict
 from .link import CameraSilent, RunUnknown, SequenceGap, SidecarLink
-from .slices import SLICE_S
 
 _FIRST_RETRY_S = 0.1
 _SLOWEST_RETRY_S = 1.0

@@ -5,13 +5,13 @@ from __future__ import annotations
 import time
 
 from ..errors import LinkError, RunAborted
+from ..http_client import SLICE_S
 from ..settings import Settings
 from ..vocabulary import Gate, Outcome, Verdict
 from .courier import Courier
 from .linkloss import LinkLoss
 from .operator import Answer, Operator
 from .runstate import RunState
-from .slices import SLICE_S
 from .steps import Hold
 from .stopping import Waits
 from .summary import WatchSummary

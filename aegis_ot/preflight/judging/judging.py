@@ -120,7 +120,7 @@ def _why_warning(violation: Violation, case: Case) -> str:
     for well in violation.rests_on:
         if roles.is_doubtful(well.ref):
             return _DOUBTFUL.format(roles.by_well[well.ref].evidence[0].citation)
-    if case.left_over and not all(_is_named(well, roles) for well in violation.rests_on):
+    if case.family.default and not all(_is_named(well, roles) for well in violation.rests_on):
         return "Nothing in the protocol says what these wells hold."
     return ""
 

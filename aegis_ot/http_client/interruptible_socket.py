@@ -66,7 +66,7 @@ class Waiter:
             thread.join(min(SLICE_S, self.left))
 
 
-class SlicedSocket:
+class InterruptibleSocket:
     """What ``http.client`` needs of a socket, over a non-blocking one."""
 
     def __init__(self, sock: socket.socket, waiter: Waiter) -> None:
@@ -113,7 +113,7 @@ class _Reader(io.RawIOBase):
                 self._waiter.until_ready(self._sock, write=True)
 
 
-def connect(host: str, port: int, tls: bool, waiter: Waiter) -> SlicedSocket:
+def connect(host: str, port: int, tls: bool, waiter: Waiter) -> InterruptibleSocket:
     """Connect before the waiter's deadline, to the first address that answers.
 
     Raises:
@@ -126,7 +126,7 @@ def connect(host: str, port: int, tls: bool, waiter: Waiter) -> SlicedSocket:
             sock.setblocking(False)
             sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             _finish_connect(sock, address, waiter)
-            return SlicedSocket(_secure(sock, host, waiter) if tls else sock, waiter)
+            return InterruptibleSocket(_secure(sock, host, waiter) if tls else sock, waiter)
         except OSError as failure:
             sock.close()
             if isinstance(failure, TimeoutError) and waiter.left <= 0:
