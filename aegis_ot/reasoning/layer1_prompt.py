@@ -10,8 +10,7 @@ from __future__ import annotations
 
 import hashlib
 
-from ..preflight.dossier import Dossier
-from ..preflight.dossier_making import rule_text
+from ..preflight.opinion import Dossier, rule_text
 from ..preflight.rules import Database
 from ..vocabulary import one_line
 from .answer import ANSWER_SCHEMA, BLIND_SCHEMA
@@ -125,6 +124,8 @@ def _asked(dossier: Dossier) -> list[str]:
         lines.append(f"Found by the checks: {finding.rule}, lines {where}.")
     questions = [question.rule for question in dossier.questions]
     lines.append(f"Open questions, one answer each: {', '.join(questions) or 'none'}.")
+    if dossier.wanted:
+        lines.append(f"Roles that these lack, by rule: {'; '.join(dossier.wanted)}.")
     return lines
 
 

@@ -108,7 +108,7 @@ def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-
 
     from aegis_ot.preflight import load_database
     from aegis_ot.preflight.database import shipped_rules
-    from aegis_ot.preflight.dossier_making import check_with_dossier
+    from aegis_ot.preflight.opinion import check_with_dossier
 
     family = json.loads((shipped_rules() / "generic.json").read_text())
     rule = next(r for r in family["rules"] if r["id"] == "GEN-1")

@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from aegis_ot.preflight import Options, Recording, Report, judge, record
-from aegis_ot.preflight.dossier import Dossier
-from aegis_ot.preflight.dossier_making import make_dossier
+from aegis_ot.preflight.opinion import Dossier
+from aegis_ot.preflight.opinion import make_dossier
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import ScriptedBackend, State, judge_in
 from aegis_ot.vocabulary import VerdictWord

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from aegis_ot.preflight import Options, Report
-from aegis_ot.preflight.dossier import Dossier
+from aegis_ot.preflight.opinion import Dossier
 from aegis_ot.preflight.merging import merge
 from aegis_ot.preflight.opinion import unanswered
 from aegis_ot.preflight.opinion_reading import read_opinion
@@ -177,7 +177,7 @@ def test_rules_that_the_user_left_out_stay_out() -> None:
 
 
 def _with(options: Options) -> tuple[Report, Dossier]:
-    from aegis_ot.preflight.dossier_making import check_with_dossier
+    from aegis_ot.preflight.opinion import check_with_dossier
     from aegis_ot.preflight.rehearsal import Script
 
     return check_with_dossier(Script(SILENT, "protocol.py"), database(), options)

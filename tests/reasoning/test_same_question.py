@@ -14,7 +14,7 @@ HASHES = """
 import sys
 from pathlib import Path
 from aegis_ot.preflight import load_database
-from aegis_ot.preflight.dossier_making import check_with_dossier
+from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import request_in
 

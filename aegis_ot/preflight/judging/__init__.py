@@ -1,19 +1,25 @@
 """From a recording to a verdict: every rule judged, its findings joined, waivers applied."""
 
-from .judging import judge
+from .judging import judge, judge_reading, missing_needs
 from .options import Options
-from .report import Report, RoleEvidence, verdict_of
+from .reading import Reading, read_recording
+from .report import Report, RoleEvidence, unanswered, verdict_of
 from .waivers import MODEL, Waived, Waiver, apply_waivers, read_waivers
 
 __all__ = [
     "MODEL",
     "Options",
+    "Reading",
     "Report",
     "RoleEvidence",
     "Waived",
     "Waiver",
     "apply_waivers",
     "judge",
+    "judge_reading",
+    "missing_needs",
+    "read_recording",
     "read_waivers",
+    "unanswered",
     "verdict_of",
 ]

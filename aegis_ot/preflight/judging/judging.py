@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ...vocabulary import Remark, Severity, Undecided
@@ -16,8 +14,8 @@ from ..rules import Database, Family, RuleSpec
 from ..source import source_lines
 from ..trace import Contact
 from .findings import Broken, findings_of
-from .options import Options, check_options
-from .reading import Reading, read_recording
+from .options import Options
+from .reading import Reading, read_recording, uncollected
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
@@ -32,10 +30,13 @@ def judge(recording: Recording, database: Database, options: Options | None = No
         ConfigurationError: If an option names a rule, role or family that does not exist.
         RuleError: If a family given by hand does not exist.
     """
-    options = options or Options()
-    check_options(options, database)
-    with _uncollected():
-        reading = read_recording(recording, database, options)
+    return judge_reading(read_recording(recording, database, options or Options()))
+
+
+def judge_reading(reading: Reading) -> Report:
+    """Judge a protocol that was read already; to keep the reading, or to judge it again."""
+    options = reading.options
+    with uncollected():
         broken: list[Broken] = []
         undecided: list[Undecided] = []
         for rule, case in reading.cases():
@@ -48,26 +49,17 @@ def judge(recording: Recording, database: Database, options: Options | None = No
                 undecided.append(Undecided(rule.id, doubt))
         open_ = {question.rule for question in undecided}
         judged = [one.rule.id for one in broken if one.rule.id not in open_]
-        return _report(recording, reading, broken, undecided, judged)
+        return _report(reading, broken, undecided, judged)
 
 
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Hold the garbage collector: a trace is many small objects, none of them garbage."""
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
+def missing_needs(rule: RuleSpec, roles: Roles) -> list[str]:
+    """Roles that must be known to judge a rule and that no well has; ``"a|b"`` for either."""
+    return [need for need in rule.needs if not any(map(roles.known, need.split("|")))]
 
 
 def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Violation], str]:
     """Where a rule is broken, or why that cannot be said (``""`` if it can)."""
-    missing = [
-        need for need in rule.needs if not any(case.roles.known(role) for role in need.split("|"))
-    ]
+    missing = missing_needs(rule, case.roles)
     if missing:
         return [], _missing(case.family, missing)
     sure = case.confident or assay_given
@@ -114,12 +106,12 @@ def _comment_alone(violation: Violation, roles: Roles) -> str:
 
 
 def _report(
-    recording: Recording,
     reading: Reading,
     broken: Sequence[Broken],
     undecided: Sequence[Undecided],
     judged: Sequence[str],
 ) -> Report:
+    recording = reading.recording
     waivers = read_waivers(recording.text, reading.facts)
     standing, waived = apply_waivers(findings_of(broken), waivers)
     known = [rule.id for rule in reading.database.rules]
