@@ -1,6 +1,7 @@
 """From a recording to a verdict: every rule judged, its findings joined, waivers applied."""
 
-from .judging import judge, judge_reading, missing_needs
+from .doubts import missing_needs, spelled, unnamed_wells
+from .judging import judge, judge_reading
 from .options import Options
 from .reading import Reading, read_recording
 from .report import Report, RoleEvidence, unanswered, verdict_of
@@ -20,6 +21,8 @@ __all__ = [
     "missing_needs",
     "read_recording",
     "read_waivers",
+    "spelled",
     "unanswered",
+    "unnamed_wells",
     "verdict_of",
 ]

@@ -31,7 +31,7 @@ def read_opinion(
         dossier: What it was asked about.
         model: Who answered.
         blind: The model saw no trace, and no check stands beside it: any well on the deck and any
-            source line will do, and what breaks a rule is as severe as the rule.
+            source line will do.
     """
     bounds = _Bounds(dossier, blind)
     findings, left_out = _findings(value.get("findings", ()), bounds)
@@ -83,9 +83,7 @@ class _Bounds:
                 self._known.setdefault((name.lower(), ref.name), []).append(ref)
         count = len(dossier.source_lines)
         self.lines = set(range(1, count + 1)) if blind else set(dossier.lines)
-        self.severity = {
-            brief.id: brief.severity if blind else Severity.WARNING for brief in dossier.rules
-        }
+        self.severity = {brief.id: brief.severity for brief in dossier.rules}
 
     def wells(self, given: Iterable[str]) -> Iterable[WellRef]:
         """The wells that are meant and exist: ``"4:H12"``, ``"4:A1-H1"``, ``"PCR plate:A1"``."""

@@ -3,7 +3,7 @@
 The merge can only add. Every finding of the checks stays, whatever the model says; a rule that
 the checks decided stays decided, and where the model disagrees a note says so; an open question
 stays listed, with the model's reading beside it, unless a violation is shown in wells and lines
-that the trace holds, and then that is a warning. So no text in a protocol that talks a model
+that the trace holds, and then that is a warning (an error where all warnings are). So no text in a protocol that talks a model
 round can change what the checks found.
 """
 
@@ -43,6 +43,7 @@ def merge(report: Report, opinion: Opinion, dossier: Dossier, reading: Reading) 
         return replace(report, undecided=(*report.undecided, no_answer(opinion)))
     decided = {brief.id for brief in dossier.rules if brief.decided}
     notes = [f"{opinion.model}: {opinion.summary}"] if opinion.summary else []
+    severity = Severity.ERROR if reading.options.strict else Severity.WARNING
     candidates: list[Finding] = []
     for finding in opinion.findings:
         if finding.rule in decided:
@@ -51,13 +52,12 @@ def merge(report: Report, opinion: Opinion, dossier: Dossier, reading: Reading) 
                 f"{finding.message}"
             )
         else:
-            candidates.append(finding)
+            candidates.append(replace(finding, severity=severity))
     accepted, rejected, second = _judged_again(reading, opinion)
     for finding in second.findings if second else ():
         if finding.rule not in decided and not is_known(finding, candidates):
             message = f"{finding.message} ({opinion.model} read what the wells are for.)"
-            warning = Severity.WARNING
-            candidates.append(replace(finding, message=message, severity=warning, source="model"))
+            candidates.append(replace(finding, message=message, severity=severity, source="model"))
     notes += [f"{opinion.model}, role of {text}." for text in rejected]
     notes += [f"{opinion.model}, left out: {text}" for text in opinion.left_out]
     standing, waived = _without_waived(reading, candidates)
@@ -115,7 +115,7 @@ def _questions(
             reason += f": {answer.reason}" if answer.reason else ""
         if second is not None and question.rule in second.judged:
             reason += "; with the roles that it reads, the check finds nothing"
-        yield Undecided(question.rule, reason)
+        yield replace(question, reason=reason)
 
 
 def _without_waived(

@@ -48,7 +48,7 @@ class RoleNames:
         if evidence.kind is Kind.MODEL:
             return []  # a verified role, of another family
         text = evidence.text
-        record, dot, field = text.rpartition(".")
+        _, dot, field = text.rpartition(".")
         if dot and self._lexicon.find(field):
             text = field  # `assay.mix_tube` is a mix and no assay mix
         key = text.rpartition("[")[2] if text.endswith("]") else ""
