@@ -60,8 +60,8 @@ def examined(text: str, options: Options | None = None) -> tuple[Report, Dossier
     return check_with_dossier(script, database(), options)
 
 
-def checked(text: str, options: Options | None = None) -> tuple[Report, Dossier]:
-    return examined(text, options)[:2]
+def checked(text: str) -> tuple[Report, Dossier]:
+    return examined(text)[:2]
 
 
 def answer(**changes: Any) -> dict[str, Any]:

@@ -3,8 +3,8 @@
 The merge can only add. Every finding of the checks stays, whatever the model says; a rule that
 the checks decided stays decided, and where the model disagrees a note says so; an open question
 stays listed, with the model's reading beside it, unless a violation is shown in wells and lines
-that the trace holds, and then that is a warning (an error where all warnings are). So no text in a protocol that talks a model
-round can change what the checks found.
+that the trace holds. Such a finding warns (and is an error where all warnings are). So no text
+in a protocol that talks a model round can change what the checks found.
 """
 
 from __future__ import annotations
