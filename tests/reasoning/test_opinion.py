@@ -201,8 +201,8 @@ def test_roles_cannot_be_taken_from_wells_that_have_one() -> None:
 def test_the_models_family_counts_where_the_checks_only_guess() -> None:
     unknown = SILENT.replace("PCR set-up", "Tuesday")
     report, dossier, _ = examined(unknown)
-    assert (report.family, dossier.family_known) != ("pcr", True)
-    quoted = proposal("master_mix", ["2:A1"], 11, 'p20.transfer(15, tubes["A1"]')
+    assert (report.family, dossier.family_known) == ("generic", False)
+    quoted = proposal("master_mix", ["2:A1"], 10, 'p20.transfer(15, tubes["A1"]')
     after = judged(unknown, answer(family="pcr", roles=[quoted])).report
     assert ("2:A1", "master_mix") in {(item.well.address, item.role) for item in after.roles}
     known = judged(SILENT, answer(family="cell_treatment", roles=[])).report

@@ -59,6 +59,12 @@ class Reading:
     waste: frozenset[WellRef]
     unsure: frozenset[WellRef]
 
+    @property
+    def family_known(self) -> bool:
+        """Whether the likeliest family is given, or more than a guess and more than a fallback."""
+        first = self.families[0] if self.families else None
+        return bool(self.options.assay or (first and first.sure and not first.left_over))
+
     def cases(self) -> Iterator[tuple[RuleSpec, Case]]:
         """Every rule that concerns this protocol, with the case that it is judged on."""
         families = {inference.family: inference for inference in self.families}

@@ -37,7 +37,6 @@ def make_dossier(reading: Reading, report: Report) -> Dossier:
         report: What the checks made of it.
     """
     recording, trace = reading.recording, reading.trace
-    best = report.families[0] if report.families else None
     wells = [well.ref for well in trace.wells.values()]
     wells += [role.well for role in report.roles]
     return Dossier(
@@ -45,7 +44,7 @@ def make_dossier(reading: Reading, report: Report) -> Dossier:
         source=_shortened(recording.text),
         parameters=json.dumps(dict(recording.parameters), sort_keys=True),
         family=report.family,
-        family_known=bool(best and best.sure) or bool(reading.options.assay),
+        family_known=reading.family_known,
         table=trace_table(trace),
         deck=_deck(trace),
         wells=tuple(dict.fromkeys(wells)),

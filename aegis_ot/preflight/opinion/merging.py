@@ -91,8 +91,7 @@ def _judged_again(
 
 def _assay(reading: Reading, opinion: Opinion) -> tuple[str, ...]:
     """The family that the model reads, where the checks only guess."""
-    first = reading.families[0] if reading.families else None
-    if reading.options.assay or (first is not None and first.sure and not first.left_over):
+    if reading.family_known:
         return ()
     known = {family.family for family in reading.database.families if not family.default}
     return (opinion.family,) if opinion.family in known else ()
