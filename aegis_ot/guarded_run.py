@@ -244,14 +244,16 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
     Raises:
         ProtocolRejected: It found errors, and ``rules`` is ``"on"`` or ``"strict"``.
     """
-    from .preflight.checking import check_recording, is_rejected, rejection, summary
+    from .preflight.checking import is_rejected, read_for_guard, rejection, summary
+    from .preflight.judging import judge_reading
 
     try:
-        report = check_recording(recording, settings)
+        reading = read_for_guard(recording, settings)
+        report = judge_reading(reading)
         if settings.opinion == "ask":
             from .preflight.asking import with_opinion
 
-            report = with_opinion(report, recording, settings, protocol)
+            report = with_opinion(report, reading, settings, protocol)
     except AegisError:
         raise
     except Exception as error:  # a fault of ours must not keep a good protocol from running

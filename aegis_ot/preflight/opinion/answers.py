@@ -6,18 +6,19 @@ A schema cannot carry these bounds. What does not fit is left out, and told.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ..vocabulary import Finding, Severity, Site, WellRef, one_line
+from ...vocabulary import Finding, Severity, Site, WellRef, one_line
+from ..judging import MODEL
+from ..trace import row_column
 from .dossier import DeckItem, Dossier
-from .judging import MODEL
-from .opinion import ANSWERED, Opinion, RoleReading, RuleReading
-from .trace import row_column
+from .opinion import ANSWERED, Citation, Opinion, RoleProposal, RuleAnswer
 
 LONGEST_TEXT = 400
 LONGEST_NAME = 60
 MOST_FINDINGS = 12
+MOST_PROPOSALS = 24
 
 
 def read_opinion(
@@ -29,44 +30,44 @@ def read_opinion(
         value: The model's answer, see ``aegis_ot.reasoning.answer``.
         dossier: What it was asked about.
         model: Who answered.
-        blind: The model did not see the trace: any well on the deck and any source line will do.
+        blind: The model saw no trace, and no check stands beside it: any well on the deck and any
+            source line will do.
     """
     bounds = _Bounds(dossier, blind)
-    left_out: list[str] = []
-    findings = []
-    for given in list(value.get("findings", ()))[:MOST_FINDINGS]:
-        finding, problem = _finding(given, bounds)
-        if finding is not None:
-            findings.append(finding)
-        if problem:
-            left_out.append(problem)
-    roles = []
-    for given in value.get("roles", ()):
-        role, wells = _name(given["role"]), tuple(bounds.wells(given["wells"]))
-        if wells:
-            roles.append(RoleReading(role, wells, _text(given.get("reason"))))
-        else:
-            left_out.append(f"a role {role!r} for wells that the run does not know")
+    findings, left_out = _findings(value.get("findings", ()), bounds)
     asked = {question.rule for question in dossier.questions}
-    left_out += [
-        f"an answer about {_name(given['rule'])!r} (there is no such rule in force)"
+    answers = []
+    for given in value.get("answers", ()):
+        if given["rule"] not in bounds.severity:
+            told = f"an answer about {_name(given['rule'])!r} (there is no such rule in force)"
+            left_out.append(told)
+        if given["rule"] in asked:
+            answers.append(RuleAnswer(given["rule"], given["answer"], _text(given["reason"])))
+    violated = [
+        {"rule": given["rule"], "message": given["reason"] or "The model reads that it is broken.",
+         "wells": given["wells"], "lines": given["lines"]}
         for given in value.get("answers", ())
-        if given["rule"] not in bounds.severity
-    ]
-    answers = tuple(
-        RuleReading(given["rule"], given["answer"], _text(given.get("reason")))
-        for given in value.get("answers", ())
-        if given["rule"] in asked
-    )
+        if given["rule"] in asked and given["answer"] == "violated"
+    ]  # fmt: skip
+    more, problems = _findings(violated, bounds)
+    findings += [one for one in more if not is_known(one, findings)]
     return Opinion(
         ANSWERED,
         model,
         family=_name(value.get("family")),
-        roles=tuple(roles),
-        answers=answers,
+        proposals=tuple(map(_proposal, list(value.get("roles", ()))[:MOST_PROPOSALS])),
+        answers=tuple(answers),
         findings=tuple(findings),
-        left_out=tuple(left_out),
+        left_out=(*left_out, *problems),
         summary=_text(value.get("summary")),
+    )
+
+
+def is_known(finding: Finding, others: Sequence[Finding]) -> bool:
+    """Whether one of the others is of the same rule, and of some of the same wells."""
+    return any(
+        other.rule == finding.rule and not set(other.wells).isdisjoint(finding.wells)
+        for other in others
     )
 
 
@@ -90,8 +91,7 @@ class _Bounds:
         for place in given:
             labware, _, spec = place.strip().rpartition(":")
             labware = labware.strip().removeprefix("slot ").lower()
-            names = _WELLS.findall(spec)
-            for first, last in names:
+            for first, last in _WELLS.findall(spec):
                 for ref in self._range(labware, first.upper(), (last or first).upper()):
                     found[ref] = None
         return found
@@ -124,6 +124,20 @@ def _ref(item: DeckItem, row: int, column: int) -> WellRef:
     return WellRef(item.key, f"{chr(ord('A') + row)}{column + 1}", item.label, item.slot)
 
 
+def _findings(
+    given: Sequence[Mapping[str, Any]], bounds: _Bounds
+) -> tuple[list[Finding], list[str]]:
+    """Findings in wells and lines that exist, and what is wrong with the others."""
+    findings, problems = [], []
+    for one in given[:MOST_FINDINGS]:
+        finding, problem = _finding(one, bounds)
+        if finding is None:
+            problems.append(problem)
+        else:
+            findings.append(finding)
+    return findings, problems
+
+
 def _finding(given: Mapping[str, Any], bounds: _Bounds) -> tuple[Finding | None, str]:
     rule = _name(given["rule"])
     said = f"{rule}: {_text(given['message'])}"
@@ -148,6 +162,15 @@ def _finding(given: Mapping[str, Any], bounds: _Bounds) -> tuple[Finding | None,
         fix=_text(given.get("fix")),
         source="model",
     ), ""
+
+
+def _proposal(given: Mapping[str, Any]) -> RoleProposal:
+    return RoleProposal(
+        _name(given["role"]),
+        tuple(_name(place) for place in given["wells"]),
+        tuple(_name(level) for level in given["levels"]),
+        tuple(Citation(said["line"], _text(said["quote"])) for said in given["citations"]),
+    )
 
 
 def _text(value: object) -> str:

@@ -1,20 +1,26 @@
-"""Puts a dossier together from a rehearsal and what the checks made of it."""
+"""Puts a dossier together from a reading and what the checks made of it."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Iterable, Sequence
 
-from ..instrumentation import Event
-from ..vocabulary import Severity, WellRef
-from . import record
-from .database import load_database, shipped_rules
+from ...instrumentation import Event
+from ...vocabulary import Severity, WellRef
+from ..database import load_database, shipped_rules
+from ..judging import (
+    Options,
+    Reading,
+    Report,
+    RoleEvidence,
+    judge_reading,
+    missing_needs,
+    read_recording,
+)
+from ..rehearsal import Recording, Script, record
+from ..rules import Database, RuleSpec
+from ..trace import Trace, places, row_column, trace_table
 from .dossier import DeckItem, Dossier, RoleLine, RuleBrief
-from .judging import Options, Report, RoleEvidence, judge
-from .rehearsal import Recording, Script
-from .rules import Database, RuleSpec
-from .trace import Pauses, Trace, build_trace, places, row_column, trace_table
 
 LONGEST_SOURCE = 40_000
 """Characters of source that are shown; what is cut is said."""
@@ -23,41 +29,30 @@ MOST_ROLES = 40
 """Lines of roles that are shown."""
 
 
-def make_dossier(
-    recording: Recording,
-    report: Report,
-    database: Database,
-    options: Options | None = None,
-    parameters: Mapping[str, Any] | None = None,
-) -> Dossier:
+def make_dossier(reading: Reading, report: Report) -> Dossier:
     """Put together what there is to know.
 
     Args:
-        recording: What the rehearsal yielded.
+        reading: Of the protocol.
         report: What the checks made of it.
-        database: The rules.
-        options: How it was judged.
-        parameters: Values of runtime parameters, by variable name.
     """
-    options = options or Options()
-    pauses = Pauses(database.common.pauses)
-    trace = build_trace(recording.log, recording.labware, pauses)
-    best = report.families[0] if report.families else None
+    recording, trace = reading.recording, reading.trace
     wells = [well.ref for well in trace.wells.values()]
     wells += [role.well for role in report.roles]
     return Dossier(
         file=recording.file,
         source=_shortened(recording.text),
-        parameters=json.dumps(dict(parameters or {}), sort_keys=True, default=str),
+        parameters=json.dumps(dict(recording.parameters), sort_keys=True),
         family=report.family,
-        family_known=bool(best and best.sure) or bool(options.assay),
+        family_known=reading.family_known,
         table=trace_table(trace),
         deck=_deck(trace),
         wells=tuple(dict.fromkeys(wells)),
         lines=_lines(recording),
         roles=_roles(report),
-        rules=tuple(_rules(report, database, options)),
+        rules=tuple(_rules(reading, report)),
         questions=report.undecided,
+        wanted=tuple(_wanted(reading, report)),
         findings=(*report.findings, *(waived.finding for waived in report.waived)),
     )
 
@@ -67,18 +62,17 @@ def check_with_dossier(
     database: Database | None = None,
     options: Options | None = None,
     timeout_s: float = 120.0,
-) -> tuple[Report, Dossier]:
+) -> tuple[Report, Dossier, Reading]:
     """Rehearse a protocol, judge it, and put its dossier together.
 
     Raises:
         RehearsalError: It cannot be rehearsed.
         RuleError: A rule file cannot be used.
     """
-    database = database or load_database()
     recording = record(script, timeout_s)
-    report = judge(recording, database, options)
-    given = {**script.parameters, **{k: str(v) for k, v in script.csv_parameters.items()}}
-    return report, make_dossier(recording, report, database, options, given)
+    reading = read_recording(recording, database or load_database(), options or Options())
+    report = judge_reading(reading)
+    return report, make_dossier(reading, report), reading
 
 
 def _deck(trace: Trace) -> tuple[DeckItem, ...]:
@@ -133,23 +127,28 @@ def _levels(items: Sequence[RoleEvidence]) -> str:
     return f" (level {', '.join(shown)})"
 
 
-def _rules(report: Report, database: Database, options: Options) -> list[RuleBrief]:
+def _rules(reading: Reading, report: Report) -> Iterable[RuleBrief]:
     applying = {inference.family for inference in report.families if inference.applies}
     open_rules = {undecided.rule for undecided in report.undecided}
     shipped = str(shipped_rules())
-    briefs = []
-    for family in database.families:
+    for family in reading.database.families:
         for rule in family.rules:
-            severity = options.severity.get(rule.id, rule.severity)
-            if (options.select and rule.id not in options.select) or rule.id in options.ignore:
-                continue
+            severity = reading.options.severity_of(rule)
             if severity == "off":
                 continue
             judged = rule.scope == "all" or family.family in applying
             decided = judged and rule.id not in open_rules
             text = "" if family.path.startswith(shipped) else rule_text(rule)
-            briefs.append(RuleBrief(rule.id, Severity(severity), decided, text))
-    return briefs
+            yield RuleBrief(rule.id, Severity(severity), decided, text)
+
+
+def _wanted(reading: Reading, report: Report) -> Iterable[str]:
+    """The roles that open rules need and no well has."""
+    open_rules = {undecided.rule for undecided in report.undecided}
+    for rule, case in reading.cases():
+        missing = missing_needs(rule, case.roles) if rule.id in open_rules else []
+        if missing:
+            yield f"{rule.id}: {', '.join(missing).replace('|', ' or ')}"
 
 
 def rule_text(rule: RuleSpec) -> str:

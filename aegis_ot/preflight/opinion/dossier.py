@@ -12,8 +12,8 @@ import json
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..vocabulary import Finding, Severity, Undecided, WellRef, from_json, to_json
-from .source import source_lines
+from ...vocabulary import Finding, Severity, Undecided, WellRef, from_json, to_json
+from ..source import source_lines
 
 
 @dataclass(frozen=True)
@@ -80,6 +80,7 @@ class Dossier:
         roles: What wells are for.
         rules: Every rule in force.
         questions: Rules that the checks could not decide.
+        wanted: What they lack: ``"PCR-2: template, ntc"``.
         findings: What the checks found.
     """
 
@@ -95,6 +96,7 @@ class Dossier:
     roles: tuple[RoleLine, ...]
     rules: tuple[RuleBrief, ...]
     questions: tuple[Undecided, ...]
+    wanted: tuple[str, ...]
     findings: tuple[Finding, ...]
 
     @property

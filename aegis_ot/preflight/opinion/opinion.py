@@ -1,26 +1,42 @@
-"""A model's opinion of a protocol, as it crosses the wire. Standard library only."""
+"""A model's opinion of a protocol, as it crosses the wire."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..vocabulary import Finding, Undecided, WellRef
-from .judging import MODEL, Report
+from ...vocabulary import Finding, Undecided
+from ..judging import MODEL
 
 ANSWERED = "answered"
 
 
 @dataclass(frozen=True)
-class RoleReading:
-    """What the model takes wells for."""
+class Citation:
+    """Where the protocol says something: the words, verbatim, at a source line."""
 
-    role: str
-    wells: tuple[WellRef, ...]
-    reason: str = ""
+    line: int
+    quote: str
 
 
 @dataclass(frozen=True)
-class RuleReading:
+class RoleProposal:
+    """What a model takes wells for, and where it read that.
+
+    Attributes:
+        role: Name of a role: ``"ntc"``.
+        wells: Places: ``"4:H12"``, ``"4:A1-H1"``.
+        levels: Concentrations or doses as they are written: one for all wells, or one each.
+        citations: What says so.
+    """
+
+    role: str
+    wells: tuple[str, ...]
+    levels: tuple[str, ...] = ()
+    citations: tuple[Citation, ...] = ()
+
+
+@dataclass(frozen=True)
+class RuleAnswer:
     """The model's answer to an open question: ``holds``, ``violated`` or ``cannot_tell``."""
 
     rule: str
@@ -37,7 +53,7 @@ class Opinion:
         model: Who was asked.
         detail: One sentence on what went wrong.
         family: The assay family that it reads, or ``""``.
-        roles: What it takes wells for.
+        proposals: What it takes wells for; not yet verified.
         answers: To the open questions.
         findings: Violations that it sees, in wells and lines that exist.
         left_out: What it said that cannot be used, and why.
@@ -48,8 +64,8 @@ class Opinion:
     model: str
     detail: str = ""
     family: str = ""
-    roles: tuple[RoleReading, ...] = ()
-    answers: tuple[RuleReading, ...] = ()
+    proposals: tuple[RoleProposal, ...] = ()
+    answers: tuple[RuleAnswer, ...] = ()
     findings: tuple[Finding, ...] = ()
     left_out: tuple[str, ...] = ()
     summary: str = ""
@@ -63,8 +79,3 @@ class Opinion:
 def no_answer(opinion: Opinion) -> Undecided:
     """What a report says of a model that was asked in vain."""
     return Undecided(MODEL, f"{opinion.model} gave no answer ({opinion.state}): {opinion.detail}")
-
-
-def unanswered(report: Report) -> str:
-    """Why the model that was asked gave no answer, or ``""``: a reason for exit code 2."""
-    return next((u.reason for u in report.undecided if u.rule == MODEL), "")
