@@ -13,7 +13,7 @@ from ..errors import ConfigurationError, RehearsalError
 from ..preflight import Database, Options, Report
 from ..preflight.dossier import Dossier
 from ..preflight.rehearsal import Script
-from ..preflight.text import source_lines
+from ..preflight.source import source_lines
 from ..vocabulary import Finding, Remark
 from .baseline import Baseline
 from .configuration import ConfiguredWaiver

@@ -220,11 +220,30 @@ def _describe(key: str, labware_core: Any, slot: str) -> LabwareInfo:
         or parameters.get("format") == "trash"
         or "fixedTrash" in (parameters.get("quirks") or ()),
         centers_channels="centerMultichannelOnWells" in (parameters.get("quirks") or ()),
-        wells={name: _describe_well(well) for name, well in definition["wells"].items()},
+        wells=_describe_wells(definition),
     )
 
 
-def _describe_well(well: Any) -> WellInfo:
+def _describe_wells(definition: Any) -> dict[str, WellInfo]:
+    bottoms = {
+        name: str(group.get("metadata", {}).get("wellBottomShape") or "")
+        for group in definition.get("groups", ())
+        for name in group.get("wells", ())
+    }
+    inner = definition.get("innerLabwareGeometry") or {}
+    sections = {
+        key: tuple(sorted(geometry.get("sections", ()), key=lambda one: one["bottomHeight"]))
+        for key, geometry in inner.items()
+    }
+    return {
+        name: _describe_well(
+            well, bottoms.get(name, ""), sections.get(well.get("geometryDefinitionId"), ())
+        )
+        for name, well in definition["wells"].items()
+    }
+
+
+def _describe_well(well: Any, bottom: str, sections: tuple[Any, ...]) -> WellInfo:
     return WellInfo(
         max_volume=float(well.get("totalLiquidVolume", 0.0)),
         depth=float(well.get("depth", 0.0)),
@@ -233,6 +252,8 @@ def _describe_well(well: Any) -> WellInfo:
         diameter=_float_or_none(well.get("diameter")),
         x_size=_float_or_none(well.get("xDimension")),
         y_size=_float_or_none(well.get("yDimension")),
+        bottom=bottom,
+        sections=sections,
     )
 
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..vocabulary import Finding, Severity, Undecided, WellRef, from_json, to_json
-from .text import source_lines
+from .source import source_lines
 
 
 @dataclass(frozen=True)

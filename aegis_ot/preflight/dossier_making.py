@@ -16,7 +16,7 @@ from .judging import Options, Report, RoleEvidence, judge
 from .rehearsal import Recording, Script
 from .roles import Assignment, Roles, implied_contents
 from .rules import Database, RuleSpec
-from .trace import Replacements, Trace, build_trace, places, row_column, trace_table, usage_of
+from .trace import Pauses, Trace, build_trace, places, row_column, trace_table, usage_of
 
 LONGEST_SOURCE = 40_000
 """Characters of source that are shown; what is cut is said."""
@@ -42,11 +42,11 @@ def make_dossier(
         parameters: Values of runtime parameters, by variable name.
     """
     options = options or Options()
-    replacements = Replacements(database.common.pauses, database.common.layout.get("and", ()))
-    trace = build_trace(recording.log, recording.labware, replacements)
+    pauses = Pauses(database.common.pauses)
+    trace = build_trace(recording.log, recording.labware, pauses)
     prefilled = _implied_contents(report, database, trace)
     if prefilled:
-        trace = build_trace(recording.log, recording.labware, replacements, prefilled.__contains__)
+        trace = build_trace(recording.log, recording.labware, pauses, prefilled.__contains__)
     best = report.families[0] if report.families else None
     wells = [well.ref for well in trace.wells.values()]
     wells += [role.well for role in report.roles]

@@ -23,7 +23,7 @@ from .judging import (
     read_waivers,
 )
 from .opinion import Opinion, no_answer
-from .text import read_source
+from .source import read_source
 
 
 def options_with_roles(

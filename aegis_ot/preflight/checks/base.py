@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from ...vocabulary import Site, WellRef
 from ..roles import Roles
 from ..rules import Common, Family
-from ..trace import Met, Trace, Usage, Visit, Well
+from ..trace import Contact, Met, Trace, Usage, Visit, Well
 from .same_liquid import is_same_liquid
 from .series import Series, find_series
 
@@ -30,7 +30,7 @@ class Violation:
             what one of them is for, the finding is a warning at most.
         on_comment: That comment, in words; filled in by the judge.
         sure: Whether it happened surely: no tip may after all have stayed clear of a liquid.
-        touched: Whether the tip surely touched what it carries: no unknown volume leaves it open.
+        contact: How surely the tips touched what it rests on.
     """
 
     message: str
@@ -40,7 +40,7 @@ class Violation:
     rests_on: tuple[Well, ...] = ()
     on_comment: str = ""
     sure: bool = False
-    touched: bool = True
+    contact: Contact = Contact.WET
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,6 @@ class Case:
         common: Words of no family.
         confident: Whether the family is more than a guess.
         waste: Wells that are called waste.
-        loose_volumes: Whether this kind of protocol starts from wells filled by hand.
         unsure: Wells that may have held liquid before the run, as the labware's name goes.
         left_over: Whether the family is judged only because no other one fits.
     """
@@ -75,7 +74,6 @@ class Case:
     common: Common
     confident: bool = True
     waste: frozenset[WellRef] = frozenset()
-    loose_volumes: bool = False
     unsure: frozenset[WellRef] = frozenset()
     left_over: bool = False
     _meant: dict[Well, dict[Well, int]] | None = None

@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import Met, Tip, Visit, Well
+from ..trace import Contact, Met, Tip, Visit, Well
 from .base import (
     Case,
     Check,
@@ -67,7 +67,7 @@ class Carry(Check):
         judged: dict[tuple[Tip, Well], int] = {}
         let_be: dict[tuple[Tip, Well], list[tuple[Well, Met]]] = {}
         for visit in case.trace.visits:
-            if not visit.below or not visit.carried:
+            if not visit.contact or not visit.carried:
                 continue
             well = visit.well
             if not case.has(well, into) or (not_into and case.has(well, not_into)):
@@ -210,8 +210,8 @@ class Carry(Check):
             (visit.line, met.line, what),
             (origin, well),
             # A liquid that stands in all wells may be meant to come along.
-            sure=met.sure and not self._is_one_liquid(case, origin),
-            touched=met.sure,
+            sure=met.contact(visit.index) is Contact.WET and not self._is_one_liquid(case, origin),
+            contact=min(met.contact(visit.index), visit.contact),
         )
 
 

@@ -35,7 +35,7 @@ class SeriesTip(Check):
         by_tip: dict[int, list[Visit]] = {}
         for well in series.wells:
             for visit in well.visits:
-                if visit.below:
+                if visit.contact:
                     by_tip.setdefault(visit.tip.number, []).append(visit)
         dilutions = [step for step in series.steps if is_dilution(case, step)]
         for visits in by_tip.values():
@@ -69,10 +69,11 @@ class SeriesTip(Check):
                     ),
                     visit.well,
                     ("series tip",),
+                    contact=min(before.contact, visit.contact),
                 )
             entered = series.entered.get(visit.well)
             holds_stock = entered is not None and entered <= visit.index
-            if visit.touch and holds_stock and (strongest is None or place_here < strongest[0]):
+            if visit.touches and holds_stock and (strongest is None or place_here < strongest[0]):
                 strongest = (place_here, visit)
 
 

@@ -41,8 +41,7 @@ class VolumeBookkeeping(Check):
                 continue
             undeclared = not imbalance.overfilled and well.declared is None
             if undeclared and (
-                case.loose_volumes
-                or well.ref in case.unsure
+                well.ref in case.unsure
                 or well.ref.labware in by_hand
                 or well.generation  # brought by hand in a pause: nobody says what it holds
             ):
@@ -55,27 +54,6 @@ class VolumeBookkeeping(Check):
                 )
                 continue
             yield _violation(imbalance)
-        for imbalance in case.trace.doubtful:
-            well = imbalance.well
-            key = (id(well), imbalance.overfilled)
-            undeclared = not imbalance.overfilled and well.declared is None
-            if key in seen or undeclared or well.ref in case.waste:
-                continue
-            seen.add(key)
-            yield Doubt(_if_nobody_did(imbalance))
-
-
-def _if_nobody_did(imbalance: Imbalance) -> str:
-    """What would be wrong if nobody changed a volume by hand in a pause."""
-    if imbalance.overfilled:
-        return (
-            f"{place(imbalance.well)} would hold {imbalance.volume:.4g} µL {at(imbalance.line)}, "
-            f"of {imbalance.limit:.4g} µL, if nobody emptied it in the pause before"
-        )
-    return (
-        f"{imbalance.volume:.4g} µL are drawn from {place(imbalance.well)} {at(imbalance.line)}, "
-        f"which held {imbalance.limit:.4g} µL if nobody filled it in the pause before"
-    )
 
 
 def _is_far_short(well: Well) -> bool:

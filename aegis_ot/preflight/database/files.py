@@ -79,7 +79,7 @@ def load_family(path: Path) -> Family:
     if isinstance(data, dict):
         data.pop("$schema", None)
     family = read_dataclass(Family, data, path.name)
-    if family.schema != SCHEMA_VERSION:
+    if family.schema not in (1, SCHEMA_VERSION):
         raise RuleError(f"{path.name}: schema: expected {SCHEMA_VERSION}, found {family.schema}")
     check_family(family, path.name)
     return dataclasses.replace(family, path=str(path))

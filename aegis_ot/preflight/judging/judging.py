@@ -9,11 +9,12 @@ from dataclasses import replace
 
 from ...vocabulary import Remark, Severity, Undecided
 from ..checks import Case, Doubt, Violation, make_check
-from ..evidence import Strength
+from ..evidence import Kind
 from ..rehearsal import Recording
 from ..roles import Roles
 from ..rules import Database, Family, RuleSpec
-from ..text import source_lines
+from ..source import source_lines
+from ..trace import Contact
 from .findings import Broken, findings_of
 from .options import Options, check_options
 from .reading import Reading, read_recording
@@ -80,7 +81,7 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
                 doubts.append(result.reason)
             elif not sure and not _plain(result, case.roles):
                 doubts.append(_UNKNOWN_ASSAY)
-            elif case.left_over and not result.touched:
+            elif case.left_over and result.contact is Contact.NEAR:
                 doubts.append(_UNKNOWN_VOLUME)
             else:
                 comment = _comment_alone(result, case.roles)
@@ -97,9 +98,9 @@ def _plain(violation: Violation, roles: Roles) -> bool:
     Loaded liquids and the run alone say what the wells are for that it rests on; or names and
     labels do, and nothing is open in what happened.
     """
-    least = Strength.NAME if violation.sure else Strength.LIQUID
+    least = Kind.NAME if violation.sure else Kind.LIQUID
     return all(
-        well.liquids or well.ref not in roles.by_well or roles.by_well[well.ref].strength >= least
+        well.liquids or well.ref not in roles.by_well or roles.by_well[well.ref].kind >= least
         for well in violation.rests_on
     )
 
@@ -107,8 +108,8 @@ def _plain(violation: Violation, roles: Roles) -> bool:
 def _comment_alone(violation: Violation, roles: Roles) -> str:
     """The comment that a violation rests on, ``""`` if it rests on better evidence."""
     for well in violation.rests_on:
-        if roles.by_comment_only(well.ref):
-            return roles.by_well[well.ref].evidence[0]
+        if roles.is_doubtful(well.ref):
+            return roles.by_well[well.ref].evidence[0].citation
     return ""
 
 
@@ -161,7 +162,7 @@ def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:
                 roles.family.family,
                 ref,
                 assigned.role,
-                tuple(assigned.evidence),
+                tuple(one.citation for one in assigned.evidence),
                 roles.level(ref),
                 assigned.conflict,
             )

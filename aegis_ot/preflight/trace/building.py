@@ -11,12 +11,11 @@ from collections.abc import Callable, Iterable, Mapping
 from ...instrumentation import Event, EventKind, LabwareInfo, OperationKind
 from ...vocabulary import WellRef
 from ..rehearsal import Record, Step
+from .model import CLEARANCE_MM, Contact, Imbalance, Layer, Tip, Visit, Well
+from .pauses import Pauses
 from .plates import Plates
-from .replacements import Replacements
-from .tips import Layer, Tip, TipBox
+from .tip_racks import TipBox
 from .trace import Said, Trace
-from .visits import Imbalance, Visit
-from .wells import Well
 
 _REPEATED = "(repeated)"
 _MOST = 0.5
@@ -26,7 +25,7 @@ _MOST = 0.5
 def build_trace(
     log: Iterable[Record],
     labware: Mapping[str, LabwareInfo],
-    replacements: Replacements,
+    pauses: Pauses,
     prefilled: Callable[[WellRef], bool] = lambda ref: False,
 ) -> Trace:
     """Read a recorded run.
@@ -34,26 +33,27 @@ def build_trace(
     Args:
         log: Steps and events, in order.
         labware: Facts of each labware, by key.
-        replacements: Reads pauses: was a plate replaced, shaken, refilled?
+        pauses: Reads pauses: was a plate replaced, shaken, refilled?
         prefilled: Whether a well's role implies that it held liquid before the run.
     """
-    return _Builder(labware, replacements, prefilled).run(log)
+    return _Builder(labware, pauses, prefilled).run(log)
 
 
 class _Builder:
     def __init__(
         self,
         labware: Mapping[str, LabwareInfo],
-        replacements: Replacements,
+        pauses: Pauses,
         prefilled: Callable[[WellRef], bool],
     ) -> None:
         self._trace = Trace(labware)
-        self._replacements = replacements
+        self._pauses = pauses
         self._plates = Plates(labware, prefilled, self._trace.wells)
         self._box = TipBox()
         self._slots = {key: info.slot for key, info in labware.items()}
         self._index = 0
         self._last: dict[Tip, Visit] = {}
+        self._heights: dict[Tip, tuple[Well, float]] = {}
         self._cycle: dict[str, Step] = {}
 
     def run(self, log: Iterable[Record]) -> Trace:
@@ -87,7 +87,7 @@ class _Builder:
         elif kind is EventKind.PAUSED:
             self._paused(event)
         elif kind is EventKind.MODULE:
-            if self._replacements.shakes(event.text):
+            if self._pauses.shakes(event.text):
                 plates = frozenset({event.labware}) if event.labware else None
                 self._trace.shaken.append((self._index, plates))
         elif kind is EventKind.COMMENT:
@@ -106,39 +106,36 @@ class _Builder:
 
     def _paused(self, event: Event) -> None:
         self._trace.comments.append(Said(self._index, event.line, event.text, True))
-        said = self._replacements.read(event.text, self._trace.labware, self._slots)
+        said = self._pauses.read(event.text, self._trace.labware, self._slots)
         if said.shaken:
             self._trace.shaken.append((self._index, None))
-        if said.all_tips:
+        if said.tips:
             self._box.replace_all_racks()
         for key in said.replaced:
             self._replace(key)
-        for key in said.returned:
-            if not self._plates.is_used(key):
-                self._replace(key)  # what comes back for the first time was filled elsewhere
         if said.volumes_unsure:
-            self._plates.forget_volumes(said.touched, reckon=not said.refilled)
+            self._plates.forget_volumes()
 
     def _replace(self, key: str) -> None:
         info = self._trace.labware.get(key)
         if info is not None and info.is_tip_rack:
             self._box.replace_rack(key)
-            return
-        self._plates.replace(key)
+        else:
+            self._plates.replace(key)
 
     # -- steps
 
     def _step(self, step: Step) -> None:
         kind = step.kind
         if kind is OperationKind.PICK_UP_TIP:
-            self._box.pick_up(step.pipette, step.nozzles, step.wells, step.line)
+            self._box.pick_up(step.pipette, step.nozzles, step.wells)
         elif kind is OperationKind.DROP_TIP:
             homes = (None,) * len(step.nozzles) if step.disposal else step.wells
             self._box.drop(step.pipette, step.nozzles, homes)
         elif not self._repeats(step):
             self._note_group(step)
             for nozzle, ref in zip(step.nozzles, step.wells, strict=False):
-                tip = self._box.on(step.pipette, nozzle, step.line)
+                tip = self._box.on(step.pipette, nozzle)
                 if tip is None:
                     continue  # a multi-channel pipette that took up fewer tips
                 well = None if ref is None or step.disposal else self._plates.well(ref)
@@ -178,54 +175,59 @@ class _Builder:
             self._trace.singles.add(refs[0])
 
     def _act(self, step: Step, kind: OperationKind, tip: Tip, well: Well | None) -> None:
-        if kind is OperationKind.AIR_GAP or (kind is OperationKind.ASPIRATE and step.air):
+        if kind is OperationKind.AIR_GAP:
             tip.push(None, step.volume, {}, step.line)
         elif kind is OperationKind.ASPIRATE:
-            if well is None:
+            if well is None or step.air or self._draws_air(step, tip, well):
                 tip.push(None, step.volume, {}, step.line)
             else:
                 self._aspirate(step, tip, well)
         elif kind is OperationKind.DISPENSE or kind is OperationKind.BLOW_OUT:
             blown = kind is OperationKind.BLOW_OUT
-            parts = tip.pop_all() if blown else tip.pop(step.volume)
+            parts = tip.pop() if blown else tip.pop(step.volume)
             if well is not None:
                 self._give(step, tip, well, parts)
         elif kind is OperationKind.TOUCH_TIP and well is not None and not well.empty:
             visit = self._visit(step, tip, well)
-            visit.below = visit.touch = step.from_top is None or step.from_top < 0
-            if visit.touch:
-                tip.touch(well, step.line, self._index)
+            contact = well.contact(step.from_top, step.from_bottom, step.from_liquid)
+            visit.contact = min(contact, Contact.NEAR)  # the wall, at most
+            self._touch(visit)
 
     def _visit(self, step: Step, tip: Tip, well: Well) -> Visit:
         visit = Visit(step.kind, tip, well, self._index, step.line, step.lines, step.mixing)
-        visit.carried = len(tip.origins)
-        visit.met = len(tip.touched)
-        visit.empty_before = well.empty
         well.visits.append(visit)
         self._trace.visits.append(visit)
         return visit
+
+    def _touch(self, visit: Visit) -> None:
+        if visit.touches:
+            visit.tip.touch(visit.well, visit.line, visit.index, visit.contact)
+
+    def _draws_air(self, step: Step, tip: Tip, well: Well) -> bool:
+        """Whether a tip that drew from a well draws on from above the liquid: an air gap."""
+        drawn, height = self._heights.get(tip, (None, 0.0))
+        return (
+            drawn is well
+            and bool(tip.layers)
+            and step.from_bottom is not None
+            and step.from_bottom >= height + CLEARANCE_MM
+            and well.contact(step.from_top, step.from_bottom) is Contact.CLEAR
+        )
 
     def _aspirate(self, step: Step, tip: Tip, well: Well) -> None:
         if well.empty and not well.fed and not well.prefilled and well.declared is None:
             well.fill_before_run(None)  # first drawn from: it must have held something
         visit = self._visit(step, tip, well)
         visit.volume = step.volume
-        visit.below = visit.touch = True
+        visit.contact = Contact.WET
         tip.touch(well, step.line, self._index)
-        liquid = well.liquid()
-        held = well.volume
+        if step.from_bottom is not None:
+            self._heights[tip] = (well, step.from_bottom)
+        liquid, held = well.liquid(), well.volume
         if not well.prefilled:
             tip.unsure += max(step.volume - well.least, 0.0)
-        reckoned = well.reckoned
-        missing = well.draw(step.volume)
-        if missing > _slack(step.volume):
-            self._trace.imbalances.append(
-                Imbalance(well, self._index, step.line, False, step.volume, held)
-            )
-        elif reckoned is not None and step.volume > reckoned + _slack(step.volume):
-            self._trace.doubtful.append(
-                Imbalance(well, self._index, step.line, False, step.volume, reckoned)
-            )
+        if well.draw(step.volume) > _slack(step.volume):
+            self._trace.imbalances.append(Imbalance(visit, False, step.volume, held))
         tip.push(well, step.volume, liquid, step.line)
         self._last[tip] = visit
 
@@ -237,21 +239,13 @@ class _Builder:
             unsure = min(tip.unsure, volume)
             tip.unsure -= unsure
             well.add(volume, liquid, unsure)
-        most = well.capacity + _slack(well.capacity)
-        if well.least > most and visit.volume > 0:
-            self._trace.imbalances.append(
-                Imbalance(well, self._index, step.line, True, well.least, well.capacity)
-            )
-        elif well.reckoned is not None and well.reckoned > most and visit.volume > 0:
-            self._trace.doubtful.append(
-                Imbalance(well, self._index, step.line, True, well.reckoned, well.capacity)
-            )
-        visit.below = step.from_top is None or step.from_top < 0
-        clear = well.clear_of_liquid(step.from_bottom, step.from_liquid)
-        if visit.below and not visit.empty_before and not clear:
-            visit.touch = True
-            sure = not well.clear_of_liquid(step.from_bottom, step.from_liquid, at_least=True)
-            tip.touch(well, step.line, self._index, sure)
+        if well.least > well.capacity + _slack(well.capacity) and visit.volume > 0:
+            self._trace.imbalances.append(Imbalance(visit, True, well.least, well.capacity))
+        if visit.empty_before:
+            visit.contact = well.contact_when_empty(step.from_top, step.from_bottom)
+        else:
+            visit.contact = well.contact(step.from_top, step.from_bottom, step.from_liquid)
+        self._touch(visit)
         self._note_mix(tip, visit)
 
     def _note_mix(self, tip: Tip, visit: Visit) -> None:

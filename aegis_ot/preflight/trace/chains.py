@@ -6,9 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ...instrumentation import OperationKind
+from .model import Visit, Well
 from .trace import Trace
-from .visits import Visit
-from .wells import Well
 
 
 @dataclass(frozen=True)
