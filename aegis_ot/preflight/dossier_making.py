@@ -11,12 +11,10 @@ from ..vocabulary import Severity, WellRef
 from . import record
 from .database import load_database, shipped_rules
 from .dossier import DeckItem, Dossier, RoleLine, RuleBrief
-from .evidence import Strength
 from .judging import Options, Report, RoleEvidence, judge
 from .rehearsal import Recording, Script
-from .roles import Assignment, Roles, implied_contents
 from .rules import Database, RuleSpec
-from .trace import Pauses, Trace, build_trace, places, row_column, trace_table, usage_of
+from .trace import Pauses, Trace, build_trace, places, row_column, trace_table
 
 LONGEST_SOURCE = 40_000
 """Characters of source that are shown; what is cut is said."""
@@ -44,9 +42,6 @@ def make_dossier(
     options = options or Options()
     pauses = Pauses(database.common.pauses)
     trace = build_trace(recording.log, recording.labware, pauses)
-    prefilled = _implied_contents(report, database, trace)
-    if prefilled:
-        trace = build_trace(recording.log, recording.labware, pauses, prefilled.__contains__)
     best = report.families[0] if report.families else None
     wells = [well.ref for well in trace.wells.values()]
     wells += [role.well for role in report.roles]
@@ -84,23 +79,6 @@ def check_with_dossier(
     report = judge(recording, database, options)
     given = {**script.parameters, **{k: str(v) for k, v in script.csv_parameters.items()}}
     return report, make_dossier(recording, report, database, options, given)
-
-
-def _implied_contents(report: Report, database: Database, trace: Trace) -> set[WellRef]:
-    """Wells whose role says that they held liquid before the run, as the checks saw it."""
-    by_family: dict[str, Roles] = {}
-    for item in report.roles:
-        roles = by_family.get(item.family)
-        if roles is None:
-            roles = by_family[item.family] = Roles(database.family(item.family))
-        # What a well receives gives it a further role; its own stands first.
-        if item.role in roles.family.roles and item.well not in roles.by_well:
-            roles.by_well[item.well] = Assignment(item.role, list(item.evidence), Strength.NAME, "")
-    prefilled: set[WellRef] = set()
-    for roles in by_family.values():
-        prefilled |= implied_contents(roles, trace)
-    used = usage_of(trace)
-    return {ref for ref in prefilled if ref in used and not used[ref].first_drawn}
 
 
 def _deck(trace: Trace) -> tuple[DeckItem, ...]:

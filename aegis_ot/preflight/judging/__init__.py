@@ -1,5 +1,6 @@
 """From a recording to a verdict: every rule judged, its findings joined, waivers applied."""
 
+from .doubts import spelled, unnamed_wells
 from .judging import judge
 from .options import Options
 from .report import Report, RoleEvidence, verdict_of
@@ -15,5 +16,7 @@ __all__ = [
     "apply_waivers",
     "judge",
     "read_waivers",
+    "spelled",
+    "unnamed_wells",
     "verdict_of",
 ]

@@ -12,9 +12,10 @@ from ..checks import Case, Doubt, Violation, make_check
 from ..evidence import Kind
 from ..rehearsal import Recording
 from ..roles import Roles
-from ..rules import Database, Family, RuleSpec
+from ..rules import Database, RuleSpec
 from ..source import source_lines
 from ..trace import Contact
+from .doubts import missing_roles, unnamed_wells
 from .findings import Broken, findings_of
 from .options import Options, check_options
 from .reading import Reading, read_recording
@@ -42,6 +43,11 @@ def judge(recording: Recording, database: Database, options: Options | None = No
             severity = options.severity_of(rule)
             if severity == "off":
                 continue
+            missing = _missing(rule, case)
+            if missing:
+                family = case.family.family
+                undecided.append(missing_roles(reading, rule, family, missing))
+                continue
             violations, doubt = _judge_rule(rule, case, bool(options.assay))
             broken.append(Broken(rule, Severity(severity), violations))
             if doubt:
@@ -65,11 +71,6 @@ def _uncollected() -> Iterator[None]:
 
 def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Violation], str]:
     """Where a rule is broken, or why that cannot be said (``""`` if it can)."""
-    missing = [
-        need for need in rule.needs if not any(case.roles.known(role) for role in need.split("|"))
-    ]
-    if missing:
-        return [], _missing(case.family, missing)
     sure = case.confident or assay_given
     if not sure and not case.family.default:
         return [], _UNKNOWN_ASSAY
@@ -135,12 +136,15 @@ def _report(
         remarks=(*_conflicts(reading.roles), *waiver_remarks(waivers, waived, judged, known)),
         judged=tuple(judged),
         lines=tuple(source_lines(recording.text)),
+        unnamed=unnamed_wells(reading),
     )
 
 
-def _missing(family: Family, needs: Sequence[str]) -> str:
-    names = [" or ".join(family.roles[role].title for role in need.split("|")) for need in needs]
-    return f"nothing says which well is the {' and which the '.join(names)}"
+def _missing(rule: RuleSpec, case: Case) -> list[str]:
+    """The needs of a rule that no well is known for."""
+    return [
+        need for need in rule.needs if not any(case.roles.known(role) for role in need.split("|"))
+    ]
 
 
 def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:

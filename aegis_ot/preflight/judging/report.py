@@ -39,6 +39,7 @@ class Report:
         remarks: Conflicting evidence, stale and faulty waivers.
         judged: Rules that were judged to the end.
         lines: The protocol's source lines.
+        unnamed: Wells that the run uses and of which nothing says what they are for.
     """
 
     file: str
@@ -53,6 +54,7 @@ class Report:
     remarks: tuple[Remark, ...] = ()
     judged: tuple[str, ...] = ()
     lines: tuple[str, ...] = ()
+    unnamed: tuple[WellRef, ...] = ()
 
 
 def verdict_of(findings: Sequence[Finding]) -> VerdictWord:

@@ -133,9 +133,7 @@ def _read_scopes(node: ast.AST, function: str, facts: SourceFacts) -> None:
             given = child.args
             for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs):
                 facts.parameters.add((inside, argument.arg))
-        elif isinstance(child, (ast.For, ast.AsyncFor)):
-            facts.varying |= {(inside, name) for name in names_in(child.target)}
-        elif isinstance(child, ast.comprehension):
+        elif isinstance(child, (ast.For, ast.AsyncFor)) or isinstance(child, ast.comprehension):
             facts.varying |= {(inside, name) for name in names_in(child.target)}
         _read_scopes(child, inside, facts)
 
