@@ -273,7 +273,7 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
     """Layer 1's report and its summary.
 
     Raises:
-        ProtocolRejected: It found errors, and ``rules="on"``.
+        ProtocolRejected: It found errors, and ``rules`` is ``"on"`` or ``"strict"``.
     """
     from .preflight.checking import check_recording, is_rejected, rejection, summary
 
@@ -287,7 +287,7 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
         raise
     except Exception as error:  # a fault of ours must not keep a good protocol from running
         return _Layer1(f"Layer 1 failed and judged nothing ({type(error).__name__}: {error}).")
-    if settings.rules == "on" and is_rejected(report):
+    if settings.rules in ("on", "strict") and is_rejected(report):
         raise ProtocolRejected(rejection(report))
     return _Layer1(summary(report), report)
 

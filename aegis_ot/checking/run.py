@@ -193,6 +193,8 @@ def options_for(text: str, options: Options) -> Options:
         changes["select"] = _names(said["select"])
     if said.get("ignore"):
         changes["ignore"] = (*options.ignore, *_names(said["ignore"]))
+    if said.get("rules") == "strict":
+        changes["strict"] = True
     return dataclasses.replace(options, **changes) if changes else options
 
 

@@ -28,6 +28,7 @@ from .judging import (
     Parameters,
     Rules,
     Select,
+    Strict,
     Timeout,
     one_of,
     settings_of,
@@ -49,6 +50,7 @@ def check(
     rules: Rules = None,
     select: Select = None,
     ignore: Ignore = None,
+    strict: Strict = False,
     explain_roles: Annotated[
         bool, typer.Option("--explain-roles", help="Show what each well is taken for, and why.")
     ] = False,
@@ -110,6 +112,7 @@ def check(
             rules=rules,
             select=select,
             ignore=ignore,
+            strict=strict,
             parameter=parameter,
             csv=csv,
             labware=labware,

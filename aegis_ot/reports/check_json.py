@@ -37,7 +37,9 @@ def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> di
         "family": checked.family,
         "verdict": checked.verdict.value,
         "findings": [_finding(finding) for finding in checked.findings],
-        "undecided": [{"rule": u.rule, "reason": u.reason, "paste": u.paste} for u in checked.undecided],
+        "undecided": [
+            {"rule": u.rule, "reason": u.reason, "paste": u.paste} for u in checked.undecided
+        ],
     }
     if checked.problem is not None:
         values["error"] = {"message": checked.problem.message, "line": checked.problem.line}

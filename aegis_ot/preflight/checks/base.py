@@ -26,11 +26,10 @@ class Violation:
         sites: Both ends; the well that suffers stands last.
         well: The well that suffers.
         cause: Violations of one cause become one finding.
-        rests_on: Wells without whose roles nothing would be wrong. Where a comment alone says
-            what one of them is for, the finding is a warning at most.
-        on_comment: That comment, in words; filled in by the judge.
-        sure: Whether it happened surely: no tip may after all have stayed clear of a liquid.
+        rests_on: Wells without whose roles nothing would be wrong.
         contact: How surely the tips touched what it rests on.
+        warning: Why it is a warning at most, in a sentence; empty for what surely ruins the assay.
+        in_any_assay: Whether it holds by what happened and by names alone, whatever the assay is.
     """
 
     message: str
@@ -38,9 +37,9 @@ class Violation:
     well: Well
     cause: tuple[Any, ...]
     rests_on: tuple[Well, ...] = ()
-    on_comment: str = ""
-    sure: bool = False
     contact: Contact = Contact.WET
+    warning: str = ""
+    in_any_assay: bool = False
 
 
 @dataclass(frozen=True)

@@ -200,6 +200,7 @@ class Carry(Check):
             held = f"{what} from" if case.of(origin) else "the liquid of"
             began = f"The tip that touched {where}, which holds {held} {origin.ref.name},"
         message = f"{began} entered the {case.title(well)} {place(well)} {at(visit.line)}."
+        contact = min(met.contact(visit.index), visit.contact)
         return Violation(
             message,
             (
@@ -209,9 +210,9 @@ class Carry(Check):
             well,
             (visit.line, met.line, what),
             (origin, well),
+            contact=contact,
             # A liquid that stands in all wells may be meant to come along.
-            sure=met.contact(visit.index) is Contact.WET and not self._is_one_liquid(case, origin),
-            contact=min(met.contact(visit.index), visit.contact),
+            in_any_assay=contact is Contact.WET and not self._is_one_liquid(case, origin),
         )
 
 

@@ -190,7 +190,7 @@ class Receives(Check):
         A well that is given what stood in such a well before, liquid and all, is another stage.
         """
         wells = frozenset(self.wells)
-        plates = {
+        return {
             visit.well.ref.labware
             for visit in case.trace.visits
             for origin, volume, source, _ in delivered(visit)
@@ -200,7 +200,6 @@ class Receives(Check):
                 or (case.has(origin, liquid) and not case.has(source, wells))
             )
         }
-        return plates
 
     @staticmethod
     def _stands_unused(case: Case, liquid: RoleSet) -> bool:
@@ -228,5 +227,4 @@ class Receives(Check):
             if ref.labware in drawn:
                 continue  # among sources: a tube that this run leaves out
             if ref not in visited and not always.isdisjoint(case.roles.of(ref)):
-                info = case.trace.labware.get(ref.labware)
-                yield Well(ref, 0, info.wells.get(ref.name) if info else None, (0, 0))
+                yield Well(ref)

@@ -35,12 +35,10 @@ def missing_roles(reading: Reading, rule: RuleSpec, family: str, needs: Sequence
 
 
 def unnamed_wells(reading: Reading) -> tuple[WellRef, ...]:
-    """Wells that the run uses and of which nothing says what they are for, in order of first use."""
+    """Wells that the run uses and of which nothing says what they hold, in order."""
     roles = reading.roles[0] if reading.roles else None
     found = (well.ref for well in reading.trace.wells.values() if well.visits)
-    return tuple(
-        dict.fromkeys(ref for ref in found if roles is None or ref not in roles.by_well)
-    )
+    return tuple(dict.fromkeys(ref for ref in found if roles is None or ref not in roles.by_well))
 
 
 def _offered(spec: RoleSpec, unnamed: Iterable[WellRef], sides: Sides) -> list[str]:

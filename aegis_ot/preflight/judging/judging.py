@@ -14,7 +14,7 @@ from ..rehearsal import Recording
 from ..roles import Roles
 from ..rules import Database, RuleSpec
 from ..source import source_lines
-from ..trace import Contact
+from ..trace import Contact, Well
 from .doubts import missing_roles, unnamed_wells
 from .findings import Broken, findings_of
 from .options import Options, check_options
@@ -23,6 +23,7 @@ from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
 _UNKNOWN_VOLUME = "how high the liquid stands is not known; say it with load_liquid"
+_DOUBTFUL = "It rests on what is only read of a well: {}."
 _UNKNOWN_ASSAY = 'the assay is not known; say it with assay="..."'
 
 
@@ -49,7 +50,7 @@ def judge(recording: Recording, database: Database, options: Options | None = No
                 undecided.append(missing_roles(reading, rule, family, missing))
                 continue
             violations, doubt = _judge_rule(rule, case, bool(options.assay))
-            broken.append(Broken(rule, Severity(severity), violations))
+            broken.append(Broken(rule, Severity(severity), violations, options.strict))
             if doubt:
                 undecided.append(Undecided(rule.id, doubt))
         open_ = {question.rule for question in undecided}
@@ -85,9 +86,9 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
             elif case.left_over and result.contact is Contact.NEAR:
                 doubts.append(_UNKNOWN_VOLUME)
             else:
-                comment = _comment_alone(result, case.roles)
-                cause = (number, comment, *result.cause)
-                violations.append(replace(result, cause=cause, on_comment=comment))
+                warning = _why_warning(result, case)
+                cause = (number, warning, *result.cause)
+                violations.append(replace(result, cause=cause, warning=warning))
     if not sure and not violations:
         doubts.append(_UNKNOWN_ASSAY)
     return violations, doubts[0] if doubts and not violations else ""
@@ -99,19 +100,35 @@ def _plain(violation: Violation, roles: Roles) -> bool:
     Loaded liquids and the run alone say what the wells are for that it rests on; or names and
     labels do, and nothing is open in what happened.
     """
-    least = Kind.NAME if violation.sure else Kind.LIQUID
+    least = Kind.NAME if violation.in_any_assay else Kind.LIQUID
     return all(
         well.liquids or well.ref not in roles.by_well or roles.by_well[well.ref].kind >= least
         for well in violation.rests_on
     )
 
 
-def _comment_alone(violation: Violation, roles: Roles) -> str:
-    """The comment that a violation rests on, ``""`` if it rests on better evidence."""
+def _why_warning(violation: Violation, case: Case) -> str:
+    """Why a violation is a warning at most, in a sentence; empty for an error.
+
+    Errors are certain (``spec/rules.md``, Severity).
+    """
+    if violation.warning:
+        return violation.warning
+    if violation.contact is Contact.NEAR:
+        return "The tip came near the liquid there and may have stayed clear of it."
+    roles = case.roles
     for well in violation.rests_on:
         if roles.is_doubtful(well.ref):
-            return roles.by_well[well.ref].evidence[0].citation
+            return _DOUBTFUL.format(roles.by_well[well.ref].evidence[0].citation)
+    if case.left_over and not all(_is_named(well, roles) for well in violation.rests_on):
+        return "Nothing in the protocol says what these wells hold."
     return ""
+
+
+def _is_named(well: Well, roles: Roles) -> bool:
+    """Whether a name, a loaded liquid or an argument says what a well is for."""
+    assigned = roles.by_well.get(well.ref)
+    return bool(well.liquids) or (assigned is not None and assigned.kind >= Kind.NAME)
 
 
 def _report(

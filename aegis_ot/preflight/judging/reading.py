@@ -154,7 +154,7 @@ def _implied_elsewhere(
 
     Too little to accuse anyone, enough not to.
     """
-    if not any(i.well.declared is None and not i.overfilled for i in trace.imbalances):
+    if not any(i.visit.well.declared is None and not i.overfilled for i in trace.imbalances):
         return frozenset()
     assert callable(roles_of)
     return frozenset(

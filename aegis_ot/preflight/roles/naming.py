@@ -46,7 +46,7 @@ class RoleNames:
         if evidence.role in self._family.roles:
             return [evidence.role]
         text = evidence.text
-        record, dot, field = text.rpartition(".")
+        _, dot, field = text.rpartition(".")
         if dot and self._lexicon.find(field):
             text = field  # `assay.mix_tube` is a mix and no assay mix
         key = text.rpartition("[")[2] if text.endswith("]") else ""

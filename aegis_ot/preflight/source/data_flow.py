@@ -19,7 +19,7 @@ _WELL_GETTERS = frozenset(
 
 
 class Index(NamedTuple):
-    """``rack[row["tube"]]``: what is indexed, with values of which names, taken from which field."""
+    """``rack[row["tube"]]``: what is indexed, with values of which names and fields."""
 
     held: str
     names: frozenset[str]

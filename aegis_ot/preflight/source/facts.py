@@ -11,6 +11,7 @@ import io
 import tokenize
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import TypeGuard
 
 from .data_flow import Flow, read_flow
 
@@ -88,10 +89,9 @@ def _read_comments(text: str, facts: SourceFacts) -> None:
 def _read_nodes(tree: ast.Module, facts: SourceFacts) -> None:
     documents: set[int] = set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
-            if isinstance(node.value.value, str):
-                facts.docstrings.append((node.value.lineno, node.value.value))
-                documents.add(id(node.value))
+        if isinstance(node, ast.Expr) and _is_text(node.value):
+            facts.docstrings.append((node.value.lineno, str(node.value.value)))
+            documents.add(id(node.value))
         elif isinstance(node, ast.Name):
             facts.names.add(node.id)
             if isinstance(node.ctx, ast.Store):
@@ -100,11 +100,14 @@ def _read_nodes(tree: ast.Module, facts: SourceFacts) -> None:
             facts.assigned.setdefault(node.attr, node.lineno)
         elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
             facts.names.add(node.name)
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            if id(node) not in documents and len(facts.strings) < _MOST_TEXTS:
-                facts.strings.append((node.lineno, node.value))
+        elif _is_text(node) and id(node) not in documents and len(facts.strings) < _MOST_TEXTS:
+            facts.strings.append((node.lineno, str(node.value)))
         if isinstance(node, ast.Assign) and _is_metadata(node):
             facts.metadata.update(_texts_of(node.value))
+
+
+def _is_text(node: ast.AST) -> TypeGuard[ast.Constant]:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str)
 
 
 def _is_metadata(node: ast.Assign) -> bool:
@@ -133,7 +136,7 @@ def _read_scopes(node: ast.AST, function: str, facts: SourceFacts) -> None:
             given = child.args
             for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs):
                 facts.parameters.add((inside, argument.arg))
-        elif isinstance(child, (ast.For, ast.AsyncFor)) or isinstance(child, ast.comprehension):
+        elif isinstance(child, (ast.For, ast.AsyncFor, ast.comprehension)):
             facts.varying |= {(inside, name) for name in names_in(child.target)}
         _read_scopes(child, inside, facts)
 

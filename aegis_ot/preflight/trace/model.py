@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 from ...instrumentation import OperationKind
@@ -34,6 +34,7 @@ class Contact(IntEnum):
     WET = 2
 
 
+@dataclass(eq=False, slots=True, repr=False)
 class Well:
     """One well of one physical plate, followed through a run.
 
@@ -57,53 +58,28 @@ class Well:
             what was there before somebody may have changed it by hand.
     """
 
-    __slots__ = (
-        "capacity",
-        "contents",
-        "declared",
-        "fed",
-        "generation",
-        "geometry",
-        "known",
-        "last",
-        "liquids",
-        "mixes",
-        "most",
-        "order",
-        "prefilled",
-        "pure",
-        "ref",
-        "unsure",
-        "visits",
-        "volume",
-    )
+    ref: WellRef
+    generation: int = 0
+    capacity: float = math.inf
+    geometry: Geometry | None = None
+    order: tuple[int, int] = (0, 0)
+    volume: float = 0.0
+    known: bool = True
+    declared: float | None = None
+    contents: dict[Well, float] = field(default_factory=dict)
+    liquids: list[str] = field(default_factory=list)
+    visits: list[Visit] = field(default_factory=list)
+    mixes: list[tuple[int, int, int | None]] = field(default_factory=list)
+    prefilled: bool = False
+    fed: bool = False
+    most: float = math.inf
+    unsure: float = 0.0
+    pure: Composition = field(init=False)
+    last: Composition = field(init=False)
 
-    def __init__(
-        self,
-        ref: WellRef,
-        generation: int = 0,
-        capacity: float = math.inf,
-        geometry: Geometry | None = None,
-        order: tuple[int, int] = (0, 0),
-    ) -> None:
-        self.ref = ref
-        self.generation = generation
-        self.capacity = capacity
-        self.geometry = geometry
-        self.order = order
-        self.volume = 0.0
-        self.known = True
-        self.prefilled = False
-        self.fed = False
-        self.most = capacity
-        self.unsure = 0.0
-        self.declared: float | None = None
-        self.contents: dict[Well, float] = {}
-        self.liquids: list[str] = []
-        self.visits: list[Visit] = []
-        self.mixes: list[tuple[int, int, int | None]] = []
-        self.pure: Composition = {self: 1.0}
-        self.last: Composition = self.pure
+    def __post_init__(self) -> None:
+        self.most = self.capacity
+        self.pure = self.last = {self: 1.0}
 
     def __repr__(self) -> str:
         return f"<{self.ref.address}{'*' * self.generation}>"
@@ -213,28 +189,27 @@ class Well:
         """The same for what is given into it while it is empty: all that the tip carries."""
         if from_top is not None and from_top >= 0:
             return Contact.CLEAR
-        high = self.geometry is not None and from_bottom is not None
-        if high and from_bottom >= UPPER_PART * self.geometry.depth:
+        geometry = self.geometry
+        if geometry and from_bottom is not None and from_bottom >= UPPER_PART * geometry.depth:
             return Contact.NEAR
         return Contact.WET
 
 
+@dataclass(eq=False, slots=True)
 class Met:
     """First contact of a tip with one liquid or one well; ``wet``: index of the first wet one."""
 
-    __slots__ = ("index", "line", "well", "wet")
-
-    def __init__(self, well: Well, line: int | None, index: int, contact: Contact) -> None:
-        self.well = well
-        self.line = line
-        self.index = index
-        self.wet = index if contact is Contact.WET else math.inf
+    well: Well
+    line: int | None
+    index: int
+    wet: float
 
     def contact(self, index: float = math.inf) -> Contact:
         """How surely the tip had met it by this index."""
         return Contact.WET if self.wet <= index else Contact.NEAR
 
 
+@dataclass(eq=False, slots=True)
 class Tip:
     """One tip from its first pick-up on; a returned tip goes on with the same history.
 
@@ -247,37 +222,34 @@ class Tip:
         unsure: µL of its liquid that may be air: drawn from a well beyond what that held.
     """
 
-    __slots__ = ("layers", "number", "origins", "session", "touched", "unsure")
-
-    def __init__(self, number: int) -> None:
-        self.number = number
-        self.session = 0
-        self.unsure = 0.0
-        self.layers: list[Layer] = []
-        self.origins: dict[Well, Met] = {}
-        self.touched: dict[Well, Met] = {}
+    number: int
+    session: int = 0
+    layers: list[Layer] = field(default_factory=list)
+    origins: dict[Well, Met] = field(default_factory=dict)
+    touched: dict[Well, Met] = field(default_factory=dict)
+    unsure: float = 0.0
 
     def touch(
         self, well: Well, line: int | None, index: int, contact: Contact = Contact.WET
     ) -> None:
         """The tip's outside met ``well``: it now carries all that the well holds."""
+        wet = index if contact is Contact.WET else math.inf
         met = self.touched.get(well)
         if met is None:
-            self.touched[well] = Met(well, line, index, contact)
+            met = self.touched[well] = Met(well, line, index, wet)
         elif (
             met.contact() >= contact
             and len(well.contents) <= 1
             and next(iter(well.contents), None) in self.origins
         ):
             return
-        elif contact is Contact.WET:
-            met.wet = min(met.wet, index)
+        met.wet = min(met.wet, wet)
         for origin in well.contents:
             known = self.origins.get(origin)
             if known is None:
-                self.origins[origin] = Met(well, line, index, contact)
-            elif contact is Contact.WET:
-                known.wet = min(known.wet, index)
+                self.origins[origin] = Met(well, line, index, wet)
+            else:
+                known.wet = min(known.wet, wet)
 
     def push(
         self, source: Well | None, volume: float, liquid: Composition, line: int | None
@@ -303,6 +275,7 @@ class Tip:
         return given
 
 
+@dataclass(eq=False, slots=True, repr=False)
 class Visit:
     """One thing that one tip did at one well.
 
@@ -324,47 +297,26 @@ class Visit:
         met: How many wells the tip had touched before (a prefix of ``tip.touched``).
     """
 
-    __slots__ = (
-        "carried",
-        "contact",
-        "empty_before",
-        "index",
-        "kind",
-        "line",
-        "lines",
-        "met",
-        "mixing",
-        "parts",
-        "session",
-        "tip",
-        "volume",
-        "well",
-    )
+    kind: OperationKind
+    tip: Tip
+    well: Well
+    index: int
+    line: int | None = None
+    lines: tuple[int, ...] = ()
+    mixing: bool = False
+    volume: float = 0.0
+    parts: Sequence[Layer] = ()
+    contact: Contact = Contact.CLEAR
+    session: int = field(init=False)
+    empty_before: bool = field(init=False)
+    carried: int = field(init=False)
+    met: int = field(init=False)
 
-    def __init__(
-        self,
-        kind: OperationKind,
-        tip: Tip,
-        well: Well,
-        index: int,
-        line: int | None = None,
-        lines: tuple[int, ...] = (),
-        mixing: bool = False,
-    ) -> None:
-        self.kind = kind
-        self.tip = tip
-        self.session = tip.session
-        self.well = well
-        self.index = index
-        self.line = line
-        self.lines = lines
-        self.mixing = mixing
-        self.volume = 0.0
-        self.parts: Sequence[Layer] = ()
-        self.contact = Contact.CLEAR
-        self.empty_before = well.empty
-        self.carried = len(tip.origins)
-        self.met = len(tip.touched)
+    def __post_init__(self) -> None:
+        self.session = self.tip.session
+        self.empty_before = self.well.empty
+        self.carried = len(self.tip.origins)
+        self.met = len(self.tip.touched)
 
     def __repr__(self) -> str:
         return f"<{self.kind.value} {self.well!r} tip {self.tip.number} line {self.line}>"
@@ -390,21 +342,6 @@ class Imbalance:
     overfilled: bool
     volume: float
     limit: float
-
-    @property
-    def well(self) -> Well:
-        """The well."""
-        return self.visit.well
-
-    @property
-    def index(self) -> int:
-        """Position in the run."""
-        return self.visit.index
-
-    @property
-    def line(self) -> int | None:
-        """Source line."""
-        return self.visit.line
 
 
 def row_column(name: str) -> tuple[int, int]:

@@ -365,7 +365,7 @@ def test_declared_liquids_in_all_their_ways() -> None:
     assert well(trace, "D1:A1").liquids == ["Water"]
     assert trace.descriptions == {"Water": "from the tap"}
     # Declared to be empty is known; a well that nobody spoke of may have held anything.
-    assert [(item.well.ref.name, item.limit) for item in trace.imbalances] == [
+    assert [(item.visit.well.ref.name, item.limit) for item in trace.imbalances] == [
         ("B2", 20),
         ("D1", 0),
     ]

@@ -221,7 +221,7 @@ def test_a_source_without_declared_volume_never_runs_dry() -> None:
         bench.give("plate:A1", 200, top=0.0)
         bench.draw("plate:A1", 200)
         bench.give("source:B1", 0)
-    assert not [i for i in bench.trace().imbalances if i.well.ref.labware == "source"]
+    assert not [i for i in bench.trace().imbalances if i.visit.well.ref.labware == "source"]
 
 
 @pytest.mark.parametrize(

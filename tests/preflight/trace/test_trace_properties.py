@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from itertools import pairwise
 
 import pytest
 from hypothesis import given, settings
@@ -39,6 +40,7 @@ heights = st.floats(0, 30)
 
 
 @pytest.mark.parametrize("shape", SHAPES)
+@settings(deadline=None)
 @given(low=heights, high=heights)
 def test_more_stands_below_a_greater_height(shape: str, low: float, high: float) -> None:
     geometry = Geometry(SHAPES[shape])
@@ -65,6 +67,7 @@ def test_shapes_hold_what_their_formulas_say() -> None:
 
 
 @pytest.mark.parametrize("shape", SHAPES)
+@settings(deadline=None)
 @given(
     volume=st.floats(0, 300),
     low=st.floats(0.1, 12),
@@ -82,6 +85,7 @@ def test_a_deeper_tip_touches_no_less(
     assert deep >= shallow
 
 
+@settings(deadline=None)
 @given(st.lists(st.tuples(st.booleans(), st.floats(0.5, 100)), max_size=20))
 def test_what_leaves_a_tip_had_been_drawn(moves: list[tuple[bool, float]]) -> None:
     tip, source = Tip(0), Well(WellRef("source", "A1"))
@@ -134,7 +138,7 @@ def test_what_a_tip_has_met_never_grows_less(moves: list[tuple[str, str, float, 
         bench.draw(source, volume)
         bench.give(target, volume, top=1.0 if high else -9.0)
     visits = bench.trace().visits
-    for before, after in zip(visits, visits[1:], strict=False):
+    for before, after in pairwise(visits):
         assert before.carried <= after.carried
         assert before.met <= after.met
     for visit in visits:
