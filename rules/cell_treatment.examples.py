@@ -120,7 +120,7 @@ for dose in sorted(doses, reverse=True):
     drug = doses[dose]
     p20.transfer(2, drug, dosed_wells[dose], new_tip="once")
 
-# CELL-4 fails: one tip from the high to the low dose
+# CELL-4 warns: one tip from the high to the low dose, near the liquid
 p20.transfer(2, dmso, dmso_wells, new_tip="once")
 p20.pick_up_tip()
 for dose in sorted(doses, reverse=True):
@@ -171,7 +171,7 @@ for well in taxol_treated + vehicle_controls[2:]:
 p20.transfer(2, tubes["A2"], stauro_treated, new_tip="once")
 p20.transfer(2, tubes["A1"], vehicle_controls[:1], new_tip="once")
 
-# CELL-4 fails: one tip for two compounds
+# CELL-4 warns: one tip for two compounds, near the liquid
 p20.transfer(2, tubes["A1"], vehicle_controls, new_tip="once")
 p20.pick_up_tip()
 for well in stauro_treated:

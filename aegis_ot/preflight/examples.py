@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from ..errors import AegisError
+from ..vocabulary import Finding, Severity
 from .checking import check_script
 from .example_files import examples_of
 from .judging import Options, Report
@@ -131,10 +132,14 @@ def _run(
         problem = f"is undecided: {undecided}"
     elif others:
         problem = f"finds {', '.join(sorted(others))}"
-    elif expected and example.severity != "any":
-        wrong = {f.severity.value for f in own} - {example.severity}
-        problem = f"is told as {wrong.pop()}, not {example.severity}" if wrong else ""
+    elif expected and own and example.severity not in ("any", _worst(own)):
+        problem = f"is told as {_worst(own)}, not as {example.severity}"
     return ExampleResult(rule.id, example.title, expected, bool(own), problem)
+
+
+def _worst(findings: Iterable[Finding]) -> str:
+    errors = any(finding.severity is Severity.ERROR for finding in findings)
+    return (Severity.ERROR if errors else Severity.WARNING).value
 
 
 def _report(database: Database, family: Family, example: Example) -> Report:

@@ -90,7 +90,7 @@ REFUSED_BY_BOTH = [
         "found 'star'",
     ),
     (lambda d: d.update(rules=[]), "rules: expected at least one, found an empty list"),
-    (lambda d: d.update(schema=2), "schema: expected 1, found 2"),
+    (lambda d: d.update(schema=3), "schema: expected 2, found 3"),
 ]
 
 
@@ -114,7 +114,7 @@ def test_it_is_refused_by_the_published_schema_as_well(
         ),
         (role(parents=["stop"]), "roles.stop: parents: they go in a circle: stop -> stop"),
         (role(words=["stop", "--"]), "roles.stop: words: '--' holds no letter or number to look"),
-        (role(single_with=["nobody"]), "roles.stop: single_with: there is no role 'nobody'"),
+        (role(feeds=["nobody"]), "roles.stop: feeds: there is no role 'nobody'"),
         (role(may_be=["nobody"]), "roles.stop: may_be: there is no role 'nobody'"),
         (
             lambda d: d.update(series={"wells": ["nobody"], "stock": [], "diluent": []}),

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 SCHEMA_VERSION = 2
+READABLE = (1, SCHEMA_VERSION)
+"""Schema 1 without the fields that are gone is schema 2."""
 
 
 @dataclass(frozen=True)
