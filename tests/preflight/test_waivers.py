@@ -1,4 +1,4 @@
-"""Whole protocols, from text to verdict. The first line of each says what must come out."""
+"""Waivers in a protocol: those that cover a finding, and those that are told of."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from aegis_ot.preflight import Database, Options, Report, check_script, load_database
 from aegis_ot.preflight.rehearsal import Script
 
-FILES = sorted((Path(__file__).parent / "protocols").glob("*.py"))
+PROTOCOLS = Path(__file__).parent / "protocols"
 
 
 @pytest.fixture(scope="module")
@@ -17,47 +17,23 @@ def database() -> Database:
     return load_database()
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_verdict_family_and_rules(path: Path, database: Database) -> None:
-    text = path.read_text(encoding="utf-8")
-    expected, _, rest = text.partition("\n")
-    family, verdict, *rules = expected.removeprefix("# expect:").split()
-    # "PCR-4!": judged to the end, and not found.
-    judged = {rule.rstrip("!") for rule in rules if rule.endswith("!")}
-    rules = [rule for rule in rules if not rule.endswith("!")]
-    # What is expected must not tell the assay.
-    report = _check(f"\n{rest}", path.name, database)
-    found = {finding.rule for finding in report.findings}
-    assert report.family == family
-    assert report.verdict.value == verdict, report.findings
-    assert {rule for rule in rules if not rule.endswith("?")} <= found
-    assert found <= {rule.rstrip("?") for rule in rules}
-    assert judged <= set(report.judged)
-    assert judged.isdisjoint(undecided.rule for undecided in report.undecided)
-    for finding in report.findings:
-        assert finding.lines
-        assert finding.wells
-        assert finding.why
-        assert finding.fix
-
-
 def _check(text: str, name: str, database: Database) -> Report:
     return check_script(Script(text, name), database)
 
 
 def test_a_waiver_with_a_reason_covers_a_finding(database: Database) -> None:
-    text = (Path(__file__).parent / "protocols" / "sd_tutorial_one_tip.py").read_text()
+    text = (PROTOCOLS / "sd_tutorial_one_tip.py").read_text()
     waived = _check("# aegis: ignore[SD-5] the tutorial's own way\n" + text, "t.py", database)
     assert waived.verdict.value == "pass"
     assert [w.finding.rule for w in waived.waived] == ["SD-5"]
     bare = _check("# aegis: ignore[SD-5]\n" + text, "t.py", database)
-    assert bare.verdict.value == "fail"
+    assert bare.verdict.value == "warn"
     assert "gives no reason" in bare.remarks[0].message
     assert bare.remarks[0].line == 1
 
 
 def test_a_stale_waiver_is_reported(database: Database) -> None:
-    text = (Path(__file__).parent / "protocols" / "sd_tubes_good.py").read_text()
+    text = (PROTOCOLS / "sd_tubes_good.py").read_text()
     report = _check("# aegis: ignore[SD-5] one tip is fine here\n" + text, "t.py", database)
     assert [(r.line, "stale" in r.message) for r in report.remarks] == [(1, True)]
 
@@ -70,13 +46,13 @@ def test_a_stale_waiver_is_reported(database: Database) -> None:
 def test_a_waiver_of_a_rule_that_was_not_judged_is_not_stale(
     database: Database, options: Options
 ) -> None:
-    text = (Path(__file__).parent / "protocols" / "sd_tubes_good.py").read_text()
+    text = (PROTOCOLS / "sd_tubes_good.py").read_text()
     script = Script("# aegis: ignore[SD-5] one tip is fine here\n" + text, "t.py")
     assert check_script(script, database, options).remarks == ()
 
 
 def test_a_waiver_of_an_undecided_rule_is_not_stale(database: Database) -> None:
-    text = (Path(__file__).parent / "protocols" / "gen_unnamed_plates_one_tip.py").read_text()
+    text = (PROTOCOLS / "gen_unnamed_plates_one_tip.py").read_text()
     plain = check_script(Script(text, "t.py"), database, Options(assay=("pcr",)))
     rule = plain.undecided[0].rule
     waived = f"# aegis: ignore[{rule}] seen\n{text}"
@@ -84,7 +60,7 @@ def test_a_waiver_of_an_undecided_rule_is_not_stale(database: Database) -> None:
 
 
 def test_each_rule_of_a_waiver_is_stale_or_not_by_itself(database: Database) -> None:
-    text = (Path(__file__).parent / "protocols" / "sd_tutorial_one_tip.py").read_text()
+    text = (PROTOCOLS / "sd_tutorial_one_tip.py").read_text()
     report = _check("# aegis: ignore[SD-5, SD-1] as taught\n" + text, "t.py", database)
     assert [w.finding.rule for w in report.waived] == ["SD-5"]
     (remark,) = report.remarks
@@ -92,9 +68,9 @@ def test_each_rule_of_a_waiver_is_stale_or_not_by_itself(database: Database) -> 
 
 
 def test_a_waiver_of_an_unknown_rule_is_told_with_its_line(database: Database) -> None:
-    text = (Path(__file__).parent / "protocols" / "sd_tutorial_one_tip.py").read_text()
+    text = (PROTOCOLS / "sd_tutorial_one_tip.py").read_text()
     report = _check("\n# aegis: ignore[SD5] as taught\n" + text, "t.py", database)
-    assert report.verdict.value == "fail"
+    assert report.verdict.value == "warn"
     (remark,) = report.remarks
     assert remark.line == 2
     assert "SD5" in remark.message
@@ -116,9 +92,9 @@ def test_a_waiver_of_an_unknown_rule_is_told_with_its_line(database: Database) -
 def test_a_waiver_that_waives_nothing_is_told_with_its_line(
     database: Database, comment: str, words: str
 ) -> None:
-    text = (Path(__file__).parent / "protocols" / "sd_tutorial_one_tip.py").read_text()
+    text = (PROTOCOLS / "sd_tutorial_one_tip.py").read_text()
     report = _check(f"# {comment}\n{text}", "t.py", database)
-    assert report.verdict.value == "fail"
+    assert report.verdict.value == "warn"
     (remark,) = report.remarks
     assert remark.line == 1
     assert words in remark.message
@@ -129,12 +105,12 @@ def test_a_waiver_that_waives_nothing_is_told_with_its_line(
     ["guarded by aegis: see SD-5", "aegis does not know this dye", "aegis: checked by hand (SD-5)"],
 )
 def test_a_comment_about_the_guard_is_no_waiver(database: Database, comment: str) -> None:
-    text = (Path(__file__).parent / "protocols" / "sd_tutorial_one_tip.py").read_text()
+    text = (PROTOCOLS / "sd_tutorial_one_tip.py").read_text()
     assert _check(f"# {comment}\n{text}", "t.py", database).remarks == ()
 
 
 def test_a_waiver_beside_a_statement_of_many_lines_covers_it(database: Database) -> None:
-    text = (Path(__file__).parent / "protocols" / "gen_overfill.py").read_text()
+    text = (PROTOCOLS / "gen_overfill.py").read_text()
     (finding,) = _check(text, "t.py", database).findings
     lines = text.splitlines()
     line = lines[finding.lines[-1] - 1]
