@@ -150,11 +150,10 @@ def _rehearse_by_running(
             result = _call_watched(call, watcher, tap)
             _say(protocol, _Layer1(""), watcher)
             return result
-        names = NameCollector(tap.wells, file_name)
-        text = _text_of(file_name, protocol)
-        with names.watching(module, text):
+        names = NameCollector(tap.wells, tap.stack, file_name)
+        with names.watching(module):
             result = _call_watched(call, watcher, tap)
-        names.look(module, "<module>", 1)
+    text = _text_of(file_name, protocol)
     values = plain_values(getattr(protocol, "_params", None))
     recording = Recording(file_name, text, recorder.log, recorder.labware, names.bindings, values)
     layer1 = _judge(recording, protocol, settings)

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from ...instrumentation import LabwareInfo
 from ..trace import row_column
 
-WELL = r"[A-P](?:2[0-4]|1\d|0?[1-9])(?!\d)"
+WELL = r"[A-P](?:1\d|2[0-4]|0?[1-9])(?!\d)"
 _TO = r"\s*(?:-|–|—|:|\.\.+|\bto\b)\s*"
 _AND = r"\s*(?:,\s*and\b|,|/|&|\+|\band\b)\s*"
 _NUMBERS = rf"\d{{1,2}}(?:{_TO}\d{{1,2}})?"

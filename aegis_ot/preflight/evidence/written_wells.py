@@ -15,7 +15,9 @@ from .deck import Deck
 from .evidence import Evidence, Kind, shortened
 from .well_names import PLACES, wells_in
 
-_SAID = r"[^\W\d_](?:(?!\b[A-P]\d)[^,;\n:=]){1,60}"
+_WORD = r"(?!(?:in|is|are)\b|[A-P]\d)[\w%./+µ-]+"
+_SAID = rf"(?=[^\W\d_]){_WORD}(?: {_WORD}){{0,3}}"
+"""A few words: a name, no sentence."""
 _BEFORE = re.compile(rf"({PLACES})\s*(?::|=|->|is\b|are\b|\s-\s)?\s*({_SAID})")
 _BEHIND = re.compile(rf"({_SAID}?)\s*(?::|=|\bin\b|->|\()\s*({PLACES})\s*\)?")
 _SEPARATOR = re.compile(r"\s*[,;\n.]\s*(?:and\s+)?|\s*$")

@@ -1,43 +1,37 @@
-"""Places as people write them, read as wells of a 96-well plate."""
+"""Well names as people write them."""
 
 from __future__ import annotations
 
 import pytest
 
-from aegis_ot.instrumentation import LabwareInfo
 from aegis_ot.preflight.evidence.well_names import wells_in
 
-PLATE = LabwareInfo(
-    key="1",
-    load_name="plate",
-    display_name="Plate",
-    label="",
-    slot="1",
-    is_tip_rack=False,
-    is_trash=False,
-    wells=dict.fromkeys(f"{row}{column}" for column in range(1, 13) for row in "ABCDEFGH"),  # type: ignore[arg-type]
-)
+from ..reading import read
+
+INFO = next(i for i in read("pass").trace.labware.values() if len(i.wells) == 96)
 
 
 @pytest.mark.parametrize(
     ("text", "wells"),
     [
         ("A1", ["A1"]),
-        ("A12", ["A12"]),
         ("A01", ["A1"]),
+        ("A12", ["A12"]),
         ("H10, H12", ["H10", "H12"]),
-        ("G11-H12", ["G11", "H11", "G12", "H12"]),
-        ("A9 to A11", ["A9", "A10", "A11"]),
-        ("column 12", [f"{row}12" for row in "ABCDEFGH"]),
-        ("rows G-H", [f"{row}{column}" for column in range(1, 13) for row in "GH"]),
-        ("A13", []),
         ("A120", []),
+        ("A1-C1", ["A1", "B1", "C1"]),
+        ("A1:B2", ["A1", "B1", "A2", "B2"]),
+        ("A1, A3", ["A1", "A3"]),
+        ("row H", [f"H{n}" for n in range(1, 13)]),
+        ("rows A and C", [f"{r}{n}" for n in range(1, 13) for r in "AC"]),
+        ("column 12", [f"{r}12" for r in "ABCDEFGH"]),
+        ("columns 1-2", [f"{r}{n}" for n in (1, 2) for r in "ABCDEFGH"]),
+        ("Z9", []),
     ],
 )
-def test_places_stand_for_wells(text: str, wells: list[str]) -> None:
-    assert wells_in(text, PLATE) == wells
+def test_places_are_read(text: str, wells: list[str]) -> None:
+    assert wells_in(text, INFO) == wells
 
 
-@pytest.mark.parametrize("text", ["", "*"])
-def test_nothing_and_a_star_stand_for_all(text: str) -> None:
-    assert len(wells_in(text, PLATE)) == 96
+def test_a_star_is_all_wells() -> None:
+    assert len(wells_in("*", INFO)) == 96

@@ -6,17 +6,34 @@ import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from types import SimpleNamespace
-from typing import Any, TypeAlias
+from types import BuiltinFunctionType, FunctionType, ModuleType, SimpleNamespace
+from typing import Any, NamedTuple, TypeAlias
 
 from ..vocabulary import WellRef
 from .objects import attributes, is_enum, is_member, members, value_of, word_of
+from .own_code import is_helper_module
 from .wells import WellResolver
 
 DEEPEST = 3
 """Containers nested deeper than this are not a plate map any more."""
 LONGEST = 1536
 """Nor longer ones: no plate has more wells, and rows of data are not worth the time."""
+
+BARE = frozenset(
+    {
+        bool,
+        bytes,
+        complex,
+        float,
+        int,
+        str,
+        type(None),
+        BuiltinFunctionType,
+        FunctionType,
+        ModuleType,
+    }
+)
+"""Types that hold nothing else."""
 
 _LONGEST_TEXT = 200
 _MADE_IN_PYTHON = 1 << 9
@@ -63,12 +80,23 @@ def is_spot(value: Any) -> bool:
     return issubclass(type(value), str) and _SPOT.fullmatch(value) is not None
 
 
-class Reader:
+class Held(NamedTuple):
+    """What one value holds; see :class:`~.names.NameBinding`."""
+
+    wells: tuple[WellRef, ...] = ()
+    labware: tuple[str, ...] = ()
+    spots: tuple[str, ...] = ()
+    rows: tuple[Row, ...] = ()
+    values: tuple[str | float, ...] = ()
+    numbers: tuple[tuple[str, float], ...] = ()
+
+
+class ValueReader:
     """Reads values without trusting them: only Python's own containers are opened, past whatever
     a subclass of the protocol makes of them.
 
     Attributes:
-        modules: ``__module__`` of the classes that are the protocol's own.
+        own_modules: Whether classes with this ``__module__`` are the protocol's own.
     """
 
     def __init__(self, wells: WellResolver) -> None:
@@ -80,7 +108,27 @@ class Reader:
         self._location_type: Any = Location
         self.labware_type: type = Labware
         self._wells = wells
-        self.modules: set[str] = {"builtins"}
+        self.own_modules: dict[str, bool] = {}
+        # Lists of nothing else are read in one go: wells() of a plate is asked for in each helper.
+        self._all_wells = {Well}
+        self._all_labware = {Labware}
+
+    def read(self, value: Any, depth: int = 0) -> Held:
+        """All that a value holds, in the given depth of what holds it."""
+        listed = items(value)
+        kinds = set(map(type, listed))
+        if kinds == self._all_wells and type(value) is list:
+            return Held(wells=self.wells(value, depth))
+        if kinds == self._all_labware and type(value) is list:
+            return Held(labware=self.labware(value, depth))
+        return Held(
+            self.wells(value, depth),
+            self.labware(value, depth),
+            self.spots(value, depth),
+            self.rows(value),
+            self.values(value),
+            self.numbers(value),
+        )
 
     def wells(self, value: Any, depth: int = 0) -> tuple[WellRef, ...]:
         """The wells that a value is or lists, or is a place in (``well.top(-2)``), in order; tips
@@ -93,7 +141,9 @@ class Reader:
             info = self._wells.info_of(core)
             return () if info.is_tip_rack else (self._wells.ref(info.key, str(core.get_name())),)
         found = items(value) if depth < DEEPEST else ()
-        return tuple(ref for item in found for ref in self.wells(item, depth + 1))
+        return tuple(
+            ref for item in found if type(item) not in BARE for ref in self.wells(item, depth + 1)
+        )
 
     def is_place(self, value: Any) -> bool:
         """Whether a value is a place in a well, and not of a type of the protocol's own making."""
@@ -104,26 +154,42 @@ class Reader:
         if issubclass(type(value), self.labware_type):
             return (self._wells.register(value._core).key,)
         found = items(value) if depth < DEEPEST else ()
-        return tuple(key for item in found for key in self.labware(item, depth + 1))
+        if not found or set(map(type, found)) == self._all_wells:
+            return ()
+        return tuple(
+            key for item in found if type(item) not in BARE for key in self.labware(item, depth + 1)
+        )
 
     def spots(self, value: Any, depth: int = 0) -> tuple[str, ...]:
         """The names of wells that a value is or lists, if it lists nothing else."""
         if is_spot(value):
             return (value,)
-        parts = [self.spots(item, depth + 1) for item in items(value)] if depth < DEEPEST else []
-        return tuple(spot for part in parts for spot in part) if all(parts) else ()
+        found: list[str] = []
+        for item in items(value) if depth < DEEPEST else ():
+            part = self.spots(item, depth + 1)
+            if not part:
+                return ()
+            found += part
+        return tuple(found)
 
     def values(self, value: Any) -> tuple[str | float, ...]:
         """Words and numbers in a plain list of at least two."""
-        found = [word_of(item) if is_member(item) else item for item in items(value)]
-        plain = tuple(item for item in found if _is_plain(item))
-        return plain if len(plain) == len(found) > 1 else ()
+        found: list[str | float] = []
+        for item in items(value):
+            plain = word_of(item) if is_member(item) else item
+            if not _is_plain(plain):
+                return ()
+            found.append(plain)
+        return tuple(found) if len(found) > 1 else ()
 
     def numbers(self, value: Any) -> tuple[tuple[str, float], ...]:
         """Keys and numbers of a dict of at least two that holds nothing else."""
-        found = [(str(key), item) for key, item in entries(value) if _is_plain(key)]
-        plain = tuple((key, item) for key, item in found if _is_number(item))
-        return plain if len(plain) == len(entries(value)) > 1 else ()
+        found: list[tuple[str, float]] = []
+        for key, item in entries(value):
+            if not _is_plain(key) or not _is_number(item):
+                return ()
+            found.append((str(key), item))
+        return tuple(found) if len(found) > 1 else ()
 
     def rows(self, value: Any) -> tuple[Row, ...]:
         """A plate map: ``{"A1": "NTC"}``, or rows (of a CSV file, say) that each name a well.
@@ -146,6 +212,8 @@ class Reader:
     def _table(self, lines: tuple[Any, ...]) -> Iterator[tuple[tuple[str, Cell], ...]]:
         columns: tuple[str, ...] = ()
         for at, line in enumerate(lines):
+            if type(line) in BARE or type(line) is self._well_type:
+                continue
             listed = items(line)
             if not listed and not entries(line) and not self.fields(line):
                 continue
@@ -153,7 +221,7 @@ class Reader:
                 columns = listed  # the header of a CSV file
             elif columns and len(listed) == len(columns):
                 yield self._cells(dict(zip(columns, listed, strict=True)))
-            else:
+            elif set(map(type, listed)) != self._all_wells:  # else nothing is said in it
                 yield self._cells(line)
 
     def _are_rows(self, value: Any) -> bool:
@@ -180,6 +248,8 @@ class Reader:
                     continue
             if _is_plain(item):
                 cells.append((beside, item))
+            elif type(item) is self._well_type:
+                cells += [(beside, ref) for ref in self.wells(item)]
             elif not column and item is not value and self.fields(item):
                 cells += self._cells(item, beside or "item")
             else:
@@ -201,10 +271,17 @@ class Reader:
             names = getattr(kind, "_fields", ())
             return list(zip(names, tuple.__iter__(value), strict=False))
         made = value if issubclass(kind, type) else kind
-        is_own = made.__module__ in self.modules and made.__flags__ & _MADE_IN_PYTHON
-        if not is_own and kind is not SimpleNamespace:
+        if kind is not SimpleNamespace and not (
+            made.__flags__ & _MADE_IN_PYTHON and self._is_own(made.__module__)
+        ):
             return []
         return attributes(value)
+
+    def _is_own(self, module: str) -> bool:
+        own = self.own_modules.get(module)
+        if own is None:
+            own = self.own_modules[module] = is_helper_module(sys.modules.get(module))
+        return own
 
     @staticmethod
     def notes(well: Any) -> list[tuple[str, str | float]]:
@@ -215,6 +292,8 @@ class Reader:
 
 def items(value: Any) -> tuple[Any, ...]:
     """What a list, tuple or set holds."""
+    if type(value) in BARE:
+        return ()
     for kind in (list, tuple, set, frozenset):
         if issubclass(type(value), kind):
             return tuple(kind.__iter__(value)) if kind.__len__(value) <= LONGEST else ()

@@ -82,8 +82,10 @@ def test_a_list_that_grows_is_read_again():
     wells = []
     def note():
         seen = wells
+        protocol.comment("noted")
     wells.append("A1")
     note()
+    protocol.comment("next")
     wells.append("B1")
     note()
     """

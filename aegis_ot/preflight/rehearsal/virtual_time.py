@@ -1,4 +1,4 @@
-"""Lets a protocol's own sleeps pass at once in a rehearsal.
+"""Virtual time: a protocol's own sleeps pass at once in a rehearsal.
 
 A robot waits while its protocol is rehearsed, and ``time.sleep`` cannot be interrupted. The
 ``time`` module is not touched, since a robot server uses it too: the rehearsed text gets an
@@ -16,18 +16,18 @@ _YIELD_S = 0.001
 """Long enough to let the protocol's other threads run, s."""
 
 
-def hasty_builtins() -> dict[str, Any]:
+def builtins_in_virtual_time() -> dict[str, Any]:
     """``__builtins__`` for a rehearsed protocol's namespace."""
-    hasty = _hasty_time()
+    virtual = _virtual_time_module()
 
     def imported(name: str, *args: Any, **kwargs: Any) -> Any:
         module = builtins.__import__(name, *args, **kwargs)
-        return hasty if module is time else module
+        return virtual if module is time else module
 
     return {**vars(builtins), "__import__": imported}
 
 
-def _hasty_time() -> ModuleType:
+def _virtual_time_module() -> ModuleType:
     slept = 0.0
 
     def sleep(seconds: float, /) -> None:
@@ -35,9 +35,9 @@ def _hasty_time() -> ModuleType:
         time.sleep(min(seconds, _YIELD_S))  # refuses what the real one refuses
         slept += seconds
 
-    hasty = ModuleType("time", time.__doc__)
-    vars(hasty).update(vars(time), sleep=sleep)
+    virtual = ModuleType("time", time.__doc__)
+    vars(virtual).update(vars(time), sleep=sleep)
     for name in ("time", "monotonic", "perf_counter"):
         clock = getattr(time, name)
-        setattr(hasty, name, lambda clock=clock: clock() + slept)
-    return hasty
+        setattr(virtual, name, lambda clock=clock: clock() + slept)
+    return virtual
