@@ -138,8 +138,9 @@ def _run(
 
 
 def _worst(findings: Iterable[Finding]) -> str:
-    errors = any(finding.severity is Severity.ERROR for finding in findings)
-    return (Severity.ERROR if errors else Severity.WARNING).value
+    if any(finding.severity is Severity.ERROR for finding in findings):
+        return "error"
+    return "warning"
 
 
 def _report(database: Database, family: Family, example: Example) -> Report:

@@ -79,7 +79,10 @@ def test_a_sixth_family_needs_no_code() -> None:
         ),
         (lambda d: d.update(known_by=[{"roles": ["stop|nobody"]}]), "no role 'nobody'"),
         (lambda d: d["roles"]["stop"].update(filled_by=["nobody"]), "roles.stop: filled_by: there"),
-        (lambda d: d["roles"]["stop"].update(receives=["nobody"]), "stop: receives: there is no role"),
+        (
+            lambda d: d["roles"]["stop"].update(receives=["nobody"]),
+            "stop: receives: there is no role",
+        ),
         (
             lambda d: d["roles"]["stop"].update(in_place_of=["water"]),
             "roles.stop: 'in_place_of' is no field since schema 2: name such wells",
