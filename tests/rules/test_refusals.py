@@ -13,8 +13,8 @@ import pytest
 from aegis_ot.errors import RuleError
 from aegis_ot.preflight import load_database
 from aegis_ot.preflight.database import family_schema
-from aegis_ot.preflight.rules.specs import Shape
 from aegis_ot.preflight.roles.shapes import SHAPES
+from aegis_ot.preflight.rules.specs import Shape
 
 ELISA = (Path(__file__).parents[2] / "examples" / "rules" / "elisa.json").read_text("utf-8")
 CARRY = {"check": "carry", "carried": ["sample"], "into": ["sample"]}
@@ -65,10 +65,6 @@ REFUSED_BY_BOTH = [
         "rule ELISA-1: checks[0]: perhaps[0]: expected a word or phrase, found ''",
     ),
     (rule(checks=[]), "rule ELISA-1: checks: expected at least one, found an empty list"),
-    (
-        rule(examples={"passing": [], "failing": []}),
-        "rule ELISA-1: examples: passing: expected at least one",
-    ),
     (rule(severity="fatal"), "rule ELISA-1: severity: expected error or warning, found 'fatal'"),
     (rule(scope="galaxy"), "rule ELISA-1: scope: expected family or all, found 'galaxy'"),
     (rule(id=""), "rules[0]: id: expected a name of letters, digits,"),
