@@ -24,7 +24,7 @@ from .figure import Figure
 TARGET_MEDIAN = 1.2
 TARGET_P95 = 1.5
 
-_LEAST, _MOST, _ENOUGH_S = 3, 15, 1.0
+_LEAST, _MOST, _ENOUGH_S = 3, 10, 0.5
 """Pairs of runs of each protocol: short ones are repeated until they took so long in all."""
 _LONGEST_S = 20.0
 """Protocols whose simulation takes longer are left out."""
