@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Set
 
 from ..trace import Visit, Well
-from .base import Case, Doubt, RoleSet, at, carried_liquids, place
+from .case import Case, RoleSet, carried_liquids
+from .check import Doubt, at, place
 
 
 def unnamed_contact(case: Case, carriers: Set[Well], into: RoleSet) -> Doubt | None:
