@@ -7,8 +7,12 @@ that knows both.
 
 from __future__ import annotations
 
+import functools
+import json
 from dataclasses import dataclass
 from typing import Any
+
+from opentrons_shared_data import get_shared_data_root
 
 from ..vocabulary import WellRef
 from .labware import LabwareInfo, WellInfo
@@ -230,17 +234,38 @@ def _describe_wells(definition: Any) -> dict[str, WellInfo]:
         for group in definition.get("groups", ())
         for name in group.get("wells", ())
     }
+    sections = _inner_sections(definition)
+    if not sections and definition.get("namespace") == "opentrons":
+        sections = _newest_inner_sections(str(definition["parameters"]["loadName"]))
+    return {
+        name: _describe_well(well, bottoms.get(name, ""), sections.get(name, ()))
+        for name, well in definition["wells"].items()
+    }
+
+
+def _inner_sections(definition: Any) -> dict[str, tuple[Any, ...]]:
+    """Each well's inner geometry, where the definition has one."""
     inner = definition.get("innerLabwareGeometry") or {}
-    sections = {
+    by_key = {
         key: tuple(sorted(geometry.get("sections", ()), key=lambda one: one["bottomHeight"]))
         for key, geometry in inner.items()
     }
-    return {
-        name: _describe_well(
-            well, bottoms.get(name, ""), sections.get(well.get("geometryDefinitionId"), ())
-        )
+    found = {
+        name: by_key.get(well.get("geometryDefinitionId"), ())
         for name, well in definition["wells"].items()
     }
+    return found if any(found.values()) else {}
+
+
+@functools.cache
+def _newest_inner_sections(load_name: str) -> dict[str, tuple[Any, ...]]:
+    """The same of the newest definition of this name: older ones do without."""
+    try:
+        folder = get_shared_data_root() / "labware" / "definitions" / "2" / load_name
+        newest = max(folder.glob("*.json"), key=lambda path: int(path.stem))
+        return _inner_sections(json.loads(newest.read_text(encoding="utf-8")))
+    except (OSError, ValueError):  # an Opentrons that keeps its definitions elsewhere
+        return {}
 
 
 def _describe_well(well: Any, bottom: str, sections: tuple[Any, ...]) -> WellInfo:

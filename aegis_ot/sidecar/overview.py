@@ -58,4 +58,8 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
     for number in (*verdicts, *abandoned, *holds):
         entry(number)
     row = store.run(run) or {}
-    return row | {"trajectories": [trajectories[number] for number in sorted(trajectories)]}
+    return row | {
+        "trajectories": [trajectories[number] for number in sorted(trajectories)],
+        "actions": store.actions(run),
+        "incidents": store.incidents(run),
+    }

@@ -23,6 +23,7 @@ from .base import (
     place,
     role_field,
 )
+from .unnamed import unnamed_contact
 
 
 @dataclass(frozen=True)
@@ -91,6 +92,9 @@ class Carry(Check):
                 elif not once:
                     let_be.setdefault(key, []).append((origin, met))
             judged[key] = visit.carried
+        doubt = unnamed_contact(case, carriers, into)
+        if doubt is not None:
+            yield doubt
 
     def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
         well = visit.well

@@ -9,8 +9,9 @@ from typing import NamedTuple
 from ..evidence import DOUBTFUL, Evidence, Kind
 from ..rules import Common, Database, Family
 from ..source import SourceFacts, lexicon_of, tokens
-from ..trace import Trace, shapes_of
+from ..trace import Trace
 from .roles import Roles
+from .shapes import shapes_of
 
 PLACES = {"metadata": 3.0, "liquid": 2.0, "name": 1.5, "text": 1.0, "string": 0.7}
 """How much a word counts by where it stands: a title says more than a stray comment."""

@@ -40,7 +40,7 @@ class Signal:
     roles: tuple[str, ...] = role_names()
 
 
-Shape = Literal["chain", "chains_alone", "pooling", "reactions", "copying", "culture"]
+Shape = Literal["chain", "pooling", "reactions"]
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class ShapeSignal:
     """A shape of the liquid's ways that speaks for a family, or against it.
 
     Attributes:
-        shape: ``chain``, ``chains_alone``, ``pooling``, ``reactions``, ``copying`` or ``culture``.
+        shape: ``chain``, ``pooling`` or ``reactions``.
         weight: How much it counts for three wells; twice as much from six on. A chain counts
             twice where its wells were filled from one place before, and a culture plate once.
         unless: Shapes beside which it says nothing.

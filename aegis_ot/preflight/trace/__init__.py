@@ -9,14 +9,12 @@ from .geometry import Geometry
 from .model import Composition, Contact, Imbalance, Layer, Met, Tip, Visit, Well, row_column
 from .pauses import Intervention, Pauses
 from .plates import Plates
-from .shapes import SHAPES, shapes_of
 from .table import places, trace_table
 from .tip_racks import TipBox
-from .trace import PlaceKey, Said, Trace
+from .trace import PlaceKey, Trace
 from .usage import Sides, Usage, in_trough, usage_of
 
 __all__ = [
-    "SHAPES",
     "Composition",
     "Contact",
     "Geometry",
@@ -27,7 +25,6 @@ __all__ = [
     "Pauses",
     "PlaceKey",
     "Plates",
-    "Said",
     "Sides",
     "Tip",
     "TipBox",
@@ -42,7 +39,6 @@ __all__ = [
     "links_of",
     "places",
     "row_column",
-    "shapes_of",
     "trace_table",
     "usage_of",
 ]

@@ -15,9 +15,8 @@ from .model import CLEARANCE_MM, Contact, Imbalance, Layer, Tip, Visit, Well
 from .pauses import Pauses
 from .plates import Plates
 from .tip_racks import TipBox
-from .trace import Said, Trace
+from .trace import Trace
 
-_REPEATED = "(repeated)"
 _MOST = 0.5
 """A mix gives back at least this share of what it drew."""
 
@@ -54,7 +53,7 @@ class _Builder:
         self._index = 0
         self._last: dict[Tip, Visit] = {}
         self._heights: dict[Tip, tuple[Well, float]] = {}
-        self._cycle: dict[str, Step] = {}
+        self._cycle: dict[str, tuple[object, set[OperationKind]]] = {}
 
     def run(self, log: Iterable[Record]) -> Trace:
         log = list(log)
@@ -68,7 +67,6 @@ class _Builder:
                 self._event(record)
             else:
                 self._step(record)
-                self._trace.steps += 1
         self._trace.tips = self._box.tips
         return self._trace
 
@@ -86,12 +84,9 @@ class _Builder:
                 self._replace(event.labware)
         elif kind is EventKind.PAUSED:
             self._paused(event)
-        elif kind is EventKind.MODULE:
-            if self._pauses.shakes(event.text):
-                plates = frozenset({event.labware}) if event.labware else None
-                self._trace.shaken.append((self._index, plates))
-        elif kind is EventKind.COMMENT:
-            self._trace.comments.append(Said(self._index, event.line, event.text, False))
+        elif kind is EventKind.MODULE and self._pauses.shakes(event.text):
+            plates = frozenset({event.labware}) if event.labware else None
+            self._trace.shaken.append((self._index, plates))
 
     def _liquid(self, event: Event) -> None:
         for ref in event.wells:
@@ -105,7 +100,6 @@ class _Builder:
                 well.declared = 0.0  # declared to be empty, which "no volume" does not say
 
     def _paused(self, event: Event) -> None:
-        self._trace.comments.append(Said(self._index, event.line, event.text, True))
         said = self._pauses.read(event.text, self._trace.labware, self._slots)
         if said.shaken:
             self._trace.shaken.append((self._index, None))
@@ -146,33 +140,22 @@ class _Builder:
 
         A further cycle of the same volume in the same wells leaves tips and wells as they are.
         """
-        before = self._cycle.get(step.pipette)
-        ends_a_cycle = before is not None and (
-            before.kind is OperationKind.DISPENSE or before.call == _REPEATED
-        )
-        if (
-            before is not None
-            and ends_a_cycle
-            and step.mixing
-            and before.mixing
-            and before.kind is not step.kind
-            and before.wells == step.wells
-            and before.volume == step.volume
-            and before.line == step.line
-        ):
-            self._cycle[step.pipette] = step._replace(call=_REPEATED)
+        key = (step.wells, step.volume, step.line) if step.mixing else None
+        cycle, kinds = self._cycle.get(step.pipette, (None, set()))
+        if key is None or key != cycle:
+            self._cycle[step.pipette] = (key, {step.kind})
+            return False
+        if step.kind in kinds and len(kinds) > 1:
             return True
-        self._cycle[step.pipette] = step
+        kinds.add(step.kind)
         return False
 
     def _note_group(self, step: Step) -> None:
-        refs = step.wells
-        if len(refs) > 1:
-            first = refs[0]
-            if first is not None and len(set(refs)) > 1:
-                self._trace.groups.setdefault(first, tuple(ref for ref in refs if ref))
-        elif refs and refs[0] is not None:
-            self._trace.singles.add(refs[0])
+        refs = tuple(ref for ref in step.wells if ref)
+        if len(step.wells) == 1:
+            self._trace.singles.update(refs)
+        elif step.wells and step.wells[0] is not None and len(set(refs)) > 1:
+            self._trace.groups.setdefault(refs[0], refs)
 
     def _act(self, step: Step, kind: OperationKind, tip: Tip, well: Well | None) -> None:
         if kind is OperationKind.AIR_GAP:

@@ -1,8 +1,8 @@
 """How much liquid stands below a height in a well, by the well's real shape.
 
 The inner geometry of the labware definition, where it has one: sections, stacked from the bottom
-up (Opentrons labware schema 2 and 3). Else a cylinder or cuboid under the mouth, above a cone or a
-half ball where the bottom is a V or a U.
+up (Opentrons labware schema 2 and 3). Else a cylinder or cuboid under the mouth, or a cone, or a
+half ball below, as the shape of the bottom goes.
 """
 
 from __future__ import annotations
@@ -15,6 +15,9 @@ from ...instrumentation import WellInfo
 
 OVER_NOMINAL = 1.1
 """Brim volume by nominal volume where no geometry tells (``spec/rules.md``)."""
+
+_TAPER = 0.45
+"""Width at the bottom of a round V by that at its mouth, as in PCR plates of known geometry."""
 
 
 class Geometry:
@@ -90,30 +93,19 @@ def _area(section: Mapping[str, Any], part: float) -> float:
 def _assumed(info: WellInfo) -> tuple[Mapping[str, Any], ...]:
     """Sections for a definition without any: the mouth's shape down to the bottom's.
 
-    A V is as high as makes the well hold its nominal volume, a U as high as a half ball.
+    A round V tapers all the way, as PCR wells and tubes do.
     """
-    depth = info.depth
-    area = (
-        math.pi / 4 * info.diameter**2 if info.diameter else (info.x_size or 0) * (info.y_size or 0)
-    )
-    width = info.diameter or min(info.x_size or 0, info.y_size or 0)
-    tip = 0.0
-    if info.bottom == "v" and area > 0:
-        tip = min(max((depth - info.max_volume / area) * 1.5, width / 2), depth)
-    elif info.bottom == "u":
-        tip = min(width / 2, depth)
-    if info.diameter:
-        mouth = {"bottomDiameter": info.diameter, "topDiameter": info.diameter}
-        ends = {"shape": "conical", "bottomDiameter": 0.0, "topDiameter": info.diameter}
-        body = {"shape": "conical", **mouth}
-    else:
-        x, y = info.x_size or 0.0, info.y_size or 0.0
-        sides = {"topXDimension": x, "topYDimension": y}
-        ends = {"shape": "cuboidal", **sides, "bottomXDimension": 0.0, "bottomYDimension": y}
-        body = {"shape": "cuboidal", **sides, "bottomXDimension": x, "bottomYDimension": y}
-    if info.bottom == "u" and info.diameter:
-        ends = {"shape": "spherical", "radiusOfCurvature": info.diameter / 2}
-    return (
-        {**ends, "bottomHeight": 0.0, "topHeight": tip},
-        {**body, "bottomHeight": tip, "topHeight": depth},
-    )
+    depth, width = info.depth, info.diameter or min(info.x_size or 0.0, info.y_size or 0.0)
+    rounded = min(width / 2, depth) if info.bottom in ("u", "v") else 0.0
+    if not info.diameter:
+        sides = {"topXDimension": info.x_size, "topYDimension": info.y_size}
+        box = {"shape": "cuboidal", **sides, "bottomYDimension": info.y_size}
+        return (
+            {**box, "bottomXDimension": 0.0, "bottomHeight": 0.0, "topHeight": rounded},
+            {**box, "bottomXDimension": info.x_size, "bottomHeight": rounded, "topHeight": depth},
+        )
+    tube = {"shape": "conical", "bottomDiameter": width, "topDiameter": width, "topHeight": depth}
+    if info.bottom == "v":
+        return ({**tube, "bottomDiameter": width * _TAPER, "bottomHeight": 0.0},)
+    ball = {"shape": "spherical", "radiusOfCurvature": width / 2, "bottomHeight": 0.0}
+    return ({**ball, "topHeight": rounded}, {**tube, "bottomHeight": rounded})

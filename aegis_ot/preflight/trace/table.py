@@ -186,13 +186,11 @@ def _summed(sessions: Sequence[_Session], by_line: bool) -> str:
 
 def _tips(sessions: Sequence[_Session]) -> str:
     numbers = [number + 1 for session in sessions for number in session.tips]
-    if len(numbers) == 1:
-        text = f"tip {numbers[0]}"
-    elif numbers == list(range(numbers[0], numbers[0] + len(numbers))):
-        text = f"tips {numbers[0]}-{numbers[-1]}"
+    text = "tip " if len(numbers) == 1 else "tips "
+    if len(numbers) > 1 and numbers == list(range(numbers[0], numbers[0] + len(numbers))):
+        text += f"{numbers[0]}-{numbers[-1]}"
     else:
-        shown = ",".join(map(str, numbers[:8])) + (",..." if len(numbers) > 8 else "")
-        text = f"tips {shown}"
+        text += ",".join(map(str, numbers[:8])) + (",..." if len(numbers) > 8 else "")
     if len(sessions[0].tips) > 1:
         text += f" ({len(sessions[0].tips)} channels at once)"
     if len(sessions) > 1:
@@ -256,41 +254,18 @@ def places(wells: Sequence[WellRef]) -> str:
 
 
 def _run(wells: Sequence[WellRef]) -> int:
-    """How many wells from the first on make a column, a row or whole columns."""
-    best = 1
-    for follows in (_below, _beside):
-        length = 1
-        while length < len(wells) and follows(wells[length - 1], wells[length]):
-            length += 1
-        best = max(best, length if length > 2 else 1)
-    return max(best, _columns(wells))
+    """How many wells from the first on make a column, a row or whole columns, in that order."""
+    row, column = row_column(wells[0].name)
 
+    def length(way: Callable[[int], tuple[int, int]]) -> int:
+        for number, well in enumerate(wells):
+            down, along = way(number)
+            here = row_column(well.name) == (row + down, column + along)
+            if not here or well.labware != wells[0].labware:
+                return number
+        return len(wells)
 
-def _columns(wells: Sequence[WellRef]) -> int:
-    """How many wells make whole columns of one height, one after the other."""
-    column = 1
-    while column < len(wells) and _below(wells[column - 1], wells[column]):
-        column += 1
-    if column < 2:
-        return 1
-    (row, first_column), key = row_column(wells[0].name), wells[0].labware
-    length = 0
-    while length < len(wells):
-        wanted = (row + length % column, first_column + length // column)
-        if wells[length].labware != key or row_column(wells[length].name) != wanted:
-            break
-        length += 1
-    length -= length % column
-    return length if length > 2 else 1
-
-
-def _step(down: int, along: int) -> Callable[[WellRef, WellRef], bool]:
-    def follows(one: WellRef, other: WellRef) -> bool:
-        (row, column), (row2, column2) = row_column(one.name), row_column(other.name)
-        return one.labware == other.labware and (row2, column2) == (row + down, column + along)
-
-    return follows
-
-
-_below = _step(1, 0)
-_beside = _step(0, 1)
+    high = length(lambda number: (number, 0))
+    whole = length(lambda number: (number % high, number // high))
+    best = max(high, length(lambda number: (0, number)), whole - whole % high)
+    return best if best > 2 else 1
