@@ -16,10 +16,14 @@ from ..dryrun import DryRun, DryRunSettings, Progress, WellRow, dry_run
 from ..preflight.checking import summary
 from ..reports.run_html import run_report_html
 from ..sidecar import Judged, make_analyser
+from ..sidecar.config import CascadeSettings
 from ..vocabulary import Outcome, counted
 from .app import BROKEN, CLEAN, FINDINGS
 
 console = Console(highlight=False)
+
+UNATTENDED = CascadeSettings(first_wells="trust")
+"""Nobody is there to be asked whether a first well is right."""
 
 _COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
 
@@ -34,7 +38,7 @@ def run_and_show(script: Any, settings: DryRunSettings) -> DryRun:
         console=console,
         transient=True,
     ) as bar:
-        result = dry_run(script, settings, make_analyser(), _Shown(bar, script.file_name))
+        result = dry_run(script, settings, make_analyser(UNATTENDED), _Shown(bar, script.file_name))
     show(result)
     return result
 

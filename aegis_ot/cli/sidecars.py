@@ -33,7 +33,7 @@ def sidecar(
     ] = None,
 ) -> None:
     """Watch the robot's tips: capture, score, judge, and show a page."""
-    from ..sidecar import SidecarConfig, make_analyser, serve
+    from ..sidecar import SidecarConfig, make_analyser, make_detector, serve
     from ..sidecar.config import TOKEN_FILE, kept_token
     from ..sidecar.journal import event, set_up
     from ..sidecar.reasoning_routes import gates_of
@@ -75,6 +75,7 @@ def sidecar(
             where = f"the token in {kept[0]}" if kept else "the sidecar's token"
             typer.echo(f"Log in with {where}.")
 
-    analyser = make_analyser(settings.cascade, gates_of(settings))
-    serve(settings, analyser=analyser, ready=ready)
+    detector = make_detector(settings.cascade)
+    analyser = make_analyser(settings.cascade, gates_of(settings), detector)
+    serve(settings, analyser=analyser, ready=ready, detector=detector)
     event("stopped")

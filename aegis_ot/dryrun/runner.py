@@ -275,3 +275,6 @@ class _TellingRun:
         judged = self._inner.judge(trajectory)
         self._tell(judged)
         return judged
+
+    def confirm(self, trajectory: int) -> None:
+        self._inner.confirm(trajectory)

@@ -73,6 +73,7 @@ class VlmGate:
     """
 
     gate = Gate.VLM
+    screens = False
 
     def __init__(self, backend: Backend, crop: CropSettings | None = None) -> None:
         self._backend = backend

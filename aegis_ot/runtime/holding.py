@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 
 from ..errors import LinkError, RunAborted
+from ..http_client import SLICE_S, CheckStop
 from ..settings import Settings
 from ..vocabulary import Gate, Outcome, Verdict
 from .courier import Courier
@@ -14,7 +15,6 @@ from .linkloss import LinkLoss
 from .operator import Answer, Operator
 from .page_answers import PageAnswers
 from .runstate import RunState
-from .slices import SLICE_S, CheckStop
 from .steps import Hold
 from .stopping import Waits
 from .summary import WatchSummary

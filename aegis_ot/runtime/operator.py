@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import contextlib
 import select
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
 from enum import Enum
 from typing import Any
 
@@ -43,29 +43,28 @@ class Operator:
         self._simulating = simulating
         self._rest = rest
         self._legacy_run = LegacyRun.of(protocol)
-        self._unsaid: list[str] = []
         self.busy = False
         """Whether the guard itself is pausing or commenting just now."""
 
-    def comment(self, text: str) -> None:
-        """Write into the run log; where that is not possible now, at the end of the run."""
+    def begin(self) -> None:
+        """The run begins."""
         if self._legacy_run is not None:
-            self._unsaid.append(text)
-            return
-        self._comment(text)
+            self._legacy_run.begin()
 
-    def catch_up(self) -> None:
-        """The protocol has ended: write what could not be written before."""
-        unsaid, self._unsaid = self._unsaid, []
-        for text in unsaid:
-            self._comment(text)
+    def end(self) -> None:
+        """The run is over; leave its context as it was. Idempotent."""
+        if self._legacy_run is not None:
+            self._legacy_run.end()
 
-    def _comment(self, text: str) -> None:
-        self.busy = True
-        try:
+    def proceed(self) -> None:
+        """Nothing more is to be said before the operation that the protocol asked for."""
+        if self._legacy_run is not None:
+            self._legacy_run.announce()
+
+    def comment(self, text: str) -> None:
+        """Write into the run log."""
+        with self._speaking():
             self._protocol.comment(f"aegis_ot: {text}")
-        finally:
-            self.busy = False
 
     def pause(self, text: str, poll: Poll, page: PageAnswers | None = None) -> str:
         """Wait until the operator resumes the run, or cancels it.
@@ -89,21 +88,21 @@ class Operator:
             return ""
         if not can_be_resumed():
             return self._ask_at_console(text, poll)
-        self.busy = True
-        try:
-            with page or contextlib.nullcontext():
-                self._pause(text)
-        finally:
-            self.busy = False
+        with page or nullcontext():
+            with self._speaking():
+                self._protocol.pause(f"aegis_ot: {text}")
+            if self._legacy_run is not None:
+                self._legacy_run.wait_for_play(self._protocol, self._rest)
         return "page" if page is not None and page.given else "robot"
 
-    def _pause(self, text: str) -> None:
-        if self._legacy_run is None:
-            self._protocol.pause(f"aegis_ot: {text}")
-            return
-        _say(text)
-        self.comment(text)
-        self._legacy_run.pause(self._protocol, self._rest)
+    @contextmanager
+    def _speaking(self) -> Iterator[None]:
+        self.busy = True
+        try:
+            with nullcontext() if self._legacy_run is None else self._legacy_run.speaking():
+                yield
+        finally:
+            self.busy = False
 
     def _ask_at_console(self, text: str, poll: Poll) -> str:
         # pause() would hang for ever here: nothing can send the "play" that it waits for.

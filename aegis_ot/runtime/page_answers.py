@@ -13,8 +13,8 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import LinkError
+from ..http_client import CheckStop
 from .link import SidecarLink
-from .slices import CheckStop
 
 ROBOT_SERVER = ("127.0.0.1", 31950)
 _HEADERS = {"Opentrons-Version": "*", "Content-Type": "application/json"}

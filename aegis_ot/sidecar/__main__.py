@@ -7,7 +7,7 @@ import sys
 from ..errors import AegisError
 from .config import SidecarConfig, kept_token
 from .journal import event, set_up
-from .judging import make_analyser
+from .judging import make_analyser, make_detector
 from .server import serve
 
 
@@ -16,10 +16,12 @@ def main(arguments: list[str]) -> int:
     try:
         config = SidecarConfig.load(arguments[0] if arguments else None, find_token=kept_token)
         set_up(config.log)
-        analyser = make_analyser(config.cascade)
+        detector = make_detector(config.cascade)
+        analyser = make_analyser(config.cascade, detector=detector)
         serve(
             config,
             analyser=analyser,
+            detector=detector,
             ready=lambda url: event("ready", address=url),
         )
     except AegisError as error:

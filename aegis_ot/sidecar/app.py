@@ -18,9 +18,11 @@ from starlette.responses import JSONResponse, Response
 from .._version import __version__
 from ..errors import AegisError, CameraError, StoreError
 from ..vision.camera import Camera
+from ..vision.types import Detector
 from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
 from .cameras import open_camera
+from .cameras.history import HISTORY_S
 from .config import SidecarConfig
 from .description import ERRORS, describe, takes
 from .pages import page_router
@@ -57,10 +59,15 @@ Run = Annotated[str, Depends(_run_name)]
 Number = Annotated[int, Path(ge=0, le=MAX_COUNT)]
 After = Annotated[int | None, Query(ge=0, le=2**53)]
 Wait = Annotated[float, Query(ge=0, allow_inf_nan=False)]
+Ago = Annotated[float, Query(ge=-HISTORY_S, le=HISTORY_S, allow_inf_nan=False)]
+"""How long before its arrival the moment of a keyframe was, s; negative: it is still to come."""
 
 
 def create_app(
-    config: SidecarConfig, camera: Camera | None = None, analyser: Analyser | None = None
+    config: SidecarConfig,
+    camera: Camera | None = None,
+    analyser: Analyser | None = None,
+    detector: Detector | None = None,
 ) -> FastAPI:
     """Build the sidecar's application. It holds the camera and store until it is shut down.
 
@@ -68,6 +75,7 @@ def create_app(
         config: Settings.
         camera: Instead of the one that ``config.camera.spec`` names.
         analyser: What judges wells; without one every well is undecided.
+        detector: With one, a frame counts only if the camera's view tells something.
 
     Returns:
         The application; ``app.state.sidecar`` is the :class:`~.service.Sidecar` behind it, whose
@@ -80,7 +88,7 @@ def create_app(
     opinions = opinions_of(config)
     camera = open_camera(config.camera) if camera is None else camera
     try:
-        sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser)
+        sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser, detector)
     except AegisError:
         camera.close()
         raise
@@ -130,11 +138,12 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
 
     @app.post("/v1/runs/{run}/keyframes", openapi_extra=takes(Keyframe))
     async def keyframe(
-        run: Run, arrived: Annotated[float, Depends(_now)], request: Request
+        run: Run, arrived: Annotated[float, Depends(_now)], request: Request, ago: Ago = 0.0
     ) -> dict[str, Any]:
         keyframe = parse(Keyframe, await read_body(request))
         _must_match(run, keyframe.run)
-        captured = await run_in_threadpool(lambda: sidecar.session(run).capture(keyframe, arrived))
+        moment = arrived - ago
+        captured = await run_in_threadpool(lambda: sidecar.session(run).capture(keyframe, moment))
         return {
             "sequence": keyframe.sequence,
             "captured": True,

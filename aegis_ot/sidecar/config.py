@@ -63,6 +63,8 @@ class CameraSettings(Section):
             kind of camera.
         width, height: What a USB camera is asked for, px; ``None``: its own default.
         fps: What a USB camera or the test pattern is asked for, frames/s.
+        watch_view: Hold the run while the camera is frozen, covered, dark, blown out, blurred or
+            misaimed.
     """
 
     spec: str = "usb:0"
@@ -71,6 +73,7 @@ class CameraSettings(Section):
     width: Annotated[int, Field(ge=16, le=10_000)] | None = None
     height: Annotated[int, Field(ge=16, le=10_000)] | None = None
     fps: Annotated[float, Field(gt=0, le=240)] = 30.0
+    watch_view: bool = True
 
 
 class CascadeSettings(Section):
@@ -87,6 +90,8 @@ class CascadeSettings(Section):
             which sends most normal wells to the gate; the default is wider).
         blank_floor: Scores below it are a blank view; ``None``: the preset's (1e-4).
         always_gate: Send every well after calibration to the gates.
+        first_wells: ``ask``: the operator looks at a first well in which no liquid is seen to leave
+            the tip; ``trust``: it is taken for normal.
         gates: Asked in this order, the operator after them: ``volumetric``, ``vlm``.
     """
 
@@ -97,6 +102,7 @@ class CascadeSettings(Section):
     band: Annotated[float, Field(gt=0, le=100)] | None = None
     blank_floor: Annotated[float, Field(ge=0)] | None = None
     always_gate: bool = False
+    first_wells: Literal["ask", "trust"] = "ask"
     gates: tuple[str, ...] = ("volumetric",)
 
     @field_validator("gates")

@@ -17,6 +17,7 @@ from uvicorn.server import HANDLED_SIGNALS
 
 from ..errors import ConfigurationError
 from ..vision.camera import Camera
+from ..vision.types import Detector
 from .analysis import Analyser
 from .app import create_app
 from .config import SidecarConfig
@@ -41,12 +42,13 @@ def serve(
     camera: Camera | None = None,
     analyser: Analyser | None = None,
     ready: Callable[[str], None] | None = None,
+    detector: Detector | None = None,
 ) -> None:
     """Run the sidecar until it is stopped by SIGINT or SIGTERM.
 
     Args:
         config: Settings.
-        camera, analyser: As for :func:`~.app.create_app`.
+        camera, analyser, detector: As for :func:`~.app.create_app`.
         ready: Called with the base URL once requests are answered.
 
     Raises:
@@ -55,7 +57,7 @@ def serve(
     """
     with _listening(config) as (listener, url):
         sys.setswitchinterval(SWITCH_S)
-        app = create_app(config, camera, analyser)
+        app = create_app(config, camera, analyser, detector)
         app.state.sidecar.address = config.url or url
         server = _Server(app, lambda: ready(url) if ready else None)
         server.run(sockets=[listener])
@@ -63,7 +65,10 @@ def serve(
 
 @contextlib.contextmanager
 def running_sidecar(
-    config: SidecarConfig, camera: Camera | None = None, analyser: Analyser | None = None
+    config: SidecarConfig,
+    camera: Camera | None = None,
+    analyser: Analyser | None = None,
+    detector: Detector | None = None,
 ) -> Iterator[str]:
     """Run the sidecar in a thread, over a real socket, for as long as the block lasts.
 
@@ -74,7 +79,7 @@ def running_sidecar(
         ConfigurationError, StoreError: As :func:`serve`.
     """
     with _listening(config) as (listener, url):
-        app = create_app(config, camera, analyser)
+        app = create_app(config, camera, analyser, detector)
         app.state.sidecar.address = config.url or url
         started = threading.Event()
         server = _Server(app, started.set)

@@ -12,6 +12,8 @@ from typing import Any
 from .._version import __version__
 from ..errors import AegisError, CameraError, StoreError
 from ..vision.camera import Camera, Frame
+from ..vision.types import Detector
+from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, to_json
 from .aiming import Aim
 from .analysis import Analyser
@@ -44,6 +46,8 @@ class Sidecar:
         config: Settings.
         camera: Where frames come from; closed with the sidecar.
         analyser: Judges wells.
+        detector: Finds the tip where it is in doubt that the camera sees it; without one, frames
+            are not asked whether they show anything.
 
     Raises:
         StoreError: The data folder cannot be used, or another sidecar uses it.
@@ -52,7 +56,13 @@ class Sidecar:
         address: Where people open the page; for links in messages.
     """
 
-    def __init__(self, config: SidecarConfig, camera: Camera, analyser: Analyser) -> None:
+    def __init__(
+        self,
+        config: SidecarConfig,
+        camera: Camera,
+        analyser: Analyser,
+        detector: Detector | None = None,
+    ) -> None:
         self.config = config
         self.camera = camera
         self.bell = Bell()
@@ -60,6 +70,9 @@ class Sidecar:
         self._analyser = analyser
         self.notifier = Notifier(config.notifications.urls, self._compose, self._undelivered)
         self.store = Store(config.data, alone=True)
+        # A test pattern shows no pipette, and is not meant to.
+        watched = config.camera.watch_view and camera.kind != "pattern"
+        self._detector = detector if watched else None
         self._sessions: dict[str, Session] = {}
         self._met: set[str] = set()
         self._opening = threading.Lock()
@@ -81,6 +94,8 @@ class Sidecar:
             self._met.add(start.run)
             event("run", run=start.run, protocol=start.protocol, robot=start.robot_name)
         self.store.reopen(start.run)
+        if start.mode == "watch" and isinstance(self.camera, FreeRunning):
+            self.camera.remember()
         self.session(start.run)
         self.bell.ring()
 
@@ -104,6 +119,7 @@ class Sidecar:
                     self._grab,
                     self.tell,
                     self.config.operator.timeout_s,
+                    None if self._detector is None else ViewWatch(self._detector),
                 )
             session.asked = time.monotonic()
             return session
@@ -119,6 +135,7 @@ class Sidecar:
         """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
         self.require(run)
         self.store.add_hold(run, hold)
+        self.session(run).held(hold.trajectory, hold.policy)
         self.bell.ring()
         event("hold", run=run, **hold.model_dump())
         if hold.resolution not in ("verdict", "stopped") and hold.paused_s is None:
@@ -233,12 +250,11 @@ class Sidecar:
             self.store.end_incidents(notice.run, "notification")
         self.bell.ring()
 
-    def _grab(self, keyframe: Keyframe, moment: float) -> Frame:
+    def _grab(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
         try:
             with self._camera_lock:
                 self.camera.announce(keyframe)
-                frame = self.camera.frame_after(moment, self.config.camera.timeout_s)
-            _check_frame(frame, moment)
+                frame = self._usable(keyframe, moment, view)
         except Exception as error:
             if not isinstance(error, AegisError):
                 log.exception("The camera failed")
@@ -253,6 +269,18 @@ class Sidecar:
             self._in_trouble.discard(keyframe.run)
             self.over(keyframe.run, "camera")
         return frame
+
+    def _usable(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
+        """A frame that tells something; a second one is taken before that is given up."""
+        trouble = None
+        for again in (True, False):
+            frame = self.camera.frame_after(moment, self.config.camera.timeout_s)
+            _check_frame(frame, moment)
+            trouble = None if view is None else view.look(keyframe, frame.image, again=again)
+            if trouble is None:
+                return frame
+            moment = time.monotonic()
+        raise CameraError("" if trouble is None else trouble.message)
 
     def _evict(self) -> None:
         if len(self._sessions) < SESSIONS_KEPT:

@@ -10,6 +10,7 @@ from typing import Any
 
 from ..errors import StoreError
 from ..vision.camera import Frame
+from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, Outcome, Verdict
 from .analysis import Analyser
 from .bell import Bell
@@ -22,8 +23,9 @@ from .worker import AnalysisWorker
 
 log = logging.getLogger(__name__)
 
-Grab = Callable[[Keyframe, float], Frame]
-"""Grabs the first frame exposed at or after a moment; raises CameraError."""
+Grab = Callable[[Keyframe, float, ViewWatch | None], Frame]
+"""Grabs the first frame exposed at or after a moment, in which the view shows what it should;
+raises CameraError."""
 Tell = Callable[[Notice], None]
 """Keeps an incident, and tells people of it."""
 
@@ -40,6 +42,7 @@ class Session:
         grab: Takes a frame.
         tell: Hears of bad verdicts and of trouble.
         operator_timeout: How long an undecided verdict is held back for the operator, s.
+        view: Looks at each frame before it counts; ``None``: every frame counts.
 
     Attributes:
         asked: When it was last asked for, ``time.monotonic``, s.
@@ -54,6 +57,7 @@ class Session:
         grab: Grab,
         tell: Tell,
         operator_timeout: float = 0.0,
+        view: ViewWatch | None = None,
     ) -> None:
         self.run = run
         self.asked = time.monotonic()
@@ -62,6 +66,7 @@ class Session:
         self._grab = grab
         self._tell = tell
         self._operator_timeout = operator_timeout
+        self._view = view
         self._capturing = threading.Lock()
         self._state = threading.Lock()
         store.forget_torn(run)
@@ -72,6 +77,7 @@ class Session:
         self._release: dict[int, float] = {}
         self._asks: dict[int, tuple[float, float]] = {}
         self._actions = {action["trajectory"]: action for action in store.actions(run)}
+        self._paused: set[int] = set()
         self._worker = AnalysisWorker(
             run, analyser, [(v, evidence) for v, evidence, _ in judged], store, self._publish
         )
@@ -94,7 +100,7 @@ class Session:
 
         Raises:
             WireError: 409, with the number expected, if one is missing or taken.
-            CameraError: No frame in time; the number is not used up.
+            CameraError: No frame in time, or none that tells anything; the number is not used up.
             StoreError: It could not be kept; the number is not used up.
         """
         # A resent keyframe waits here for its twin, and is then answered from the store.
@@ -109,11 +115,12 @@ class Session:
                     "Resend from the expected number.",
                     expected=self._next,
                 )
-            frame = self._grab(keyframe, moment)
+            frame = self._grab(keyframe, moment, self._view)
             captured = Captured(keyframe, max(0.0, frame.exposed_at - moment), time.time())
             self._store.add_keyframe(captured, frame.jpeg)
             self._store.reopen(self.run)
             self._next += 1
+            self._resumed()
             self._worker.submit(keyframe, frame)
         self._bell.ring()
         return captured
@@ -160,6 +167,21 @@ class Session:
         self._worker.drop(trajectory)
         self._bell.ring()
 
+    def held(self, trajectory: int, policy: str | None) -> None:
+        """The robot says how a hold ended: by a pause, if the operator is to look at the well."""
+        with self._state:
+            verdict = self._verdicts.get(trajectory)
+            if policy == "pause" and verdict is not None and verdict.outcome is Outcome.UNDECIDED:
+                self._paused.add(trajectory)
+
+    def _resumed(self) -> None:
+        """The robot moves: whoever was asked by a pause has looked, and let the run go on."""
+        with self._state:
+            paused, self._paused = self._paused, set()
+            going = [number for number in paused if number not in self._decisions]
+        for trajectory in sorted(going):
+            self._worker.confirm(trajectory)
+
     def decide(self, trajectory: int, decision: Decision) -> Verdict:
         """The operator confirms or corrects a verdict; deciding again is allowed.
 
@@ -173,6 +195,8 @@ class Session:
             self._store.add_decision(self.run, trajectory, decision)
             self._decisions = self._store.decisions(self.run)
             decided = effective(verdict, self._decisions[trajectory])
+        if decision.outcome is Outcome.PASS and verdict.outcome is Outcome.UNDECIDED:
+            self._worker.confirm(trajectory)
         self._bell.ring()
         event("decision", run=self.run, trajectory=trajectory, outcome=decision.outcome.value,
               by=decision.by)  # fmt: skip

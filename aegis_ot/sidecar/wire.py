@@ -108,6 +108,7 @@ class RunStart(Body):
     simulated: bool = False
     started: float = 0.0
     package: Word = ""
+    mode: Literal["guard", "watch"] = "guard"
     guard: GuardWords | None = None
     layer1: Layer1Words | None = None
 

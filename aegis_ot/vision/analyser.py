@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,20 +13,33 @@ from .calibration import CalibrationState
 from .camera import Frame
 from .cascade import Triage
 from .consistency import second_look
+from .delivery import Delivery, delivery_of
 from .evidence import evidence_of
-from .gates import Case, ConfirmingGate, GateDecision, examine_in_turn, in_sentences
+from .first_wells import FirstWells, Liquid
+from .gates import Case, GateDecision, Gates, in_sentences
+from .leftover import Leftover, Leftovers, explains, still_there
 from .measuring import TipView
 from .stream import OpenTrajectory, Stream
 from .tips import pipette_class, tip_for
 from .types import FREE, Detector, Image, TipDetection, TrajectorySample
-from .volumetric_gate import VolumetricGate
 
 MOST_OPEN = 32
 """Trajectories whose frames are kept at once: one that is never judged must not fill memory."""
 
+MOST_ASKED = 8
+"""Undecided first wells of which enough is kept to learn from them once the operator vouches."""
+
 Judged = tuple[Verdict, Mapping[str, Any]]
 
-_Key = tuple[str, float, str]
+
+@dataclass(frozen=True)
+class _Well:
+    """What a run learns from."""
+
+    stream: Stream
+    liquid: Liquid
+    case: Case
+    looks: dict[KeyframeKind, object]
 
 
 class RunAnalyser:
@@ -42,6 +55,7 @@ class RunAnalyser:
         detector: Finds the tip.
         make_stream: Makes a stream, given one of the same pipette and tip, if there is one.
         gates: Asked in turn.
+        first: Holds the run's first wells against what is known without them.
     """
 
     def __init__(
@@ -49,13 +63,17 @@ class RunAnalyser:
         run: str,
         detector: Detector,
         make_stream: Callable[[Stream | None], Stream],
-        gates: Sequence[ConfirmingGate],
+        gates: Gates,
+        first: FirstWells,
     ) -> None:
         self.run = run
         self._detector = detector
         self._make_stream = make_stream
         self._gates = gates
-        self._streams: dict[_Key, Stream] = {}
+        self._first = first
+        self._leftovers = Leftovers()
+        self._asked: dict[int, _Well] = {}
+        self._streams: dict[Liquid, Stream] = {}
         self._open: dict[int, OpenTrajectory] = {}
 
     def observe(self, keyframe: Keyframe, frame: Frame) -> None:
@@ -92,18 +110,28 @@ class RunAnalyser:
                 reason="No usable frame of this trajectory was captured; please look at the tip.",
             )
             return verdict, {}
-        stream = self._stream(max(seen.keyframes.values(), key=lambda k: k.sequence))
+        last = max(seen.keyframes.values(), key=lambda k: k.sequence)
+        stream = self._stream(last)
         self._settle(stream, seen)
         sample = self._sample(trajectory, seen)
-        case = self._case(stream, seen, sample)
-        volumetric = VolumetricGate().examine(case)
-        speaks = volumetric.outcome is Outcome.FAIL or case.alarming
-        against = volumetric.reason if speaks else ""
+        case = self._case(stream, seen, sample, last)
+        screened = self._gates.screen(case)
+        speaks = screened.outcome is Outcome.FAIL or case.alarming
+        against = screened.reason if speaks else ""
         triage = stream.cascade.triage(case.score, case.missing, against)
         case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
-        self._learn(stream, case, seen, decision)
-        decision = _with_doubt(stream, decision)
+        left = self._leftovers.known(last)
+        if (
+            left is not None
+            and decision.outcome is not Outcome.PASS
+            and explains(left, case, self._delivery(seen, last, left.volume_ul))
+        ):
+            decision = still_there(left, decision)
+        else:
+            well = _Well(stream, _liquid(last), case, dict(seen.looks))
+            decision = self._learn(well, trajectory, decision)
+        self._leftovers.note(last, case, decision)
         verdict = Verdict(
             self.run,
             trajectory,
@@ -116,10 +144,21 @@ class RunAnalyser:
             decision.measured_ul,
             decision.expected_ul,
         )
-        key = next(key for key, known in self._streams.items() if known is stream)
-        evidence = evidence_of(key, stream, case, seen, triage, decision)
+        kept = self._leftovers.known(last)
+        evidence = evidence_of(_liquid(last), stream, case, seen, triage, decision, kept)
         seen.frames.clear()
         return verdict, evidence
+
+    def confirm(self, trajectory: int) -> None:
+        """The operator looked at an undecided well and found it right, or let the run go on.
+
+        If it is one of the first wells, those after it are compared with it.
+        """
+        asked = self._asked.pop(trajectory, None)
+        if asked is None:
+            return
+        self._first.vouched = asked.stream.vouched = True
+        self._take(asked, GateDecision(Outcome.PASS, Gate.OPERATOR, ""))
 
     def recall(self, history: Sequence[Judged]) -> None:
         """Restore the bands from what was judged before a restart."""
@@ -132,13 +171,20 @@ class RunAnalyser:
                 key = (str(pipette), float(capacity), str(liquid))
                 scores = {str(name): float(score) for name, score in known["scores"].items()}
                 normal, volume = bool(known["normal"]), float(known["volume_ul"])
-            except (KeyError, TypeError, ValueError, AttributeError):
+                strength, left = known.get("strength"), known.get("left")
+                if left is not None:
+                    self._leftovers.restore(pipette.split()[0], Leftover(**left))
+            except (KeyError, TypeError, ValueError, AttributeError, IndexError):
                 continue
+            if normal and isinstance(strength, float):
+                self._first.restore(key, strength)
             stream = self._stream_of(key)
             score = scores.get(stream.scorer.name)
             stream.cascade.learn(score, normal=normal, volume_ul=volume)
 
-    def _case(self, stream: Stream, seen: OpenTrajectory, sample: TrajectorySample) -> Case:
+    def _case(
+        self, stream: Stream, seen: OpenTrajectory, sample: TrajectorySample, last: Keyframe
+    ) -> Case:
         missing = tuple(
             kind
             for kind, found in seen.detections.items()
@@ -150,7 +196,13 @@ class RunAnalyser:
         return Case(
             sample, Route.GREY_ZONE, score, readings, missing, stream.learned > 0, p_value,
             clearly_absent=seen.clearly_absent,
+            delivery=self._delivery(seen, last),
         )  # fmt: skip
+
+    def _delivery(self, seen: OpenTrajectory, last: Keyframe, left_ul: float = 0.0) -> Delivery:
+        """What a trajectory shows of its delivery, if the tip held so much before and after, µL."""
+        expected = {kind: frame.expected_ul + left_ul for kind, frame in seen.keyframes.items()}
+        return self._first.held_against(_liquid(last), delivery_of(seen.looks, expected))
 
     def _look(
         self, stream: Stream, seen: OpenTrajectory, kind: KeyframeKind, detection: TipDetection
@@ -186,10 +238,9 @@ class RunAnalyser:
         )
 
     def _stream(self, keyframe: Keyframe) -> Stream:
-        pipette = f"{keyframe.mount} {keyframe.pipette}"
-        return self._stream_of((pipette, keyframe.capacity_ul, keyframe.reagent or ""))
+        return self._stream_of(_liquid(keyframe))
 
-    def _stream_of(self, key: _Key) -> Stream:
+    def _stream_of(self, key: Liquid) -> Stream:
         if key not in self._streams:
             kin = next((s for k, s in self._streams.items() if k[:2] == key[:2]), None)
             self._streams[key] = self._make_stream(kin)
@@ -197,32 +248,48 @@ class RunAnalyser:
 
     def _decide(self, stream: Stream, case: Case, triage: Triage) -> GateDecision:
         if triage.route is Route.CALIBRATION:
-            stream.first_wells += 1
-            # Assumed normal, but a failure that shows is caught even here.
-            gross = VolumetricGate().examine(case)
+            gross = self._gates.screen(case)
             if gross.outcome is Outcome.FAIL:
                 return gross
             if case.alarming or triage.missing:
                 return replace(gross, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR)
-            number = f"Calibration well {stream.first_wells} of {stream.settings.wells}."
+            number = f"Calibration well {stream.learned + 1} of {stream.settings.wells}."
             return replace(gross, outcome=Outcome.PASS, gate=Gate.NONE, reason=number)
         if not triage.to_gate:
-            last = case.readings.get(KeyframeKind.POST_DISPENSE)
+            after = case.readings.get(KeyframeKind.POST_DISPENSE)
             return GateDecision(
                 Outcome.PASS,
                 Gate.NONE,
                 triage.reason,
                 None,
-                None if last is None or last.vague else last.volume_ul,
+                None if after is None or after.vague else after.volume_ul,
                 case.sample.expected_ul.get(KeyframeKind.POST_DISPENSE),
             )
-        decision = examine_in_turn(self._gates, case)
+        decision = self._gates.confirm(case)
         return replace(decision, reason=in_sentences(triage.reason, decision.reason))
 
-    def _learn(
-        self, stream: Stream, case: Case, seen: OpenTrajectory, decision: GateDecision
-    ) -> None:
+    def _learn(self, well: _Well, trajectory: int, decision: GateDecision) -> GateDecision:
+        """Calibrate on a well, unless the operator has to look at it first."""
+        unseen = decision.outcome is Outcome.PASS and decision.gate in (Gate.NONE, Gate.VOLUMETRIC)
+        question = self._first.question(well.liquid, well.case.delivery) if unseen else ""
+        if question:
+            decision = replace(
+                decision, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR, reason=question
+            )
+        first = well.case.route is Route.CALIBRATION and decision.outcome is Outcome.UNDECIDED
+        if question or first:
+            self._asked[trajectory] = well
+            while len(self._asked) > MOST_ASKED:
+                del self._asked[min(self._asked)]
+            return decision
+        self._take(well, decision)
+        return _with_doubt(well.stream, decision)
+
+    def _take(self, well: _Well, decision: GateDecision) -> None:
+        stream, case, looks = well.stream, well.case, well.looks
         normal = decision.outcome is Outcome.PASS
+        if not normal and self._first.proven(well.liquid):
+            return  # the others were not taken on trust, so this one casts no doubt on them
         collecting = stream.cascade.state is CalibrationState.COLLECTING
         whole = len(case.sample.frames) == len(KeyframeKind) and not case.missing
         if collecting and normal and whole and not stream.scorer.ready:
@@ -233,7 +300,8 @@ class RunAnalyser:
             volume = case.sample.volume_ul
             stream.cascade.learn(case.score, normal=normal, volume_ul=volume)
         if normal:
-            stream.learn(case.sample, seen.looks, case.score is not None)
+            self._first.learn(well.liquid, case)
+            stream.learn(case.sample, looks, case.score is not None)
 
     def _sample(self, trajectory: int, seen: OpenTrajectory) -> TrajectorySample:
         last = seen.keyframes[max(seen.keyframes, key=lambda kind: seen.keyframes[kind].sequence)]
@@ -249,6 +317,11 @@ class RunAnalyser:
             expected_ul={kind: frame.expected_ul for kind, frame in seen.keyframes.items()},
             reagent=last.reagent or "",
         )
+
+
+def _liquid(keyframe: Keyframe) -> Liquid:
+    """What wells are compared with each other: one pipette and tip, one liquid."""
+    return f"{keyframe.mount} {keyframe.pipette}", keyframe.capacity_ul, keyframe.reagent or ""
 
 
 def _with_doubt(stream: Stream, decision: GateDecision) -> GateDecision:

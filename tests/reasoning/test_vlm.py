@@ -28,7 +28,7 @@ from aegis_ot.reasoning import (
 from aegis_ot.reasoning.vlm import VlmGate, gate_request
 from aegis_ot.sidecar import SidecarConfig, make_analyser
 from aegis_ot.sidecar.reasoning_routes import gates_of
-from aegis_ot.vision.gates import Case, OperatorGate, examine_in_turn
+from aegis_ot.vision.gates import Case, Gates, OperatorGate
 from aegis_ot.vision.types import TipDetection, TrajectorySample
 from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
 
@@ -105,7 +105,7 @@ def test_a_lens_that_cannot_tell_leaves_it_open() -> None:
 @pytest.mark.parametrize("state", [state for state in State if state is not State.ANSWERED])
 def test_no_answer_decides_nothing_and_the_operator_is_asked(state: State) -> None:
     gate = VlmGate(ScriptedBackend([state]))
-    decision = examine_in_turn([gate, OperatorGate()], case())
+    decision = Gates([gate, OperatorGate()]).confirm(case())
     assert decision.outcome is Outcome.UNDECIDED
     assert decision.gate is Gate.OPERATOR
     assert state.value in decision.reason

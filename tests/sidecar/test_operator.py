@@ -110,3 +110,26 @@ def test_a_fail_is_never_held_back(patient: Robot) -> None:
     patient.cycle(0)
     patient.cycle(1)
     assert patient.verdict(1, wait=0.5)["verdict"]["outcome"] == "fail"
+
+
+def test_the_analyser_hears_of_a_well_that_the_operator_found_right(
+    judged: Robot, analyser: StubAnalyser
+) -> None:
+    assert decide(judged, 1, "pass") == 200  # a fail that is overruled teaches nothing
+    assert decide(judged, 2, "pass") == 200
+    judged.cycle(3)
+    assert judged.verdict(3)["verdict"] is not None
+    assert analyser.confirmed == [2]
+
+
+@pytest.mark.parametrize(("policy", "confirmed"), [("pause", [2]), ("continue", [])])
+def test_a_run_that_was_paused_for_a_look_and_goes_on_was_looked_at(
+    judged: Robot, analyser: StubAnalyser, policy: str, confirmed: list[int]
+) -> None:
+    for trajectory in (1, 2):
+        hold = {"trajectory": trajectory, "seconds": 0.1, "resolution": "verdict", "policy": policy}
+        assert judged.post("hold", hold).status_code == 200
+    assert analyser.confirmed == []
+    judged.cycle(3)
+    assert judged.verdict(3)["verdict"] is not None
+    assert analyser.confirmed == confirmed

@@ -22,13 +22,13 @@ from ...vision.gates import (
     Case,
     ConfirmingGate,
     GateDecision,
+    Gates,
     OperatorGate,
-    examine_in_turn,
+    VolumetricGate,
 )
 from ...vision.measuring import ColumnReading, TipView
 from ...vision.tips import pipette_class, tip_for
 from ...vision.types import TrajectorySample
-from ...vision.volumetric_gate import VolumetricGate
 from ...vocabulary import Gate, KeyframeKind, Outcome, Route
 from .lopo import ALPHA, HeldOut, ScoredWell
 
@@ -97,7 +97,7 @@ class _Plate:
         settings = replace(PRESETS["default"], wells=len(leading))
         self._cascade = Cascade(self._name, settings)
         self._reader = MeasuredColumns()
-        self._gates = (VolumetricGate(), *asked, OperatorGate())
+        self._gates = Gates((VolumetricGate(), *asked, OperatorGate()))
         self._banded = len(leading) >= BAND_WELLS
         for well in leading:
             self._reader.learn(self._looks(well.sample), well.sample.expected_ul)
@@ -122,13 +122,13 @@ class _Plate:
         case = Case(
             sample, Route.GREY_ZONE, well.score, readings, missing, p_value=p_value, alarm_p=alarm
         )
-        volumes = self._gates[0].examine(case)
+        volumes = self._gates.screen(case)
         contradiction = volumes.reason if volumes.outcome is Outcome.FAIL or case.alarming else ""
         triage = self._triage(well, case, contradiction)
         if not triage.to_gate:
             decision = GateDecision(Outcome.PASS, Gate.NONE, triage.reason)
         else:
-            decision = examine_in_turn(self._gates, replace(case, route=triage.route))
+            decision = self._gates.confirm(replace(case, route=triage.route))
         normal = decision.outcome is Outcome.PASS
         self._cascade.learn(well.score, normal=normal, volume_ul=sample.volume_ul)
         if normal and KeyframeKind.TRANSIT in looks:

@@ -1,0 +1,194 @@
+"""Simulated runs in which all that is wrong looks alike, and cameras that show nothing.
+
+Part of ``python -m benchmarks.live_runs``. A run counts as held if it stops before anything passes
+that should not: at a failed or undecided well, at a question, or at a view that tells nothing.
+"""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from itertools import islice
+from typing import Any
+
+from .live_runs import FAULTS, Run, is_question, keyframes_of, session_of
+
+WELLS = 24
+DRIFT = tuple(range(100, 0, -5))
+"""Percent delivered, well by well, of a failure that drifts in."""
+
+DRIFTED = 60
+"""Percent delivered at which such a run must have been held."""
+
+CAMERA_FROM = (0, 5, 7)
+"""Keyframes from which the camera shows nothing: the run's first, and two of its second well."""
+
+
+def measure(runs: Sequence[Run], progress: bool = False) -> dict[str, Any]:
+    """What was held, and what passed in silence, by case."""
+    cases: dict[str, Callable[[Run], str]] = {
+        **{f"all wells {fault}": _all_wells(fault) for fault in FAULTS},
+        "two faults in the first six": _among_the_first,
+        f"drift to {DRIFTED} % delivered": _drifting,
+    }
+    passed: dict[str, list[str]] = defaultdict(list)
+    tried: dict[str, int] = defaultdict(int)
+    for number, run in enumerate(runs):
+        begun = time.monotonic()
+        for case, trial in cases.items():
+            tried[case] += 1
+            wrong = trial(run)
+            if wrong:
+                passed[case].append(f"{run}: {wrong}")
+        for spoiled in ("none", *_views()):
+            for start in CAMERA_FROM if spoiled != "none" else (0,):
+                case = f"camera {spoiled}" if spoiled != "none" else "sound camera held"
+                tried[case] += 1
+                wrong = camera_trial(run, spoiled, start)
+                if wrong:
+                    passed[case].append(f"{run} from keyframe {start}: {wrong}")
+        if progress:
+            took = time.monotonic() - begun
+            sys.stderr.write(f"silent passes, run {number + 1} of {len(runs)}: {took:.0f} s\n")
+    return {
+        "frames": "simulated",
+        "cases": [
+            {"case": case, "tried": tried[case], "wrong": passed[case]} for case in tried
+        ],
+    }  # fmt: skip
+
+
+def show(found: dict[str, Any]) -> str:
+    """As text."""
+    lines = [
+        "Runs on simulated frames in which all that is wrong looks alike, and cameras that show "
+        "nothing: tried, and passed in silence"
+    ]
+    for row in found["cases"]:
+        lines.append(f"{row['case']:32} {row['tried']:5} {len(row['wrong']):5}")
+    lines += [
+        f"passed in silence, {row['case']}: {run}" for row in found["cases"] for run in row["wrong"]
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _verdicts(run: Run, faults: Sequence[str], wells: int) -> Iterator[Any]:
+    """Verdicts of a run whose operator finds sound wells right."""
+    from aegis_ot.sidecar import make_analyser
+    from aegis_ot.simulation import SimulatedCamera
+
+    struck = {fault.rpartition("#")[2] for fault in faults}
+    camera = SimulatedCamera(run.seed, faults, session_of(run))
+    analyser: Any = make_analyser().begin("run")
+    for number, keyframes in enumerate(keyframes_of(run, wells)):
+        for keyframe in keyframes:
+            camera.announce(keyframe)
+            analyser.observe(keyframe, camera.frame_after(0.0, 5.0))
+        verdict = analyser.judge(number)[0]
+        yield verdict
+        if is_question(verdict) and str(number + 1) not in struck:
+            analyser.confirm(number)
+
+
+def _all_wells(fault: str) -> Callable[[Run], str]:
+    def trial(run: Run) -> str:
+        faults = [f"{fault}@#{number}" for number in range(1, WELLS + 1)]
+        for number, verdict in enumerate(_verdicts(run, faults, WELLS)):
+            if verdict.outcome.value != "pass":
+                return f"held at well {number + 1} only" if number else ""
+        return f"all {WELLS} wells passed"
+
+    return trial
+
+
+def _among_the_first(run: Run) -> str:
+    """Two of a liquid's first six wells go wrong; each must be held."""
+    kinds = FAULTS[run.seed % len(FAULTS)], FAULTS[(run.seed // 7 + 3) % len(FAULTS)]
+    first = 1 + run.seed % 3
+    places = (first, first + 1 + run.seed % 3)
+    faults = [f"{kind}@#{place}" for kind, place in zip(kinds, places, strict=True)]
+    verdicts = list(_verdicts(run, faults, 6))
+    missed = [
+        fault for fault, place in zip(faults, places, strict=True)
+        if verdicts[place - 1].outcome.value == "pass"
+    ]  # fmt: skip
+    return f"passed {', '.join(missed)}" if missed else ""
+
+
+def _drifting(run: Run) -> str:
+    faults = [f"partial:{share}@#{n + 1}" for n, share in enumerate(DRIFT) if share < 100]
+    last = DRIFT.index(DRIFTED)
+    # Whoever is asked about the first well, which is sound, says so.
+    for number, verdict in enumerate(islice(_verdicts(run, faults, len(DRIFT)), last + 1)):
+        if verdict.outcome.value != "pass" and not (number == 0 and is_question(verdict)):
+            return ""
+    return f"passed down to {DRIFTED} % delivered"
+
+
+def camera_trial(run: Run, spoiled: str, start: int) -> str:
+    """What is wrong with what the view's watch says: empty if it says what it should.
+
+    Args:
+        run: Whose frames are spoiled.
+        spoiled: How: ``"none"``, or one of the views below.
+        start: Keyframe from which they are.
+    """
+    from aegis_ot.sidecar import make_detector
+    from aegis_ot.simulation import SimulatedCamera
+    from aegis_ot.vision.view import ViewWatch
+
+    session, views = session_of(run), _views()
+    camera = SimulatedCamera(run.seed, (), session)
+    turned = SimulatedCamera(run.seed, (), replace(session, look=(0.0, 0.0, 230.0)))
+    watch = ViewWatch(make_detector())
+    wells = 6 if spoiled == "none" else 3
+    keyframes = [keyframe for well in keyframes_of(run, wells) for keyframe in well]
+    before = None
+    for number, keyframe in enumerate(keyframes):
+        bad = spoiled != "none" and number >= start
+        source = turned if bad and spoiled == "misaimed" else camera
+        source.announce(keyframe)
+        for again in (True, False):
+            image = source.frame_after(0.0, 5.0).image
+            if bad and spoiled == "frozen":
+                image = image if before is None else before
+            elif bad:
+                image = views[spoiled](image, number)
+            trouble = watch.look(keyframe, image, again=again)
+            if trouble is None:
+                break
+        before = image
+        if trouble is not None and not bad:
+            return f"held at sound keyframe {number}: {trouble.kind.value}"
+        if trouble is not None:
+            named = trouble.kind.value == spoiled
+            return "" if named else f"called {trouble.kind.value}"
+        # A frozen camera shows itself with its second picture.
+        if bad and number - start >= (2 if spoiled == "frozen" and start == 0 else 1):
+            return "not noticed within two keyframes"
+    return ""
+
+
+def _views() -> dict[str, Callable[[Any, int], Any]]:
+    import cv2
+    import numpy as np
+
+    def noisy(image: Any, seed: int) -> Any:
+        spread = np.random.default_rng(seed).normal(0.0, 2.0, image.shape)
+        return np.clip(image + spread, 0, 255).astype(np.uint8)
+
+    def blurred(image: Any, px: float) -> Any:
+        """By so many px of a frame of 480 lines."""
+        return cv2.GaussianBlur(image, (0, 0), px * image.shape[0] / 480.0)
+
+    return {
+        "frozen": lambda image, seed: image,
+        "misaimed": lambda image, seed: image,
+        "dark": lambda image, seed: noisy(image * 0.03, seed),
+        "covered": lambda image, seed: noisy(blurred(image, 60.0) * 0.5, seed),
+        "blown_out": lambda image, seed: noisy(image * 15.0, seed),
+        "blurred": lambda image, seed: noisy(blurred(image, 6.0), seed),
+    }
