@@ -144,6 +144,22 @@ class ModelSettings(Section):
     timeout_s: Annotated[float, Field(gt=0, le=600)] = 60.0
 
 
+class GateModelSettings(Section):
+    """The vision model as a gate of Layer 2.
+
+    Attributes:
+        name: A smaller model that is asked first, named as ``model.name`` is; that one is asked
+            where it is unsure. ``None``: ``model.name`` at once.
+        budget_per_run: What a run may cost, in the currency of the price table; ``None``: no limit.
+            When it is spent, flagged wells go to the operator.
+        calls_per_run: How often a model may be asked in a run; ``None``: no limit.
+    """
+
+    name: Annotated[str, Field(min_length=1)] | None = None
+    budget_per_run: Annotated[float, Field(ge=0)] | None = None
+    calls_per_run: Annotated[int, Field(ge=0)] | None = None
+
+
 class SidecarConfig(Section):
     """All settings of a sidecar. Use :meth:`load` for errors meant for people.
 
@@ -163,6 +179,7 @@ class SidecarConfig(Section):
     operator: OperatorSettings = OperatorSettings()
     notifications: NotificationSettings = NotificationSettings()
     model: ModelSettings = ModelSettings()
+    gate_model: GateModelSettings = GateModelSettings()
 
     @field_validator("token")
     @classmethod
