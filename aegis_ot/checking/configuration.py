@@ -10,6 +10,7 @@
     labware = ["labware"]
     baseline = "aegis-baseline.json"
     timeout = 120
+    strict = true                       # warnings are errors; left out: they are warnings
     model = "openai:MODEL"              # or AEGIS_OT_MODEL; left out: no model is asked
 
     [tool.aegis-ot.severity]
@@ -70,6 +71,7 @@ class Configuration:
     labware: tuple[str, ...] = ()
     baseline: str | None = None
     timeout: float | None = None
+    strict: bool = False
     model: str | None = None
     severity: Mapping[str, str] = field(default_factory=dict)
     waivers: tuple[ConfiguredWaiver, ...] = ()
@@ -164,7 +166,7 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
         raise ConfigurationError(f"{name}: [{TABLE}] must be a table.")
     known = {
         "assay", "select", "ignore", "rules", "labware", "baseline", "timeout", "severity",
-        "waivers", "model",
+        "waivers", "model", "strict",
     }  # fmt: skip
     for key in table:
         if key not in known:
@@ -184,6 +186,9 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
             raise ConfigurationError(
                 f"{name}: {TABLE}.severity.{rule}: expected error, warning or off, found {value!r}."
             )
+    strict = table.get("strict", False)
+    if not isinstance(strict, bool):
+        raise ConfigurationError(f"{name}: {TABLE}.strict: expected true or false.")
     baseline = table.get("baseline")
     if baseline is not None and not isinstance(baseline, str):
         raise ConfigurationError(f"{name}: {TABLE}.baseline: expected a path.")
@@ -198,6 +203,7 @@ def read_configuration(table: Any, folder: Path, name: str) -> Configuration:
         labware=tuple(str(folder / item) for item in reader.texts(table, "labware")),
         baseline=None if baseline is None else str(folder / baseline),
         timeout=None if timeout is None else float(timeout),
+        strict=strict,
         model=model,
         severity={str(rule).upper(): value for rule, value in severity.items()},
         waivers=reader.waivers(table.get("waivers", [])),

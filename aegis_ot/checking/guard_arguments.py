@@ -8,7 +8,7 @@ from __future__ import annotations
 import ast
 from typing import Any
 
-_NAMES = ("assay", "roles", "select", "ignore")
+_NAMES = ("assay", "roles", "select", "ignore", "rules")
 
 
 def guard_arguments(text: str) -> dict[str, Any]:

@@ -33,6 +33,7 @@ def problem_of(error: BaseException, script_name: str) -> Problem:
         f"aegis-ot itself failed: {in_words(error)} ({place.name}, line {place.lineno}). "
         "This is a bug in aegis-ot; please report it.",
         line,
+        bug=True,
     )
 
 

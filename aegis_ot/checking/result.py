@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..preflight import Database, Report
-from ..preflight.dossier import Dossier
-from ..preflight.judging import RoleEvidence, Waived, verdict_of
-from ..preflight.opinion import unanswered
+from ..preflight.judging import RoleEvidence, Waived, unanswered, verdict_of
+from ..preflight.opinion import Dossier
 from ..vocabulary import Finding, Remark, Undecided, VerdictWord
 
 if TYPE_CHECKING:
@@ -25,11 +24,13 @@ class Problem:
         message: One sentence for people, without file name and line.
         line: 1-based source line at which it stopped, if known.
         missing: The module that it imports and that is not found, if that is why.
+        bug: Whether aegis-ot itself failed.
     """
 
     message: str
     line: int | None = None
     missing: str = ""
+    bug: bool = False
 
 
 @dataclass(frozen=True)

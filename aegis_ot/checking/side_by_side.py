@@ -8,12 +8,12 @@ import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import ExitStack
-from pathlib import Path
 from types import TracebackType
 from typing import TypeVar
 
 from .rehearser import Rehearser
 
+Item = TypeVar("Item")
 T = TypeVar("T")
 
 _LISTEN_S = 0.2
@@ -73,46 +73,46 @@ class LazyRehearser:
 
 
 def check_each(
-    files: Sequence[Path],
+    items: Sequence[Item],
     jobs: int,
     rules: tuple[str, ...],
-    check: Callable[[Path, LazyRehearser], T],
-    done: Callable[[T], None],
+    check: Callable[[Item, LazyRehearser], T],
+    done: Callable[[T], None] = lambda _: None,
 ) -> list[T]:
-    """What comes of each file, in the order of the files, however long each one takes.
+    """What comes of each item, in the order of the items, however long each one takes.
 
     Whatever is raised here, an interruption by the user included, ends all rehearsals first.
 
     Args:
-        files: Protocol files.
+        items: Protocol files, or what stands for them.
         jobs: How many to check at a time.
         rules: Paths of further rules.
-        check: Checks one file, in a thread of its own if there are several jobs.
-        done: Told of each result, in the order of the files, in the caller's thread.
+        check: Checks one, in a thread of its own if there are several jobs.
+        done: Told of each result, in the order of the items, in the caller's thread.
     """
     results: list[T] = []
-    jobs = max(1, min(jobs, len(files)))
+    jobs = max(1, min(jobs, len(items)))
     with ExitStack() as stack:
         rehearsers = [stack.enter_context(LazyRehearser(rules)) for _ in range(jobs)]
         if jobs == 1:
-            for file in files:
-                results.append(check(file, rehearsers[0]))
+            for item in items:
+                results.append(check(item, rehearsers[0]))
                 done(results[-1])
             return results
         idle: queue.SimpleQueue[LazyRehearser] = queue.SimpleQueue()
         for rehearser in rehearsers:
             idle.put(rehearser)
 
-        def work(file: Path) -> T:
+        def work(item: Item) -> T:
             rehearser = idle.get()
             try:
-                return check(file, rehearser)
+                return check(item, rehearser)
             finally:
                 idle.put(rehearser)
 
         pool = ThreadPoolExecutor(jobs, "aegis-ot-check")
         try:
-            for future in [pool.submit(work, file) for file in files]:
+            for future in [pool.submit(work, item) for item in items]:
                 while not future.done():
                     wait([future], _LISTEN_S)
                 results.append(future.result())

@@ -4,16 +4,25 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import time
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 from ..errors import AegisError
-from ..preflight import Database, Options, Report, check_script, load_database
-from ..preflight.dossier import Dossier
-from ..preflight.dossier_making import check_with_dossier
+from ..preflight import (
+    Database,
+    Options,
+    Report,
+    check_script,
+    judge,
+    load_database,
+    record,
+)
 from ..preflight.examples import ExampleResult, run_examples
+from ..preflight.opinion import Dossier, check_with_dossier
 from ..preflight.rehearsal import (
     Parameter,
+    Recording,
     Script,
     declared_parameters,
     interrupted_after,
@@ -64,12 +73,46 @@ class Check(_OfProtocol):
 
 
 @dataclass(frozen=True)
+class Timed:
+    """A report, and what it took to come to it, s."""
+
+    report: Report
+    rehearsal_s: float
+    verdict_s: float
+
+
+@dataclass(frozen=True)
+class TimedCheck(_OfProtocol):
+    """Rehearse a protocol and judge it, by the clock."""
+
+    def perform(self) -> Timed:
+        """Judge."""
+        start = time.perf_counter()
+        recording = record(self.script, self.timeout_s)
+        recorded = time.perf_counter()
+        report = judge(recording, _database(self.rules), self.options)
+        return Timed(report, recorded - start, time.perf_counter() - recorded)
+
+
+@dataclass(frozen=True)
+class Examined:
+    """A report, what a model should know of the protocol, and what both were made from."""
+
+    report: Report
+    dossier: Dossier
+    recording: Recording
+
+
+@dataclass(frozen=True)
 class CheckWithDossier(_OfProtocol):
     """Rehearse a protocol, judge it, and put together what a model should know of it."""
 
-    def perform(self) -> tuple[Report, Dossier]:
+    def perform(self) -> Examined:
         """Judge."""
-        return check_with_dossier(self.script, _database(self.rules), self.options, self.timeout_s)
+        report, dossier, reading = check_with_dossier(
+            self.script, _database(self.rules), self.options, self.timeout_s
+        )
+        return Examined(report, dossier, reading.recording)
 
 
 @dataclass(frozen=True)

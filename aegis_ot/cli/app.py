@@ -66,6 +66,7 @@ def run() -> None:
 # Each module adds its commands to the app.
 from . import (  # noqa: E402
     checks,  # noqa: F401
+    corpora,  # noqa: F401
     datasets,  # noqa: F401
     demo,  # noqa: F401
     dryruns,  # noqa: F401
@@ -73,7 +74,10 @@ from . import (  # noqa: E402
     inspections,  # noqa: F401
     layer2,  # noqa: F401
     llm,  # noqa: F401
+    robots,  # noqa: F401
     rulebook,  # noqa: F401
+    runs,  # noqa: F401
+    services,  # noqa: F401
     sidecars,  # noqa: F401
     trainings,  # noqa: F401
     worldmodels,  # noqa: F401

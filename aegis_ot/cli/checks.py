@@ -13,6 +13,7 @@ import typer
 
 from ..checking import Asking, CheckRun, Configuration, Project, check_projects, configurations_of
 from ..checking.baseline import baseline_text, read_baseline
+from ..checking.roles_template import roles_template
 from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
 from ..reports import RENDERERS, SHOW_ROLES, check_text
@@ -27,6 +28,7 @@ from .judging import (
     Parameters,
     Rules,
     Select,
+    Strict,
     Timeout,
     one_of,
     settings_of,
@@ -48,6 +50,7 @@ def check(
     rules: Rules = None,
     select: Select = None,
     ignore: Ignore = None,
+    strict: Strict = False,
     explain_roles: Annotated[
         bool, typer.Option("--explain-roles", help="Show what each well is taken for, and why.")
     ] = False,
@@ -63,6 +66,13 @@ def check(
     ] = None,
     write_baseline: Annotated[
         Path | None, typer.Option(help="Write such a file from what is found now.")
+    ] = None,
+    roles_file: Annotated[
+        Path | None,
+        typer.Option(
+            "--roles-template",
+            help="Write the guard's roles for one protocol, filled with what is known.",
+        ),
     ] = None,
     jobs: Annotated[
         int | None,
@@ -92,6 +102,8 @@ def check(
             "written then."
         )
     files = _each_once(files)
+    if roles_file and len(files) > 1:
+        raise ConfigurationError("--roles-template takes one protocol at a time.")
     projects = []
     for configured, own in configurations_of(files, Path.cwd()):
         judging, database = settings_of(
@@ -100,6 +112,7 @@ def check(
             rules=rules,
             select=select,
             ignore=ignore,
+            strict=strict,
             parameter=parameter,
             csv=csv,
             labware=labware,
@@ -107,6 +120,7 @@ def check(
         )
         inputs = [*files, *judging.csv_parameters.values(), *(rules or ()), *(labware or ())]
         spared("--write-baseline", write_baseline, inputs)
+        spared("--roles-template", roles_file, inputs)
         known = baseline or (Path(configured.baseline) if configured.baseline else None)
         spared("--output", output, [*inputs, *([known] if known else ())])
         settings = dataclasses.replace(
@@ -130,6 +144,9 @@ def check(
         typer.echo(check_text(dataclasses.replace(run, protocols=silent)), err=True, nl=False)
         raise typer.Exit(BROKEN)
     _show(run, output_format, output)
+    if roles_file:
+        write_text(roles_file, roles_template(run.protocols[0], projects[0].database))
+        typer.echo(f"{roles_file}: the roles, to be completed and pasted.", err=True)
     raise typer.Exit(run.exit_code)
 
 

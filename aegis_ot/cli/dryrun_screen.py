@@ -14,7 +14,7 @@ from rich.text import Text
 
 from ..dryrun import DryRun, DryRunSettings, Progress, WellRow, dry_run
 from ..preflight.checking import summary
-from ..reports import dry_run_html
+from ..reports.run_html import run_report_html
 from ..sidecar import Judged, make_analyser
 from ..sidecar.config import CascadeSettings
 from ..vocabulary import Outcome, counted
@@ -111,7 +111,8 @@ def _table(rows: Sequence[WellRow]) -> Table:
 def write_report(path: Path, results: Sequence[DryRun]) -> None:
     """Write the HTML report, making its folder."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(dry_run_html(results), encoding="utf-8")
+    page = run_report_html([result.reported for result in results], "aegis_ot, simulated")
+    path.write_text(page, encoding="utf-8")
     console.print(f"Report: {path}", markup=False, soft_wrap=True)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import difflib
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -27,6 +28,7 @@ Rules = Annotated[
 ]
 Select = Annotated[list[str] | None, typer.Option("--select", help="Only these rules.")]
 Ignore = Annotated[list[str] | None, typer.Option("--ignore", help="Not these rules.")]
+Strict = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
 Parameters = Annotated[
     list[str] | None, typer.Option("--parameter", help="Runtime parameter as NAME=VALUE.")
 ]
@@ -57,6 +59,7 @@ def settings_of(
     csv: Sequence[str] | None,
     labware: Sequence[Path] | None,
     timeout: float | None,
+    strict: bool = False,
 ) -> tuple[CheckSettings, Database]:
     """What the options say, else the project, and the rules in force.
 
@@ -67,6 +70,7 @@ def settings_of(
     rule_paths = tuple(str(path) for path in rules or ()) or configured.rules
     database = load_database(rule_paths)
     options = _options(database, configured, assay, select, ignore)
+    options = replace(options, strict=strict or configured.strict)
     if options.leave_none(database):
         where = f" and [{TABLE}] of {configured.name}" if configured.name else ""
         told = f"No rule is left to judge by: --select, --ignore{where} leave none."

@@ -1,10 +1,10 @@
 """Taps the instruments of one protocol run, so that others can listen. Robot side."""
 
-from .held import Row, is_spot
 from .labware import LabwareInfo, WellInfo
 from .names import NameBinding, NameCollector
 from .operation import Event, EventKind, Listener, Operation, OperationKind, Pipette
 from .tap import Tap, tapped
+from .value_reader import Row, is_spot
 
 __all__ = [
     "Event",

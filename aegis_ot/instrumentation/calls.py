@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import weakref
 from collections import deque
 from collections.abc import Mapping
 from typing import Any
@@ -46,6 +47,7 @@ class CallReader:
 
     def __init__(self, core: Any, pipette: Pipette, wells: WellResolver) -> None:
         self._core = core
+        self._weak_core = weakref.ref(core)
         self._pipette = pipette
         self._wells = wells
         self._parameters = {
@@ -71,10 +73,6 @@ class CallReader:
             return self._operation(name, values, site)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
             return None
-
-    def done(self, operation: Operation) -> None:
-        """The operation went through; let go of the core."""
-        object.__setattr__(operation, "core", None)
 
     def move_above(self, operation: Operation) -> None:
         """Move to the top of the first well of a recent operation, unheard by listeners.
@@ -139,7 +137,7 @@ class CallReader:
             lines=site.lines,
             call=site.call,
             mixing=site.mixing,
-            core=self._core,
+            core=self._weak_core,
         )
         aimed = getattr(getattr(location, "labware", None), "is_well", False) and not disposal
         self._targets.append((operation, location, well_core if aimed else None))

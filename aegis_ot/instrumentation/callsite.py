@@ -8,17 +8,21 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import dataclass
+from collections.abc import Callable
 from types import FrameType
+from typing import NamedTuple
+
+from .own_code import is_helper_file
 
 # Functions that mix when they stand between the protocol and a core: the context's own, and
 # the liquid-class transfers' (``pre_wet`` aspirates and dispenses in the source to wet the tip).
 _MIXING = frozenset({"mix", "dynamic_mix", "pre_wet"})
 _API = os.sep + os.path.join("opentrons", "protocol_api", "")
 
+_PROTOCOL, _HELPER, _CONTEXT, _INSIDE_API, _OTHER = range(5)
 
-@dataclass(frozen=True)
-class CallSite:
+
+class CallSite(NamedTuple):
     """Where in the protocol an operation comes from.
 
     Attributes:
@@ -37,29 +41,83 @@ class CallSite:
         return self.lines[0] if self.lines else None
 
 
-def find_call_site(file_name: str, skip: int = 1) -> CallSite:
-    """Walk the stack from the caller outwards.
+class ProtocolStack:
+    """The frames of one protocol's functions on the call stack.
+
+    A frame that a walk has met is held until a later walk, or the end, finds that its function
+    has returned; Python keeps the last values of its local names that long.
 
     Args:
         file_name: ``co_filename`` of the protocol's code.
-        skip: Frames to leave out at the inner end.
+
+    Attributes:
+        returned: Gets each such frame, innermost first; ``None`` while nobody asks for them.
     """
-    frame: FrameType | None = sys._getframe(skip + 1)
-    lines: list[int] = []
-    call, mixing = "", False
-    while frame is not None:
-        code = frame.f_code
-        if code.co_filename == file_name:
-            lines.append(frame.f_lineno)
-        elif lines:
-            if code.co_name == "<module>":
+
+    def __init__(self, file_name: str) -> None:
+        self.returned: Callable[[FrameType], None] | None = None
+        self._kinds = {file_name: _PROTOCOL}
+        self._running: list[FrameType] = []
+        self._outermost: FrameType | None = None
+
+    def call_site(self, skip: int = 1) -> CallSite:
+        """Walk the stack from the caller outwards.
+
+        Args:
+            skip: Frames to leave out at the inner end.
+        """
+        frame: FrameType | None = sys._getframe(skip + 1)
+        kinds = self._kinds
+        lines: list[int] = []
+        own: list[FrameType] = []
+        within = 0  # how many of them the protocol's outermost frame called, itself included
+        call, mixing = "", False
+        while frame is not None:
+            code = frame.f_code
+            kind = kinds.get(code.co_filename)
+            if kind is None:
+                kind = kinds[code.co_filename] = _kind_of(code.co_filename)
+            if kind == _PROTOCOL:
+                lines.append(frame.f_lineno)
+                own.append(frame)
+                within = len(own)
+                if frame is self._outermost:
+                    break  # what called it is known, and nothing of the protocol
+            elif lines and code.co_name == "<module>":
                 break  # the loader's call of ``run``: the protocol goes no further out
-        elif _API in code.co_filename:
-            name = code.co_name
-            if name in _MIXING:
-                mixing = True
-            # Decorators stand in frames of their own; the methods are what users know.
-            if code.co_filename.endswith("_context.py") and name[0] not in "_<":
-                call = name
-        frame = frame.f_back
-    return CallSite(tuple(lines), call, mixing)
+            elif kind == _HELPER:
+                own.append(frame)
+            elif kind != _OTHER and not lines:
+                name = code.co_name
+                if name in _MIXING:
+                    mixing = True
+                # Decorators stand in frames of their own; the methods are what users know.
+                if kind == _CONTEXT and name[0] not in "_<":
+                    call = name
+            frame = frame.f_back
+        if self.returned is not None and within:
+            del own[within:]
+            self._now_running(own)
+        return CallSite(tuple(lines), call, mixing)
+
+    def close(self) -> None:
+        """The run is over: tell of the frames that are left, and let go of them."""
+        self._now_running([])
+        self._outermost = None
+
+    def _now_running(self, own: list[FrameType]) -> None:
+        before = self._running
+        if own == before:
+            return
+        self._running = own
+        self._outermost = own[-1] if own else None
+        if self.returned is not None:
+            for frame in before:
+                if frame not in own:
+                    self.returned(frame)
+
+
+def _kind_of(file_name: str) -> int:
+    if _API in file_name:
+        return _CONTEXT if file_name.endswith("_context.py") else _INSIDE_API
+    return _HELPER if is_helper_file(file_name) else _OTHER

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from .callsite import find_call_site
+from .callsite import ProtocolStack
 from .modules import MODULE_ACTIONS, action_text, carried_by
 from .operation import Event, EventKind, Listener
 from .wells import WellResolver
@@ -21,7 +21,7 @@ class EventTap:
         core: The protocol core.
         wells: Where labware is registered.
         listeners: Told of each event after it happened.
-        file_name: ``co_filename`` of the protocol's code.
+        stack: Finds the protocol's lines.
         replace: Puts a method in front of an instance's own until the tap is removed.
     """
 
@@ -30,13 +30,13 @@ class EventTap:
         core: Any,
         wells: WellResolver,
         listeners: Sequence[Listener],
-        file_name: str,
+        stack: ProtocolStack,
         replace: Replace,
     ) -> None:
         self._core = core
         self._wells = wells
         self._listeners = listeners
-        self._file_name = file_name
+        self._stack = stack
         self._replace = replace
         self._liquids: dict[str, tuple[str, str]] = {}
 
@@ -89,7 +89,7 @@ class EventTap:
             listener.event(event)
 
     def _line(self) -> int | None:
-        return find_call_site(self._file_name, skip=2).line
+        return self._stack.call_site(skip=2).line
 
     def _loaded(self, labware_core: Any) -> None:
         info = self._wells.register(labware_core)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -18,6 +19,9 @@ class WellInfo:
         diameter: Of a round well, mm; ``None`` for a rectangular one.
         x_size: Of a rectangular well, mm.
         y_size: Likewise.
+        bottom: Shape of the bottom: ``flat``, ``u``, ``v``, or ``""`` if the definition has none.
+        sections: Inner geometry from the bottom up, where the definition has one: Opentrons' own
+            sections (``{"shape": "conical", "topHeight": ..., ...}``, heights in mm).
     """
 
     max_volume: float
@@ -27,6 +31,8 @@ class WellInfo:
     diameter: float | None = None
     x_size: float | None = None
     y_size: float | None = None
+    bottom: str = ""
+    sections: tuple[Mapping[str, Any], ...] = ()
 
 
 @dataclass(frozen=True)

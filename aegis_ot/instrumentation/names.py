@@ -1,32 +1,31 @@
 """Which names of the protocol held which wells: the names that the scientist gave.
 
-The local names of each of the protocol's functions are looked at as it returns, through loops
-and helpers, even in helpers that move no liquid.
+The tap walks the stack at each operation and event anyway, to find the protocol's line. The
+functions of the protocol that it meets there are looked at once they have returned, with the
+last values of their local names; the protocol's globals at the end of the run. A function that
+did nothing to the robot, not even load something, is not seen: its names count where another
+name holds what it gave back.
 """
 
 from __future__ import annotations
 
 import sys
-from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from pathlib import Path
 from types import FrameType
 from typing import Any
 
 from ..vocabulary import WellRef
-from .held import DEEPEST, Reader, Row, entries, items
+from .callsite import ProtocolStack
 from .objects import is_member, word_of
-from .own_functions import helper_modules, own_functions
-from .returns import heard_returns
+from .own_code import helper_modules
+from .value_reader import BARE, DEEPEST, Row, ValueReader, entries, is_spot, items
 from .wells import WellResolver
 
 _SHARES_LOCALS = sys.version_info < (3, 13)
 """Whether all who ask for a function's local names get the same dict, brought up to date."""
 _ASKS_FOR_LOCALS = frozenset({"locals", "vars", "f_locals"})
-_MOST_LOOKS = 5000
-"""A function that returns more often computes something: at 10 µs a look it would be felt."""
 
 
 @dataclass(frozen=True)
@@ -64,14 +63,15 @@ class NameCollector:
 
     Args:
         wells: Knows the run's labware.
+        stack: Meets the protocol's functions.
         file_name: ``co_filename`` of the protocol's code.
     """
 
-    def __init__(self, wells: WellResolver, file_name: str) -> None:
-        self._reader = Reader(wells)
+    def __init__(self, wells: WellResolver, stack: ProtocolStack, file_name: str) -> None:
+        self._reader = ValueReader(wells)
+        self._stack = stack
         self._file_name = file_name
         self._bindings: dict[NameBinding, None] = {}
-        self._returns: Counter[tuple[str, int]] = Counter()
         self._looks: dict[tuple[str, str], tuple[int, ...]] = {}
         self._labware: dict[str, Any] = {}
         self._places: set[NameBinding] = set()
@@ -91,7 +91,7 @@ class NameCollector:
     def look(self, names: Mapping[str, Any], function: str, line: int) -> None:
         """Take in the local (or global) names of one function."""
         for name, value in list(names.items()):
-            if not name.startswith("__"):
+            if not name.startswith("__") and _may_hold(value):
                 # A well of another context, say: no reason to stop the protocol.
                 with suppress(Exception):
                     if self._is_new(function, name, value):
@@ -117,32 +117,25 @@ class NameCollector:
             return  # what an object holds is looked at again and again, by all of its methods
         read = self._reader
         if depth < DEEPEST:
-            for key, item in entries(value):
+            held = entries(value)
+            if _is_labware_definition(held):
+                return
+            for key, item in held:
                 said = word_of(key) if is_member(key) else key
-                if isinstance(said, (str, int, float)):
+                if _may_hold(item) and isinstance(said, (str, int, float)):
                     self._take(f"{name}[{said!r}]", item, function, line, depth + 1)
             for key, item in read.fields(value):
-                self._take(f"{name}.{key}", item, function, line, depth + 1)
-        binding = NameBinding(
-            name,
-            read.wells(value, depth),
-            function,
-            line,
-            read.labware(value, depth),
-            read.spots(value, depth),
-            read.rows(value),
-            read.values(value),
-            read.numbers(value),
-        )
+                if _may_hold(item):
+                    self._take(f"{name}.{key}", item, function, line, depth + 1)
+        held_by_it = read.read(value, depth)
+        if not any(held_by_it):
+            return
+        binding = NameBinding(name, held_by_it.wells, function, line, *held_by_it[1:])
         if len(binding.labware) == 1 and issubclass(type(value), read.labware_type):
             self._labware[binding.labware[0]] = value
         if read.is_place(value):
             self._places.add(binding)
-        self._add(binding)
-
-    def _add(self, found: NameBinding) -> None:
-        if any((found.wells, found.labware, found.spots, found.rows, found.values, found.numbers)):
-            self._bindings.setdefault(found)
+        self._bindings.setdefault(binding)
 
     def _look_at_notes(self) -> None:
         """What the protocol wrote on the wells themselves."""
@@ -154,54 +147,48 @@ class NameCollector:
                     if ref:
                         notes.setdefault(name, []).append(Row((("", ref[0]), (name, said))))
         for name, rows in notes.items():
-            self._add(NameBinding(name, (), "<wells>", 0, rows=tuple(rows)))
+            self._bindings.setdefault(NameBinding(name, (), "<wells>", 0, rows=tuple(rows)))
 
     @contextmanager
-    def watching(self, namespace: Mapping[str, Any], text: str = "") -> Iterator[None]:
-        """Look at the names of the protocol's functions as they return, in this thread.
+    def watching(self, namespace: Mapping[str, Any]) -> Iterator[None]:
+        """Look at the local names of the protocol's functions, and in the end at its globals.
 
         Args:
             namespace: The protocol's globals.
-            text: Its source, where there is no file to read it from.
         """
-        modules = helper_modules(namespace)
-        self._reader.modules = {str(namespace.get("__name__", "builtins"))}
-        self._reader.modules.update(module.__name__ for module in modules)
-        files = {self._file_name, *(str(module.__file__) for module in modules)}
-        functions = {
-            id(function): function
-            for names in (namespace, *map(vars, modules))
-            for function in own_functions(names, files)
-        }
-
-        def source(file_name: str) -> str:
-            if text and file_name == self._file_name:
-                return text
-            try:
-                return Path(file_name).read_text(encoding="utf-8")
-            except (OSError, ValueError):
-                return ""
-
+        self._reader.own_modules[str(namespace.get("__name__", "builtins"))] = True
+        self._stack.returned = self._look_at
         try:
-            with heard_returns(tuple(functions.values()), source, self._look_at):
-                yield
-        finally:
-            for module in modules:
+            yield
+            self._stack.close()
+            for module in helper_modules(namespace):
                 self.look(vars(module), f"{module.__name__}.<module>", 0)
+            self.look(namespace, "<module>", 1)
             with suppress(Exception):
                 self._look_at_notes()
+        finally:
+            self._stack.returned = None
+            self._stack.close()
             self._labware.clear()
 
     def _look_at(self, frame: FrameType) -> None:
         code = frame.f_code
+        if code.co_name.startswith("<"):
+            return  # comprehensions and lambdas bind no names that tell of a well's use
         if _SHARES_LOCALS and not _ASKS_FOR_LOCALS.isdisjoint(code.co_names):
             return  # to look would write into the dict that the protocol itself holds
-        place = (code.co_filename, code.co_firstlineno)
-        self._returns[place] += 1
-        if self._returns[place] > _MOST_LOOKS:
-            return
         if code.co_filename == self._file_name:
             self.look(frame.f_locals, code.co_name, code.co_firstlineno)
         else:
             module = frame.f_globals.get("__name__", "")
             self.look(frame.f_locals, f"{module}.{code.co_name}", 0)
+
+
+def _may_hold(value: Any) -> bool:
+    """Whether a value can tell of wells at all: most names hold numbers, texts and functions."""
+    return type(value) not in BARE or is_spot(value)
+
+
+def _is_labware_definition(held: Sequence[tuple[Any, Any]]) -> bool:
+    """Whether a dict defines labware, and so names wells without telling of their use."""
+    return {"schemaVersion", "wells", "ordering"} <= {key for key, _ in held if type(key) is str}

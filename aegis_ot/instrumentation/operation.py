@@ -8,6 +8,7 @@ The core of an ``InstrumentContext`` is where every path meets, at every apiLeve
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any, Protocol
@@ -46,6 +47,10 @@ class Pipette:
     mount: str
     channels: int
     max_volume: float
+
+
+def _no_core() -> None:
+    """Stands for the core of an operation that was made by hand."""
 
 
 @dataclass(frozen=True)
@@ -90,8 +95,8 @@ class Operation:
     lines: tuple[int, ...] = ()
     call: str = ""
     mixing: bool = False
-    core: Any = field(default=None, repr=False, compare=False)
-    """The instrument core, from ``before`` to the end of the operation; ``None`` afterwards."""
+    core: Callable[[], Any] = field(default=_no_core, repr=False, compare=False)
+    """Gives the instrument core, as a weak reference does: ``None`` once the run is over."""
 
     @property
     def well(self) -> WellRef | None:

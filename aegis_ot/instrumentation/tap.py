@@ -15,7 +15,7 @@ from types import MethodType
 from typing import Any
 
 from .calls import CORE_METHODS, CallReader
-from .callsite import find_call_site
+from .callsite import ProtocolStack
 from .events import EventTap
 from .operation import Listener, Operation, Pipette
 from .wells import WellResolver
@@ -33,11 +33,11 @@ class Tap:
     def __init__(self, protocol: Any, listeners: Sequence[Listener], file_name: str) -> None:
         self._core = protocol._core
         self._listeners = tuple(listeners)
-        self._file_name = file_name
+        self.stack = ProtocolStack(file_name)
         self.wells = WellResolver(self._core)
         self._undo = ExitStack()
         self._readers: dict[str, CallReader] = {}
-        self._events = EventTap(self._core, self.wells, self._listeners, file_name, self._replace)
+        self._events = EventTap(self._core, self.wells, self._listeners, self.stack, self._replace)
         self._protocol = protocol
 
     def install(self) -> None:
@@ -50,6 +50,7 @@ class Tap:
     def remove(self) -> None:
         """Take everything off again and forget the run. Idempotent."""
         self._undo.close()
+        self.stack.close()
         self._readers.clear()
 
     def lift(self, operation: Operation) -> None:
@@ -88,7 +89,7 @@ class Tap:
         def method(core: Any, *args: Any, **kwargs: Any) -> Any:
             if reader.busy:  # a legacy core moves by its own move_to inside an aspirate
                 return original(*args, **kwargs)
-            site = find_call_site(self._file_name)
+            site = self.stack.call_site()
             operation = reader.read(name, args, kwargs, site)
             if operation is None:
                 return original(*args, **kwargs)
@@ -99,7 +100,6 @@ class Tap:
                 result = original(*args, **kwargs)
             finally:
                 reader.busy = False
-            reader.done(operation)
             for listener in self._listeners:
                 listener.after(operation)
             return result

@@ -7,8 +7,12 @@ that knows both.
 
 from __future__ import annotations
 
+import functools
+import json
 from dataclasses import dataclass
 from typing import Any
+
+from opentrons_shared_data import get_shared_data_root
 
 from ..vocabulary import WellRef
 from .labware import LabwareInfo, WellInfo
@@ -220,11 +224,51 @@ def _describe(key: str, labware_core: Any, slot: str) -> LabwareInfo:
         or parameters.get("format") == "trash"
         or "fixedTrash" in (parameters.get("quirks") or ()),
         centers_channels="centerMultichannelOnWells" in (parameters.get("quirks") or ()),
-        wells={name: _describe_well(well) for name, well in definition["wells"].items()},
+        wells=_describe_wells(definition),
     )
 
 
-def _describe_well(well: Any) -> WellInfo:
+def _describe_wells(definition: Any) -> dict[str, WellInfo]:
+    bottoms = {
+        name: str(group.get("metadata", {}).get("wellBottomShape") or "")
+        for group in definition.get("groups", ())
+        for name in group.get("wells", ())
+    }
+    sections = _inner_sections(definition)
+    if not sections and definition.get("namespace") == "opentrons":
+        sections = _newest_inner_sections(str(definition["parameters"]["loadName"]))
+    return {
+        name: _describe_well(well, bottoms.get(name, ""), sections.get(name, ()))
+        for name, well in definition["wells"].items()
+    }
+
+
+def _inner_sections(definition: Any) -> dict[str, tuple[Any, ...]]:
+    """Each well's inner geometry, where the definition has one."""
+    inner = definition.get("innerLabwareGeometry") or {}
+    by_key = {
+        key: tuple(sorted(geometry.get("sections", ()), key=lambda one: one["bottomHeight"]))
+        for key, geometry in inner.items()
+    }
+    found = {
+        name: by_key.get(well.get("geometryDefinitionId"), ())
+        for name, well in definition["wells"].items()
+    }
+    return found if any(found.values()) else {}
+
+
+@functools.cache
+def _newest_inner_sections(load_name: str) -> dict[str, tuple[Any, ...]]:
+    """The same of the newest definition of this name: older ones do without."""
+    try:
+        folder = get_shared_data_root() / "labware" / "definitions" / "2" / load_name
+        newest = max(folder.glob("*.json"), key=lambda path: int(path.stem))
+        return _inner_sections(json.loads(newest.read_text(encoding="utf-8")))
+    except (OSError, ValueError):  # an Opentrons that keeps its definitions elsewhere
+        return {}
+
+
+def _describe_well(well: Any, bottom: str, sections: tuple[Any, ...]) -> WellInfo:
     return WellInfo(
         max_volume=float(well.get("totalLiquidVolume", 0.0)),
         depth=float(well.get("depth", 0.0)),
@@ -233,6 +277,8 @@ def _describe_well(well: Any) -> WellInfo:
         diameter=_float_or_none(well.get("diameter")),
         x_size=_float_or_none(well.get("xDimension")),
         y_size=_float_or_none(well.get("yDimension")),
+        bottom=bottom,
+        sections=sections,
     )
 
 

@@ -10,71 +10,46 @@ from __future__ import annotations
 
 import http.client
 import json
-import threading
 import time
 from dataclasses import replace
 from typing import Any
-from urllib.parse import urlsplit
 
+from ..http_client import HttpClient
 from ..settings import Settings
 from ..vocabulary import Undecided, from_json
-from .database import load_database
-from .dossier import Dossier
-from .dossier_making import make_dossier
-from .judging import MODEL, Options, Report, judge
-from .merging import merge, options_with_roles
-from .opinion import Opinion
-from .rehearsal import Recording
+from .judging import MODEL, Reading, Report
+from .opinion import Dossier, Opinion, make_dossier, merge
 
 LIVE_WAIT_S = 1.0
 """How long a live run waits for an opinion that should be remembered already, s."""
 
 _REQUEST_S = 5.0
 _POLL_S = 0.5
-_GRACE_S = 0.25
-"""A socket's own timeout comes first, and says more."""
-
-_LONGEST_ANSWER = 1 << 20
 
 
-def with_opinion(report: Report, recording: Recording, settings: Settings, protocol: Any) -> Report:
+def with_opinion(report: Report, reading: Reading, settings: Settings, protocol: Any) -> Report:
     """The checks' report with the opinion of the sidecar's model merged into it.
 
     Never raises: whatever fails here, the checks' report stands.
 
     Args:
-        report: From :func:`~aegis_ot.preflight.checking.check_recording`, of the same recording.
-        recording: What the report judges.
+        report: From :func:`~aegis_ot.preflight.judging.judge_reading`, of the same reading.
+        reading: What the report judges.
         settings: The guard's.
-        protocol: The context, for its runtime parameters and for whether a robot waits.
+        protocol: The context, for whether a robot waits.
     """
     if settings.sidecar is None or not settings.sidecar.startswith("http"):
         return report
     try:
-        return _asked(report, recording, settings, protocol)
+        dossier = make_dossier(reading, report)
+        wait_s = settings.opinion_timeout_s
+        if not protocol.is_simulating():
+            wait_s = min(wait_s, LIVE_WAIT_S)
+        opinion = ask_sidecar(settings.sidecar, settings.token, dossier, wait_s)
+        return merge(report, opinion, dossier, reading)
     except Exception as error:
         reason = f"The model's opinion could not be had ({type(error).__name__}: {error})."
         return replace(report, undecided=(*report.undecided, Undecided(MODEL, reason)))
-
-
-def _asked(report: Report, recording: Recording, settings: Settings, protocol: Any) -> Report:
-    database = load_database([settings.rules_path] if settings.rules_path else [])
-    options = Options.from_settings(settings)
-    # `params` itself raises where the apiLevel knows none.
-    values = getattr(getattr(protocol, "_params", None), "get_all", None)
-    parameters = dict(values()) if callable(values) else {}
-    dossier = make_dossier(recording, report, database, options, parameters)
-    wait_s = settings.opinion_timeout_s
-    if not protocol.is_simulating():
-        wait_s = min(wait_s, LIVE_WAIT_S)
-    opinion = ask_sidecar(settings.sidecar or "", settings.token, dossier, wait_s)
-    second = None
-    if opinion.answered:
-        roles = {family.family: tuple(family.roles) for family in database.families}
-        with_roles = options_with_roles(options, report, opinion, roles)
-        if with_roles is not None:
-            second = judge(recording, database, with_roles)
-    return merge(report, opinion, dossier, second)
 
 
 def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: float) -> Opinion:
@@ -86,40 +61,13 @@ def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: fl
         dossier: What to ask about.
         timeout_s: Longest wait, s.
     """
-    heard: list[Opinion] = []
-    thread = threading.Thread(
-        target=lambda: heard.append(_exchange(address, token, dossier, timeout_s)),
-        name="aegis-ot-opinion",
-        daemon=True,
-    )
-    thread.start()
-    # Names that do not resolve and answers that drip outlast every timeout of a socket.
-    thread.join(timeout_s + _GRACE_S)
-    return heard[0] if heard else _too_late(timeout_s)
-
-
-def _too_late(timeout_s: float) -> Opinion:
-    detail = f"the sidecar has not answered in {timeout_s:g} s."
-    return Opinion("timeout", "the sidecar's model", detail)
-
-
-def _exchange(address: str, token: str | None, dossier: Dossier, timeout_s: float) -> Opinion:
-    deadline = time.monotonic() + timeout_s
-    line: _Line | None = None
+    client: HttpClient | None = None
     try:
-        line = _Line(address, token)
-        answer = line.send("POST", "/v1/opinions", dossier.to_json(), deadline)
-        while answer.get("opinion") is None:
-            left = deadline - time.monotonic()
-            if left <= 0:
-                detail = f"it has not answered in {timeout_s:g} s; the next run may find it."
-                return Opinion("timeout", "the sidecar's model", detail)
-            wait = min(_POLL_S, left)
-            path = f"/v1/opinions/{answer['digest']}?wait={wait:.2f}"
-            answer = line.send("GET", path, None, deadline)
-        return from_json(Opinion, answer["opinion"])
+        client = HttpClient(address, token)
+        return _exchange(client, dossier, timeout_s)
     except TimeoutError:
-        return _too_late(timeout_s)
+        detail = f"the sidecar has not answered in {timeout_s:g} s."
+        return Opinion("timeout", "the sidecar's model", detail)
     except (OSError, http.client.HTTPException) as error:
         detail = f"the sidecar cannot be reached ({type(error).__name__})."
         return Opinion("unavailable", "the sidecar's model", detail)
@@ -129,51 +77,41 @@ def _exchange(address: str, token: str | None, dossier: Dossier, timeout_s: floa
         detail = f"the sidecar's answer makes no sense ({error})."
         return Opinion("invalid", "the sidecar's model", detail)
     finally:
-        if line is not None:
-            line.close()
+        if client is not None:
+            client.close()
+
+
+def _exchange(client: HttpClient, dossier: Dossier, timeout_s: float) -> Opinion:
+    deadline = time.monotonic() + timeout_s
+    answer = _send(client, "POST", "/v1/opinions", dossier.to_json(), deadline)
+    while answer.get("opinion") is None:
+        left = deadline - time.monotonic()
+        if left <= 0:
+            detail = f"it has not answered in {timeout_s:g} s; the next run may find it."
+            return Opinion("timeout", "the sidecar's model", detail)
+        path = f"/v1/opinions/{answer['digest']}?wait={min(_POLL_S, left):.2f}"
+        answer = _send(client, "GET", path, None, deadline)
+    return from_json(Opinion, answer["opinion"])
+
+
+def _send(client: HttpClient, method: str, path: str, body: Any, deadline: float) -> dict[str, Any]:
+    left = deadline - time.monotonic()
+    if left <= 0:
+        raise TimeoutError
+    status, data = client.request(method, path, body, min(left, _REQUEST_S))
+    if status in (401, 403):
+        raise _Refused("unauthorized", "the sidecar refused the token.")
+    if status == 404:
+        raise _Refused("unavailable", "the sidecar is too old to ask a model.")
+    if status != 200:
+        raise _Refused("unavailable", f"the sidecar answered with HTTP {status}.")
+    answer = json.loads(data)
+    if not isinstance(answer, dict):
+        raise ValueError("no object")
+    return answer
 
 
 class _Refused(Exception):
     def __init__(self, state: str, message: str) -> None:
         super().__init__(message)
         self.state = state
-
-
-class _Line:
-    """One connection to the sidecar."""
-
-    def __init__(self, address: str, token: str | None) -> None:
-        parts = urlsplit(address)
-        secure = parts.scheme == "https"
-        make = http.client.HTTPSConnection if secure else http.client.HTTPConnection
-        self._connection = make(parts.hostname or "", parts.port)
-        self._base = parts.path.rstrip("/")
-        self._headers = {"Content-Type": "application/json"}
-        if token:
-            self._headers["Authorization"] = f"Bearer {token}"
-
-    def send(self, method: str, path: str, body: Any, deadline: float) -> dict[str, Any]:
-        connection = self._connection
-        left = deadline - time.monotonic()
-        if left <= 0:
-            raise TimeoutError
-        connection.timeout = min(left, _REQUEST_S)
-        if connection.sock is not None:
-            connection.sock.settimeout(connection.timeout)
-        text = None if body is None else json.dumps(body).encode("utf-8")
-        connection.request(method, self._base + path, text, self._headers)
-        response = connection.getresponse()
-        data = response.read(_LONGEST_ANSWER)
-        if response.status in (401, 403):
-            raise _Refused("unauthorized", "the sidecar refused the token.")
-        if response.status == 404:
-            raise _Refused("unavailable", "the sidecar is too old to ask a model.")
-        if response.status != 200:
-            raise _Refused("unavailable", f"the sidecar answered with HTTP {response.status}.")
-        answer = json.loads(data)
-        if not isinstance(answer, dict):
-            raise ValueError("no object")
-        return answer
-
-    def close(self) -> None:
-        self._connection.close()

@@ -4,7 +4,7 @@
 
     {"protocols": [{"file", "family", "verdict": "pass|warn|fail|error",
                     "findings": [{"rule", "severity", "wells", "lines", "message", "fix"}],
-                    "undecided": [{"rule", "reason"}]}]}
+                    "undecided": [{"rule", "reason", "paste"}]}]}
 
 Wells are ``slot:well``. A protocol has further keys only where there is something to say:
 ``error`` (``message``, ``line``) where it could not be judged, ``model`` (``name``, ``state``,
@@ -37,7 +37,9 @@ def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> di
         "family": checked.family,
         "verdict": checked.verdict.value,
         "findings": [_finding(finding) for finding in checked.findings],
-        "undecided": [{"rule": u.rule, "reason": u.reason} for u in checked.undecided],
+        "undecided": [
+            {"rule": u.rule, "reason": u.reason, "paste": u.paste} for u in checked.undecided
+        ],
     }
     if checked.problem is not None:
         values["error"] = {"message": checked.problem.message, "line": checked.problem.line}

@@ -46,7 +46,7 @@ def _suite(root: Element, checked: CheckedProtocol, run: CheckRun) -> None:
             _outcome(
                 case, "failure", finding.message, _told(checked, finding), finding.severity.value
             )
-    reasons = {undecided.rule: undecided.reason for undecided in checked.undecided}
+    reasons = {undecided.rule: undecided.told for undecided in checked.undecided}
     for rule in _rules(checked, run):
         case = _case(suite, checked, f"{rule.id} {rule.name}")
         findings = [finding for finding in checked.findings if finding.rule == rule.id]

@@ -159,7 +159,7 @@ def _notifications(checked: CheckedProtocol, index: dict[str, int]) -> Iterator[
     for undecided in checked.undecided:
         notification: dict[str, Any] = {
             "level": "error" if undecided.reason == checked.unanswered else "note",
-            "message": {"text": f"{undecided.rule} is undecided: {undecided.reason}"},
+            "message": {"text": f"{undecided.rule} is undecided: {undecided.told}"},
             "locations": [_location(checked, None)],
         }
         if undecided.rule in index:

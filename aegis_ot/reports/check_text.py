@@ -86,12 +86,14 @@ def _protocol(
         yield f"{where}: {paint('warning', _BOLD, _YELLOW)}: {remark.message}"
     for note in checked.notes:
         rest.append(f"{checked.file}: note: {note}")
-    by_reason: dict[str, list[str]] = {}
+    by_reason: dict[tuple[str, str], list[str]] = {}
     for undecided in checked.undecided:
         if undecided.reason != checked.unanswered:
-            by_reason.setdefault(undecided.reason, []).append(undecided.rule)
-    for reason, rules in by_reason.items():
+            by_reason.setdefault((undecided.reason, undecided.paste), []).append(undecided.rule)
+    for (reason, paste), rules in by_reason.items():
         rest.append(f"{checked.file}: undecided: {', '.join(rules)}: {reason}")
+        if paste:
+            rest.append(f"    write: {paste}")
     if checked.baselined:
         rules = list(dict.fromkeys(finding.rule for finding in checked.baselined))
         told = counted(len(checked.baselined), "known finding")

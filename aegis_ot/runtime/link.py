@@ -11,14 +11,13 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
-from urllib.parse import quote, urlsplit
+from urllib.parse import quote
 
 from ..errors import LinkError, SidecarGarbled, SidecarRefused, SidecarUnreachable
+from ..http_client import CheckStop, HttpClient
 from ..vocabulary import Keyframe, Verdict, from_json, to_json
-from .slices import CheckStop, SlicedSocket, Waiter, connect
 
 WIRE_VERSION = 1
-_LONGEST_ANSWER = 4_000_000
 
 
 class RunUnknown(LinkError):
@@ -69,17 +68,8 @@ class SidecarLink:
     """
 
     def __init__(self, url: str, token: str | None, check_stop: CheckStop) -> None:
-        parts = urlsplit(url)
         self.url = url
-        self._host = parts.hostname or ""
-        self._tls = parts.scheme == "https"
-        self._port = parts.port or (443 if self._tls else 80)
-        self._path = parts.path.rstrip("/")
-        self._headers = {"Accept": "application/json", "Connection": "keep-alive"}
-        if token:
-            self._headers["Authorization"] = f"Bearer {token}"
-        self._waiter = Waiter(check_stop)
-        self._sock: SlicedSocket | None = None
+        self._http = HttpClient(url, token, check_stop)
 
     def health(self, timeout_s: float) -> dict[str, Any]:
         """What the sidecar says of itself."""
@@ -95,8 +85,13 @@ class SidecarLink:
                 "install the same version of aegis-ot on both machines",
             )
 
-    def keyframe(self, keyframe: Keyframe, timeout_s: float) -> Captured:
+    def keyframe(self, keyframe: Keyframe, timeout_s: float, ago_s: float = 0.0) -> Captured:
         """Have one keyframe captured.
+
+        Args:
+            keyframe: Which.
+            timeout_s: How long it may take.
+            ago_s: How long ago its moment was, where the robot has not waited for this, s.
 
         Raises:
             CameraSilent: The camera gave no frame in time.
@@ -104,6 +99,8 @@ class SidecarLink:
             RunUnknown: The run has to be registered again.
         """
         path = f"/v1/runs/{quote(keyframe.run, safe='')}/keyframes"
+        if ago_s:
+            path += f"?ago={ago_s:.4f}"
         answer = self._request("POST", path, to_json(keyframe), timeout_s)
         if answer.get("captured") is not True or answer.get("sequence") != keyframe.sequence:
             raise self._garbled(f"it did not acknowledge keyframe {keyframe.sequence}")
@@ -127,6 +124,13 @@ class SidecarLink:
             raise self._garbled(f"it sent another trajectory's verdict for trajectory {number}")
         return verdict
 
+    def action(self, run: str, number: int, timeout_s: float) -> str | None:
+        """What a person told the robot that is paused at a trajectory: ``"resume"``, ``"stop"``,
+        or ``None`` as long as nobody did."""
+        answer = self._request("GET", f"{_trajectory(run, number)}/action", None, timeout_s)
+        action = answer.get("action")
+        return str(action.get("action")) if isinstance(action, dict) else None
+
     def abandon(self, run: str, number: int, reason: str, timeout_s: float) -> None:
         """Say that a trajectory will have no further keyframes."""
         self._request("POST", f"{_trajectory(run, number)}/abandon", {"reason": reason}, timeout_s)
@@ -142,60 +146,22 @@ class SidecarLink:
 
     def close(self) -> None:
         """Drop the connection; the next request opens another."""
-        if self._sock is not None:
-            self._sock.close()
-            self._sock = None
+        self._http.close()
 
     def _request(
         self, method: str, path: str, body: dict[str, Any] | None, timeout_s: float
     ) -> dict[str, Any]:
-        self._waiter.begin(timeout_s)
-        fresh = self._sock is None
         try:
-            try:
-                status, data = self._exchange(method, path, body)
-            except (OSError, http.client.HTTPException):
-                # A kept connection may have been closed meanwhile: once more on a new one.
-                if fresh or self._waiter.left <= 0:
-                    raise
-                self.close()
-                status, data = self._exchange(method, path, body)
+            status, data = self._http.request(method, path, body, timeout_s)
         except TimeoutError as error:
-            self.close()
             raise self._unreachable(f"gave no answer within {timeout_s:.2g} s") from error
         except (http.client.RemoteDisconnected, http.client.IncompleteRead) as error:
-            self.close()
             raise self._unreachable("closed the connection without an answer") from error
         except (http.client.HTTPException, ValueError) as error:  # a chunk of negative length, say
-            self.close()
             raise self._garbled(f"its answer is no HTTP ({type(error).__name__})") from error
         except OSError as error:
-            self.close()
             raise self._unreachable(f"cannot be reached ({error.strerror or error})") from error
-        except BaseException:
-            self.close()
-            raise
         return self._understand(status, data)
-
-    def _exchange(self, method: str, path: str, body: dict[str, Any] | None) -> tuple[int, bytes]:
-        if self._sock is None:
-            self._sock = connect(self._host, self._port, self._tls, self._waiter)
-        connection = http.client.HTTPConnection(self._host, self._port)
-        connection.auto_open = 0
-        connection.sock = self._sock
-        headers = dict(self._headers)
-        payload = None
-        if body is not None:
-            payload = json.dumps(body).encode()
-            headers["Content-Type"] = "application/json"
-        connection.request(method, self._path + path, body=payload, headers=headers)
-        response = connection.getresponse()
-        data = response.read(_LONGEST_ANSWER + 1)
-        if len(data) > _LONGEST_ANSWER:
-            raise http.client.HTTPException("endless answer")
-        if response.will_close:
-            self.close()
-        return response.status, data
 
     def _understand(self, status: int, data: bytes) -> dict[str, Any]:
         try:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 
+from ..http_client import SLICE_S
 from .runstate import RunState
-from .slices import SLICE_S
 
 LAST_WORDS_S = 0.25
 """What a stop leaves for telling the sidecar how the run ended, s."""

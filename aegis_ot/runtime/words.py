@@ -18,10 +18,10 @@ _MOST = 20
 
 def working_volume(operation: Operation) -> float | None:
     """Of the tip at an aspirate, µL; ``None`` if it cannot be asked."""
-    if operation.kind is not OperationKind.ASPIRATE or operation.core is None:
+    if operation.kind is not OperationKind.ASPIRATE:
         return None
     try:
-        return float(operation.core.get_hardware_state()["working_volume"])
+        return float(operation.core().get_hardware_state()["working_volume"])
     except Exception:  # private to Opentrons; the pipette's own maximum serves as well
         return None
 

@@ -14,7 +14,8 @@ class Settings:
     Attributes:
         assay: Assay family, or ``None`` to let the guard find out. Families of your own rule
             files are accepted as well.
-        rules: ``"on"``; ``"warn"``: findings are reported and the run goes on; ``"off"``.
+        rules: ``"on"``: errors refuse the run; ``"strict"``: warnings are errors; ``"warn"``:
+            findings are reported and the run goes on; ``"off"``.
         select: Rule ids to use; empty for all.
         ignore: Rule ids to leave out.
         rules_path: Folder or file of further rules.

@@ -157,7 +157,7 @@ def _run_id(value: Any, site: Site) -> str | None:
 
 READERS: dict[str, Callable[[Any, Site], Any]] = {
     "assay": _optional_text,
-    "rules": _choice("on", "warn", "off"),
+    "rules": _choice("on", "strict", "warn", "off"),
     "select": _texts,
     "ignore": _texts,
     "rules_path": _optional_text,

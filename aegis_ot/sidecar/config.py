@@ -7,7 +7,8 @@ import importlib
 import ipaddress
 import json
 import os
-from collections.abc import Mapping
+import secrets
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -25,6 +26,9 @@ from pydantic import (
 from ..errors import ConfigurationError
 
 DEFAULT_PORT = 7645
+LEAST_TOKEN = 16
+"""Characters of a token, so that it cannot be guessed."""
+TOKEN_FILE = "token"
 
 ENVIRONMENT = {
     "AEGIS_OT_SIDECAR_HOST": ("host",),
@@ -130,6 +134,20 @@ class NotificationSettings(Section):
         return tuple(value.split()) if isinstance(value, str) else value
 
 
+class RetentionSettings(Section):
+    """How long runs are kept; a run that has not ended is never removed.
+
+    Attributes:
+        days: Remove runs that ended longer ago; ``None``: never.
+        gigabytes: Remove the oldest runs while all frames take more; ``None``: never.
+        silent_h: A robot that said nothing for so long has ended its run without a word, h.
+    """
+
+    days: Annotated[float, Field(gt=0)] | None = None
+    gigabytes: Annotated[float, Field(gt=0)] | None = None
+    silent_h: Annotated[float, Field(gt=0)] = 24.0
+
+
 class ModelSettings(Section):
     """The language or vision model, if there is one. Keys come from the environment alone.
 
@@ -168,18 +186,26 @@ class SidecarConfig(Section):
         port: TCP port; 0 takes a free one.
         token: Bearer token; required when ``host`` is not loopback.
         data: Folder of the store; the user's data folder by default.
+        log: Form of the log on standard error: for people, or a JSON object a line.
+        url: Where people open the page, for links in messages; ``None``: as it listens.
     """
 
     host: str = "127.0.0.1"
     port: Annotated[int, Field(ge=0, le=65535)] = DEFAULT_PORT
     token: SecretStr | None = None
-    data: Path = Field(default_factory=lambda: user_data_path("aegis-ot", appauthor=False))
+    data: Path = Field(default_factory=lambda: default_data())
     camera: CameraSettings = CameraSettings()
     cascade: CascadeSettings = CascadeSettings()
     operator: OperatorSettings = OperatorSettings()
     notifications: NotificationSettings = NotificationSettings()
     model: ModelSettings = ModelSettings()
+<<<<<<< HEAD
     gate_model: GateModelSettings = GateModelSettings()
+=======
+    retention: RetentionSettings = RetentionSettings()
+    log: Literal["text", "json"] = "text"
+    url: str | None = None
+>>>>>>> main
 
     @field_validator("token")
     @classmethod
@@ -200,6 +226,13 @@ class SidecarConfig(Section):
                 "read frames and decide wells. Set a token (AEGIS_OT_SIDECAR_TOKEN), or listen "
                 "on 127.0.0.1"
             )
+        if self.token is not None and not is_loopback(self.host):
+            length = len(self.token.get_secret_value())
+            if length < LEAST_TOKEN:
+                raise ValueError(
+                    f"the token has {length} characters; on a network it needs at least "
+                    f"{LEAST_TOKEN}. Leave it out, and one is made"
+                )
         return self
 
     @classmethod
@@ -207,6 +240,7 @@ class SidecarConfig(Section):
         cls,
         path: str | Path | None = None,
         environ: Mapping[str, str] | None = None,
+        find_token: Callable[[Path], str] | None = None,
         **overrides: Any,
     ) -> SidecarConfig:
         """Read a file, then the environment, then ``overrides``; later ones win.
@@ -214,6 +248,8 @@ class SidecarConfig(Section):
         Args:
             path: JSON or TOML (by its suffix); ``None``: no file.
             environ: Defaults to the environment of this process.
+            find_token: Finds or makes one in the data folder, where one is needed and none is
+                given.
             overrides: Settings by name; sections as mappings; ``None`` means "not given".
 
         Raises:
@@ -225,10 +261,37 @@ class SidecarConfig(Section):
             if environ.get(variable):
                 _merge(values, _nest(place, environ[variable]))
         _merge(values, {name: value for name, value in overrides.items() if value is not None})
+        host = str(values.get("host") or "127.0.0.1")
+        if find_token is not None and not values.get("token") and not is_loopback(host):
+            values["token"] = find_token(Path(values.get("data") or default_data()))
         try:
             return cls.model_validate(values)
         except ValidationError as error:
             raise ConfigurationError(_explain(error)) from None
+
+
+def default_data() -> Path:
+    """The user's data folder for this program."""
+    return user_data_path("aegis-ot", appauthor=False)
+
+
+def kept_token(data: Path) -> str:
+    """The token that is kept in a data folder; one is made the first time.
+
+    Raises:
+        ConfigurationError: It cannot be read or written.
+    """
+    path = data / TOKEN_FILE
+    try:
+        if path.exists():
+            return path.read_text(encoding="ascii").strip()
+        data.mkdir(parents=True, exist_ok=True)
+        token = secrets.token_urlsafe(24)
+        with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
+            file.write(token + "\n")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigurationError(f"The token in {path} cannot be kept: {error}.") from error
+    return token
 
 
 def is_loopback(host: str) -> bool:

@@ -62,6 +62,8 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
     return row | {
         "trajectories": [trajectories[number] for number in sorted(trajectories)],
         "costs": _costs(evidence for _, evidence, _ in verdicts.values()),
+        "actions": store.actions(run),
+        "incidents": store.incidents(run),
     }
 
 

@@ -14,8 +14,7 @@ from fastapi import APIRouter, Query, Request
 from starlette.concurrency import run_in_threadpool
 
 from ..errors import ConfigurationError
-from ..preflight.dossier import Dossier
-from ..preflight.opinion import Opinion
+from ..preflight.opinion import Dossier, Opinion
 from ..reasoning import Backend, Opinions, load_prices, make_backend
 from ..reasoning.gate_tiers import Budget, VlmTiers
 from ..vision.gates import ConfirmingGate

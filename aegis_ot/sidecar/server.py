@@ -26,6 +26,9 @@ log = logging.getLogger(__name__)
 KEEP_ALIVE = 3600
 """The robot keeps its connection open between keyframes, which may be minutes apart, s."""
 STARTING = 30.0
+MOST_AT_ONCE = 400
+"""Connections and requests at once; further ones are answered 503. Robots and pages hold one
+or two each."""
 GRACE = 3
 SWITCH_S = 0.0005
 """How long a thread that computes may keep the interpreter from the one that answers, s. Python's
@@ -53,6 +56,7 @@ def serve(
     with _listening(config) as (listener, url):
         sys.setswitchinterval(SWITCH_S)
         app = create_app(config, camera, analyser, detector)
+        app.state.sidecar.address = config.url or url
         server = _Server(app, lambda: ready(url) if ready else None)
         server.run(sockets=[listener])
 
@@ -74,6 +78,7 @@ def running_sidecar(
     """
     with _listening(config) as (listener, url):
         app = create_app(config, camera, analyser, detector)
+        app.state.sidecar.address = config.url or url
         started = threading.Event()
         server = _Server(app, started.set)
         thread = threading.Thread(
@@ -101,6 +106,7 @@ class _Server(uvicorn.Server):
                 timeout_keep_alive=KEEP_ALIVE,
                 timeout_graceful_shutdown=GRACE,
                 server_header=False,
+                limit_concurrency=MOST_AT_ONCE,
             )
         )
         self._sidecar: Sidecar = app.state.sidecar
@@ -143,5 +149,15 @@ def _listening(config: SidecarConfig) -> Iterator[tuple[socket.socket, str]]:
                 "Is another sidecar running? Name another port, or stop it."
             ) from error
         port = listener.getsockname()[1]
-        shown = f"[{host}]" if family == socket.AF_INET6 else host
-        yield listener, f"http://{shown}:{port}"
+        yield listener, f"http://{_reachable(host, family)}:{port}"
+
+
+def _reachable(host: str, family: int) -> str:
+    """How a browser names this machine: an address that listens everywhere cannot be opened."""
+    if host not in ("", "0.0.0.0", "::"):
+        return f"[{host}]" if ":" in host else host
+    with contextlib.suppress(OSError), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        # Nothing is sent: this only asks which of our addresses would be used.
+        probe.connect(("192.0.2.1", 9))
+        return str(probe.getsockname()[0])
+    return socket.gethostname() if family == socket.AF_INET else "127.0.0.1"

@@ -87,7 +87,19 @@ class Remark:
 
 @dataclass(frozen=True)
 class Undecided:
-    """A rule that could not be judged, and what it lacked."""
+    """A rule that could not be judged.
+
+    Attributes:
+        rule: Rule identifier.
+        reason: What it lacked, in one line.
+        paste: What the protocol's author can write to decide it; ``""`` where nothing short does.
+    """
 
     rule: str
     reason: str
+    paste: str = ""
+
+    @property
+    def told(self) -> str:
+        """The reason, and what to write, on one line."""
+        return f"{self.reason}. Write: {self.paste}" if self.paste else self.reason

@@ -8,7 +8,7 @@ import time
 import pytest
 
 from aegis_ot.errors import RehearsalError
-from aegis_ot.instrumentation import EventKind, NameCollector
+from aegis_ot.instrumentation import EventKind
 from tests.support.rehearsing import ot2, run
 
 
@@ -26,7 +26,8 @@ from tests.support.rehearsing import ot2, run
 )
 def test_odd_objects_are_left_alone(made):
     lines = "\n".join(f"    {line}" for line in made.splitlines())
-    _, rehearsal = run(ot2(f"def helper():\n{lines}\nhelper()\nntc = plate['H12']\n"))
+    helper = f"def helper():\n{lines}\n    protocol.comment('made')\n"
+    _, rehearsal = run(ot2(f"{helper}helper()\nntc = plate['H12']\n"))
     assert "ntc" in {binding.name for binding in rehearsal.names}
 
 
@@ -44,9 +45,10 @@ proxy = Proxy()
 table = {"proxy": proxy, "silent": Silent}
 def run(protocol):
     plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 2)
-    helper(plate)
-def helper(plate):
+    helper(protocol, plate)
+def helper(protocol, plate):
     held = [proxy, Silent]
+    protocol.comment("held")
     ntc = plate["H12"]
 """
 
@@ -58,24 +60,26 @@ def test_globals_that_answer_nothing_are_left_alone():
 
 _LOCALS = """
 metadata = {"apiLevel": "2.15"}
-def settings():
+def settings(protocol):
     volume = 50
     found = locals()
     found["volume"] = 77
+    protocol.comment("changed")
     return found
-def each():
+def each(protocol):
     one, two = 1, 2
     for name in locals():
+        protocol.comment("each")
         yield name
 def run(protocol):
-    protocol.comment(f"{settings()} {list(each())}")
+    protocol.comment(f"{settings(protocol)['volume']} {list(each(protocol))}")
 """
 
 
 def test_the_dict_that_a_protocol_got_from_locals_stays_as_it_left_it():
     heard, _ = run(_LOCALS)
     told = [event.text for event in heard.events if event.kind is EventKind.COMMENT]
-    assert told == ["{'volume': 77} ['one', 'two']"]
+    assert told[-1] == "77 ['protocol', 'one', 'two']"
 
 
 def test_a_well_of_another_context_is_left_alone():
@@ -107,37 +111,13 @@ def test_long_tables_cost_nothing():
     rows = [[i, str(i)] for i in range(20000)]
     def helper(i):
         seen = rows
-        return seen[i]
+        protocol.comment(seen[i][1])
     for i in range(300):
         helper(i)
     """
     began = time.monotonic()
     run(ot2(body))
     assert time.monotonic() - began < 15  # 90 s when every row was looked at every time
-
-
-def test_a_helper_that_computes_is_not_looked_at_for_ever(monkeypatch):
-    """Each look takes 10 µs: fib(25) took the guard three seconds."""
-    text = """
-    metadata = {"apiLevel": "2.15"}
-    def fib(n):
-        return n if n < 2 else fib(n - 1) + fib(n - 2)
-    def run(protocol):
-        plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 1)
-        fib(20)
-        ntc = plate["H12"]
-    """
-    looks = []
-    look = NameCollector.look
-
-    def counted(self, names, function, line):
-        looks.append(function)
-        look(self, names, function, line)
-
-    monkeypatch.setattr(NameCollector, "look", counted)
-    _, rehearsal = run(text)
-    assert looks.count("fib") == 5000
-    assert "ntc" in {binding.name for binding in rehearsal.names}
 
 
 _HELPED = """
@@ -150,11 +130,14 @@ def run(protocol):
     before = plate["A1"]
     p300.transfer(50, before, plate["A2"])
     protocol.comment(f"hooked {sys.getprofile() is not None}")
-    helper(plate)
+    helper(p300, plate)
     after = plate["A3"]
 
-def helper(plate):
+def helper(p300, plate):
+    p300.pick_up_tip()
     inner = plate["H12"]
+    p300.drop_tip()
+    last = plate["H11"]
 """
 
 
@@ -162,7 +145,8 @@ def test_names_of_all_functions_are_seen_to_their_end_without_a_hook():
     """A hook would be told of all of Opentrons' calls too."""
     heard, rehearsal = run(_HELPED)
     names = {(binding.function, binding.name) for binding in rehearsal.names}
-    assert {("run", "before"), ("run", "after"), ("helper", "inner")} <= names
+    assert {("run", "before"), ("run", "after")} <= names
+    assert {("helper", "inner"), ("helper", "last")} <= names
     said = [event.text for event in heard.events if event.text.startswith("hooked")]
     assert said == ["hooked False"]
 
@@ -173,8 +157,14 @@ def bound(body: str, before: str = "") -> dict[tuple[str, str], list[str]]:
 
 
 def test_a_name_whose_value_changes_tells_each_value():
-    before = "def give(well):\n    target = well\n"
-    _, rehearsal = run(before + ot2("for name in ('A1', 'B1', 'A1'):\n    give(plate[name])\n"))
+    body = """
+    def give(well):
+        target = well
+        protocol.comment("given")
+    for name in ("A1", "B1", "A1"):
+        give(plate[name])
+    """
+    _, rehearsal = run(ot2(body))
     told = [b.wells[0].name for b in rehearsal.names if b.name == "target"]
     assert told == ["A1", "B1"]
 
@@ -183,12 +173,13 @@ def test_functions_in_functions_classes_and_tables_are_seen():
     body = """
     def inner():
         ntc = plate["H12"]
+        protocol.comment("inner")
         return ntc
     inner()
     layout = Layout(plate)
-    layout.wells()
-    TABLE["blank"](plate)
-    next(series(plate))
+    layout.fill(protocol)
+    TABLE["blank"](protocol, plate)
+    next(series(protocol, plate))
     """
     before = """
 import functools
@@ -196,40 +187,93 @@ class Layout:
     def __init__(self, plate):
         self.plate = plate
         self.standard = plate["B1"]
-    def wells(self):
+    def fill(self, protocol):
         template = self.plate["A1"]
-        return [template]
-def of_blank(plate, name):
+        protocol.comment("filled")
+def of_blank(protocol, plate, name):
     blank = plate[name]
+    protocol.comment("blank")
 TABLE = {"blank": functools.partial(of_blank, name="C1")}
-def series(plate):
+def series(protocol, plate):
     first = plate["D1"]
+    protocol.comment("first")
     yield first
 """
     found = bound(body, before)
     assert found["inner", "ntc"] == ["H12"]
-    assert found["wells", "template"] == ["A1"]
+    assert found["fill", "template"] == ["A1"]
     assert found["of_blank", "blank"] == ["C1"]
     assert found["series", "first"] == ["D1"]
     assert found["run", "layout.standard"] == ["B1"]
 
 
-def test_names_in_helper_modules_beside_the_protocol_are_seen(tmp_path, monkeypatch):
-    (tmp_path / "aegis_test_layout.py").write_text(
-        "NTC = 'H12'\ndef wells_of(plate):\n    ntc = plate[NTC]\n    return [ntc]\n"
+@pytest.mark.parametrize("place", ["at the top", "in run"])
+def test_names_in_helper_modules_beside_the_protocol_are_seen(tmp_path, monkeypatch, place):
+    name = f"aegis_test_layout_{place.replace(' ', '_')}"
+    (tmp_path / f"{name}.py").write_text(
+        "NTC = 'H12'\ndef fill(protocol, plate):\n    ntc = plate[NTC]\n    protocol.comment('')\n"
     )
     monkeypatch.syspath_prepend(tmp_path)
-    import aegis_test_layout  # type: ignore[import-not-found]
-
-    code = aegis_test_layout.wells_of.__code__
-    _, rehearsal = run(ot2("from aegis_test_layout import wells_of\nwells_of(plate)\n"))
-    assert "ntc" not in {b.name for b in rehearsal.names}  # imported too late to be known
-    text = "from aegis_test_layout import wells_of\n" + ot2("wells_of(plate)\n")
-    _, rehearsal = run(text)
+    imported, body = f"from {name} import fill\n", "fill(protocol, plate)\n"
+    _, rehearsal = run(imported + ot2(body) if place == "at the top" else ot2(imported + body))
     found = {(b.function, b.name): b for b in rehearsal.names}
-    assert found["aegis_test_layout.wells_of", "ntc"].wells[0].name == "H12"
-    assert found["aegis_test_layout.<module>", "NTC"].spots == ("H12",)
-    assert aegis_test_layout.wells_of.__code__ is code
+    assert found[f"{name}.fill", "ntc"].wells[0].name == "H12"
+    assert place == "in run" or found[f"{name}.<module>", "NTC"].spots == ("H12",)
+
+
+def test_who_calls_the_protocol_is_none_of_its_helpers():
+    """A script of the user's own, say, that simulates a protocol."""
+    own_of_this_test = "A1"
+    _, rehearsal = run(ot2("protocol.comment('said')"))
+    assert own_of_this_test
+    assert "own_of_this_test" not in {b.name for b in rehearsal.names}
+
+
+def test_of_a_helper_that_does_nothing_to_the_robot_what_it_gives_counts():
+    body = """
+    def layout():
+        inner = plate["H12"]
+        return {"ntc": inner}
+    wells = layout()
+    protocol.comment(str(wells["ntc"]))
+    """
+    found = bound(body)
+    assert found["run", "wells['ntc']"] == ["H12"]
+    assert ("layout", "inner") not in found
+
+
+def test_a_list_that_is_filled_to_the_end_is_read_to_the_end():
+    body = """
+    blanks = []
+    for name in ("A1", "B1"):
+        single.transfer(20, reservoir["A1"], plate[name])
+        blanks.append(plate[name])
+    """
+    assert bound(body)["run", "blanks"] == ["A1", "B1"]
+
+
+def test_a_definition_of_labware_tells_of_no_wells_use():
+    definition = "{'schemaVersion': 2, 'ordering': [['A1']], 'wells': {'A1': {'x': 1, 'y': 2}}}"
+    _, rehearsal = run(ot2(f"definition = {definition}\nntc = plate['H12']"))
+    assert {b.name for b in rehearsal.names} >= {"ntc"}
+    assert not [b.name for b in rehearsal.names if b.name.startswith("definition")]
+
+
+def test_what_a_function_held_is_let_go_once_the_next_step_is_done():
+    body = """
+    import weakref
+    class Kept: pass
+    def helper():
+        kept = Kept()
+        seen.append(weakref.ref(kept))
+        protocol.comment("helping")
+    seen = []
+    helper()
+    protocol.comment("next")
+    protocol.comment(f"alive {seen[0]() is not None}")
+    """
+    heard, _ = run(ot2(body))
+    assert heard.events[-1].text == "alive False"
 
 
 def test_a_failing_run_leaves_nothing_behind():

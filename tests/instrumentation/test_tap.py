@@ -264,17 +264,18 @@ def test_a_moved_plate_keeps_its_key_and_changes_its_slot():
     assert (first.slot, second.slot) == ("D1", "B2")
 
 
-def test_names_are_bound_to_wells_even_in_helpers_that_move_nothing():
+def test_names_are_bound_to_wells_even_in_helpers_that_only_speak():
     _, rehearsal = run(
         """
         metadata = {"apiLevel": "2.20"}
         ROWS = "AB"
-        def layout(plate):
+        def layout(protocol, plate):
+            protocol.comment("laying out")
             ntc = plate["H12"]
             return {"samples": [plate[f"{row}1"] for row in ROWS], "blank": ntc}
         def run(protocol):
             plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 1)
-            wells = layout(plate)
+            wells = layout(protocol, plate)
         """
     )
     bound = {(b.function, b.name): [w.name for w in b.wells] for b in rehearsal.names}

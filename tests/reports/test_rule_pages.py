@@ -81,7 +81,7 @@ def test_the_fields_page_tells_kinds_and_defaults() -> None:
     for row in (
         "| `roles` | by name: [role](#role) | required | ",
         '| `side` | `source`, `destination` or `any` | `"any"` | ',
-        "| `single_with` | list of roles | none | ",
+        "| `receives` | list of roles | none | ",
         "| `level` | number | none | ",
     ):
         assert row in page

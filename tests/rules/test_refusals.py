@@ -13,8 +13,8 @@ import pytest
 from aegis_ot.errors import RuleError
 from aegis_ot.preflight import load_database
 from aegis_ot.preflight.database import family_schema
+from aegis_ot.preflight.roles.shapes import SHAPES
 from aegis_ot.preflight.rules.specs import Shape
-from aegis_ot.preflight.trace import SHAPES
 
 ELISA = (Path(__file__).parents[2] / "examples" / "rules" / "elisa.json").read_text("utf-8")
 CARRY = {"check": "carry", "carried": ["sample"], "into": ["sample"]}
@@ -65,10 +65,6 @@ REFUSED_BY_BOTH = [
         "rule ELISA-1: checks[0]: perhaps[0]: expected a word or phrase, found ''",
     ),
     (rule(checks=[]), "rule ELISA-1: checks: expected at least one, found an empty list"),
-    (
-        rule(examples={"passing": [], "failing": []}),
-        "rule ELISA-1: examples: passing: expected at least one",
-    ),
     (rule(severity="fatal"), "rule ELISA-1: severity: expected error or warning, found 'fatal'"),
     (rule(scope="galaxy"), "rule ELISA-1: scope: expected family or all, found 'galaxy'"),
     (rule(id=""), "rules[0]: id: expected a name of letters, digits,"),
@@ -90,7 +86,7 @@ REFUSED_BY_BOTH = [
         "found 'star'",
     ),
     (lambda d: d.update(rules=[]), "rules: expected at least one, found an empty list"),
-    (lambda d: d.update(schema=2), "schema: expected 1, found 2"),
+    (lambda d: d.update(schema=3), "schema: expected 2, found 3"),
 ]
 
 
@@ -114,7 +110,7 @@ def test_it_is_refused_by_the_published_schema_as_well(
         ),
         (role(parents=["stop"]), "roles.stop: parents: they go in a circle: stop -> stop"),
         (role(words=["stop", "--"]), "roles.stop: words: '--' holds no letter or number to look"),
-        (role(single_with=["nobody"]), "roles.stop: single_with: there is no role 'nobody'"),
+        (role(feeds=["nobody"]), "roles.stop: feeds: there is no role 'nobody'"),
         (role(may_be=["nobody"]), "roles.stop: may_be: there is no role 'nobody'"),
         (
             lambda d: d.update(series={"wells": ["nobody"], "stock": [], "diluent": []}),

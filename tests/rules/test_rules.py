@@ -78,11 +78,17 @@ def test_a_sixth_family_needs_no_code() -> None:
             "shapes[0]: shape: expected chain",
         ),
         (lambda d: d.update(known_by=[{"roles": ["stop|nobody"]}]), "no role 'nobody'"),
-        (lambda d: d["roles"]["stop"].update(used_like=["nobody"]), "roles.stop: used_like: there"),
-        (lambda d: d["roles"]["stop"].update(gets=["nobody"]), "stop: gets: there is no role"),
-        (lambda d: d["roles"]["stop"].update(in_place_of=["nobody"]), "no role 'nobody'"),
+        (lambda d: d["roles"]["stop"].update(filled_by=["nobody"]), "roles.stop: filled_by: there"),
+        (
+            lambda d: d["roles"]["stop"].update(receives=["nobody"]),
+            "stop: receives: there is no role",
+        ),
+        (
+            lambda d: d["roles"]["stop"].update(in_place_of=["water"]),
+            "roles.stop: 'in_place_of' is no field since schema 2: name such wells",
+        ),
         (lambda d: d["signals"][1].update(roles=["nobody"]), "signals[1]: roles: there is no role"),
-        (lambda d: d.update(schema=9), "schema: expected 1, found 9"),
+        (lambda d: d.update(schema=9), "schema: expected 2, found 9"),
     ],
 )
 def test_errors_name_file_rule_and_field(change, message: str, tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from ...vocabulary import Site, WellRef
 from ..roles import Roles
 from ..rules import Common, Family
-from ..trace import Met, Trace, Usage, Visit, Well
+from ..trace import Contact, Met, Trace, Usage, Visit, Well
 from .same_liquid import is_same_liquid
 from .series import Series, find_series
 
@@ -26,11 +26,10 @@ class Violation:
         sites: Both ends; the well that suffers stands last.
         well: The well that suffers.
         cause: Violations of one cause become one finding.
-        rests_on: Wells without whose roles nothing would be wrong. Where a comment alone says
-            what one of them is for, the finding is a warning at most.
-        on_comment: That comment, in words; filled in by the judge.
-        sure: Whether it happened surely: no tip may after all have stayed clear of a liquid.
-        touched: Whether the tip surely touched what it carries: no unknown volume leaves it open.
+        rests_on: Wells without whose roles nothing would be wrong.
+        contact: How surely the tips touched what it rests on.
+        warning: Why it is a warning at most, in a sentence; empty for what surely ruins the assay.
+        in_any_assay: Whether it holds by what happened and by names alone, whatever the assay is.
     """
 
     message: str
@@ -38,9 +37,9 @@ class Violation:
     well: Well
     cause: tuple[Any, ...]
     rests_on: tuple[Well, ...] = ()
-    on_comment: str = ""
-    sure: bool = False
-    touched: bool = True
+    contact: Contact = Contact.WET
+    warning: str = ""
+    in_any_assay: bool = False
 
 
 @dataclass(frozen=True)
@@ -64,7 +63,6 @@ class Case:
         common: Words of no family.
         confident: Whether the family is more than a guess.
         waste: Wells that are called waste.
-        loose_volumes: Whether this kind of protocol starts from wells filled by hand.
         unsure: Wells that may have held liquid before the run, as the labware's name goes.
         left_over: Whether the family is judged only because no other one fits.
     """
@@ -75,7 +73,6 @@ class Case:
     common: Common
     confident: bool = True
     waste: frozenset[WellRef] = frozenset()
-    loose_volumes: bool = False
     unsure: frozenset[WellRef] = frozenset()
     left_over: bool = False
     _meant: dict[Well, dict[Well, int]] | None = None

@@ -10,7 +10,7 @@ from typing import ClassVar, Literal
 
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import Met, Tip, Visit, Well
+from ..trace import Contact, Met, Tip, Visit, Well
 from .base import (
     Case,
     Check,
@@ -23,6 +23,7 @@ from .base import (
     place,
     role_field,
 )
+from .unnamed import unnamed_contact
 
 
 @dataclass(frozen=True)
@@ -67,7 +68,7 @@ class Carry(Check):
         judged: dict[tuple[Tip, Well], int] = {}
         let_be: dict[tuple[Tip, Well], list[tuple[Well, Met]]] = {}
         for visit in case.trace.visits:
-            if not visit.below or not visit.carried:
+            if not visit.contact or not visit.carried:
                 continue
             well = visit.well
             if not case.has(well, into) or (not_into and case.has(well, not_into)):
@@ -91,6 +92,9 @@ class Carry(Check):
                 elif not once:
                     let_be.setdefault(key, []).append((origin, met))
             judged[key] = visit.carried
+        doubt = unnamed_contact(case, carriers, into)
+        if doubt is not None:
+            yield doubt
 
     def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
         well = visit.well
@@ -200,6 +204,7 @@ class Carry(Check):
             held = f"{what} from" if case.of(origin) else "the liquid of"
             began = f"The tip that touched {where}, which holds {held} {origin.ref.name},"
         message = f"{began} entered the {case.title(well)} {place(well)} {at(visit.line)}."
+        contact = min(met.contact(visit.index), visit.contact)
         return Violation(
             message,
             (
@@ -209,9 +214,9 @@ class Carry(Check):
             well,
             (visit.line, met.line, what),
             (origin, well),
+            contact=contact,
             # A liquid that stands in all wells may be meant to come along.
-            sure=met.sure and not self._is_one_liquid(case, origin),
-            touched=met.sure,
+            in_any_assay=contact is Contact.WET and not self._is_one_liquid(case, origin),
         )
 
 

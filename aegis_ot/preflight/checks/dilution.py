@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import Transfer, Visit
 from .base import Case, Check, Doubt, Result, Violation, at, place
-from .dilution_steps import NO_SERIES, is_dilution
+from .dilution_steps import NO_SERIES, is_dilution, is_mixed, next_draw
 from .series_links import branching
 
 
@@ -29,10 +26,9 @@ class SeriesMixed(Check):
             for step in series.steps:
                 if not is_dilution(case, step):
                     continue
-                drawn = _next_draw(step)
-                before = drawn.index if drawn else math.inf
-                if case.trace.mixed_since(step.well, step.visit.index, before):
+                if is_mixed(case, step):
                     continue
+                drawn = next_draw(step)
                 carried_on = (
                     f" before liquid is carried on {at(drawn.line)}" if drawn else " afterwards"
                 )
@@ -46,19 +42,6 @@ class SeriesMixed(Check):
                     step.well,
                     (step.visit.line,),
                 )
-
-
-def _next_draw(step: Transfer) -> Visit | None:
-    return next(
-        (
-            visit
-            for visit in step.well.visits
-            if visit.index > step.visit.index
-            and visit.kind is OperationKind.ASPIRATE
-            and not visit.mixing
-        ),
-        None,
-    )
 
 
 @dataclass(frozen=True)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
 from ...instrumentation import OperationKind
-from ..trace import Composition, Transfer, Well
+from ..trace import Composition, Transfer, Visit, Well
 from .base import Case
 
 NO_SERIES = "no chain of transfers from well to well was found"
@@ -68,6 +70,26 @@ def is_dilution(case: Case, step: Transfer) -> bool:
     then = min((index for index in drawn if index > step.visit.index), default=None)
     arrivals = diluent_arrivals(case, step.well)
     return any(then is None or index < then for index in arrivals)
+
+
+def is_mixed(case: Case, step: Transfer) -> bool:
+    """Whether a step's well is mixed before liquid is carried on from there."""
+    drawn = next_draw(step)
+    return case.trace.mixed_since(step.well, step.visit.index, drawn.index if drawn else math.inf)
+
+
+def next_draw(step: Transfer) -> Visit | None:
+    """The first draw from a step's well after it, mixing apart."""
+    return next(
+        (
+            visit
+            for visit in step.well.visits
+            if visit.index > step.visit.index
+            and visit.kind is OperationKind.ASPIRATE
+            and not visit.mixing
+        ),
+        None,
+    )
 
 
 def is_used_up(case: Case, well: Well, stock: Well | None) -> bool:

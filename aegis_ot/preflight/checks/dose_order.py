@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
-from ..text import comparable, lexicon_of, name_without_level
+from ..source import comparable, lexicon_of, name_without_level
 from ..trace import Met, Visit, Well
 from .base import (
     Case,
@@ -45,7 +45,7 @@ class DoseOrder(Check):
         collected = self._collected(case, liquid, wanted)
         seen: set[tuple[int, int]] = set()
         for visit in case.trace.visits:
-            if not visit.below or not visit.carried or not case.has(visit.well, wanted):
+            if not visit.contact or not visit.carried or not case.has(visit.well, wanted):
                 continue
             if visit.well in collected:
                 continue
@@ -123,6 +123,7 @@ class DoseOrder(Check):
             visit.well,
             (visit.line, met.line, harm),
             (origin, visit.well),
+            contact=min(met.contact(visit.index), visit.contact),
         )
 
     def _higher(
@@ -157,20 +158,22 @@ class DoseOrder(Check):
                     visit.well,
                     (visit.line, met.line, "falling"),
                     (other, visit.well),
+                    contact=min(met.contact(visit.index), visit.contact),
                 )
         return None
 
     @staticmethod
     def _touched_later(visit: Visit, other: Well, first: int) -> bool:
         return any(
-            v.tip is visit.tip and v.touch and first <= v.index < visit.index for v in other.visits
+            v.tip is visit.tip and v.touches and first <= v.index < visit.index
+            for v in other.visits
         )
 
 
 def _compound(case: Case, well: Well) -> tuple[str, ...]:
     """What the name of a dosed liquid says besides its dose: ``("cisplatin",)``, ``("b",)``."""
     assigned = case.roles.by_well.get(well.ref)
-    return name_without_level(assigned.text, case.common) if assigned else ()
+    return name_without_level(assigned.text, case.common.undescriptive) if assigned else ()
 
 
 _SHORTEST_NAME = 3
@@ -186,15 +189,19 @@ def _in_one_list(case: Case, one: Well, other: Well) -> bool:
     kinds = lexicon_of({"distinct": case.common.distinct, "dosed": case.common.dose_words})
     said = {match.topic for match in kinds.find(mine.text)}
     labware = case.trace.labware.get(one.ref.labware)
-    beside = (*mine.evidence, labware.label if labware else "")
+    beside = (*(one.text for one in mine.evidence), labware.label if labware else "")
     said |= {match.topic for text in beside for match in kinds.find(text)} & {"dosed"}
-    same = name_without_level(mine.text, case.common) == name_without_level(
-        theirs.text, case.common
+    same = name_without_level(mine.text, case.common.undescriptive) == name_without_level(
+        theirs.text, case.common.undescriptive
     )
     if not same:
         return False
     # `INHIBITORS gefitinib 3` and `... 4`: a compound has a name beside its numbers.
     kind = {match.phrase for match in kinds.find(mine.text) if match.topic == "distinct"}
-    own = [word for word in name_without_level(mine.text, case.common) if word not in kind]
+    own = [
+        word
+        for word in name_without_level(mine.text, case.common.undescriptive)
+        if word not in kind
+    ]
     of_one_name = mine.text != theirs.text and any(len(word) > _SHORTEST_NAME for word in own)
     return "dosed" in said or "distinct" not in said or of_one_name

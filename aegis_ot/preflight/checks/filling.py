@@ -204,7 +204,7 @@ def _filled_by_hand(case: Case, series: Series) -> bool:
     """Whether most wells of a chain get no diluent, and are drawn from as if they held some."""
     reached = {link.well for link in series.links}
     unfilled = {well for well in reached if not diluent_arrivals(case, well)}
-    beyond = {one.well for one in case.trace.imbalances if not one.overfilled}
+    beyond = {one.visit.well for one in case.trace.imbalances if not one.overfilled}
     return 2 * len(unfilled) > len(reached) and 2 * len(unfilled & beyond) > len(unfilled)
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
-from ..text import comparable
+from ..source import comparable
 from ..trace import Visit, Well
 from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
-from ..evidence import Strength
+from ..evidence import Kind
 from ..rules import Word
-from ..text import lexicon_of, tokens
+from ..source import lexicon_of, tokens
 from ..trace import Well
 from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
 from .given import filled, received, sources_of
@@ -33,27 +33,6 @@ def _unknown_source(case: Case, well: Well, served: set[tuple[str, str]]) -> Wel
             if len(others) > 1:
                 return source
     return None
-
-
-def _is_of_another_stage(case: Case, well: Well, served: set[tuple[str, str]]) -> bool:
-    """Whether nothing of the labware that fills this well goes to a served well of its plate."""
-    fed_from: dict[bool, set[str]] = {True: set(), False: set()}
-    for other in case.trace.wells.values():
-        key = (other.ref.labware, other.ref.name)
-        if other.ref.labware == well.ref.labware and (key in served or other is well):
-            for visit in case.trace.deliveries(other):
-                fed_from[other is well] |= {
-                    part[0].ref.labware for part in visit.parts if part[0] is not None
-                }
-    return fed_from[True].isdisjoint(fed_from[False])
-
-
-def _is_handed_on(case: Case, well: Well, wells: RoleSet) -> bool:
-    """Whether something unknown fills this well, or nothing but what such wells held before."""
-    sources = sources_of(case, well)
-    if any(not case.of(source) for source in sources):
-        return True
-    return bool(sources) and all(case.has(source, wells) for source in sources)
 
 
 def _last_line(case: Case, well: Well) -> int | None:
@@ -144,7 +123,7 @@ class Receives(Check):
             if case.has(origin, liquid)
         ]
         # The best evidence for what the liquid is: a comment alone makes no error.
-        given.sort(key=lambda one: case.roles.by_comment_only(one[2].ref))
+        given.sort(key=lambda one: case.roles.is_doubtful(one[2].ref))
         title = " or ".join(case.family.roles[role].title for role in self.liquid)
         for well in judged:
             place_key = (well.ref.labware, well.ref.name)
@@ -165,18 +144,9 @@ class Receives(Check):
                 f"{place(well)} receives something from {place(unknown)}, and nothing says "
                 "what stands there"
             )
-        if (
-            case.loose_volumes
-            and not case.has(well, frozenset(self.always))
-            and (
-                _is_of_another_stage(case, well, served)
-                or _is_handed_on(case, well, frozenset(self.wells))
-            )
-        ):
-            return f"{place(well)} is filled from elsewhere, after a clean-up perhaps"
         if self._is_ready_made(case, well, served):
             return f"{place(well)} may get all of its liquid from one tube, as the others do"
-        if case.roles.by_plate_only(well.ref):
+        if case.roles.is_named_by_labware(well.ref):
             return f"nothing but its plate's name says what {place(well)} is for"
         if self._is_filled_otherwise(case, well, filled(case, well)[0], served):
             return f"{place(well)} may be a blank of the instrument: it is filled up"
@@ -220,7 +190,7 @@ class Receives(Check):
         A well that is given what stood in such a well before, liquid and all, is another stage.
         """
         wells = frozenset(self.wells)
-        plates = {
+        return {
             visit.well.ref.labware
             for visit in case.trace.visits
             for origin, volume, source, _ in delivered(visit)
@@ -230,15 +200,14 @@ class Receives(Check):
                 or (case.has(origin, liquid) and not case.has(source, wells))
             )
         }
-        return plates | {key for plate in plates for key in case.roles.replicates.get(plate, ())}
 
     @staticmethod
     def _stands_unused(case: Case, liquid: RoleSet) -> bool:
         """Whether a well of its own is named for the liquid: then nobody adds it by hand."""
         return any(
             not liquid.isdisjoint(case.roles.closure(assigned.role))
-            and assigned.strength >= Strength.NAME
-            and not any("label" in said for said in assigned.evidence)
+            and assigned.kind >= Kind.NAME
+            and not assigned.whole
             for assigned in case.roles.by_well.values()
         )
 
@@ -258,5 +227,4 @@ class Receives(Check):
             if ref.labware in drawn:
                 continue  # among sources: a tube that this run leaves out
             if ref not in visited and not always.isdisjoint(case.roles.of(ref)):
-                info = case.trace.labware.get(ref.labware)
-                yield Well(ref, 0, info.wells.get(ref.name) if info else None, (0, 0))
+                yield Well(ref)

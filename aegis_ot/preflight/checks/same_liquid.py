@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from ...instrumentation import OperationKind
-from ..text import name_without_level, without_strength
+from ..source import name_without_level, without_strength
 from ..trace import Well
 
 if TYPE_CHECKING:
@@ -35,8 +35,8 @@ def is_same_liquid(case: Case, one: Well, other: Well) -> bool:
         return False
     if not case.family.roles[mine.role].one_liquid:
         return False
-    return name_without_level(mine.text, case.common) == name_without_level(
-        theirs.text, case.common
+    return name_without_level(mine.text, case.common.undescriptive) == name_without_level(
+        theirs.text, case.common.undescriptive
     )
 
 
@@ -94,8 +94,8 @@ def _fill_a_reservoir(case: Case, one: Well, other: Well) -> bool:
         return False
     if mine.whole or case.family.roles[mine.role].dosed or case.level(one) != case.level(other):
         return False  # "bortezomib" has another dose in each
-    label = name_without_level(info.label, case.common)
-    return label == name_without_level(mine.text, case.common) != ()
+    label = name_without_level(info.label, case.common.undescriptive)
+    return label == name_without_level(mine.text, case.common.undescriptive) != ()
 
 
 _NUMBERED = re.compile(r"(.+\[)['\"]?\d+['\"]?\]")

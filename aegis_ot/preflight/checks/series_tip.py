@@ -9,8 +9,10 @@ from typing import ClassVar
 from ...vocabulary import Site
 from ..trace import Transfer, Visit, Well
 from .base import Case, Check, Doubt, Result, Violation, at, place
-from .dilution_steps import NO_SERIES, is_dilution
+from .dilution_steps import NO_SERIES, is_dilution, is_mixed
 from .series import Series
+
+_MIXED = "Every step is mixed, which rinses the tip: common practice, though not exact."
 
 
 @dataclass(frozen=True)
@@ -35,15 +37,16 @@ class SeriesTip(Check):
         by_tip: dict[int, list[Visit]] = {}
         for well in series.wells:
             for visit in well.visits:
-                if visit.below:
+                if visit.contact:
                     by_tip.setdefault(visit.tip.number, []).append(visit)
         dilutions = [step for step in series.steps if is_dilution(case, step)]
+        mixed = all(is_mixed(case, step) for step in dilutions)
         for visits in by_tip.values():
             visits.sort(key=lambda visit: visit.index)
-            yield from self._one_tip(case, series, dilutions, visits)
+            yield from self._one_tip(series, dilutions, visits, _MIXED if mixed else "")
 
     def _one_tip(
-        self, case: Case, series: Series, dilutions: list[Transfer], visits: list[Visit]
+        self, series: Series, dilutions: list[Transfer], visits: list[Visit], warning: str
     ) -> Iterator[Result]:
         tip = visits[0].tip
         first = next((step for step in dilutions if _made_by(step, tip.number)), None)
@@ -69,10 +72,12 @@ class SeriesTip(Check):
                     ),
                     visit.well,
                     ("series tip",),
+                    contact=min(before.contact, visit.contact),
+                    warning=warning,
                 )
             entered = series.entered.get(visit.well)
             holds_stock = entered is not None and entered <= visit.index
-            if visit.touch and holds_stock and (strongest is None or place_here < strongest[0]):
+            if visit.touches and holds_stock and (strongest is None or place_here < strongest[0]):
                 strongest = (place_here, visit)
 
 

@@ -1,4 +1,4 @@
-"""Checks on volumes that do not add up."""
+"""The check on volumes that do not add up."""
 
 from __future__ import annotations
 
@@ -8,11 +8,14 @@ from typing import ClassVar
 
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import Imbalance, Well
+from ..trace import Imbalance, Visit, Well
 from .base import Case, Check, Doubt, Result, Violation, at, place
 
 _FAR_SHORT = 2.0
 """Where so many times more is drawn than the run has put in, the plate was filled by hand."""
+
+_TO_EMPTY = 1.25
+"""So many times what a well holds is drawn from it to leave nothing behind."""
 
 
 @dataclass(frozen=True)
@@ -20,62 +23,41 @@ class VolumeBookkeeping(Check):
     """No well is filled beyond its capacity or drawn below what it holds.
 
     Wells of unknown volume are judged only by what the run put into them; so are plates from
-    which so much is drawn that someone must have filled them by hand. A pause that does not say
-    what is done in it leaves open whether someone filled or emptied wells.
+    which so much is drawn that someone must have filled them by hand. What stays below the brim,
+    and a draw that over-reaches only to empty a well, is a warning.
     """
 
     name: ClassVar[str] = "volume_bookkeeping"
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Report the first imbalance of each kind in each well."""
+        """Report each kind of imbalance once in each well: the first that is sure, or the first."""
         by_hand = {
-            imbalance.well.ref.labware
-            for imbalance in case.trace.imbalances
-            if not imbalance.overfilled and _is_far_short(imbalance.well)
+            one.visit.well.ref.labware
+            for one in case.trace.imbalances
+            if not one.overfilled and _is_far_short(one.visit.well)
         }
-        seen: set[tuple[int, bool]] = set()
-        for imbalance in case.trace.imbalances:
-            well = imbalance.well
-            key = (id(well), imbalance.overfilled)
-            if key in seen or (imbalance.overfilled and well.ref in case.waste):
+        found: dict[tuple[Well, bool], list[Imbalance]] = {}
+        for one in case.trace.imbalances:
+            well = one.visit.well
+            if one.overfilled and well.ref in case.waste:
                 continue
-            undeclared = not imbalance.overfilled and well.declared is None
-            if undeclared and (
-                case.loose_volumes
-                or well.ref in case.unsure
-                or well.ref.labware in by_hand
-                or well.generation  # brought by hand in a pause: nobody says what it holds
-            ):
-                continue  # it may have held what nobody declared
-            seen.add(key)
-            if undeclared and _is_mix(imbalance):
-                yield Doubt(
-                    f"{place(well)} is mixed with {imbalance.volume:.4g} µL {at(imbalance.line)}, "
-                    f"and the run has put {imbalance.limit:.4g} µL there: it may have held more"
-                )
-                continue
-            yield _violation(imbalance)
-        for imbalance in case.trace.doubtful:
-            well = imbalance.well
-            key = (id(well), imbalance.overfilled)
-            undeclared = not imbalance.overfilled and well.declared is None
-            if key in seen or undeclared or well.ref in case.waste:
-                continue
-            seen.add(key)
-            yield Doubt(_if_nobody_did(imbalance))
-
-
-def _if_nobody_did(imbalance: Imbalance) -> str:
-    """What would be wrong if nobody changed a volume by hand in a pause."""
-    if imbalance.overfilled:
-        return (
-            f"{place(imbalance.well)} would hold {imbalance.volume:.4g} µL {at(imbalance.line)}, "
-            f"of {imbalance.limit:.4g} µL, if nobody emptied it in the pause before"
-        )
-    return (
-        f"{imbalance.volume:.4g} µL are drawn from {place(imbalance.well)} {at(imbalance.line)}, "
-        f"which held {imbalance.limit:.4g} µL if nobody filled it in the pause before"
-    )
+            if not one.overfilled and well.declared is None:
+                if (
+                    well.ref in case.unsure
+                    or well.ref.labware in by_hand
+                    or well.generation  # brought by hand in a pause: nobody says what it holds
+                ):
+                    continue  # it may have held what nobody declared
+                if one.visit.mixing:
+                    yield Doubt(
+                        f"{place(well)} is mixed with {one.volume:.4g} µL {at(one.visit.line)}, "
+                        f"and the run has put {one.limit:.4g} µL there: it may have held more"
+                    )
+                    continue
+            found.setdefault((well, one.overfilled), []).append(one)
+        for together in found.values():
+            told = [(one, _why_practice(case, one)) for one in together]
+            yield _violation(*next((one for one in told if not one[1]), told[0]))
 
 
 def _is_far_short(well: Well) -> bool:
@@ -86,32 +68,64 @@ def _is_far_short(well: Well) -> bool:
     return given * _FAR_SHORT <= drawn
 
 
-def _is_mix(imbalance: Imbalance) -> bool:
-    """Whether what was drawn went straight back."""
-    return any(visit.mixing for visit in imbalance.well.visits if visit.index == imbalance.index)
-
-
-def _violation(imbalance: Imbalance) -> Violation:
-    well = imbalance.well
+def _why_practice(case: Case, imbalance: Imbalance) -> str:
+    """Why an imbalance is a warning, in a sentence; empty for an error."""
+    visit, well = imbalance.visit, imbalance.visit.well
     if imbalance.overfilled:
-        message = (
-            f"{place(well)} is filled to {imbalance.volume:.4g} µL {at(imbalance.line)}; "
-            f"it holds {imbalance.limit:.4g} µL."
+        if imbalance.volume > well.brim or _is_filled_again(case, visit):
+            return ""
+        return f"It stays below the brim ({well.brim:.4g} µL)."
+    if visit.mixing:
+        return "It is drawn to mix, not to be delivered."
+    fed = {
+        given.well
+        for given in case.trace.visits
+        if given.tip is visit.tip and given.index > visit.index
+        if given.session == visit.session and any(part[0] is well for part in given.parts)
+    }
+    if all(_is_waste(case, one) for one in fed):
+        return "What is drawn goes to the waste."
+    last = all(v.index <= visit.index for v in well.visits if v.kind is OperationKind.ASPIRATE)
+    if (
+        last
+        and 0 < imbalance.volume <= imbalance.limit * _TO_EMPTY
+        and len(case.destinations.get(well, ())) <= 1
+    ):
+        return "It is drawn to empty the well."
+    return ""
+
+
+def _is_waste(case: Case, well: Well) -> bool:
+    used = case.usage.get(well.ref)
+    return well.ref in case.waste or (used is not None and used.drain)
+
+
+def _is_filled_again(case: Case, visit: Visit) -> bool:
+    """Whether a well gets one liquid more often than most wells beside it do."""
+    for source in {part[0] for part in visit.parts if part[0] is not None}:
+        others = sorted(
+            len(case.straight(source, other))
+            for other in case.destinations.get(source, ())
+            if other is not visit.well and other.ref.labware == visit.well.ref.labware
         )
-        sites = [Site(imbalance.line, well.ref, f"filled to {imbalance.volume:.4g} µL")]
+        if others and len(case.straight(source, visit.well)) > others[len(others) // 2]:
+            return True
+    return False
+
+
+def _violation(imbalance: Imbalance, warning: str) -> Violation:
+    visit, well = imbalance.visit, imbalance.visit.well
+    volume, limit = f"{imbalance.volume:.4g} µL", f"{imbalance.limit:.4g} µL"
+    if imbalance.overfilled:
+        message = f"{place(well)} is filled to {volume} {at(visit.line)}; it holds {limit}."
+        sites = [Site(visit.line, well.ref, f"filled to {volume}")]
     else:
         message = (
-            f"{imbalance.volume:.4g} µL are drawn from {place(well)} {at(imbalance.line)}, "
-            f"which holds {imbalance.limit:.4g} µL then."
+            f"{volume} are drawn from {place(well)} {at(visit.line)}, which holds {limit} then."
         )
-        sites = [
-            Site(
-                imbalance.line,
-                well.ref,
-                f"drew {imbalance.volume:.4g} µL of {imbalance.limit:.4g} µL",
-            )
-        ]
-    lines = [v.line for v in well.visits if v.index < imbalance.index and v.parts]
-    if lines and lines[-1] != imbalance.line:
+        sites = [Site(visit.line, well.ref, f"drew {volume} of {limit}")]
+    lines = [v.line for v in well.visits if v.index < visit.index and v.parts]
+    if lines and lines[-1] != visit.line:
         sites.insert(0, Site(lines[-1], well.ref, "last filled here"))
-    return Violation(message, tuple(sites), well, (imbalance.line, imbalance.overfilled))
+    cause = (visit.line, imbalance.overfilled)
+    return Violation(message, tuple(sites), well, cause, warning=warning)

@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import RuleError
-from ..rules import SCHEMA_VERSION, Common, Database, Family, parse_json, read_dataclass
+from ..rules import READABLE, SCHEMA_VERSION, Common, Database, Family, parse_json, read_dataclass
+from .dropped import refuse_dropped
 from .together import check_together
 from .validation import check_family
 
@@ -78,8 +79,9 @@ def load_family(path: Path) -> Family:
     data = _json(path)
     if isinstance(data, dict):
         data.pop("$schema", None)
+        refuse_dropped(data, path.name)
     family = read_dataclass(Family, data, path.name)
-    if family.schema != SCHEMA_VERSION:
+    if family.schema not in READABLE:
         raise RuleError(f"{path.name}: schema: expected {SCHEMA_VERSION}, found {family.schema}")
     check_family(family, path.name)
     return dataclasses.replace(family, path=str(path))

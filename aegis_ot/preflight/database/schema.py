@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 from ..checks import CHECKS
-from ..rules import SCHEMA_VERSION, Family, json_schema
+from ..rules import READABLE, Family, json_schema
 
 
 def family_schema() -> dict[str, Any]:
@@ -14,7 +14,7 @@ def family_schema() -> dict[str, Any]:
     schema = json_schema(Family)
     schema["title"] = "aegis_ot assay family"
     schema["properties"]["$schema"] = {"type": "string"}
-    schema["properties"]["schema"]["const"] = SCHEMA_VERSION
+    schema["properties"]["schema"]["enum"] = list(READABLE)
     schema["$defs"]["RuleSpec"]["properties"]["checks"]["items"] = {"oneOf": _checks()}
     return schema
 

@@ -9,7 +9,7 @@ from typing import Any
 from ...errors import RuleError
 from ..checks import make_check
 from ..rules import Family, RoleSpec, RuleSpec
-from ..text import tokens
+from ..source import tokens
 from .circles import circle_in
 
 

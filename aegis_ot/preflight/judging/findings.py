@@ -11,11 +11,15 @@ from ..rules import RuleSpec
 
 
 class Broken(NamedTuple):
-    """A rule and the places where it is broken."""
+    """A rule and the places where it is broken.
+
+    ``severity`` is the highest that its findings have; ``strict``: all of them are errors.
+    """
 
     rule: RuleSpec
     severity: Severity
     violations: list[Violation]
+    strict: bool = False
 
 
 def findings_of(broken: Sequence[Broken]) -> list[Finding]:
@@ -37,11 +41,11 @@ def _joined(broken: Broken) -> Iterable[Finding]:
         if len(wells) > 1:
             message = f"{message} Likewise {_listed(wells)}."
         severity = broken.severity
-        if first.on_comment:
-            # spec/rules.md puts comments below names, liquids and labels: they are believed
-            # enough to speak up, not enough to stop a run.
+        if first.warning:
+            message = f"{message} {first.warning}"
             severity = Severity.WARNING
-            message = f"{message} Only a comment says so ({first.on_comment})."
+        if broken.strict:
+            severity = Severity.ERROR
         sites: dict[Site, None] = dict.fromkeys(first.sites)
         for violation in group[1:]:
             sites.update(dict.fromkeys(violation.sites))

@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ...vocabulary import Remark, Severity, Undecided
 from ..checks import Case, Doubt, Violation, make_check
-from ..evidence import Strength
+from ..evidence import Kind
 from ..rehearsal import Recording
 from ..roles import Roles
-from ..rules import Database, Family, RuleSpec
-from ..text import source_lines
+from ..rules import Database, RuleSpec
+from ..source import source_lines
+from ..trace import Contact, Well
+from .doubts import missing_needs, missing_roles, unnamed_wells
 from .findings import Broken, findings_of
-from .options import Options, check_options
-from .reading import Reading, read_recording
+from .options import Options
+from .reading import Reading, read_recording, uncollected
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
 _UNKNOWN_VOLUME = "how high the liquid stands is not known; say it with load_liquid"
+_DOUBTFUL = "It rests on what is only read of a well: {}."
 _UNKNOWN_ASSAY = 'the assay is not known; say it with assay="..."'
 
 
@@ -31,44 +32,35 @@ def judge(recording: Recording, database: Database, options: Options | None = No
         ConfigurationError: If an option names a rule, role or family that does not exist.
         RuleError: If a family given by hand does not exist.
     """
-    options = options or Options()
-    check_options(options, database)
-    with _uncollected():
-        reading = read_recording(recording, database, options)
+    return judge_reading(read_recording(recording, database, options or Options()))
+
+
+def judge_reading(reading: Reading) -> Report:
+    """Judge a protocol that was read already; to keep the reading, or to judge it again."""
+    options = reading.options
+    with uncollected():
         broken: list[Broken] = []
         undecided: list[Undecided] = []
         for rule, case in reading.cases():
             severity = options.severity_of(rule)
             if severity == "off":
                 continue
+            missing = missing_needs(rule, case.roles)
+            if missing:
+                family = case.family.family
+                undecided.append(missing_roles(reading, rule, family, missing))
+                continue
             violations, doubt = _judge_rule(rule, case, bool(options.assay))
-            broken.append(Broken(rule, Severity(severity), violations))
+            broken.append(Broken(rule, Severity(severity), violations, options.strict))
             if doubt:
                 undecided.append(Undecided(rule.id, doubt))
         open_ = {question.rule for question in undecided}
         judged = [one.rule.id for one in broken if one.rule.id not in open_]
-        return _report(recording, reading, broken, undecided, judged)
-
-
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Hold the garbage collector: a trace is many small objects, none of them garbage."""
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
+        return _report(reading, broken, undecided, judged)
 
 
 def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Violation], str]:
     """Where a rule is broken, or why that cannot be said (``""`` if it can)."""
-    missing = [
-        need for need in rule.needs if not any(case.roles.known(role) for role in need.split("|"))
-    ]
-    if missing:
-        return [], _missing(case.family, missing)
     sure = case.confident or assay_given
     if not sure and not case.family.default:
         return [], _UNKNOWN_ASSAY
@@ -80,12 +72,12 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
                 doubts.append(result.reason)
             elif not sure and not _plain(result, case.roles):
                 doubts.append(_UNKNOWN_ASSAY)
-            elif case.left_over and not result.touched:
+            elif case.left_over and result.contact is Contact.NEAR:
                 doubts.append(_UNKNOWN_VOLUME)
             else:
-                comment = _comment_alone(result, case.roles)
-                cause = (number, comment, *result.cause)
-                violations.append(replace(result, cause=cause, on_comment=comment))
+                warning = _why_warning(result, case)
+                cause = (number, warning, *result.cause)
+                violations.append(replace(result, cause=cause, warning=warning))
     if not sure and not violations:
         doubts.append(_UNKNOWN_ASSAY)
     return violations, doubts[0] if doubts and not violations else ""
@@ -97,28 +89,44 @@ def _plain(violation: Violation, roles: Roles) -> bool:
     Loaded liquids and the run alone say what the wells are for that it rests on; or names and
     labels do, and nothing is open in what happened.
     """
-    least = Strength.NAME if violation.sure else Strength.LIQUID
+    least = Kind.NAME if violation.in_any_assay else Kind.LIQUID
     return all(
-        well.liquids or well.ref not in roles.by_well or roles.by_well[well.ref].strength >= least
+        well.liquids or well.ref not in roles.by_well or roles.by_well[well.ref].kind >= least
         for well in violation.rests_on
     )
 
 
-def _comment_alone(violation: Violation, roles: Roles) -> str:
-    """The comment that a violation rests on, ``""`` if it rests on better evidence."""
+def _why_warning(violation: Violation, case: Case) -> str:
+    """Why a violation is a warning at most, in a sentence; empty for an error.
+
+    Errors are certain (``spec/rules.md``, Severity).
+    """
+    if violation.warning:
+        return violation.warning
+    if violation.contact is Contact.NEAR:
+        return "The tip came near the liquid there and may have stayed clear of it."
+    roles = case.roles
     for well in violation.rests_on:
-        if roles.by_comment_only(well.ref):
-            return roles.by_well[well.ref].evidence[0]
+        if roles.is_doubtful(well.ref):
+            return _DOUBTFUL.format(roles.by_well[well.ref].evidence[0].citation)
+    if case.family.default and not all(_is_named(well, roles) for well in violation.rests_on):
+        return "Nothing in the protocol says what these wells hold."
     return ""
 
 
+def _is_named(well: Well, roles: Roles) -> bool:
+    """Whether a name, a loaded liquid or an argument says what a well is for."""
+    assigned = roles.by_well.get(well.ref)
+    return bool(well.liquids) or (assigned is not None and assigned.kind >= Kind.NAME)
+
+
 def _report(
-    recording: Recording,
     reading: Reading,
     broken: Sequence[Broken],
     undecided: Sequence[Undecided],
     judged: Sequence[str],
 ) -> Report:
+    recording = reading.recording
     waivers = read_waivers(recording.text, reading.facts)
     standing, waived = apply_waivers(findings_of(broken), waivers)
     known = [rule.id for rule in reading.database.rules]
@@ -134,12 +142,8 @@ def _report(
         remarks=(*_conflicts(reading.roles), *waiver_remarks(waivers, waived, judged, known)),
         judged=tuple(judged),
         lines=tuple(source_lines(recording.text)),
+        unnamed=unnamed_wells(reading),
     )
-
-
-def _missing(family: Family, needs: Sequence[str]) -> str:
-    names = [" or ".join(family.roles[role].title for role in need.split("|")) for need in needs]
-    return f"nothing says which well is the {' and which the '.join(names)}"
 
 
 def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:
@@ -161,7 +165,7 @@ def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:
                 roles.family.family,
                 ref,
                 assigned.role,
-                tuple(assigned.evidence),
+                tuple(one.citation for one in assigned.evidence),
                 roles.level(ref),
                 assigned.conflict,
             )

@@ -20,6 +20,7 @@ class Options:
         select: Only these rules; empty for all.
         ignore: Not these rules.
         severity: Severity in force for a rule: ``error``, ``warning`` or ``off``.
+        strict: Whether warnings are errors.
     """
 
     assay: Sequence[str] = ()
@@ -27,6 +28,7 @@ class Options:
     select: Sequence[str] = ()
     ignore: Sequence[str] = ()
     severity: Mapping[str, str] = field(default_factory=dict)
+    strict: bool = False
 
     @classmethod
     def from_settings(cls, settings: Settings) -> Options:
@@ -36,6 +38,7 @@ class Options:
             roles=settings.roles,
             select=settings.select,
             ignore=settings.ignore,
+            strict=settings.rules == "strict",
         )
 
     def severity_of(self, rule: RuleSpec) -> str:

@@ -1,14 +1,15 @@
-"""A recorded rehearsal as the rules see it: trace, families, roles, and a case for each rule."""
+"""A recorded rehearsal as the rules see it: trace, evidence, families, roles, and cases."""
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 
-from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..checks import Case
-from ..evidence import Clue, Strength, gather
+from ..evidence import Evidence, gather
 from ..rehearsal import Recording
 from ..roles import (
     Inference,
@@ -20,36 +21,49 @@ from ..roles import (
     settle_diluent,
 )
 from ..rules import Common, Database, Family, RuleSpec
-from ..text import SourceFacts, lexicon_of, read_source, tokens
-from ..trace import Replacements, Trace, Usage, build_trace, usage_of
-from .options import Options
+from ..source import SourceFacts, lexicon_of, read_source, tokens
+from ..trace import Pauses, Trace, Usage, build_trace, usage_of
+from .options import Options, check_options
+
+_PLAUSIBLE = 1.0
+"""From this score on a family that is not judged may still say what wells held."""
 
 
 @dataclass(frozen=True)
 class Reading:
-    """What a protocol is taken for.
+    """What a protocol is taken for; made once, then judged, shown to a model, judged again.
 
     Attributes:
-        facts: What its text says.
+        recording: The rehearsal.
+        database: The rules.
+        options: How to judge.
+        facts: What its text says as Python.
         trace: What it does.
         usage: How it uses each well.
+        evidence: All that speaks for roles.
         families: All families, the likeliest first.
         roles: What the wells are for, in each family that applies.
         waste: Wells that are called waste.
-        loose_volumes: Whether its wells held liquid that nobody declares.
-        unsure: Wells that may have held liquid before the run, as the labware's name goes.
-        database: The rules.
+        unsure: Wells that may have held liquid before the run, as names go.
     """
 
+    recording: Recording
+    database: Database
+    options: Options
     facts: SourceFacts
     trace: Trace
     usage: Mapping[WellRef, Usage]
+    evidence: tuple[Evidence, ...]
     families: tuple[Inference, ...]
     roles: tuple[Roles, ...]
     waste: frozenset[WellRef]
-    loose_volumes: bool
     unsure: frozenset[WellRef]
-    database: Database
+
+    @property
+    def family_known(self) -> bool:
+        """Whether the likeliest family is given, or more than a guess and more than a fallback."""
+        first = self.families[0] if self.families else None
+        return bool(self.options.assay or (first and first.sure and not first.left_over))
 
     def cases(self) -> Iterator[tuple[RuleSpec, Case]]:
         """Every rule that concerns this protocol, with the case that it is judged on."""
@@ -66,6 +80,16 @@ class Reading:
                     known = next((r for r in self.roles if r.family is family), Roles(family))
                     yield rule, self._case(known, True)
 
+    def with_evidence(self, more: Sequence[Evidence], assay: Sequence[str] = ()) -> Reading:
+        """The same recording read with more evidence: nothing is rehearsed again.
+
+        Args:
+            more: Further evidence, a model's.
+            assay: The family that it is taken for; as before if empty.
+        """
+        options = replace(self.options, assay=tuple(assay)) if assay else self.options
+        return _read(self.recording, self.database, options, self.facts, more)
+
     def _case(self, roles: Roles, sure: bool, left_over: bool = False) -> Case:
         return Case(
             self.trace,
@@ -74,133 +98,113 @@ class Reading:
             self.database.common,
             sure,
             self.waste,
-            self.loose_volumes,
             self.unsure,
             left_over,
         )
 
 
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Hold the garbage collector: a trace is many small objects, none of them garbage."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
+
+
 def read_recording(recording: Recording, database: Database, options: Options) -> Reading:
-    """Read a recording with the eyes of every family that applies."""
+    """Read a recording with the eyes of every family that applies.
+
+    Raises:
+        ConfigurationError: If an option names a rule, role or family that does not exist.
+        RuleError: If a family given by hand does not exist.
+    """
+    check_options(options, database)
+    with uncollected():
+        return _read(recording, database, options, read_source(recording.text), ())
+
+
+def _read(
+    recording: Recording,
+    database: Database,
+    options: Options,
+    facts: SourceFacts,
+    more: Sequence[Evidence],
+) -> Reading:
     common = database.common
-    facts = read_source(recording.text, recording.parameters)
-    replacements = Replacements(common.pauses, common.layout.get("and", ()))
-    trace = build_trace(recording.log, recording.labware, replacements)
-    clues = gather(trace, recording.names, facts, options.roles, common)
+    pauses = Pauses(common.pauses)
+    trace = build_trace(recording.log, recording.labware, pauses)
+    evidence = [*gather(trace, recording.names, facts, options.roles, common), *more]
     usage = usage_of(trace)
     assigned: dict[str, Roles] = {}
 
     def roles_of(family: Family) -> Roles:
         if family.family not in assigned:
-            assigned[family.family] = assign_roles(family, common, clues, usage, trace)
+            assigned[family.family] = assign_roles(family, common, evidence, usage, trace)
         return assigned[family.family]
 
-    families = infer_families(database, facts, clues, trace, roles_of, options.assay)
+    families = infer_families(database, facts, evidence, trace, roles_of, options.assay)
     roles = [roles_of(database.family(found.family)) for found in families if found.applies]
-    prefilled: set[WellRef] = set()
-    for one in roles:
-        prefilled |= implied_contents(one, trace)
+    empty = _said_to_be_empty(evidence, common)
+    prefilled = {ref for one in roles for ref in implied_contents(one, trace)} - empty
     # Read again, now that roles say which wells held liquid before the run.
     prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
-    empty = _said_to_be_empty(clues, common)
-    prefilled -= empty
     if prefilled & usage.keys():
-        trace = build_trace(recording.log, recording.labware, replacements, prefilled.__contains__)
+        trace = build_trace(recording.log, recording.labware, pauses, prefilled.__contains__)
         usage = usage_of(trace)
     for one in roles:
         settle_diluent(one, trace)
-        derive(one, trace, usage, common)
+        derive(one, trace, usage)
+    elsewhere = _implied_elsewhere(database, families, roles_of, trace)
     return Reading(
+        recording=recording,
+        database=database,
+        options=options,
         facts=facts,
         trace=trace,
         usage=usage,
+        evidence=tuple(evidence),
         families=tuple(families),
         roles=tuple(roles),
-        waste=_waste(clues, common, trace),
-        loose_volumes=_loose_volumes(facts, common),
-        unsure=(
-            frozenset(_prefilled_by_words(clues, common))
-            | _implied_elsewhere(database, families, clues, usage, trace)
-        )
-        - empty,
-        database=database,
+        waste=_called(evidence, common.waste),
+        unsure=(_called(evidence, common.prefilled) | elsewhere) - empty,
     )
 
 
-def _loose_volumes(facts: SourceFacts, common: Common) -> bool:
-    """Whether the protocol is of a kind whose wells held liquid that nobody declares."""
-    lexicon = lexicon_of({"kind": common.protocol_prefilled})
-    texts = [text for _, text in facts.docstrings]
-    texts += list(facts.metadata.values())
-    texts += [text for _, text in facts.strings]
-    texts += list(facts.names)
-    return any(lexicon.find(text) for text in texts)
-
-
-_PLAUSIBLE = 1.0
-"""From this score on a family that is not judged may still say what wells held."""
-
-
 def _implied_elsewhere(
-    database: Database,
-    families: Iterable[Inference],
-    clues: Sequence[Clue],
-    usage: Mapping[WellRef, Usage],
-    trace: Trace,
+    database: Database, families: Iterable[Inference], roles_of: object, trace: Trace
 ) -> frozenset[WellRef]:
     """Wells that held liquid before the run in the eyes of a family that is not judged.
 
     Too little to accuse anyone, enough not to.
     """
-    if not any(i.well.declared is None and not i.overfilled for i in trace.imbalances):
+    if not any(i.visit.well.declared is None and not i.overfilled for i in trace.imbalances):
         return frozenset()
-    found: set[WellRef] = set()
-    for inference in families:
-        if not inference.applies and inference.score >= _PLAUSIBLE:
-            family = database.family(inference.family)
-            roles = assign_roles(family, database.common, clues, usage, trace)
-            found |= implied_contents(roles, trace)
-    return frozenset(found)
-
-
-def _prefilled_by_words(clues: Iterable[Clue], common: Common) -> set[WellRef]:
-    """Wells whose names say, in any family, that they held liquid before the run."""
-    lexicon = lexicon_of({"prefilled": common.prefilled})
-    return {
-        ref
-        for clue in clues
-        if clue.whole and clue.subject and lexicon.find(clue.text)
-        for ref in clue.wells
-    }
-
-
-def _said_to_be_empty(clues: Iterable[Clue], common: Common) -> set[WellRef]:
-    """Wells that are said to be empty at first: ``mix = rack["D1"]  # empty tube``.
-
-    Not those of an "empty vector", nor where it is said when they will be empty.
-    """
-    empty = set(common.empty)
-    nouns = {word for words in (*common.labware.values(), common.places) for word in words}
-    return {
-        ref
-        for clue in clues
-        if not clue.whole and not clue.step
-        if empty & (words := set(tokens(clue.text))) and words <= empty | nouns
-        for ref in clue.wells
-    }
-
-
-def _waste(clues: Iterable[Clue], common: Common, trace: Trace) -> frozenset[WellRef]:
-    """Wells that are called waste; "to waste" beside a transfer means where it goes.
-
-    Where a comment says "discard the surplus of column 10", that is drawn from, and no waste.
-    """
-    lexicon = lexicon_of({"waste": common.waste})
-    drawn = {v.well.ref for v in trace.visits if v.kind is OperationKind.ASPIRATE}
+    assert callable(roles_of)
     return frozenset(
         ref
-        for clue in clues
-        if clue.step != "source" and lexicon.find(clue.text)
-        for ref in clue.wells
-        if clue.strength > Strength.COMMENT or ref not in drawn
+        for inference in families
+        if not inference.applies and inference.score >= _PLAUSIBLE
+        for ref in implied_contents(roles_of(database.family(inference.family)), trace)
+    )
+
+
+def _called(evidence: Iterable[Evidence], words: Sequence[str]) -> frozenset[WellRef]:
+    """Wells whose names, labels or liquids have one of these words."""
+    lexicon = lexicon_of({"called": tuple(words)})
+    return frozenset(ref for one in evidence if lexicon.find(one.text) for ref in one.wells)
+
+
+def _said_to_be_empty(evidence: Iterable[Evidence], common: Common) -> frozenset[WellRef]:
+    """Wells called no more than empty: ``empty_tubes``, not those of an "empty vector"."""
+    empty, nouns = set(common.empty), {token for noun in common.noise for token in tokens(noun)}
+    return frozenset(
+        ref
+        for one in evidence
+        if not one.whole
+        if empty & (words := set(tokens(one.text))) and words <= empty | nouns
+        for ref in one.wells
     )

@@ -17,7 +17,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from ...vocabulary import Finding, Remark
-from ..text import SourceFacts, source_lines
+from ..source import SourceFacts, source_lines
 
 _WAIVER = re.compile(
     r"aegis\s*:\s*ignore\s*(?:\[(?P<rules>[^\]]*)\])?\s*(?P<reason>.*)$", re.IGNORECASE

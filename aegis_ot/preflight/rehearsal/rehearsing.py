@@ -15,13 +15,13 @@ from typing import Any
 
 from ...errors import AegisError, RehearsalError
 from ...instrumentation import LabwareInfo, Listener, NameBinding, NameCollector, tapped
-from .haste import hasty_builtins
 from .interruption import interrupted_after
 from .loading import load
 from .parameters import Limit, copied_parameters, lacking_files, plain_values, runtime_parameters
 from .refusals import is_unexecuted, never_executed, stopped
 from .script import Script
 from .simulated_context import simulated_context
+from .virtual_time import builtins_in_virtual_time
 
 Run = Callable[[Any], Any]
 
@@ -77,17 +77,10 @@ def rehearse(
             _stage(protocol, script, live_parameters, limit) as context,
             tapped(context, listeners, script.file_name) as tap,
         ):
-            names = NameCollector(tap.wells, script.file_name)
-
-            def watched(run: Run) -> Run:
-                def run_with_names(given: Any) -> Any:
-                    with names.watching(namespace, script.text):
-                        return run(given)
-
-                return run_with_names
-
-            namespace = {"__builtins__": hasty_builtins()}
-            names.look(_perform(protocol, context, watched, limit, namespace), "<module>", 1)
+            names = NameCollector(tap.wells, tap.stack, script.file_name)
+            namespace = {"__builtins__": builtins_in_virtual_time()}
+            with names.watching(namespace):
+                _perform(protocol, context, limit, namespace)
             values = plain_values(context._params)
             return Rehearsal(names.bindings, dict(tap.wells.labware), values)
     finally:
@@ -106,7 +99,7 @@ def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.
     protocol = load(script)
     limit = partial(interrupted_after, timeout_s, script.file_name)
     with _stage(protocol, script, None, limit) as context:
-        _perform(protocol, context, wrap, limit, {})
+        _perform(protocol, context, limit, {}, wrap)
 
 
 @contextmanager
@@ -131,11 +124,11 @@ def _stage(protocol: Any, script: Script, live_parameters: Any, limit: Limit) ->
 def _perform(
     protocol: Any,
     context: Any,
-    wrap: Callable[[Run], Run],
     limit: Limit,
     namespace: dict[str, Any],
-) -> dict[str, Any]:
-    """Execute a loaded protocol in ``namespace``, and its ``run``; returns the namespace."""
+    wrap: Callable[[Run], Run] = lambda run: run,
+) -> None:
+    """Execute a loaded protocol in ``namespace``, and its ``run``."""
     file_name = protocol.filename
     try:
         with limit():
@@ -150,4 +143,3 @@ def _perform(
         raise
     except Exception as error:
         raise stopped(error, file_name, namespace.get("run"), lacking_files(context)) from error
-    return namespace

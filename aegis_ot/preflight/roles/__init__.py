@@ -1,8 +1,4 @@
-"""What each well is for, and why; and which assay it all is.
-
-Door: :func:`infer_families` weighs the assay families, :func:`assign_roles` reads the clues with
-one family's eyes, and :func:`derive` adds what follows from the liquid's ways.
-"""
+"""What each well is for in the eyes of each assay family, and which family a protocol is of."""
 
 from .assay import Inference, infer_families
 from .assigning import assign_roles

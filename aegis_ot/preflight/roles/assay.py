@@ -6,11 +6,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from ..evidence import Clue, Strength
+from ..evidence import DOUBTFUL, Evidence, Kind
 from ..rules import Common, Database, Family
-from ..text import EVERYWHERE, SourceFacts, lexicon_of, origins, tokens
-from ..trace import Trace, shapes_of
+from ..source import SourceFacts, lexicon_of, tokens
+from ..trace import Trace
 from .roles import Roles
+from .shapes import shapes_of
 
 PLACES = {"metadata": 3.0, "liquid": 2.0, "name": 1.5, "text": 1.0, "string": 0.7}
 """How much a word counts by where it stands: a title says more than a stray comment."""
@@ -57,7 +58,7 @@ class Inference:
 def infer_families(
     database: Database,
     facts: SourceFacts,
-    clues: Sequence[Clue],
+    evidence: Sequence[Evidence],
     trace: Trace,
     roles_of: Callable[[Family], Roles],
     given: Sequence[str] = (),
@@ -67,12 +68,12 @@ def infer_families(
     Args:
         database: The rule database.
         facts: What the text says.
-        clues: Names, liquids and labels.
+        evidence: Names, liquids and labels.
         trace: For the shapes: a chain of transfers speaks for a serial dilution.
         roles_of: What the wells are in the eyes of a family.
         given: Families given by hand; they apply, and no other does.
     """
-    texts = list(_texts(facts, clues, trace))
+    texts = list(_texts(facts, evidence, trace))
     shapes = shapes_of(trace)
     scored = []
     for family in database.families:
@@ -143,22 +144,21 @@ def _as_default(inference: Inference) -> Inference:
     )
 
 
-def _texts(facts: SourceFacts, clues: Iterable[Clue], trace: Trace) -> Iterable[tuple[str, str]]:
+def _texts(
+    facts: SourceFacts, evidence: Iterable[Evidence], trace: Trace
+) -> Iterable[tuple[str, str]]:
     # A PCR plate holds whatever one likes: the maker's name of a labware says nothing.
     makers = {info.load_name for info in trace.labware.values()}
     for key in ("protocolName", "protocol_name", "description", "title"):
         if key in facts.metadata:
             yield "metadata", facts.metadata[key]
-    for clue in clues:
-        if clue.strength is Strength.LIQUID:
-            yield "liquid", clue.text
-        elif clue.strength in (Strength.NAME, Strength.LOOSE_NAME):
-            yield "name", clue.text
-    # The "cells" of a table's line are no cells: what comes from a text says nothing.
-    tables = {n for n, v in facts.constants.items() if isinstance(v, str) and "\n" in v}
+    for one in evidence:
+        if one.kind is Kind.LIQUID:
+            yield "liquid", one.text
+        elif one.kind in (Kind.NAME, Kind.PASSING_NAME):
+            yield "name", one.text
     for name in facts.names:
-        if not tables or name in tables or tables.isdisjoint(origins(facts, (name,), EVERYWHERE)):
-            yield "name", name
+        yield "name", name
     for _, text in facts.docstrings:
         yield "text", text
     for text in facts.comments.values():
@@ -236,11 +236,9 @@ def _named(family: Family, named: set[str], said_by_words: float) -> Iterable[_F
 
 
 def _named_roles(roles: Roles, in_texts: bool = False) -> set[str]:
-    """Roles for which wells are named, by more than a comment unless ``in_texts``."""
+    """Roles for which wells are named, by more than written wells unless ``in_texts``."""
     assigned = roles.by_well.values()
-    weakest = Strength.MODEL if in_texts else Strength.COMMENT
-    named = {a.role for a in assigned if a.strength > weakest}
-    return named | {a.named for a in assigned}
+    return {a.role for a in assigned if in_texts or a.kind not in DOUBTFUL}
 
 
 def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> list[_Found]:
@@ -250,7 +248,6 @@ def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> 
             for n, signal in enumerate(family.signals)
         },
         common.aliases,
-        common.endings,
     )
     best: dict[tuple[str, str], _Found] = {}
     for where, text in texts:

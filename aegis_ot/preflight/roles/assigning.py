@@ -8,30 +8,30 @@ unsaid: a well without evidence has no role, and rules that need one are undecid
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from ...vocabulary import WellRef
-from ..evidence import Clue, Strength, are_one, levels_beside, without_lone_middle
+from ..evidence import Evidence, Kind
 from ..rules import Common, Family
-from ..text import Lexicon, Rank, tokens
-from ..trace import Trace, Usage
-from .candidates import Candidates
-from .channels import spread_over_channels
-from .choosing import Candidate, choose
-from .fed_to_controls import unsay_controls
-from .for_all import unsay_for_all
-from .given_on import unsay_contents
-from .labware_roles import held_before
-from .phrases import roles_denied
-from .replicates import spread_over_replicates
-from .role_words import role_words
-from .roles import Roles
-from .strengths import settle_scales, unsay_strengths
+from ..source import has_concentration, level_in, name_without_level
+from ..trace import Sides, Trace, Usage
+from .naming import RoleNames
+from .roles import Assignment, Roles
+
+
+class Candidate(NamedTuple):
+    """A role that a piece of evidence names for a well, and how much that is worth."""
+
+    worth: tuple[float, ...]
+    role: str
+    evidence: Evidence
+    level: float | None
 
 
 def assign_roles(
     family: Family,
     common: Common,
-    clues: Sequence[Clue],
+    evidence: Sequence[Evidence],
     usage: Mapping[WellRef, Usage],
     trace: Trace,
 ) -> Roles:
@@ -40,97 +40,138 @@ def assign_roles(
     Args:
         family: Whose roles and words.
         common: Words for levels.
-        clues: All evidence.
+        evidence: All evidence.
         usage: How the run uses each well.
         trace: For the columns that multi-channel pipettes reach.
     """
-    common = without_lone_middle(common, clues)
     roles = Roles(family)
-    lexicon = role_words(family, common)
-    heard = Candidates(roles, lexicon, common, clues, usage, trace)
-    for clue in sorted(clues, key=lambda clue: bool(clue.step)):
-        heard.hear(clue)
-    _note_untold(roles, lexicon, heard.untold)
-    with_levels = [clue for clue in heard.misplaced if clue.levels]
-    roles.told_levels = _levels_beside([*heard.untold, *with_levels], common)
-    roles.untold = [*heard.untold, *heard.misplaced]
-    heard.add_dosed(roles.untold)
-    _decide(roles, heard)
-    unsay_strengths(roles, common)
-    settle_scales(roles)
-    unsay_contents(roles, trace, held_before(roles, heard.of_well))
-    spread_over_channels(roles, trace, heard.of_well)
-    unsay_controls(roles, trace)
-    unsay_for_all(roles, trace)
-    spread_over_replicates(roles, trace)
+    names = RoleNames(family, common)
+    sides = Sides(usage)
+    candidates: dict[WellRef, list[Candidate]] = {}
+    for one in evidence:
+        named = names.of(one)
+        placed = False
+        for ref, level in zip(one.wells, _levels(one, common), strict=True):
+            role = _fitting(named, roles, sides(ref), one)
+            if role is not None and not (family.roles[role].dosed and level == 0):
+                placed = True
+                worth = (float(one.kind), 0.0 if one.whole else 1.0, -float(len(one.wells)))
+                candidates.setdefault(ref, []).append(Candidate(worth, role, one, level))
+        if not placed:
+            roles.unread.append(one)
+            if one.kind is Kind.LIQUID:
+                roles.unnamed.update(one.wells)
+    for ref, found in candidates.items():
+        assigned = _chosen(roles, ref, found)
+        if assigned is not None:
+            roles.by_well[ref] = assigned
+    _add_dosed(roles, sides, common)
+    _spread_over_channels(roles, trace)
     return roles
 
 
-def _decide(roles: Roles, heard: Candidates) -> None:
-    """Give each well what speaks loudest for it, with its level."""
-    of_well, for_controls = heard.of_well, heard.for_controls
-    # What other wells share their layout with first.
-    for ref in sorted(of_well, key=lambda ref: any(c[2].copied_from for c in of_well[ref])):
-        found = [c for c in of_well[ref] if _agrees_with_what_it_copies(roles, ref, c[2])]
-        assignment = choose(roles, ref, found) if found else None
-        if assignment is None or (ref in for_controls and assignment.whole):
-            continue
-        told = roles.told_levels.get(ref)
-        if assignment.level is None or (told is not None and isinstance(assignment.level, Rank)):
-            assignment.level = told
-        spec = roles.family.roles[assignment.role]
-        if spec.dosed and assignment.level == 0 and _is_said_to_be_none(found):
-            continue  # "sorafenib 0 uM" is none
-        roles.by_well[ref] = assignment
-        counted = any(map(str.isdigit, assignment.text))
-        if told and counted and spec.level is not None and spec.parents:
-            assignment.role, assignment.level = spec.parents[0], told  # "S0 1.6 mg/ml"
+def _levels(evidence: Evidence, common: Common) -> tuple[float | None, ...]:
+    count = len(evidence.wells)
+    if len(evidence.levels) == count:
+        return evidence.levels
+    if evidence.whole and count > 1:
+        return (None,) * count
+    said = level_in(evidence.text, common.levels, plain_numbers=evidence.is_name)
+    return (said,) * count
 
 
-def _agrees_with_what_it_copies(roles: Roles, ref: WellRef, clue: Clue) -> bool:
-    """Whether evidence that is copied from other wells is what decided these, if anything did.
-
-    They may also hold the reagent that makes it: water makes an NTC.
-    """
+def _fitting(
+    named: Sequence[str], roles: Roles, sides: tuple[str, bool], evidence: Evidence
+) -> str | None:
+    """The first named role whose side agrees with how the run uses the well."""
+    if evidence.kind is Kind.GIVEN:
+        return named[0] if named else None
     specs = roles.family.roles
-    of = [one for one, copy in zip(clue.copied_from, clue.wells, strict=False) if copy == ref]
-    known = [roles.by_well[one] for one in of if one in roles.by_well]
-    return all(
-        specs[assigned.role].one_liquid or any(map(clue.said.startswith, assigned.evidence))
-        for assigned in known
-    )
+    side, passes_on = sides
+    fitting = [role for role in named if specs[role].side in ("any", side)]
+    if evidence.whole and side == "destination" and not passes_on:
+        # "TaqMan" on a plate of reactions names the assay; the mix would be given on.
+        fitting = [role for role in fitting if not specs[role].one_liquid]
+    if passes_on and any(specs[role].side == "source" for role in named):
+        # A plate of doses that is made here and given on is no plate of treated cells.
+        fitting = [role for role in fitting if not specs[role].implies_contents]
+        if not fitting:
+            fitting = [role for role in named if specs[role].side == "source"]
+    # The vehicle control in "vehicle (mock)": of a kind and its parent, the kind; and the vehicle
+    # in "PBS (vehicle)": what a medium is used as, where both are said.
+    for role in fitting[:1]:
+        finer = [r for r in fitting if role in roles.closure(r) - {r} or r in specs[role].may_be]
+        fitting = finer or fitting
+    return fitting[0] if fitting else None
 
 
-def _note_untold(roles: Roles, lexicon: Lexicon, untold: Sequence[Clue]) -> None:
-    """What clues that name no role still say: that a liquid is unknown, or what it is not."""
-    for clue in untold:
-        if clue.strength is Strength.LIQUID:
-            roles.unnamed.update(clue.wells)
-        if clue.strength >= Strength.DESCRIPTION and not clue.whole:
-            for denied in roles_denied(lexicon, clue.text):
-                roles.denied.setdefault(denied, set()).update(clue.wells)
+def _chosen(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
+    """What a well is for; ``None`` where weak evidence says two things that nothing settles."""
+    found.sort(key=lambda candidate: candidate.worth, reverse=True)
+    best = found[0]
+    for other in found[1:]:
+        # Weaker evidence may say more exactly what the stronger leaves open: the liquid says
+        # "cells", the name says "vehicle_controls".
+        finer = best.role in roles.closure(other.role) - {other.role}
+        if finer and not other.evidence.whole and other.evidence.kind is not Kind.PASSING_NAME:
+            best = other
+    rivals = [other for other in found if other.worth == best.worth and _differ(roles, best, other)]
+    conflict = ""
+    if rivals:
+        conflict = f"{best.evidence.citation} against {rivals[0].evidence.citation}"
+        roles.conflicts.setdefault(conflict, []).append(ref)
+        agreed = [other for other in found if other.worth < best.worth]
+        for one in (best, *rivals):
+            if any(not _differ(roles, one, other) for other in agreed):
+                best = one
+                break
+        else:
+            if best.evidence.kind <= Kind.PASSING_NAME:
+                return None
+    agreeing = [other for other in found if not _differ(roles, best, other)]
+    evidence = dict.fromkeys([best.evidence, *(other.evidence for other in agreeing)])
+    levels = [other.level for other in agreeing if other.level is not None]
+    level = best.level if best.level is not None else next(iter(levels), None)
+    return Assignment(best.role, tuple(evidence), level, conflict)
 
 
-def _levels_beside(untold: Sequence[Clue], common: Common) -> dict[WellRef, float]:
-    """The one level that clues without a word for what they hold give each of their wells.
+def _differ(roles: Roles, one: Candidate, other: Candidate) -> bool:
+    return one.role not in roles.closure(other.role) and other.role not in roles.closure(one.role)
 
-    What is said of several at once ("11x A1-B1") gives way to what is said of each, a place in a
-    rising row to an amount.
+
+def _add_dosed(roles: Roles, sides: Sides, common: Common) -> None:
+    """What is called by nothing but its concentration: "stauro 0.3 uM" beside "stauro 1 uM".
+
+    Two supplements with a concentration each are no doses.
     """
-    of_each: dict[WellRef, set[float]] = {}
-    of_several: dict[WellRef, set[float]] = {}
-    for clue in untold:
-        levels = of_each if clue.levels or len(clue.places) == 1 else of_several
-        for ref, level in zip(clue.wells, levels_beside(clue, common), strict=False):
-            if level is not None:
-                levels.setdefault(ref, set()).add(level)
-    told = {
-        ref: {level for level in levels if not isinstance(level, Rank)} or levels
-        for ref, levels in {**of_several, **of_each}.items()
-    }
-    return {ref: min(levels) for ref, levels in told.items() if are_one(levels)}
+    told: list[tuple[WellRef, tuple[str, ...], Evidence, float]] = []
+    series: dict[tuple[str, tuple[str, ...]], set[float]] = {}
+    for one in roles.unread:
+        if one.whole or not has_concentration(one.text):
+            continue
+        of_what = name_without_level(one.text, common.noise)
+        for ref, dose in zip(one.wells, _levels(one, common), strict=True):
+            if dose is not None:
+                told.append((ref, of_what, one, dose))
+                series.setdefault((ref.labware, of_what), set()).add(dose)
+    for name, spec in roles.family.roles.items():
+        for ref, of_what, one, dose in told if spec.dosed else ():
+            several = len(series[ref.labware, of_what]) > 1
+            if several and sides(ref)[0] == spec.side and ref not in roles.by_well:
+                roles.by_well[ref] = Assignment(name, (one,), dose)
 
 
-def _is_said_to_be_none(found: Sequence[Candidate]) -> bool:
-    """Whether what speaks for a well says "0"; the first of a rising list counts from 0 as well."""
-    return any(level == 0 and "0" in tokens(clue.text) for _, _, clue, level in found)
+def _spread_over_channels(roles: Roles, trace: Trace) -> None:
+    """A name for the well that a multi-channel pipette is aimed at names its whole column.
+
+    Only where the named well is never used alone, and the others have no better evidence.
+    """
+    for first, group in trace.groups.items():
+        assigned = roles.by_well.get(first)
+        if assigned is None or first in trace.singles:
+            continue
+        for ref in group:
+            other = roles.by_well.get(ref)
+            weaker = other is None or (other.whole and not assigned.whole)
+            if ref != first and ref not in trace.singles and weaker:
+                roles.by_well[ref] = assigned.copied()

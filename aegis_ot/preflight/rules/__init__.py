@@ -4,7 +4,7 @@ Nothing here knows what a protocol is. The files themselves are loaded, and held
 checks that they name, in :mod:`aegis_ot.preflight.database`.
 """
 
-from .common import SCHEMA_VERSION, Common
+from .common import READABLE, SCHEMA_VERSION, Common
 from .database import Database
 from .described import meanings
 from .json_text import parse_json
@@ -24,6 +24,7 @@ from .specs import (
 )
 
 __all__ = [
+    "READABLE",
     "SCHEMA_VERSION",
     "AtLeast",
     "Common",

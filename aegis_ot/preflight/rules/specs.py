@@ -40,7 +40,7 @@ class Signal:
     roles: tuple[str, ...] = role_names()
 
 
-Shape = Literal["chain", "chains_alone", "pooling", "reactions", "copying", "culture"]
+Shape = Literal["chain", "pooling", "reactions"]
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class ShapeSignal:
     """A shape of the liquid's ways that speaks for a family, or against it.
 
     Attributes:
-        shape: ``chain``, ``chains_alone``, ``pooling``, ``reactions``, ``copying`` or ``culture``.
+        shape: ``chain``, ``pooling`` or ``reactions``.
         weight: How much it counts for three wells; twice as much from six on. A chain counts
             twice where its wells were filled from one place before, and a culture plate once.
         unless: Shapes beside which it says nothing.
@@ -90,47 +90,22 @@ class RoleSpec:
         never: Phrases that hold one of the words and still do not name it.
         differing: Those of its words that in the plural, or for a labware, stand for liquids which
             differ, and so do not name it: a rack of "stocks".
+        one_liquid: Whether all wells of this role hold the same liquid unless named apart.
         implies_contents: Whether such a well held liquid before the run.
         filled_by: For ``implies_contents``: roles whose liquid, given in the run, would make up
             those contents.
+        level: Value on the scale of concentrations or doses that this role has by itself: 0 for
+            a blank.
+        dosed: Derived: a well on its side of which a concentration is said and no role, beside
+            others. Such a well of dose 0 has another role, or none.
+        may_be: Roles that a liquid of this one is used as, if that is said as well: "PBS
+            (vehicle)".
         feeds: Derived: an unnamed source that mostly feeds wells of these roles.
-        feeds_beside: For ``feeds``: only if these wells all get a liquid of these roles as well.
-        single_with: Derived: unnamed sources that each go into wells of their own which all get a
-            liquid of these roles as well; three at least, or beside named ones of this role.
-        single_beside: For ``single_with``: only in labware of which nothing is said, and where
-            another one holds one of these roles.
-        replicated: Whether plates that are filled alike and called alike have it in the same wells.
-        one_liquid: Whether all wells of this role hold the same liquid unless named apart.
-        one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own;
-            or some wells, where each has a name that no other one has.
+        receives: Derived: a destination that is given liquid of one of these roles.
+        one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
         loaded: Derived: a well with a loaded liquid whose name says no role: ``shared`` where it
             serves several wells, ``single`` where it serves one or two, ``kept`` where the run
             only adds to it.
-        may_be: Roles that a liquid of this one is used as, if that is said as well: "PBS
-            (vehicle)"; or if it goes where they go, and none is named for them.
-        level: Value on the scale of concentrations or doses that this role has by itself: 0 for
-            a blank.
-        receives: Derived: a destination that is given liquid of one of these roles.
-        receives_with: For ``receives``: where wells get a liquid of these roles as well, straight
-            from where it stands, it is they that are meant, and not what they are given on to.
-        holds: Derived, where no well is a source of these roles: wells with one of its ``parents``
-            and no other role whose loaded liquid is called so.
-        dosed: Derived: a well on its side of which a concentration is said and no role, beside
-            others; a source that goes into wells of one level only, in ``feeds``, has that level.
-        undosed: Derived: what a well of this role, or of one above it, is whose level is 0, where
-            others have doses: a control. Not where what it ``receives`` goes into such wells
-            and into those of several doses.
-        called_alike_beside: Derived: a source without a role that is called by the same word as
-            the wells it goes into, on a plate with wells of these roles: "APAP" beside controls.
-        used_like: Derived: unnamed sources that each go into wells of their own on the labware, and
-            in the volume, where a source of one of these roles goes into others.
-        gets: Derived, with ``in_place_of``: where no well is named for this role, those that get a
-            liquid of these roles in the volume in which more wells get one of those.
-        in_place_of: See ``gets``.
-        common_to: Derived, where no well is named for this role: unnamed sources of which nearly
-            all wells of these roles get one, in the same volume.
-        passed_on: Derived: a well into which one of this role goes, unless that tops up many
-            wells which have each a liquid of their own besides.
     """
 
     title: str
@@ -139,29 +114,16 @@ class RoleSpec:
     words: tuple[Word, ...] = ()
     never: tuple[Word, ...] = ()
     differing: tuple[Word, ...] = ()
+    one_liquid: bool = False
     implies_contents: bool = False
     filled_by: tuple[str, ...] = role_names()
-    feeds: tuple[str, ...] = role_names()
-    feeds_beside: tuple[str, ...] = role_names()
-    one_to_one: bool = False
-    single_with: tuple[str, ...] = role_names()
-    single_beside: tuple[str, ...] = role_names()
-    replicated: bool = False
-    loaded: Literal["", "shared", "single", "kept"] = ""
-    one_liquid: bool = False
-    may_be: tuple[str, ...] = role_names()
     level: float | None = None
-    receives: tuple[str, ...] = role_names()
-    receives_with: tuple[str, ...] = role_names()
-    holds: tuple[str, ...] = role_names()
     dosed: bool = False
-    undosed: tuple[str, ...] = role_names()
-    called_alike_beside: tuple[str, ...] = role_names()
-    used_like: tuple[str, ...] = role_names()
-    gets: tuple[str, ...] = role_names()
-    in_place_of: tuple[str, ...] = role_names()
-    common_to: tuple[str, ...] = role_names()
-    passed_on: bool = False
+    may_be: tuple[str, ...] = role_names()
+    feeds: tuple[str, ...] = role_names()
+    receives: tuple[str, ...] = role_names()
+    one_to_one: bool = False
+    loaded: Literal["", "shared", "single", "kept"] = ""
 
 
 @dataclass(frozen=True)
@@ -189,23 +151,27 @@ class Example:
     Attributes:
         title: What it shows: "one tip for two samples".
         code: Its lines: the body of ``run`` on a small fixed deck, or a whole protocol.
+        also: Further rules that a failing one breaks.
+        severity: What the findings of a failing one are: ``error``, ``warning``, or ``any``.
     """
 
     title: str
     code: tuple[str, ...]
+    also: tuple[str, ...] = ()
+    severity: Literal["any", "error", "warning"] = "any"
 
 
 @dataclass(frozen=True)
 class Examples:
-    """At least one of each.
+    """At least one of each, here or in the file of examples beside the rule file.
 
     Attributes:
-        passing: Snippets in which the rule finds nothing.
-        failing: Snippets in which it does.
+        passing: Snippets in which no rule of the family finds anything.
+        failing: Snippets in which the rule does.
     """
 
-    passing: Annotated[tuple[Example, ...], NotEmpty()]
-    failing: Annotated[tuple[Example, ...], NotEmpty()]
+    passing: tuple[Example, ...] = ()
+    failing: tuple[Example, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -226,7 +192,7 @@ class RuleSpec:
         rationale: Why it matters.
         reference: Where that is written.
         fix: How to mend a violation.
-        examples: Passing and failing snippets.
+        examples: Passing and failing snippets; the shipped ones lie in files of their own.
     """
 
     id: Name
@@ -238,7 +204,7 @@ class RuleSpec:
     rationale: str
     reference: str
     fix: str
-    examples: Examples
+    examples: Examples = field(default_factory=Examples)
     scope: Literal["family", "all"] = "family"
     unless_reported: tuple[str, ...] = ()
     indicators: tuple[str, ...] = ()

@@ -5,27 +5,26 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 
 from .building import build_trace
 from .chains import Transfer, chains_of, links_of
+from .geometry import Geometry
+from .model import Composition, Contact, Imbalance, Layer, Met, Tip, Visit, Well, row_column
+from .pauses import Intervention, Pauses
 from .plates import Plates
-from .replacements import Intervention, Replacements
-from .shapes import SHAPES, shapes_of
 from .table import places, trace_table
-from .tips import Layer, Met, Tip, TipBox
-from .trace import PlaceKey, Said, Trace
+from .tip_racks import TipBox
+from .trace import PlaceKey, Trace
 from .usage import Sides, Usage, in_trough, usage_of
-from .visits import Imbalance, Visit
-from .wells import Composition, Well, row_column
 
 __all__ = [
-    "SHAPES",
     "Composition",
+    "Contact",
+    "Geometry",
     "Imbalance",
     "Intervention",
     "Layer",
     "Met",
+    "Pauses",
     "PlaceKey",
     "Plates",
-    "Replacements",
-    "Said",
     "Sides",
     "Tip",
     "TipBox",
@@ -40,7 +39,6 @@ __all__ = [
     "links_of",
     "places",
     "row_column",
-    "shapes_of",
     "trace_table",
     "usage_of",
 ]

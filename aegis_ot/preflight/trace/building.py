@@ -11,14 +11,12 @@ from collections.abc import Callable, Iterable, Mapping
 from ...instrumentation import Event, EventKind, LabwareInfo, OperationKind
 from ...vocabulary import WellRef
 from ..rehearsal import Record, Step
+from .model import CLEARANCE_MM, Contact, Imbalance, Layer, Tip, Visit, Well
+from .pauses import Pauses
 from .plates import Plates
-from .replacements import Replacements
-from .tips import Layer, Tip, TipBox
-from .trace import Said, Trace
-from .visits import Imbalance, Visit
-from .wells import Well
+from .tip_racks import TipBox
+from .trace import Trace
 
-_REPEATED = "(repeated)"
 _MOST = 0.5
 """A mix gives back at least this share of what it drew."""
 
@@ -26,7 +24,7 @@ _MOST = 0.5
 def build_trace(
     log: Iterable[Record],
     labware: Mapping[str, LabwareInfo],
-    replacements: Replacements,
+    pauses: Pauses,
     prefilled: Callable[[WellRef], bool] = lambda ref: False,
 ) -> Trace:
     """Read a recorded run.
@@ -34,27 +32,28 @@ def build_trace(
     Args:
         log: Steps and events, in order.
         labware: Facts of each labware, by key.
-        replacements: Reads pauses: was a plate replaced, shaken, refilled?
+        pauses: Reads pauses: was a plate replaced, shaken, refilled?
         prefilled: Whether a well's role implies that it held liquid before the run.
     """
-    return _Builder(labware, replacements, prefilled).run(log)
+    return _Builder(labware, pauses, prefilled).run(log)
 
 
 class _Builder:
     def __init__(
         self,
         labware: Mapping[str, LabwareInfo],
-        replacements: Replacements,
+        pauses: Pauses,
         prefilled: Callable[[WellRef], bool],
     ) -> None:
         self._trace = Trace(labware)
-        self._replacements = replacements
+        self._pauses = pauses
         self._plates = Plates(labware, prefilled, self._trace.wells)
         self._box = TipBox()
         self._slots = {key: info.slot for key, info in labware.items()}
         self._index = 0
         self._last: dict[Tip, Visit] = {}
-        self._cycle: dict[str, Step] = {}
+        self._heights: dict[Tip, tuple[Well, float]] = {}
+        self._cycle: dict[str, tuple[object, set[OperationKind]]] = {}
 
     def run(self, log: Iterable[Record]) -> Trace:
         log = list(log)
@@ -68,7 +67,6 @@ class _Builder:
                 self._event(record)
             else:
                 self._step(record)
-                self._trace.steps += 1
         self._trace.tips = self._box.tips
         return self._trace
 
@@ -86,12 +84,9 @@ class _Builder:
                 self._replace(event.labware)
         elif kind is EventKind.PAUSED:
             self._paused(event)
-        elif kind is EventKind.MODULE:
-            if self._replacements.shakes(event.text):
-                plates = frozenset({event.labware}) if event.labware else None
-                self._trace.shaken.append((self._index, plates))
-        elif kind is EventKind.COMMENT:
-            self._trace.comments.append(Said(self._index, event.line, event.text, False))
+        elif kind is EventKind.MODULE and self._pauses.shakes(event.text):
+            plates = frozenset({event.labware}) if event.labware else None
+            self._trace.shaken.append((self._index, plates))
 
     def _liquid(self, event: Event) -> None:
         for ref in event.wells:
@@ -105,40 +100,36 @@ class _Builder:
                 well.declared = 0.0  # declared to be empty, which "no volume" does not say
 
     def _paused(self, event: Event) -> None:
-        self._trace.comments.append(Said(self._index, event.line, event.text, True))
-        said = self._replacements.read(event.text, self._trace.labware, self._slots)
+        said = self._pauses.read(event.text, self._trace.labware, self._slots)
         if said.shaken:
             self._trace.shaken.append((self._index, None))
-        if said.all_tips:
+        if said.tips:
             self._box.replace_all_racks()
         for key in said.replaced:
             self._replace(key)
-        for key in said.returned:
-            if not self._plates.is_used(key):
-                self._replace(key)  # what comes back for the first time was filled elsewhere
         if said.volumes_unsure:
-            self._plates.forget_volumes(said.touched, reckon=not said.refilled)
+            self._plates.forget_volumes()
 
     def _replace(self, key: str) -> None:
         info = self._trace.labware.get(key)
         if info is not None and info.is_tip_rack:
             self._box.replace_rack(key)
-            return
-        self._plates.replace(key)
+        else:
+            self._plates.replace(key)
 
     # -- steps
 
     def _step(self, step: Step) -> None:
         kind = step.kind
         if kind is OperationKind.PICK_UP_TIP:
-            self._box.pick_up(step.pipette, step.nozzles, step.wells, step.line)
+            self._box.pick_up(step.pipette, step.nozzles, step.wells)
         elif kind is OperationKind.DROP_TIP:
             homes = (None,) * len(step.nozzles) if step.disposal else step.wells
             self._box.drop(step.pipette, step.nozzles, homes)
         elif not self._repeats(step):
             self._note_group(step)
             for nozzle, ref in zip(step.nozzles, step.wells, strict=False):
-                tip = self._box.on(step.pipette, nozzle, step.line)
+                tip = self._box.on(step.pipette, nozzle)
                 if tip is None:
                     continue  # a multi-channel pipette that took up fewer tips
                 well = None if ref is None or step.disposal else self._plates.well(ref)
@@ -149,83 +140,77 @@ class _Builder:
 
         A further cycle of the same volume in the same wells leaves tips and wells as they are.
         """
-        before = self._cycle.get(step.pipette)
-        ends_a_cycle = before is not None and (
-            before.kind is OperationKind.DISPENSE or before.call == _REPEATED
-        )
-        if (
-            before is not None
-            and ends_a_cycle
-            and step.mixing
-            and before.mixing
-            and before.kind is not step.kind
-            and before.wells == step.wells
-            and before.volume == step.volume
-            and before.line == step.line
-        ):
-            self._cycle[step.pipette] = step._replace(call=_REPEATED)
+        key = (step.wells, step.volume, step.line) if step.mixing else None
+        cycle, kinds = self._cycle.get(step.pipette, (None, set()))
+        if key is None or key != cycle:
+            self._cycle[step.pipette] = (key, {step.kind})
+            return False
+        if step.kind in kinds and len(kinds) > 1:
             return True
-        self._cycle[step.pipette] = step
+        kinds.add(step.kind)
         return False
 
     def _note_group(self, step: Step) -> None:
-        refs = step.wells
-        if len(refs) > 1:
-            first = refs[0]
-            if first is not None and len(set(refs)) > 1:
-                self._trace.groups.setdefault(first, tuple(ref for ref in refs if ref))
-        elif refs and refs[0] is not None:
-            self._trace.singles.add(refs[0])
+        refs = tuple(ref for ref in step.wells if ref)
+        if len(step.wells) == 1:
+            self._trace.singles.update(refs)
+        elif step.wells and step.wells[0] is not None and len(set(refs)) > 1:
+            self._trace.groups.setdefault(refs[0], refs)
 
     def _act(self, step: Step, kind: OperationKind, tip: Tip, well: Well | None) -> None:
-        if kind is OperationKind.AIR_GAP or (kind is OperationKind.ASPIRATE and step.air):
+        if kind is OperationKind.AIR_GAP:
             tip.push(None, step.volume, {}, step.line)
         elif kind is OperationKind.ASPIRATE:
-            if well is None:
+            if well is None or step.air or self._draws_air(step, tip, well):
                 tip.push(None, step.volume, {}, step.line)
             else:
                 self._aspirate(step, tip, well)
         elif kind is OperationKind.DISPENSE or kind is OperationKind.BLOW_OUT:
             blown = kind is OperationKind.BLOW_OUT
-            parts = tip.pop_all() if blown else tip.pop(step.volume)
+            parts = tip.pop() if blown else tip.pop(step.volume)
             if well is not None:
                 self._give(step, tip, well, parts)
         elif kind is OperationKind.TOUCH_TIP and well is not None and not well.empty:
             visit = self._visit(step, tip, well)
-            visit.below = visit.touch = step.from_top is None or step.from_top < 0
-            if visit.touch:
-                tip.touch(well, step.line, self._index)
+            contact = well.contact(step.from_top, step.from_bottom, step.from_liquid)
+            visit.contact = min(contact, Contact.NEAR)  # the wall, at most
+            self._touch(visit)
 
     def _visit(self, step: Step, tip: Tip, well: Well) -> Visit:
         visit = Visit(step.kind, tip, well, self._index, step.line, step.lines, step.mixing)
-        visit.carried = len(tip.origins)
-        visit.met = len(tip.touched)
-        visit.empty_before = well.empty
         well.visits.append(visit)
         self._trace.visits.append(visit)
         return visit
+
+    def _touch(self, visit: Visit) -> None:
+        if visit.touches:
+            visit.tip.touch(visit.well, visit.line, visit.index, visit.contact)
+
+    def _draws_air(self, step: Step, tip: Tip, well: Well) -> bool:
+        """Whether a tip that drew from a well draws on from above the liquid: an air gap."""
+        drawn, height = self._heights.get(tip, (None, 0.0))
+        return (
+            drawn is well
+            and bool(tip.layers)
+            and step.from_bottom is not None
+            and step.from_bottom >= height + CLEARANCE_MM
+            and well.contact(step.from_top, step.from_bottom) is Contact.CLEAR
+        )
 
     def _aspirate(self, step: Step, tip: Tip, well: Well) -> None:
         if well.empty and not well.fed and not well.prefilled and well.declared is None:
             well.fill_before_run(None)  # first drawn from: it must have held something
         visit = self._visit(step, tip, well)
         visit.volume = step.volume
-        visit.below = visit.touch = True
+        visit.contact = Contact.WET
         tip.touch(well, step.line, self._index)
-        liquid = well.liquid()
-        held = well.volume
+        if step.from_bottom is not None:
+            self._heights[tip] = (well, step.from_bottom)
+        liquid, held = well.liquid(), well.volume
         if not well.prefilled:
             tip.unsure += max(step.volume - well.least, 0.0)
-        reckoned = well.reckoned
-        missing = well.draw(step.volume)
-        if missing > _slack(step.volume):
-            self._trace.imbalances.append(
-                Imbalance(well, self._index, step.line, False, step.volume, held)
-            )
-        elif reckoned is not None and step.volume > reckoned + _slack(step.volume):
-            self._trace.doubtful.append(
-                Imbalance(well, self._index, step.line, False, step.volume, reckoned)
-            )
+        if well.draw(step.volume) > _slack(step.volume):
+            self._trace.imbalances.append(Imbalance(visit, False, step.volume, held))
         tip.push(well, step.volume, liquid, step.line)
         self._last[tip] = visit
 
@@ -237,21 +222,13 @@ class _Builder:
             unsure = min(tip.unsure, volume)
             tip.unsure -= unsure
             well.add(volume, liquid, unsure)
-        most = well.capacity + _slack(well.capacity)
-        if well.least > most and visit.volume > 0:
-            self._trace.imbalances.append(
-                Imbalance(well, self._index, step.line, True, well.least, well.capacity)
-            )
-        elif well.reckoned is not None and well.reckoned > most and visit.volume > 0:
-            self._trace.doubtful.append(
-                Imbalance(well, self._index, step.line, True, well.reckoned, well.capacity)
-            )
-        visit.below = step.from_top is None or step.from_top < 0
-        clear = well.clear_of_liquid(step.from_bottom, step.from_liquid)
-        if visit.below and not visit.empty_before and not clear:
-            visit.touch = True
-            sure = not well.clear_of_liquid(step.from_bottom, step.from_liquid, at_least=True)
-            tip.touch(well, step.line, self._index, sure)
+        if well.least > well.capacity + _slack(well.capacity) and visit.volume > 0:
+            self._trace.imbalances.append(Imbalance(visit, True, well.least, well.capacity))
+        if visit.empty_before:
+            visit.contact = well.contact_when_empty(step.from_top, step.from_bottom)
+        else:
+            visit.contact = well.contact(step.from_top, step.from_bottom, step.from_liquid)
+        self._touch(visit)
         self._note_mix(tip, visit)
 
     def _note_mix(self, tip: Tip, visit: Visit) -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Set
+import math
+from collections.abc import Callable, Mapping
 
-from ...instrumentation import LabwareInfo
+from ...instrumentation import LabwareInfo, WellInfo
 from ...vocabulary import WellRef
+from .geometry import Geometry
+from .model import Well, row_column
 from .trace import PlaceKey
-from .wells import Well, row_column
 
 
 class Plates:
@@ -32,26 +34,18 @@ class Plates:
         self._known = known
         self._generation: dict[str, int] = {}
         self._current: dict[WellRef, Well] = {}
-        self._orders: dict[str, dict[str, tuple[int, int]]] = {}
+        self._geometries: dict[tuple[object, ...], Geometry] = {}
 
     def well(self, ref: WellRef) -> Well:
         """The well of this name on the plate that stands there now."""
         well = self._current.get(ref)
         if well is None:
             generation = self._generation.get(ref.labware, 0)
-            info = self._labware.get(ref.labware)
-            well = Well(
-                ref, generation, info.wells.get(ref.name) if info else None, self._order(ref)
-            )
-            self._current[ref] = well
+            well = self._current[ref] = self._make(ref, generation)
             self._known[(ref.labware, generation, ref.name)] = well
             if self._prefilled(ref):
                 well.fill_before_run(None)
         return well
-
-    def is_used(self, key: str) -> bool:
-        """Whether the run has been in a well of the plate that stands there now."""
-        return any(ref.labware == key and well.visits for ref, well in self._current.items())
 
     def replace(self, key: str) -> None:
         """Another plate stands for this labware from now on."""
@@ -59,23 +53,27 @@ class Plates:
         for ref in [ref for ref in self._current if ref.labware == key]:
             del self._current[ref]
 
-    def forget_volumes(self, touched: Set[str] | None, reckon: bool) -> None:
-        """Someone may have filled or emptied wells by hand.
-
-        Args:
-            touched: Keys of their labware; ``None`` if it may be any.
-            reckon: Whether nothing says so.
-        """
+    def forget_volumes(self) -> None:
+        """Someone may have filled or emptied wells by hand."""
         for well in self._current.values():
-            if touched is not None and well.ref.labware not in touched:
-                continue
             if well.visits or well.prefilled:
-                well.forget_volume(reckon)
+                well.forget_volume()
 
-    def _order(self, ref: WellRef) -> tuple[int, int]:
-        orders = self._orders.get(ref.labware)
-        if orders is None:
-            info = self._labware.get(ref.labware)
-            names = list(info.wells) if info else []
-            orders = self._orders[ref.labware] = {name: row_column(name) for name in names}
-        return orders.get(ref.name) or row_column(ref.name)
+    def _make(self, ref: WellRef, generation: int) -> Well:
+        labware = self._labware.get(ref.labware)
+        info = labware.wells.get(ref.name) if labware else None
+        order = row_column(ref.name)
+        if info is None:
+            return Well(ref, generation, order=order)
+        capacity = info.max_volume if info.max_volume > 0 else math.inf
+        return Well(ref, generation, capacity, self._geometry(info), order)
+
+    def _geometry(self, info: WellInfo) -> Geometry | None:
+        """The wells of a plate share theirs."""
+        if info.depth <= 0 or not (info.diameter or (info.x_size and info.y_size)):
+            return None
+        sizes = (info.depth, info.diameter, info.x_size, info.y_size, info.bottom, info.max_volume)
+        key = (*sizes, id(info.sections))
+        if key not in self._geometries:
+            self._geometries[key] = Geometry(info)
+        return self._geometries[key]

@@ -1,24 +1,24 @@
 """The trace as a compact table for a reader with little room: a model, or a person.
 
 One line per tip session. What a loop repeats is folded: ``8x (L36 draw 10 2:A1-H1; ...)``, wells
-listed in the order of the repetitions. Nothing is left out silently: a table that would be too
-long ends with how many lines are missing.
+listed in the order of the repetitions. A table that would be too long is folded further, to
+counts and ranges, until it fits: every tip session is in it.
 
 Words: ``draw V W`` aspirates V µL from W; ``give`` dispenses and touches the liquid there;
-``give^`` from above the well, touching nothing; ``give.`` into a dry well; ``give~`` below the
-rim but clear of the liquid; ``mix V``; ``blow`` and its marks likewise; ``touch`` the wall.
+``give^`` clear of the liquid, touching nothing; ``give.`` into a dry well; ``mix V``; ``blow`` and
+its marks likewise; ``touch`` the wall.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
+from .model import Visit, row_column
 from .trace import Trace
-from .visits import Visit
-from .wells import row_column
 
 _WORDS = {
     OperationKind.ASPIRATE: "draw",
@@ -28,20 +28,25 @@ _WORDS = {
 }
 _LONGEST_CYCLE = 8
 _LONGEST_MERGED = 16
+_LONGEST_LIST = 60
+"""So many characters of wells are told where there is little room."""
+
+Told = Callable[[Sequence[WellRef]], str]
 
 
 @dataclass(frozen=True)
 class _Row:
     """One thing that the channels of a pipette did together."""
 
-    what: str
+    word: str
+    volume: float
     line: int | None
     wells: tuple[WellRef, ...]
 
     @property
     def signature(self) -> Hashable:
         """Equal for rows that a loop repeats."""
-        return (self.what, self.line, len(self.wells))
+        return (self.word, f"{self.volume:.4g}", self.line, len(self.wells))
 
 
 @dataclass
@@ -59,6 +64,11 @@ class _Session:
             return id(self)
         return (self.again, len(self.tips), tuple(row.signature for row in self.rows))
 
+    @property
+    def shape(self) -> Hashable:
+        """Equal for sessions that do the same things at the same lines, however often."""
+        return (self.again, frozenset((row.word, row.line) for row in self.rows))
+
 
 def trace_table(trace: Trace, limit: int = 6000) -> tuple[str, ...]:
     """The lines of the table.
@@ -67,121 +77,130 @@ def trace_table(trace: Trace, limit: int = 6000) -> tuple[str, ...]:
         trace: What happened.
         limit: About how many characters the table may have in all.
     """
-    sessions = _sessions(trace)
     lines: list[str] = []
-    room = limit
-    for start, period, count in _cycles([s.signature for s in sessions]):
-        block = sessions[start : start + period * count]
-        line = _told(block, period, count)
-        if len(line) > room:
-            left = len(sessions) - start
-            lines.append(f"(... {left} more tip sessions are left out: too many to show)")
+    for lines in _foldings(_sessions(trace)):
+        if sum(len(line) + 1 for line in lines) <= limit:
             break
-        room -= len(line) + 1
-        lines.append(line)
     return tuple(lines)
+
+
+def _foldings(sessions: Sequence[_Session]) -> Iterator[list[str]]:
+    """The table in ever fewer words."""
+    for wells in (places, _in_short):
+        yield [
+            _told(sessions[start : start + period * count], period, count, wells)
+            for start, period, count in _cycles([s.signature for s in sessions])
+        ]
+    alike: dict[Hashable, list[_Session]] = {}
+    for session in sessions:
+        alike.setdefault(session.shape, []).append(session)
+    yield [_summed(same, by_line=True) for same in alike.values()]
+    together = 2
+    while together < 2 * len(sessions):
+        starts = range(0, len(sessions), together)
+        yield [_summed(sessions[at : at + together], by_line=False) for at in starts]
+        together *= 2
 
 
 def _sessions(trace: Trace) -> list[_Session]:
     found: list[_Session] = []
     latest: dict[tuple[int, int], _Session] = {}
-    for visits in _together(trace.visits):
+    for _, group in groupby(trace.visits, key=lambda visit: visit.index):
+        visits = list(group)
         key = (visits[0].tip.number, visits[0].session)
+        tips = tuple(visit.tip.number for visit in visits)
         session = latest.get(key)
         if session is None:
-            tips = tuple(visit.tip.number for visit in visits)
             session = latest[key] = _Session(tips, visits[0].session > 1, [])
             found.append(session)
         elif len(visits) > len(session.tips):
-            session.tips = tuple(visit.tip.number for visit in visits)
+            session.tips = tips
         _append(session.rows, visits)
     return found
-
-
-def _together(visits: Sequence[Visit]) -> Iterable[list[Visit]]:
-    group: list[Visit] = []
-    for visit in visits:
-        if group and visit.index != group[0].index:
-            yield group
-            group = []
-        group.append(visit)
-    if group:
-        yield group
 
 
 def _append(rows: list[_Row], visits: list[Visit]) -> None:
     first = visits[0]
     wells = tuple(dict.fromkeys(visit.well.ref for visit in visits))
     word = _WORDS.get(first.kind, first.kind.value)
-    volume = f" {first.volume:.4g}" if first.volume else ""
     if first.mixing:
         # A mix is drawing and giving back, again and again: one row. How often is not told,
         # since the trace keeps a repeated mix once.
-        row = _Row(f"mix{volume}", first.line, wells)
+        row = _Row("mix", first.volume, first.line, wells)
         if word != "give" and (not rows or rows[-1] != row):
             rows.append(row)
         return
-    if word in ("give", "blow"):
-        word += _mark(visits)
-    rows.append(_Row(f"{word}{volume}", first.line, wells))
+    if word in ("give", "blow") and not any(visit.touches for visit in visits):
+        word += "." if any(visit.contact for visit in visits) else "^"
+    rows.append(_Row(word, first.volume, first.line, wells))
 
 
-def _mark(visits: list[Visit]) -> str:
-    if any(visit.touch for visit in visits):
-        return ""
-    if not any(visit.below for visit in visits):
-        return "^"
-    return "." if all(visit.empty_before for visit in visits) else "~"
-
-
-def _told(block: Sequence[_Session], period: int, count: int) -> str:
+def _told(block: Sequence[_Session], period: int, count: int, wells: Told) -> str:
     first = block[:period]
     if count == 1:
-        return "; ".join(f"{_tips([s])}: {_rows(s.rows)}" for s in first)
+        return "; ".join(f"{_tips([s])}: {_rows(s.rows, wells)}" for s in first)
     parts = []
     for place, session in enumerate(first):
         same = block[place::period]
-        rows = [
-            f"{_line(row)}{row.what} {places([w for s in same for w in s.rows[number].wells])}"
-            for number, row in enumerate(session.rows)
-        ]
+        rows = [_row([s.rows[number] for s in same], wells) for number in range(len(session.rows))]
         parts.append(f"{_tips(same)}: " + "; ".join(rows))
-    if period == 1:
-        return parts[0]
-    return f"{count} times in turn [" + " | ".join(parts) + "]"
+    return parts[0] if period == 1 else f"{count} times in turn [" + " | ".join(parts) + "]"
 
 
-def _tips(sessions: Sequence[_Session]) -> str:
-    numbers = [number + 1 for session in sessions for number in session.tips]
-    run = numbers == list(range(numbers[0], numbers[0] + len(numbers)))
-    if len(numbers) == 1:
-        text = f"tip {numbers[0]}"
-    elif run:
-        text = f"tips {numbers[0]}-{numbers[-1]}"
-    else:
-        shown = ",".join(map(str, numbers[:8])) + (",..." if len(numbers) > 8 else "")
-        text = f"tips {shown}"
-    if len(sessions[0].tips) > 1:
-        text += f" ({len(sessions[0].tips)} channels at once)"
-    if len(sessions) > 1:
-        text += f", {len(sessions)} pick-ups one after the other"
-    return text + (", USED BEFORE" if sessions[0].again else "")
-
-
-def _rows(rows: Sequence[_Row]) -> str:
+def _rows(rows: Sequence[_Row], wells: Told) -> str:
     parts = []
     for start, period, count in _cycles([row.signature for row in rows]):
         block = rows[start : start + period * count]
-        inner = "; ".join(
-            f"{_line(row)}{row.what} {places([w for r in block[place::period] for w in r.wells])}"
-            for place, row in enumerate(block[:period])
-        )
+        inner = "; ".join(_row(block[place::period], wells) for place in range(period))
         parts.append(inner if count == 1 else f"{count}x ({inner})")
     return "; ".join(parts)
 
 
-def _line(row: _Row) -> str:
-    return f"L{row.line} " if row.line is not None else ""
+def _row(same: Sequence[_Row], wells: Told) -> str:
+    """Rows of one word, told together."""
+    line = f"L{same[0].line} " if same[0].line is not None else ""
+    volumes = sorted(row.volume for row in same)
+    volume = f" {volumes[-1]:.4g}" if volumes[-1] else ""
+    if f" {volumes[0]:.4g}" != volume and volumes[-1]:
+        volume = f" {volumes[0]:.4g}-{volumes[-1]:.4g}"
+    return f"{line}{same[0].word}{volume} {wells([w for row in same for w in row.wells])}"
+
+
+def _summed(sessions: Sequence[_Session], by_line: bool) -> str:
+    """Several tip sessions in one line: what they did, each thing once with its wells."""
+    rows: dict[Hashable, list[_Row]] = {}
+    for session in sessions:
+        for row in session.rows:
+            rows.setdefault((row.word, row.line if by_line else None), []).append(row)
+    if by_line:
+        told = [_row(same, _in_short) for same in rows.values()]
+    else:
+        lines = [row.line for session in sessions for row in session.rows if row.line]
+        told = [f"lines {min(lines, default=0)}-{max(lines, default=0)}"]
+        told += [
+            _row([_Row(r.word, r.volume, None, r.wells) for r in same], _in_short)
+            for same in rows.values()
+        ]
+    return f"{_tips(sessions)}: " + "; ".join(told)
+
+
+def _tips(sessions: Sequence[_Session]) -> str:
+    numbers = [number + 1 for session in sessions for number in session.tips]
+    text = "tip " if len(numbers) == 1 else "tips "
+    if len(numbers) > 1 and numbers == list(range(numbers[0], numbers[0] + len(numbers))):
+        text += f"{numbers[0]}-{numbers[-1]}"
+    else:
+        text += ",".join(map(str, numbers[:8])) + (",..." if len(numbers) > 8 else "")
+    if len(sessions[0].tips) > 1:
+        text += f" ({len(sessions[0].tips)} channels at once)"
+    if len(sessions) > 1:
+        text += f", {len(sessions)} pick-ups one after the other"
+    again = sum(session.again for session in sessions)
+    return (
+        text
+        + (f", {again} of them USED BEFORE" if 0 < again < len(sessions) else "")
+        + (", USED BEFORE" if again == len(sessions) else "")
+    )
 
 
 def _cycles(signatures: Sequence[Hashable]) -> Iterable[tuple[int, int, int]]:
@@ -190,14 +209,24 @@ def _cycles(signatures: Sequence[Hashable]) -> Iterable[tuple[int, int, int]]:
     while at < len(signatures):
         best = (1, 1)
         for period in range(1, min(_LONGEST_CYCLE, (len(signatures) - at) // 2) + 1):
-            block = list(signatures[at : at + period])
             count = 1
-            while list(signatures[at + count * period : at + (count + 1) * period]) == block:
+            while (
+                signatures[at + count * period : at + (count + 1) * period]
+                == (signatures[at : at + period])
+            ):
                 count += 1
             if count > 1 and period * count > best[0] * best[1]:
                 best = (period, count)
         yield at, *best
         at += best[0] * best[1]
+
+
+def _in_short(wells: Sequence[WellRef]) -> str:
+    """Wells, the first of them where they are many: ``2:A1-H1,... (40 wells)``."""
+    text = places(wells)
+    if len(text) <= _LONGEST_LIST:
+        return text
+    return f"{text[:_LONGEST_LIST].rpartition(',')[0]},... ({len(set(wells))} wells)"
 
 
 def places(wells: Sequence[WellRef]) -> str:
@@ -225,41 +254,18 @@ def places(wells: Sequence[WellRef]) -> str:
 
 
 def _run(wells: Sequence[WellRef]) -> int:
-    """How many wells from the first on make a column, a row or whole columns."""
-    best = 1
-    for follows in (_below, _beside):
-        length = 1
-        while length < len(wells) and follows(wells[length - 1], wells[length]):
-            length += 1
-        best = max(best, length if length > 2 else 1)
-    return max(best, _columns(wells))
+    """How many wells from the first on make a column, a row or whole columns, in that order."""
+    row, column = row_column(wells[0].name)
 
+    def length(way: Callable[[int], tuple[int, int]]) -> int:
+        for number, well in enumerate(wells):
+            down, along = way(number)
+            here = row_column(well.name) == (row + down, column + along)
+            if not here or well.labware != wells[0].labware:
+                return number
+        return len(wells)
 
-def _columns(wells: Sequence[WellRef]) -> int:
-    """How many wells make whole columns of one height, one after the other."""
-    column = 1
-    while column < len(wells) and _below(wells[column - 1], wells[column]):
-        column += 1
-    if column < 2:
-        return 1
-    (row, first_column), key = row_column(wells[0].name), wells[0].labware
-    length = 0
-    while length < len(wells):
-        wanted = (row + length % column, first_column + length // column)
-        if wells[length].labware != key or row_column(wells[length].name) != wanted:
-            break
-        length += 1
-    length -= length % column
-    return length if length > 2 else 1
-
-
-def _step(down: int, along: int) -> Callable[[WellRef, WellRef], bool]:
-    def follows(one: WellRef, other: WellRef) -> bool:
-        (row, column), (row2, column2) = row_column(one.name), row_column(other.name)
-        return one.labware == other.labware and (row2, column2) == (row + down, column + along)
-
-    return follows
-
-
-_below = _step(1, 0)
-_beside = _step(0, 1)
+    high = length(lambda number: (number, 0))
+    whole = length(lambda number: (number % high, number // high))
+    best = max(high, length(lambda number: (0, number)), whole - whole % high)
+    return best if best > 2 else 1

@@ -4,25 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 from ...instrumentation import LabwareInfo
 from ...vocabulary import WellRef
-from .tips import Tip
-from .visits import Imbalance, Visit
-from .wells import Well
+from .model import Imbalance, Tip, Visit, Well
 
 PlaceKey = tuple[str, int, str]
 """Labware key, generation of the plate, well name."""
-
-
-class Said(NamedTuple):
-    """A comment or pause of the run: when (an index), from which line, and what it said."""
-
-    at: int
-    line: int | None
-    text: str
-    paused: bool
 
 
 @dataclass
@@ -35,11 +23,8 @@ class Trace:
         tips: Every tip.
         visits: Every visit, in order.
         imbalances: Volumes that do not add up.
-        doubtful: Those that do not unless someone filled or emptied wells by hand in a pause.
         shaken: Index, labware keys (``None``: any) of each time a plate was shaken.
         descriptions: What the run says of a liquid, by the liquid's name.
-        comments: What the run said or asked, in order.
-        steps: Number of recorded operations.
     """
 
     labware: Mapping[str, LabwareInfo]
@@ -47,13 +32,10 @@ class Trace:
     tips: list[Tip] = field(default_factory=list)
     visits: list[Visit] = field(default_factory=list)
     imbalances: list[Imbalance] = field(default_factory=list)
-    doubtful: list[Imbalance] = field(default_factory=list)
     shaken: list[tuple[int, frozenset[str] | None]] = field(default_factory=list)
     descriptions: dict[str, str] = field(default_factory=dict)
-    comments: list[Said] = field(default_factory=list)
     groups: dict[WellRef, tuple[WellRef, ...]] = field(default_factory=dict)
     singles: set[WellRef] = field(default_factory=set)
-    steps: int = 0
 
     def deliveries(self, well: Well) -> Iterator[Visit]:
         """Visits that brought liquid from elsewhere into ``well``."""

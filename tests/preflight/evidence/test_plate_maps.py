@@ -1,41 +1,69 @@
-"""Which labware a plate map of the protocol speaks of."""
+"""Plate maps count for the labware that the run indexes with them, and for no other."""
 
 from __future__ import annotations
 
-from aegis_ot.preflight import Database, Options, Script, check_script, load_database
+from aegis_ot.preflight.evidence import Kind
 
-TWO_PLATES = """
-metadata = {"protocolName": "Two lines of cells, one map", "apiLevel": "2.13"}
-
-def run(protocol):
-    tips = protocol.load_labware("opentrons_96_filtertiprack_20ul", 1)
-    tubes = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 2)
-    upper = protocol.load_labware("corning_96_wellplate_360ul_flat", 4, "HT-29 cells")
-    lower = protocol.load_labware("corning_96_wellplate_360ul_flat", 5, "Caco-2 cells")
-    p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[tips])
-    vehicle, drug = tubes["A1"], tubes["A2"]
-    layout = {}
-    for entry in "B2+C2+D2=vehicle B3+C3+D3=drug".split():
-        wells, kind = entry.split("=")
-        layout[kind] = wells.split("+")
-    for well in layout["vehicle"][SKIPPED:]:
-        p20.transfer(5, vehicle, upper[well], new_tip="always")
-        p20.transfer(5, vehicle, lower[well], new_tip="always")
-    for well in layout["drug"]:
-        p20.transfer(5, drug, upper[well], new_tip="always")
-        p20.transfer(5, drug, lower[well], new_tip="always")
-"""
+from ..reading import evidence, read, roles_by_well
 
 
-def left_out(skipped: str, database: Database) -> set[tuple[str, str]]:
-    """Slot and name of the vehicle controls that get no vehicle."""
-    text = TWO_PLATES.replace("SKIPPED", skipped)
-    report = check_script(Script(text, "p.py"), database, Options(select=("CELL-2",)))
-    wells = {ref for finding in report.findings for ref in finding.wells}
-    return {(ref.slot, ref.name) for ref in wells if ref.slot in ("4", "5")}
+def test_a_map_speaks_of_the_labware_that_it_indexes() -> None:
+    reading = read(
+        """
+        for well in LAYOUT:
+            p20.transfer(2, tubes["A1"], plate[well])
+        """,
+        head='LAYOUT = {"A1": "sample", "H12": "NTC"}',
+    )
+    assert roles_by_well(reading)["1:H12"] == "ntc"
+    assert "2:H12" not in roles_by_well(reading)
 
 
-def test_a_map_that_two_plates_share_speaks_of_both_where_one_well_is_left_out() -> None:
-    database = load_database()
-    assert left_out("1", database) == {("4", "B2"), ("5", "B2")}
-    assert left_out("0", database) == set()
+def test_a_map_of_sources_says_nothing_of_the_wells_it_is_zipped_with() -> None:
+    reading = read(
+        """
+        for (tube, what), well in zip(SOURCES.items(), plate.wells()):
+            p20.transfer(2, tubes[tube], well)
+        """,
+        head='SOURCES = {"A1": "template", "A2": "NTC"}',
+    )
+    assert roles_by_well(reading)["2:A2"] == "ntc"
+    assert not [well for well in roles_by_well(reading) if well.startswith("1:")]
+
+
+def test_rows_that_name_a_tube_and_a_well_speak_of_each_where_it_stands() -> None:
+    reading = read(
+        """
+        for row in ROWS:
+            p20.transfer(2, tubes[row["tube"]], plate[row["well"]])
+        """,
+        head="""
+        ROWS = [
+            {"tube": "A1", "well": "B1", "kind": "sample"},
+            {"tube": "A2", "well": "B2", "kind": "NTC"},
+        ]
+        """,
+    )
+    wells = evidence(reading, Kind.NAME)["NTC"][1]
+    assert wells == ["2:A2", "1:B2"]
+
+
+def test_lists_of_well_names_are_called_by_their_name() -> None:
+    reading = read(
+        """
+        for name in NTC_WELLS:
+            p20.transfer(2, tubes["A1"], plate[name])
+        """,
+        head='NTC_WELLS = ["H11", "H12"]',
+    )
+    assert roles_by_well(reading) == {"1:H11": "ntc", "1:H12": "ntc"}
+
+
+def test_a_map_that_the_run_hardly_uses_serves_another_run() -> None:
+    reading = read(
+        """
+        p20.transfer(2, tubes["A1"], plate[LAYOUT["blank"][0]])
+        """,
+        head='LAYOUT = {"blank": ["A1", "A2", "A3", "A4"]}',
+    )
+    assert "LAYOUT['blank']" not in evidence(reading, Kind.NAME)

@@ -10,7 +10,7 @@ import pytest
 
 from aegis_ot.errors import RehearsalError, RehearsalTimeout
 from aegis_ot.preflight.rehearsal import Script, interrupted_after, rehearse, second_clock
-from aegis_ot.preflight.rehearsal.haste import hasty_builtins
+from aegis_ot.preflight.rehearsal.virtual_time import builtins_in_virtual_time
 
 
 def script(body: str) -> Script:
@@ -19,16 +19,16 @@ def script(body: str) -> Script:
     return Script(f"{head}def run(protocol):\n{lines}\n", "protocol.py")
 
 
-def hasty(text: str) -> dict:
-    names = {"__builtins__": hasty_builtins()}
+def executed(text: str) -> dict:
+    names = {"__builtins__": builtins_in_virtual_time()}
     exec(text, names)
     return names
 
 
-class TestHaste:
+class TestVirtualTime:
     def test_sleeps_pass_at_once_and_the_clocks_know(self):
         began = time.monotonic()
-        names = hasty(
+        names = executed(
             "import time, time as t\nfrom time import sleep, monotonic\n"
             "a, b, c = time.time(), monotonic(), time.perf_counter()\n"
             "sleep(100); t.sleep(200)\n"
@@ -38,16 +38,16 @@ class TestHaste:
         assert names["gone"] == pytest.approx((300, 300, 300), abs=5)
 
     def test_waiting_for_the_clock_ends(self):
-        hasty("import time\nend = time.time() + 3600\nwhile time.time() < end: time.sleep(10)\n")
+        executed("import time\nend = time.time() + 3600\nwhile time.time() < end: time.sleep(10)\n")
 
     @pytest.mark.parametrize("wrong", ["-1", "'x'", ""])
     def test_what_the_real_one_refuses_is_refused(self, wrong):
         with pytest.raises((ValueError, TypeError)):
-            hasty(f"import time\ntime.sleep({wrong})")
+            executed(f"import time\ntime.sleep({wrong})")
 
     def test_the_real_module_is_untouched(self):
         before = dict(vars(time))
-        hasty("import time\ntime.sleep(5)")
+        executed("import time\ntime.sleep(5)")
         assert dict(vars(time)) == before
 
     def test_a_rehearsal_uses_it(self):

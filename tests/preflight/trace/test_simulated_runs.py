@@ -8,7 +8,7 @@ import pytest
 
 from aegis_ot.preflight.database import load_database
 from aegis_ot.preflight.rehearsal import Script, record
-from aegis_ot.preflight.trace import Replacements, Trace, Visit, Well, build_trace
+from aegis_ot.preflight.trace import Pauses, Trace, Visit, Well, build_trace
 from tests.support.rehearsing import flex, ot2
 
 COLUMN = "ABCDEFGH"
@@ -16,7 +16,7 @@ COLUMN = "ABCDEFGH"
 
 def traced(text: str) -> Trace:
     recording = record(Script(textwrap.dedent(text), "protocol.py"))
-    pauses = Replacements(load_database().common.pauses)
+    pauses = Pauses(load_database().common.pauses)
     return build_trace(recording.log, recording.labware, pauses)
 
 
@@ -26,7 +26,7 @@ def well(trace: Trace, address: str) -> Well:
 
 
 def told(visit: Visit) -> tuple[str, str, float, bool]:
-    return (visit.kind.value, visit.well.ref.address, round(visit.volume, 2), visit.touch)
+    return (visit.kind.value, visit.well.ref.address, round(visit.volume, 2), visit.touches)
 
 
 def test_heights_are_judged_by_the_level_in_real_labware() -> None:
@@ -37,7 +37,7 @@ def test_heights_are_judged_by_the_level_in_real_labware() -> None:
             single.pick_up_tip()
             single.aspirate(100, reservoir["A1"])
             single.dispense(50, plate["A1"])                 # empty
-            single.dispense(10, plate["A1"].bottom(2))       # in the liquid
+            single.dispense(10, plate["A1"].bottom(1))       # in the liquid
             single.dispense(10, plate["A1"].bottom(8))       # below the rim, clear of it
             single.dispense(10, plate["A1"].top())
             single.blow_out(plate["A1"].top(2))
@@ -53,9 +53,11 @@ def test_heights_are_judged_by_the_level_in_real_labware() -> None:
         ("dispense", "1:A1", 10, False),
         ("dispense", "1:A1", 10, False),
         ("blow_out", "1:A1", 20, False),
-        ("touch_tip", "1:A1", 0, True),
+        ("touch_tip", "1:A1", 0, False),
     ]
-    assert [visit.below for visit in trace.visits] == [True, True, True, True, False, False, True]
+    assert [visit.contact.name for visit in trace.visits] == [
+        "WET", "WET", "WET", "CLEAR", "CLEAR", "CLEAR", "CLEAR",
+    ]  # fmt: skip
     assert well(trace, "1:A1").volume == pytest.approx(100)
 
 
@@ -103,7 +105,7 @@ def test_heights_over_the_meniscus_are_taken_at_their_word() -> None:
             "2.23",
         )
     )
-    assert [visit.touch for visit in trace.visits] == [True, False, True, True]
+    assert [visit.touches for visit in trace.visits] == [True, False, True, True]
 
 
 @pytest.mark.parametrize("level", ["2.13", "2.20"])
@@ -363,7 +365,7 @@ def test_declared_liquids_in_all_their_ways() -> None:
     assert well(trace, "D1:A1").liquids == ["Water"]
     assert trace.descriptions == {"Water": "from the tap"}
     # Declared to be empty is known; a well that nobody spoke of may have held anything.
-    assert [(item.well.ref.name, item.limit) for item in trace.imbalances] == [
+    assert [(item.visit.well.ref.name, item.limit) for item in trace.imbalances] == [
         ("B2", 20),
         ("D1", 0),
     ]
@@ -410,7 +412,7 @@ def test_a_plate_moved_on_the_deck_stays_itself_and_one_taken_off_does_not() -> 
         """
     )
     given = [visit for visit in trace.visits if visit.kind.value == "dispense"]
-    assert [visit.touch for visit in given] == [False, True, True, False]
+    assert [visit.touches for visit in given] == [False, True, True, False]
     assert given[0].well is given[1].well is given[2].well
     assert given[3].well.ref.label == "second"
     (shaken,) = trace.shaken
@@ -434,7 +436,7 @@ def test_a_plate_deleted_from_the_deck_makes_room_for_a_new_one(level: str) -> N
         )
     )
     given = [visit for visit in trace.visits if visit.kind.value == "dispense"]
-    assert [visit.touch for visit in given] == [False, False]
+    assert [visit.touches for visit in given] == [False, False]
     assert given[0].well is not given[1].well
     assert [visit.well.volume for visit in given] == [10, 10]
 

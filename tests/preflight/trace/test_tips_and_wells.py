@@ -5,10 +5,9 @@ from __future__ import annotations
 import pytest
 
 from aegis_ot.instrumentation import EventKind
-from aegis_ot.preflight.trace import TipBox
+from aegis_ot.preflight.trace import Contact, TipBox
 from aegis_ot.vocabulary import WellRef
-
-from .streams import Bench, carried, well
+from tests.support.bench import Bench, carried, well
 
 
 def test_a_dispense_into_an_empty_well_adds_nothing_to_the_tip() -> None:
@@ -18,8 +17,8 @@ def test_a_dispense_into_an_empty_well_adds_nothing_to_the_tip() -> None:
     bench.give("plate:A1", 50)
     trace = bench.trace()
     assert carried(trace) == ["source:A1"]
-    assert not trace.visits[-1].touch
-    assert trace.visits[-1].below
+    assert not trace.visits[-1].touches
+    assert trace.visits[-1].contact is Contact.WET
 
 
 def test_a_dispense_into_liquid_takes_its_contents_along() -> None:
@@ -39,42 +38,86 @@ def test_a_dispense_from_above_touches_nothing() -> None:
     bench.give("plate:A1", 50, top=0.0)
     trace = bench.trace()
     assert carried(trace) == ["source:A1"]
-    assert not trace.visits[-1].below
+    assert trace.visits[-1].contact is Contact.CLEAR
 
 
-@pytest.mark.parametrize(("top", "touches"), [(-4.0, True), (-1.0, False)])
-def test_the_tracked_level_decides_below_the_top(top: float, touches: bool) -> None:
-    """100 of 200 µL stand 5 mm high in a well 10 mm deep; 2 mm more is clear."""
+@pytest.mark.parametrize(
+    ("top", "contact"),
+    [(-8.0, Contact.WET), (-6.0, Contact.NEAR), (-4.0, Contact.CLEAR), (0.0, Contact.CLEAR)],
+)
+def test_the_tracked_level_decides_below_the_top(top: float, contact: Contact) -> None:
+    """100 µL stand 3.5 mm high in a well of 6 mm that is 10 mm deep; 2 mm more is clear."""
     bench = Bench()
     bench.load("plate:A1", 50)
     bench.pick()
     bench.draw("source:A1", 50)
     bench.give("plate:A1", 50, top=top)
-    assert bench.trace().visits[-1].touch is touches
+    assert bench.trace().visits[-1].contact is contact
 
 
-def test_an_unknown_volume_is_not_clear() -> None:
+@pytest.mark.parametrize(("top", "contact"), [(-3.0, Contact.CLEAR), (-4.0, Contact.NEAR)])
+def test_an_unknown_volume_is_clear_in_the_upper_third(top: float, contact: Contact) -> None:
     bench = Bench()
     bench.load("plate:A1", None)
     bench.pick()
     bench.draw("source:A1", 5)
-    bench.give("plate:A1", 5, top=-0.5)
-    assert bench.trace().visits[-1].touch
+    bench.give("plate:A1", 5, top=top)
+    assert bench.trace().visits[-1].contact is contact
 
 
-@pytest.mark.parametrize(("taken", "touches"), [(100, False), (20, True)])
+@pytest.mark.parametrize(("taken", "contact"), [(180, Contact.CLEAR), (20, Contact.NEAR)])
 def test_a_well_emptied_in_part_is_no_fuller_than_what_a_full_one_left(
-    taken: float, touches: bool
+    taken: float, contact: Contact
 ) -> None:
-    """Less than 100 (or 180) of 200 µL are left; 40 more stand up to 7 (or 10) of 10 mm."""
+    """Less than 20 (or 180) of 200 µL are left; 20 more stand up to 1.4 (or 7) mm."""
     bench = Bench()
     bench.load("plate:A1", None)
     bench.pick()
     bench.draw("plate:A1", taken)
     bench.give("source:B1", taken)
+    bench.draw("source:A1", 20)
+    bench.give("plate:A1", 20, top=-4.0)
+    assert bench.trace().visits[-1].contact is contact
+
+
+def test_a_touched_wall_is_near_at_most() -> None:
+    bench = Bench()
+    bench.load("plate:A1", 200)
+    bench.load("plate:B1", 50)
+    bench.pick()
+    bench.touch_tip("plate:A1")
+    bench.touch_tip("plate:B1")
+    assert [visit.contact for visit in bench.trace().visits] == [Contact.NEAR, Contact.CLEAR]
+
+
+def test_what_is_drawn_above_the_liquid_after_a_draw_is_air() -> None:
+    bench = Bench()
+    bench.load("source:A1", 100)
+    bench.pick()
     bench.draw("source:A1", 40)
-    bench.give("plate:A1", 40, top=-0.5)
-    assert bench.trace().visits[-1].touch is touches
+    bench.draw("source:A1", 10, top=-1.0)
+    bench.give("plate:A1", 50)
+    trace = bench.trace()
+    assert well(trace, "source:A1").volume == 60
+    assert well(trace, "plate:A1").volume == pytest.approx(40)
+
+
+def test_contact_that_was_near_becomes_wet() -> None:
+    bench = Bench()
+    bench.load("plate:A1", 50)
+    bench.pick()
+    bench.touch_tip("plate:A1")
+    bench.draw("source:A1", 20)
+    bench.give("plate:A1", 20, top=-6.5)
+    bench.draw("plate:A1", 10)
+    (_, near, wet) = (
+        visit
+        for visit in bench.trace().visits
+        if visit.well.ref.name == "A1" and visit.well.ref.labware == "plate"
+    )
+    met = near.tip.touched[near.well]
+    assert met.contact(near.index) is Contact.NEAR
+    assert met.contact(wet.index) is Contact.WET
 
 
 def test_a_returned_tip_goes_on_with_its_history() -> None:
@@ -134,7 +177,7 @@ def test_a_blow_out_gives_what_is_left() -> None:
 
 def test_touching_the_wall_of_a_filled_well_counts_of_an_empty_one_does_not() -> None:
     bench = Bench()
-    bench.load("plate:A1", 50)
+    bench.load("plate:A1", 200)
     bench.pick()
     bench.touch_tip("plate:A1")
     bench.touch_tip("plate:B1")
@@ -178,7 +221,7 @@ def test_a_source_without_declared_volume_never_runs_dry() -> None:
         bench.give("plate:A1", 200, top=0.0)
         bench.draw("plate:A1", 200)
         bench.give("source:B1", 0)
-    assert not [i for i in bench.trace().imbalances if i.well.ref.labware == "source"]
+    assert not [i for i in bench.trace().imbalances if i.visit.well.ref.labware == "source"]
 
 
 @pytest.mark.parametrize(
@@ -186,8 +229,8 @@ def test_a_source_without_declared_volume_never_runs_dry() -> None:
     [
         ("Replace the plate in slot 1 with a new one", True),
         ("Bitte die Platte wechseln", True),
-        ("Spin the plate, put it back in slot 1 and resume", False),
-        ("Check the tips", False),
+        ("Replace the tips", False),
+        ("Remove the lid", False),
     ],
 )
 def test_a_plate_replaced_in_a_pause_is_a_new_plate(text: str, new: bool) -> None:
@@ -201,6 +244,19 @@ def test_a_plate_replaced_in_a_pause_is_a_new_plate(text: str, new: bool) -> Non
     trace = bench.trace()
     assert (("plate", 1, "A1") in trace.wells) is new
     assert bool(trace.imbalances) is not new
+
+
+def test_what_comes_back_is_the_same_plate_of_unknown_volumes() -> None:
+    bench = Bench()
+    bench.pick()
+    bench.draw("source:A1", 150)
+    bench.give("plate:A1", 150)
+    bench.say(EventKind.PAUSED, "Spin the plate, put it back in slot 1 and resume")
+    bench.draw("source:A1", 150)
+    bench.give("plate:A1", 150)
+    trace = bench.trace()
+    assert not trace.imbalances
+    assert not well(trace, "plate:A1").known
 
 
 def test_a_module_shakes_the_plate_that_is_on_it_and_no_other() -> None:
@@ -251,6 +307,6 @@ def test_a_multi_channel_pipette_that_picks_one_tip_has_one_tip() -> None:
     """The other nozzles hang beside the rack."""
     box = TipBox()
     lead = WellRef("rack", "H12")
-    box.pick_up("left", ["A1", "B1"], [lead, None], 1)
-    assert box.on("left", "A1", 1) is not None
-    assert box.on("left", "B1", 1) is None
+    box.pick_up("left", ["A1", "B1"], [lead, None])
+    assert box.on("left", "A1") is not None
+    assert box.on("left", "B1") is None

@@ -1,0 +1,85 @@
+"""Finds wells by the labware's slot, label or variable, and by well names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ...instrumentation import LabwareInfo, NameBinding
+from ...vocabulary import WellRef
+from ..source import tokens
+from ..trace import Trace
+from .well_names import plain_name, wells_in
+
+
+class Deck:
+    """What stands on the deck, under all its names.
+
+    Attributes:
+        trace: A reading of the run.
+        by_name: Keys of the labware that each variable held.
+    """
+
+    def __init__(self, trace: Trace, names: Sequence[NameBinding]) -> None:
+        self.trace = trace
+        self._refs: dict[tuple[str, str], WellRef] = {}
+        for well in trace.wells.values():
+            self._refs.setdefault((well.ref.labware, well.ref.name), well.ref)
+        self.by_name: dict[str, set[str]] = {}
+        for binding in names:
+            if binding.labware and not binding.wells:
+                for name in {binding.name, binding.name.rpartition(".")[2]}:
+                    self.by_name.setdefault(name, set()).update(binding.labware)
+
+    def ref(self, labware: str, name: str) -> WellRef:
+        """The reference of a well, made up where the run never used it."""
+        known = self._refs.get((labware, name))
+        if known is not None:
+            return known
+        info = self.trace.labware[labware]
+        return WellRef(labware, name, info.label or info.display_name, info.slot)
+
+    def refs(self, labware: Iterable[str], names: Iterable[str]) -> tuple[WellRef, ...]:
+        """The wells of these names in those of these labware that have them."""
+        plain = [plain_name(name) for name in names]
+        return tuple(
+            self.ref(key, name)
+            for key in labware
+            for name in plain
+            if key in self.trace.labware and name in self.trace.labware[key].wells
+        )
+
+    def used_wells(self, labware: Iterable[str]) -> tuple[WellRef, ...]:
+        """The wells of these labware that the run uses."""
+        keys = set(labware)
+        return tuple(ref for (key, _), ref in self._refs.items() if key in keys)
+
+    def is_used(self, ref: WellRef) -> bool:
+        """Whether the run uses a well."""
+        return (ref.labware, ref.name) in self._refs
+
+    def plates(self) -> list[LabwareInfo]:
+        """Labware that holds liquid."""
+        return [
+            info
+            for info in self.trace.labware.values()
+            if not info.is_tip_rack and not info.is_trash and info.wells
+        ]
+
+    def called(self, words: str) -> list[str]:
+        """Keys of labware by slot, label, load name or the name of a variable."""
+        wanted = tokens(words)
+        found = [
+            info.key
+            for info in self.plates()
+            if wanted and wanted in map(tokens, (info.slot, info.label, info.key, info.load_name))
+        ]
+        return found or sorted(self.by_name.get(words.strip(), ()))
+
+    def at(self, place: str) -> tuple[WellRef, ...]:
+        """The wells of a place: ``"4:H12"``, ``"PCR plate:A1-A8"``, ``"plate:*"``."""
+        labware, _, spec = place.rpartition(":")
+        return tuple(
+            self.ref(key, name)
+            for key in self.called(labware)
+            for name in wells_in(spec, self.trace.labware[key])
+        )

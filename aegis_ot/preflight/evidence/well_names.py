@@ -1,0 +1,84 @@
+"""Well names as people write them: ``A1``, ``A1-B3``, ``column 12``, ``rows A-D``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from ...instrumentation import LabwareInfo
+from ..trace import row_column
+
+WELL = r"[A-P](?:1\d|2[0-4]|0?[1-9])(?!\d)"
+_TO = r"\s*(?:-|–|—|:|\.\.+|\bto\b)\s*"
+_AND = r"\s*(?:,\s*and\b|,|/|&|\+|\band\b)\s*"
+_NUMBERS = rf"\d{{1,2}}(?:{_TO}\d{{1,2}})?"
+_LETTERS = rf"[A-P](?:{_TO}[A-P])?"
+_PLACE = re.compile(
+    rf"(?P<first>{WELL})(?:{_TO}(?P<last>{WELL}))?"
+    rf"|(?i:columns?|cols?\.?)\s*(?P<columns>{_NUMBERS}(?:{_AND}{_NUMBERS})*)"
+    rf"|(?i:rows?)\s+(?P<rows>{_LETTERS}(?:{_AND}{_LETTERS})*)"
+)
+_ONE = rf"(?:{WELL}(?:{_TO}{WELL})?|(?i:columns?|cols?\.?)\s*{_NUMBERS}|(?i:rows?)\s+{_LETTERS})"
+PLACES = rf"{_ONE}(?:{_AND}(?:{_ONE}|{_NUMBERS}(?![\w.])|{_LETTERS}(?!\w)))*"
+"""A pattern for a list of places and nothing else."""
+
+_SPAN = re.compile(rf"(\d+|[A-P])(?:{_TO}(\d+|[A-P]))?")
+_SPLIT = re.compile(_AND)
+
+
+def wells_in(text: str, info: LabwareInfo) -> list[str]:
+    """Names of the wells of this labware that a list of places stands for; ``"*"`` is all.
+
+    Args:
+        text: ``"A1, B2-B4"``, ``"columns 1-3"``, ``"row H"``, ``"*"`` or nothing.
+        info: The labware.
+    """
+    if text.strip() in ("", "*"):
+        return list(info.wells)
+    found: dict[str, None] = {}
+    for match in _PLACE.finditer(text):
+        found.update(dict.fromkeys(_meant(match, info)))
+    return list(found)
+
+
+def _meant(match: re.Match[str], info: LabwareInfo) -> list[str]:
+    if match["first"]:
+        first = plain_name(match["first"])
+        last = plain_name(match["last"] or match["first"])
+        (row, column), (row2, column2) = row_column(first), row_column(last)
+        rows, columns = sorted((row, row2)), sorted((column, column2))
+        return _in_order(
+            name
+            for name in info.wells
+            if rows[0] <= row_column(name)[0] <= rows[1]
+            and columns[0] <= row_column(name)[1] <= columns[1]
+        )
+    axis = 1 if match["columns"] else 0
+    wanted = _counted(match["columns"] or match["rows"])
+    return _in_order(name for name in info.wells if row_column(name)[axis] in wanted)
+
+
+def _counted(listed: str) -> set[int]:
+    """Places of a list of columns or rows, counted from 0."""
+    found: set[int] = set()
+    for part in _SPLIT.split(listed):
+        span = _SPAN.search(part)
+        if span is not None:
+            low, high = (_number(end) for end in (span[1], span[2] or span[1]))
+            found.update(range(low, high + 1))
+    return found
+
+
+def _number(text: str) -> int:
+    """Place of a column ``"12"`` or of a row ``"H"``, counted from 0."""
+    return int(text) - 1 if text.isdecimal() else row_column(text + "1")[0]
+
+
+def _in_order(names: Iterable[str]) -> list[str]:
+    """Wells column by column; a labware's definition may list them from H1 to A1."""
+    return sorted(names, key=lambda name: row_column(name)[::-1])
+
+
+def plain_name(name: str) -> str:
+    """``"A1"`` for ``"A01"``."""
+    return name[0] + str(int(name[1:]))

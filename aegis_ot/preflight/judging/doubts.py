@@ -1,0 +1,61 @@
+"""What an undecided rule lacks, and what the protocol's author can write to decide it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from ...vocabulary import Undecided, WellRef
+from ..roles import Roles
+from ..rules import RoleSpec, RuleSpec
+from ..trace import Sides, places
+from .reading import Reading
+
+_MOST_SHOWN = 3
+"""Labware that are offered for one role."""
+
+
+def missing_needs(rule: RuleSpec, roles: Roles) -> list[str]:
+    """The needs of a rule that no well is known for; ``"a|b"`` for either."""
+    return [need for need in rule.needs if not any(map(roles.known, need.split("|")))]
+
+
+def missing_roles(reading: Reading, rule: RuleSpec, family: str, needs: Sequence[str]) -> Undecided:
+    """A rule whose needs no well is known for, with the roles to be given.
+
+    Args:
+        reading: The protocol.
+        rule: The rule.
+        family: The family whose roles are missing.
+        needs: Of the rule's needs, those that are not known; ``"a|b"`` for either.
+    """
+    roles = reading.database.family(family).roles
+    names = [" or ".join(roles[role].title for role in need.split("|")) for need in needs]
+    reason = f"nothing says which well is the {' and which the '.join(names)}"
+    first = [need.split("|")[0] for need in needs]
+    unnamed = unnamed_wells(reading)
+    sides = Sides(reading.usage)
+    given = ", ".join(
+        f'"{role}": [{", ".join(_offered(roles[role], unnamed, sides))}]' for role in first
+    )
+    return Undecided(rule.id, reason, f"@guard(roles={{{given}}})")
+
+
+def unnamed_wells(reading: Reading) -> tuple[WellRef, ...]:
+    """Wells that the run uses and of which nothing says what they hold, in order."""
+    roles = reading.roles[0] if reading.roles else None
+    found = (well.ref for well in reading.trace.wells.values() if well.visits)
+    return tuple(dict.fromkeys(ref for ref in found if roles is None or ref not in roles.by_well))
+
+
+def _offered(spec: RoleSpec, unnamed: Iterable[WellRef], sides: Sides) -> list[str]:
+    """Unnamed wells on the role's side, as a guard takes them: to be cut down to the right ones."""
+    fitting = [ref for ref in unnamed if spec.side in ("any", sides(ref)[0])]
+    return [f'"{place}"' for place in spelled(fitting)[:_MOST_SHOWN]]
+
+
+def spelled(wells: Iterable[WellRef]) -> list[str]:
+    """Wells as a guard's ``roles`` take them, one text for each labware: ``"2:A1-H1,A3"``."""
+    by_labware: dict[str, dict[WellRef, None]] = {}
+    for ref in wells:
+        by_labware.setdefault(ref.labware, {})[ref] = None
+    return [places(list(refs)) for refs in by_labware.values()]

@@ -1,0 +1,121 @@
+"""Which roles of a family a name, a label or a liquid names."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from ..evidence import Evidence, Kind
+from ..rules import Common, Family
+from ..source import Lexicon, Match, lexicon_of, tokens, without_concentrations
+
+_SEVERAL = 3
+"""Two wells may well hold one liquid that is called by a plural."""
+
+
+class RoleNames:
+    """The words of one family's roles.
+
+    Args:
+        family: The family.
+        common: Words of no family.
+    """
+
+    def __init__(self, family: Family, common: Common) -> None:
+        self._family = family
+        self._joints = _first_words(common.joints)
+        self._sides = _first_words(common.sides)
+        self._joining = _first_words(common.joining)
+        self._lacking = _first_words(common.lacking)
+        self._lexicon: Lexicon = lexicon_of(
+            {
+                **{name: spec.words for name, spec in family.roles.items()},
+                # What only looks like a role's name is found as such, and names nothing.
+                **{f"!{name}": spec.never for name, spec in family.roles.items()},
+            },
+            common.aliases,
+        )
+
+    def of(self, evidence: Evidence) -> list[str]:
+        """The roles that a piece of evidence may give its wells, the likeliest first.
+
+        English puts the head last: ``sample_buffer`` is a buffer; but what follows "in" or "for"
+        only says more about it. A word that only says on which side of a transfer something
+        stands comes last: ``water_src`` is water.
+        """
+        if evidence.role in self._family.roles:
+            return [evidence.role]
+        if evidence.kind is Kind.MODEL:
+            return []  # a verified role, of another family
+        text = evidence.text
+        _, dot, field = text.rpartition(".")
+        if dot and self._lexicon.find(field):
+            text = field  # `assay.mix_tube` is a mix and no assay mix
+        key = text.rpartition("[")[2] if text.endswith("]") else ""
+        if key and self._names(self._lexicon.find(key)) and self._head(key):
+            text = key  # `tubes["water"]` is water, whatever the dict is called
+        named = list(dict.fromkeys(self._head(text, evidence.is_name)))
+        if self._speaks_of_several(evidence, text, named):
+            return []
+        several = evidence.text.rstrip("]'\"").endswith("s") and len(evidence.wells) >= _SEVERAL
+        if several or (evidence.whole and len(evidence.wells) > 1):
+            named = [role for role in named if not self._is_loose_plural(text, role)]
+        return named
+
+    def _head(self, text: str, is_name: bool = True) -> list[str]:
+        words = self._lexicon.words(text.replace("%", " percent "))
+        ends = (at for at, word in enumerate(words) if word in self._joints)
+        # "in lysis buffer" says what something is in; `for_ntc` is a name.
+        end = next((at for at in ends if at or not is_name), len(words))
+        found = [
+            match
+            for match in self._lexicon.find(text.replace("%", " percent "))
+            if match.start < end and not (match.start and words[match.start - 1] in self._lacking)
+        ]
+        found.sort(key=lambda match: (words[match.start] not in self._sides, match.start))
+        return [match.topic for match in reversed(found) if not match.topic.startswith("!")]
+
+    def _names(self, found: Sequence[Match]) -> set[str]:
+        return {match.topic for match in found if not match.topic.startswith("!")}
+
+    def _speaks_of_several(self, evidence: Evidence, text: str, named: Sequence[str]) -> bool:
+        """Whether a text joins things that differ: "samples and NTC" says of no well which.
+
+        Nor does "MM / ctrl" on a rack, of which one part names nothing that is known.
+        """
+        parts = [part for part in self._parts(text) if any(map(str.isalpha, part))]
+        if len(parts) < 2 and evidence.is_name:
+            return False
+        unlike = any(not self._is_kin(one, other) for one in named for other in named)
+        told = [bool(self._names(self._lexicon.find(part))) for part in parts]
+        return unlike or (evidence.whole and any(told) and not all(told))
+
+    def _parts(self, text: str) -> list[str]:
+        """The parts of a text between words and marks that join."""
+        parts = [""]
+        for piece in re.split(r"(\W+)", without_concentrations(text)):
+            if not set(piece).isdisjoint(",;/+&") or not self._joining.isdisjoint(tokens(piece)):
+                parts.append("")
+            else:
+                parts[-1] += piece
+        return parts
+
+    def _is_kin(self, one: str, other: str) -> bool:
+        return one in self._above(other) or other in self._above(one)
+
+    def _above(self, role: str) -> set[str]:
+        found = {role}
+        for parent in self._family.roles[role].parents:
+            found |= self._above(parent)
+        return found
+
+    def _is_loose_plural(self, text: str, role: str) -> bool:
+        """Whether only words name a role that for many wells stand for various liquids: a rack of
+        "stocks" holds different ones.
+        """
+        said = {match.phrase for match in self._lexicon.find(text) if match.topic == role}
+        return bool(said) and said <= set(self._family.roles[role].differing)
+
+
+def _first_words(phrases: Sequence[str]) -> frozenset[str]:
+    return frozenset(tokens(phrase)[0] for phrase in phrases if tokens(phrase))

@@ -1,0 +1,91 @@
+"""The shapes of the liquid's ways through a run, whatever the wells are called."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+
+from ...vocabulary import WellRef
+from ..trace import Trace, Transfer, chains_of, links_of
+
+SHAPES = ("chain", "pooling", "reactions")
+"""What a family's file may name: wells that feed each other in turn; one well fed by many that feed
+nothing else; wells given as much each of a common liquid, and one of their own."""
+
+_FEWEST_POOLED = 4
+_FEWEST_ALIKE = 3
+_MANY = 6
+"""From so many wells on, more of them make a shape no clearer."""
+
+Fed = Mapping[WellRef, Mapping[WellRef, float]]
+"""For each well the µL that it is given of each well drawn from."""
+
+
+def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
+    """The shapes that a run shows: how clearly (1 for three wells, 2 for six) and in words."""
+    fed, feeds = _ways(trace)
+    found: dict[str, tuple[float, str]] = {}
+    chain = _longest(chains_of(list(links_of(trace))))
+    if chain >= 2:
+        found["chain"] = (_clearness(chain), f"a chain of {chain} transfers from well to well")
+    pooled = _pooled(fed, feeds)
+    if pooled >= _FEWEST_POOLED:
+        found["pooling"] = (_clearness(pooled), f"{pooled} wells go into a pool and nowhere else")
+    reactions = _reactions(fed, feeds)
+    if reactions >= _FEWEST_ALIKE:
+        said = f"{reactions} wells are given as much each of a common liquid and one of their own"
+        found["reactions"] = (_clearness(reactions), said)
+    return found
+
+
+def _longest(chains: Iterable[Sequence[Transfer]]) -> int:
+    """Number of transfers in the longest chain of wells that each feed the next."""
+    return max((len({(s.source, s.well) for s in group}) for group in chains), default=0)
+
+
+def _clearness(wells: int) -> float:
+    return min(wells, _MANY) / _FEWEST_ALIKE
+
+
+def _ways(trace: Trace) -> tuple[dict[WellRef, dict[WellRef, float]], dict[WellRef, set[WellRef]]]:
+    """What each well is given of which, and which wells each one feeds."""
+    fed: dict[WellRef, dict[WellRef, float]] = {}
+    feeds: dict[WellRef, set[WellRef]] = {}
+    for visit in trace.visits:
+        for source, volume, _, _ in visit.parts:
+            if source is not None and source is not visit.well and volume > 0:
+                given = fed.setdefault(visit.well.ref, {})
+                given[source.ref] = given.get(source.ref, 0.0) + volume
+                feeds.setdefault(source.ref, set()).add(visit.well.ref)
+    return fed, feeds
+
+
+def _pooled(fed: Fed, feeds: Mapping[WellRef, set[WellRef]]) -> int:
+    """Wells that nothing is put into, and that go into a well together with others like them."""
+    pools = Counter(
+        well
+        for well, given in fed.items()
+        for source in given
+        if len(feeds[source]) == 1 and source not in fed
+    )
+    return sum(wells for wells in pools.values() if wells >= _FEWEST_POOLED)
+
+
+def _reactions(fed: Fed, feeds: Mapping[WellRef, set[WellRef]]) -> int:
+    """Wells that go nowhere, with as much of a common liquid as others, and something else.
+
+    The something else goes into fewer wells than the common liquid does. What is brought to one
+    concentration with water gets more of it or less from well to well, and is no reaction.
+    """
+    ends = {well: given for well, given in fed.items() if well not in feeds}
+    alike = Counter(
+        (source, f"{volume:.3g}") for given in ends.values() for source, volume in given.items()
+    )
+    return sum(
+        any(
+            alike[source, f"{volume:.3g}"] >= _FEWEST_ALIKE
+            and any(len(feeds[other]) < len(feeds[source]) for other in given)
+            for source, volume in given.items()
+        )
+        for given in ends.values()
+    )

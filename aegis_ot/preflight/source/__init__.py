@@ -1,0 +1,33 @@
+"""What a protocol's text says as Python: tokens, comments, names, lines, how values flow."""
+
+from .concentrations import (
+    Concentration,
+    comparable,
+    has_concentration,
+    level_in,
+    name_without_level,
+    without_concentrations,
+    without_strength,
+)
+from .data_flow import Index
+from .facts import SourceFacts, read_source
+from .lexicon import Lexicon, Match, lexicon_of, tokens
+from .lines import source_lines
+
+__all__ = [
+    "Concentration",
+    "Index",
+    "Lexicon",
+    "Match",
+    "SourceFacts",
+    "comparable",
+    "has_concentration",
+    "level_in",
+    "lexicon_of",
+    "name_without_level",
+    "read_source",
+    "source_lines",
+    "tokens",
+    "without_concentrations",
+    "without_strength",
+]

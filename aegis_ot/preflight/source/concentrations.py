@@ -1,0 +1,132 @@
+"""Reads concentrations and doses in names and labels.
+
+Only the order of levels matters to the rules, so a number without a unit is good enough,
+as long as it is a concentration and no running number: ``std_125`` is one, ``std_3`` is not
+known to be.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from .lexicon import lexicon_of, tokens
+
+_UNITS: dict[str, float] = {
+    "pm": 1e-12,
+    "nm": 1e-9,
+    "um": 1e-6,
+    "mm": 1e-3,
+    "m": 1.0,
+    "g/l": 1.0,
+    "mg/l": 1e-3,
+    "ug/l": 1e-6,
+    "ng/l": 1e-9,
+    "pg/ml": 1e-9,
+    "ng/ml": 1e-6,
+    "ug/ml": 1e-3,
+    "mg/ml": 1.0,
+    "pg/ul": 1e-6,
+    "ng/ul": 1e-3,
+    "ug/ul": 1.0,
+    "mg/ul": 1e3,
+    "u/ul": 1e3,
+    "u/ml": 1.0,
+    "iu/ml": 1.0,
+    "%": 1.0,
+    "x": 1.0,
+}
+"""Molar units in M, mass units in g/l, activities in U/ml."""
+
+_STRENGTHS = frozenset({"%", "x"})
+
+
+class Concentration(float):
+    """A level that has a unit, in the units above; plain numbers are on a scale of their own."""
+
+
+def comparable(one: float, other: float) -> bool:
+    """Whether two levels are on one scale: both with a unit, or both without; 0 is on any."""
+    return isinstance(one, Concentration) is isinstance(other, Concentration) or not (one and other)
+
+
+_WITH_UNIT = re.compile(
+    r"(?<![A-Za-z.\d])(\d+(?:[.,p]\d+)?)[\s_]*"
+    r"((?:pg|ng|ug|mg|i?u)\s*(?:/|per|_)\s*(?:ul|ml|l)|g/l|pm|nm|um|mm|m|%|x)(?![a-z])",
+    re.IGNORECASE,
+)
+_GLUED = re.compile(r"(?<=[A-Za-z])(\d+(?:\.\d+)?)(?=[pnum]M\b)")
+_LONG_NUMBER = re.compile(r"(?<![\d.])((?!0\d)\d{2,}(?:\.\d+)?|\d+\.\d+|0)(?![\d.])")
+_RATIO = re.compile(r"\b1\s*(?::|/|to|in)\s*(\d+)\b", re.IGNORECASE)
+_STRENGTH = re.compile(r"(?<![\w.])\d+(?:[.,]\d+)?\s?[x×](?!\w)", re.IGNORECASE)
+
+
+def level_in(text: str, words: Mapping[str, float], plain_numbers: bool = True) -> float | None:
+    """The one level that a name or label states: with a unit, in words, or as a plain number.
+
+    Args:
+        text: The name.
+        words: Words for levels: ``{"blank": 0.0}``.
+        plain_numbers: Whether a number without a unit counts.
+    """
+    plain = _with_u(text).lower()
+    found = _WITH_UNIT.findall(plain)
+    # "3 uM (100x)" is 3 uM, and "1 mM in 0.5 % DMSO" is 1 mM.
+    found = [(value, unit) for value, unit in found if unit not in _STRENGTHS] or found
+    stated = {_concentration(value, unit) for value, unit in found}
+    if stated:
+        return stated.pop() if len(stated) == 1 else None
+    ratios = {1.0 / float(value) for value in _RATIO.findall(plain) if float(value) > 0}
+    if len(ratios) == 1:
+        return ratios.pop()
+    said = {words[match.topic] for match in lexicon_of({w: (w,) for w in words}).find(text)}
+    if len(said) == 1:
+        return said.pop()
+    numbers = set(_LONG_NUMBER.findall(plain.replace("_", " "))) if plain_numbers else set()
+    return float(numbers.pop()) if len(numbers) == 1 else None
+
+
+def has_concentration(text: str) -> bool:
+    """Whether a text states a concentration with a unit; per cent and "10x" are none."""
+    return any(unit not in _STRENGTHS for _, unit in _WITH_UNIT.findall(_with_u(text).lower()))
+
+
+def without_concentrations(text: str) -> str:
+    """A text without its concentrations: "BSA standard" of "BSA standard 125 ug/mL"."""
+    return _WITH_UNIT.sub(" ", _with_u(text))
+
+
+def without_strength(text: str) -> str:
+    """A text without the strength of a working solution: "inhibitor" of "inhibitor (6x)"."""
+    return _STRENGTH.sub(" ", text)
+
+
+def name_without_level(text: str, noise: Sequence[str]) -> tuple[str, ...]:
+    """The words of a name that say neither how much nor what sort of thing it is.
+
+    Two liquids whose names differ in these are different compounds; those whose names do not
+    differ are doses of one.
+
+    Args:
+        text: The name.
+        noise: Words that tell no compound from another: "stock", "well", "blank".
+    """
+    plain = without_concentrations(text)
+    words = tokens(plain)
+    found = lexicon_of({"noise": tuple(noise)}).find(plain)
+    covered = {at for match in found for at in range(match.start, match.end)}
+    return tuple(
+        word
+        for at, word in enumerate(words)
+        if at not in covered and not word.replace(".", "").isdigit()
+    )
+
+
+def _concentration(value: str, unit: str) -> Concentration:
+    short = re.sub(r"\s", "", unit.lower()).replace("per", "/").replace("_", "/")
+    return Concentration(float(value.replace(",", ".").replace("p", ".")) * _UNITS.get(short, 1.0))
+
+
+def _with_u(text: str) -> str:
+    """A text with "u" for the micro sign and the Greek letter, and ``R10nM`` as "R 10nM"."""
+    return _GLUED.sub(r" \1", text.replace("µ", "u").replace("μ", "u"))

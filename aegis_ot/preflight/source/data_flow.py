@@ -1,0 +1,178 @@
+"""Which names a name's values come from, and which labware is indexed with them.
+
+Flow-insensitive and by name: enough to tell on which labware a plate map is used,
+``plate[well] for well, kind in LAYOUT.items()``. A ``zip`` is taken apart, so that what names
+the sources says nothing of the wells beside them.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+_PASSING_ON = frozenset({"enumerate", "list", "tuple", "reversed", "sorted", "set", "iter", "next"})
+_WELL_GETTERS = frozenset(
+    {"wells", "well", "columns", "rows", "wells_by_name", "columns_by_name", "rows_by_name"}
+)
+
+
+class Index(NamedTuple):
+    """``rack[row["tube"]]``: what is indexed, with values of which names and fields."""
+
+    held: str
+    names: frozenset[str]
+    fields: frozenset[str]
+
+
+@dataclass
+class Flow:
+    """Where values come from.
+
+    Attributes:
+        comes_from: For each name, the names in what it is bound to.
+        indexed: Each subscript of what may be labware.
+    """
+
+    comes_from: dict[str, set[str]] = field(default_factory=dict)
+    indexed: list[Index] = field(default_factory=list)
+
+    def origins(self, names: frozenset[str]) -> set[str]:
+        """These names, and all that their values come from."""
+        found: set[str] = set()
+        open_ = list(names)
+        while open_:
+            name = open_.pop()
+            if name not in found:
+                found.add(name)
+                open_ += self.comes_from.get(name, ())
+        return found
+
+    def indexed_with(self, name: str) -> list[Index]:
+        """Where something is indexed with values of this name."""
+        return [index for index in self.indexed if name in self.origins(index.names)]
+
+
+def read_flow(tree: ast.Module) -> Flow:
+    """Read a parsed protocol."""
+    flow = Flow()
+    functions = {n.name: n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Assign):
+            for target in node.targets:
+                _bind(flow, target, node.value, looped=False)
+        elif isinstance(node, (ast.AnnAssign, ast.NamedExpr)) and node.value is not None:
+            _bind(flow, node.target, node.value, looped=False)
+        elif isinstance(node, (ast.For, ast.AsyncFor, ast.comprehension)):
+            _bind(flow, node.target, node.iter, looped=True)
+        elif isinstance(node, ast.Subscript):
+            _note_index(flow, node.value, node.slice)
+        elif isinstance(node, ast.Call):
+            _call(flow, node, functions)
+    return flow
+
+
+def _bind(flow: Flow, target: ast.expr, value: ast.expr, looped: bool) -> None:
+    for part, given in _parts(target, value, looped):
+        origins = set(_held_names(given))
+        for name in _targets(part):
+            flow.comes_from.setdefault(name, set()).update(origins - {name})
+
+
+def _parts(target: ast.expr, value: ast.expr, looped: bool) -> Iterator[tuple[ast.expr, ast.expr]]:
+    """Which part of a target takes its values from which expression."""
+    if isinstance(target, (ast.Tuple, ast.List)):
+        width = len(target.elts)
+        if looped and isinstance(value, ast.Call) and isinstance(value.func, ast.Name):
+            if value.func.id == "zip" and len(value.args) == width:
+                for part, given in zip(target.elts, value.args, strict=True):
+                    yield from _parts(part, given, looped)
+                return
+            if value.func.id == "enumerate" and value.args and width == 2:
+                yield from _parts(target.elts[1], value.args[0], looped)
+                return
+        if not looped and isinstance(value, (ast.Tuple, ast.List)) and len(value.elts) == width:
+            for part, given in zip(target.elts, value.elts, strict=True):
+                yield from _parts(part, given, looped)
+            return
+    yield target, value
+
+
+def _targets(node: ast.expr) -> Iterator[str]:
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Name):
+            yield inner.id
+        elif isinstance(inner, ast.Attribute):
+            yield inner.attr
+
+
+def _held_names(node: ast.expr) -> Iterator[str]:
+    """The names whose values an expression may pass on: ``LAYOUT`` in ``LAYOUT[code]``."""
+    if isinstance(node, ast.Name):
+        yield node.id
+    elif isinstance(node, ast.Attribute):
+        yield node.attr
+        yield from _held_names(node.value)
+    elif isinstance(node, ast.Subscript):
+        yield from _held_names(node.value)
+    elif isinstance(node, ast.Call):
+        if isinstance(node.func, ast.Attribute):
+            yield from _held_names(node.func.value)
+        elif not isinstance(node.func, ast.Name) or node.func.id in (*_PASSING_ON, "zip", "dict"):
+            for argument in node.args:
+                yield from _held_names(argument)
+    else:
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.expr):
+                yield from _held_names(child)
+            elif isinstance(child, ast.comprehension):
+                yield from _held_names(child.iter)
+
+
+def _note_index(flow: Flow, base: ast.expr, index: ast.expr) -> None:
+    if isinstance(base, ast.Call) and isinstance(base.func, ast.Attribute):
+        if base.func.attr not in _WELL_GETTERS or base.args:
+            return
+        base = base.func.value
+    held = _last_name(base)
+    names = frozenset(_held_names(index))
+    if held and names:
+        flow.indexed.append(Index(held, names, frozenset(_fields_in(index))))
+
+
+def _fields_in(index: ast.expr) -> Iterator[str]:
+    """The keys and attributes that an index asks for: ``row["tube"]``, ``row.tube``; and its
+    names, which may have been taken from a field called so.
+    """
+    for inner in ast.walk(index):
+        if isinstance(inner, ast.Attribute):
+            yield inner.attr
+        elif isinstance(inner, ast.Name):
+            yield inner.id
+        elif isinstance(inner, ast.Constant) and isinstance(inner.value, (str, int)):
+            yield str(inner.value)
+
+
+def _call(flow: Flow, node: ast.Call, functions: dict[str, ast.FunctionDef]) -> None:
+    if isinstance(node.func, ast.Attribute) and node.func.attr in _WELL_GETTERS and node.args:
+        for argument in node.args:
+            _note_index(flow, node.func.value, argument)
+    function = functions.get(_last_name(node.func))
+    if function is None:
+        return
+    names = [argument.arg for argument in function.args.args]
+    if names[:1] == ["self"]:
+        names = names[1:]
+    given = [*zip(names, node.args, strict=False), *((k.arg, k.value) for k in node.keywords)]
+    for name, value in given:
+        if name is not None:
+            origins = set(_held_names(value)) - {name}
+            flow.comes_from.setdefault(name, set()).update(origins)
+
+
+def _last_name(node: ast.expr) -> str:
+    """``plate`` or ``self.plate``, as the last name."""
+    if isinstance(node, ast.Name):
+        return node.id
+    return node.attr if isinstance(node, ast.Attribute) else ""

@@ -1,0 +1,146 @@
+"""What the text of a protocol says as Python: comments, docstrings, names, and how they flow.
+
+The rehearsal knows which wells were used and which names held them. The text adds what no run
+can show: what was written beside the code, and which labware is indexed with what.
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import tokenize
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TypeGuard
+
+from .data_flow import Flow, read_flow
+
+_MOST_TEXTS = 2000
+"""A protocol that carries its data in strings says nothing more of itself after so many."""
+
+
+@dataclass
+class SourceFacts:
+    """The facts of one protocol text.
+
+    Attributes:
+        comments: Comment text by line.
+        own_line: Lines that hold nothing but a comment.
+        docstrings: Docstrings and other free-standing strings, with their first line.
+        metadata: Values of the ``metadata`` dict that are text.
+        names: Every identifier of the text, once.
+        strings: Every other string of the text, with its line.
+        assigned: Line of the first assignment of each name.
+        varying: Names that are loop variables, as ``(function, name)``.
+        parameters: Names that are parameters of functions, as ``(function, name)``.
+        flow: Which names the values of a name come from, and which labware they index.
+    """
+
+    comments: dict[int, str] = field(default_factory=dict)
+    own_line: set[int] = field(default_factory=set)
+    docstrings: list[tuple[int, str]] = field(default_factory=list)
+    metadata: dict[str, str] = field(default_factory=dict)
+    names: set[str] = field(default_factory=set)
+    strings: list[tuple[int, str]] = field(default_factory=list)
+    assigned: dict[str, int] = field(default_factory=dict)
+    varying: set[tuple[str, str]] = field(default_factory=set)
+    parameters: set[tuple[str, str]] = field(default_factory=set)
+    flow: Flow = field(default_factory=Flow)
+
+    def comment_blocks(self) -> list[tuple[int, str]]:
+        """Comments by their first line; those that stand below each other are one text."""
+        blocks: dict[int, list[str]] = {}
+        first = 0
+        for line, said in sorted(self.comments.items()):
+            if line in self.own_line and line - 1 in self.own_line:
+                blocks[first].append(said)
+            else:
+                first = line
+                blocks[first] = [said]
+        return [(line, "\n".join(texts)) for line, texts in blocks.items()]
+
+
+def read_source(text: str) -> SourceFacts:
+    """Read a protocol's text. Text that does not parse yields what its comments say."""
+    facts = SourceFacts()
+    _read_comments(text, facts)
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError):
+        return facts
+    _read_nodes(tree, facts)
+    _read_scopes(tree, "<module>", facts)
+    facts.flow = read_flow(tree)
+    return facts
+
+
+def _read_comments(text: str, facts: SourceFacts) -> None:
+    try:
+        for token in tokenize.generate_tokens(io.StringIO(text).readline):
+            if token.type == tokenize.COMMENT:
+                line = token.start[0]
+                facts.comments[line] = token.string.lstrip("#").strip()
+                if not token.line[: token.start[1]].strip():
+                    facts.own_line.add(line)
+    except (tokenize.TokenError, IndentationError, SyntaxError):
+        pass
+
+
+def _read_nodes(tree: ast.Module, facts: SourceFacts) -> None:
+    documents: set[int] = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and _is_text(node.value):
+            facts.docstrings.append((node.value.lineno, str(node.value.value)))
+            documents.add(id(node.value))
+        elif isinstance(node, ast.Name):
+            facts.names.add(node.id)
+            if isinstance(node.ctx, ast.Store):
+                facts.assigned.setdefault(node.id, node.lineno)
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            facts.assigned.setdefault(node.attr, node.lineno)
+        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            facts.names.add(node.name)
+        elif _is_text(node) and id(node) not in documents and len(facts.strings) < _MOST_TEXTS:
+            facts.strings.append((node.lineno, str(node.value)))
+        if isinstance(node, ast.Assign) and _is_metadata(node):
+            facts.metadata.update(_texts_of(node.value))
+
+
+def _is_text(node: ast.AST) -> TypeGuard[ast.Constant]:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str)
+
+
+def _is_metadata(node: ast.Assign) -> bool:
+    return any(isinstance(target, ast.Name) and target.id == "metadata" for target in node.targets)
+
+
+def _texts_of(value: ast.expr) -> Mapping[str, str]:
+    if not isinstance(value, ast.Dict):
+        return {}
+    return {
+        key.value: item.value
+        for key, item in zip(value.keys, value.values, strict=True)
+        if isinstance(key, ast.Constant)
+        and isinstance(key.value, str)
+        and isinstance(item, ast.Constant)
+        and isinstance(item.value, str)
+    }
+
+
+def _read_scopes(node: ast.AST, function: str, facts: SourceFacts) -> None:
+    """Which names loops give many values, and which ones calls do, by the function they are in."""
+    for child in ast.iter_child_nodes(node):
+        inside = function
+        if isinstance(child, (ast.FunctionDef, ast.Lambda)):
+            inside = child.name if isinstance(child, ast.FunctionDef) else "<lambda>"
+            given = child.args
+            for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs):
+                facts.parameters.add((inside, argument.arg))
+        elif isinstance(child, (ast.For, ast.AsyncFor, ast.comprehension)):
+            facts.varying |= {(inside, name) for name in names_in(child.target)}
+        _read_scopes(child, inside, facts)
+
+
+def names_in(node: ast.AST) -> set[str]:
+    """Every name that stands anywhere in an expression."""
+    return {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}

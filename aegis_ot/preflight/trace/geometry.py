@@ -1,0 +1,111 @@
+"""How much liquid stands below a height in a well, by the well's real shape.
+
+The inner geometry of the labware definition, where it has one: sections, stacked from the bottom
+up (Opentrons labware schema 2 and 3). Else a cylinder or cuboid under the mouth, or a cone, or a
+half ball below, as the shape of the bottom goes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from ...instrumentation import WellInfo
+
+OVER_NOMINAL = 1.1
+"""Brim volume by nominal volume where no geometry tells (``spec/rules.md``)."""
+
+_TAPER = 0.45
+"""Width at the bottom of a round V by that at its mouth, as in PCR plates of known geometry."""
+
+
+class Geometry:
+    """The inside of one kind of well.
+
+    Args:
+        info: What the labware definition says.
+
+    Attributes:
+        depth: From the rim to the bottom, mm.
+        brim: µL that it holds filled to the rim.
+    """
+
+    def __init__(self, info: WellInfo) -> None:
+        self.depth = info.depth
+        self._sections = info.sections or _assumed(info)
+        self._known: dict[float, float] = {}
+        self._scale = 1.0
+        inside = self._reckon(info.depth)
+        if info.sections:
+            self.brim = max(inside, info.max_volume)
+        else:
+            self.brim = (info.max_volume or inside) * OVER_NOMINAL
+            if 0 < inside < info.max_volume:
+                self._scale = info.max_volume / inside  # narrower than what it is said to hold
+
+    def volume_below(self, height: float) -> float:
+        """µL that stand in the well when it is filled up to ``height`` mm above its bottom."""
+        height = min(round(height, 2), self.depth)
+        volume = self._known.get(height)
+        if volume is None:
+            volume = self._known[height] = self._reckon(height)
+        return volume
+
+    def _reckon(self, height: float) -> float:
+        return self._scale * sum(_filled(section, height) for section in self._sections)
+
+
+def _filled(section: Mapping[str, Any], height: float) -> float:
+    """µL in one section below a height; areas are at most quadratic, so Simpson's rule is exact."""
+    bottom, top = float(section["bottomHeight"]), float(section["topHeight"])
+    span = min(height, top) - bottom
+    if span <= 0 or top <= bottom:
+        return 0.0
+    middle, end = (span * part / (top - bottom) for part in (0.5, 1.0))
+    areas = (_area(section, 0.0) + 4 * _area(section, middle) + _area(section, end)) / 6
+    return span * areas * int(section.get("xCount", 1)) * int(section.get("yCount", 1))
+
+
+def _area(section: Mapping[str, Any], part: float) -> float:
+    """Cross-section, mm², at a part (0 to 1) of a section's height."""
+    shape = section["shape"]
+
+    def between(low: str, high: str) -> float:
+        return float(section[low]) + part * (float(section[high]) - float(section[low]))
+
+    if shape == "conical":
+        return math.pi / 4 * between("bottomDiameter", "topDiameter") ** 2
+    if shape in ("cuboidal", "pyramidal"):
+        return between("bottomXDimension", "topXDimension") * between(
+            "bottomYDimension", "topYDimension"
+        )
+    if shape == "spherical":
+        height = part * (float(section["topHeight"]) - float(section["bottomHeight"]))
+        return math.pi * height * max(2 * float(section["radiusOfCurvature"]) - height, 0.0)
+    # From a circle to a rectangle or back (squaredcone, roundedcuboid).
+    circle = math.pi / 4 * float(section["circleDiameter"]) ** 2
+    box = float(section["rectangleXDimension"]) * float(section["rectangleYDimension"])
+    low, high = (circle, box) if section.get("bottomCrossSection") == "circular" else (box, circle)
+    return low + part * (high - low)
+
+
+def _assumed(info: WellInfo) -> tuple[Mapping[str, Any], ...]:
+    """Sections for a definition without any: the mouth's shape down to the bottom's.
+
+    A round V tapers all the way, as PCR wells and tubes do.
+    """
+    depth, width = info.depth, info.diameter or min(info.x_size or 0.0, info.y_size or 0.0)
+    rounded = min(width / 2, depth) if info.bottom in ("u", "v") else 0.0
+    if not info.diameter:
+        sides = {"topXDimension": info.x_size, "topYDimension": info.y_size}
+        box = {"shape": "cuboidal", **sides, "bottomYDimension": info.y_size}
+        return (
+            {**box, "bottomXDimension": 0.0, "bottomHeight": 0.0, "topHeight": rounded},
+            {**box, "bottomXDimension": info.x_size, "bottomHeight": rounded, "topHeight": depth},
+        )
+    tube = {"shape": "conical", "bottomDiameter": width, "topDiameter": width, "topHeight": depth}
+    if info.bottom == "v":
+        return ({**tube, "bottomDiameter": width * _TAPER, "bottomHeight": 0.0},)
+    ball = {"shape": "spherical", "radiusOfCurvature": width / 2, "bottomHeight": 0.0}
+    return ({**ball, "topHeight": rounded}, {**tube, "bottomHeight": rounded})

@@ -1,0 +1,356 @@
+"""What a trace is made of: wells, tips, and what each tip did at each well."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+from ...instrumentation import OperationKind
+from ...vocabulary import WellRef
+from .geometry import Geometry
+
+Composition = Mapping["Well", float]
+"""Shares of a liquid by the well each part stood in before the run; they sum to 1."""
+
+Layer = tuple["Well | None", float, Composition, "int | None"]
+"""Liquid in a tip: well it was drawn from (``None``: air), µL, what it is, source line."""
+
+CLEARANCE_MM = 2.0
+"""A tip end at least this far above the liquid does not touch it (``spec/rules.md``)."""
+
+UPPER_PART = 2 / 3
+"""A tip this share of a well's depth above its bottom is clear of a liquid of unknown volume."""
+
+EMPTY_UL = 1e-6
+
+
+class Contact(IntEnum):
+    """How surely a tip met a well's liquid (``spec/rules.md``, Contact)."""
+
+    CLEAR = 0
+    NEAR = 1
+    WET = 2
+
+
+@dataclass(eq=False, slots=True, repr=False)
+class Well:
+    """One well of one physical plate, followed through a run.
+
+    Attributes:
+        ref: Labware and name.
+        generation: Counts the plates that stood for this labware (replaced in a pause).
+        order: Row and column, from 0.
+        geometry: Its inside; ``None`` if the definition tells nothing.
+        capacity: Nominal, µL; ``inf`` if unknown.
+        volume: µL that the run knows to be in it.
+        known: Whether ``volume`` is exact.
+        declared: Volume declared for it before the run, µL.
+        contents: µL by the well in which that liquid stood before the run (itself included).
+        liquids: Names of liquids loaded into it.
+        visits: Everything tips did here, in order.
+        mixes: ``(first index, last index, line)`` of each time it was mixed.
+        prefilled: Whether it held liquid before the run.
+        fed: Whether the run has put liquid into it.
+        most: What it holds at most while that is unknown, µL: a full well less what was taken.
+        unsure: µL of ``volume`` that may not be there: air drawn beyond what a source held, or
+            what was there before somebody may have changed it by hand.
+    """
+
+    ref: WellRef
+    generation: int = 0
+    capacity: float = math.inf
+    geometry: Geometry | None = None
+    order: tuple[int, int] = (0, 0)
+    volume: float = 0.0
+    known: bool = True
+    declared: float | None = None
+    contents: dict[Well, float] = field(default_factory=dict)
+    liquids: list[str] = field(default_factory=list)
+    visits: list[Visit] = field(default_factory=list)
+    mixes: list[tuple[int, int, int | None]] = field(default_factory=list)
+    prefilled: bool = False
+    fed: bool = False
+    most: float = math.inf
+    unsure: float = 0.0
+    pure: Composition = field(init=False)
+    last: Composition = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.most = self.capacity
+        self.pure = self.last = {self: 1.0}
+
+    def __repr__(self) -> str:
+        return f"<{self.ref.address}{'*' * self.generation}>"
+
+    @property
+    def empty(self) -> bool:
+        """Whether it surely holds nothing now."""
+        return self.known and self.volume <= EMPTY_UL
+
+    @property
+    def least(self) -> float:
+        """µL that it surely holds."""
+        return self.volume - self.unsure
+
+    @property
+    def brim(self) -> float:
+        """µL that it holds filled to the rim."""
+        return self.geometry.brim if self.geometry else self.capacity
+
+    def fill_before_run(self, volume: float | None) -> None:
+        """It held liquid of its own before the run, of a declared or an unknown volume."""
+        if volume is not None and volume <= 0:
+            return
+        self.prefilled = True
+        if volume is None:
+            self.known = False
+            # A volume to reckon shares with; no rule compares it.
+            held = self.capacity / 2 if math.isfinite(self.capacity) else 1000.0
+        else:
+            held = volume
+            self.declared = (self.declared or 0.0) + volume
+            self.volume += volume
+        self.contents[self] = self.contents.get(self, 0.0) + held
+
+    def forget_volume(self) -> None:
+        """Someone may have filled or emptied it by hand."""
+        self.known = False
+        self.most = self.capacity
+        self.unsure = self.volume
+
+    def liquid(self) -> Composition:
+        """What a tip would draw now."""
+        contents = self.contents
+        if len(contents) == 1:
+            return next(iter(contents)).pure
+        total = sum(contents.values())
+        if total <= 0:
+            return self.last
+        return {origin: volume / total for origin, volume in contents.items()}
+
+    def draw(self, volume: float) -> float:
+        """Take liquid out; returns how much of it the well did not hold (0 if unknown)."""
+        self.most = max(self.most - volume, 0.0)
+        missing = volume - self.volume if self.known and volume > self.volume else 0.0
+        least = max(self.least - volume, 0.0)
+        self.volume = max(self.volume - volume, 0.0)
+        self.unsure = self.volume - least
+        if self.known and self.volume <= EMPTY_UL:
+            self.volume = 0.0
+            self.last = self.liquid()
+            self.contents.clear()
+        elif len(self.contents) > 1 or self.known:
+            total = sum(self.contents.values())
+            if total > 0:
+                factor = max(total - volume, total * 0.01) / total
+                for origin in self.contents:
+                    self.contents[origin] *= factor
+        return missing
+
+    def add(self, volume: float, liquid: Composition, unsure: float = 0.0) -> None:
+        """Put liquid in; ``unsure`` µL of it may be air."""
+        self.volume += volume
+        self.most = min(self.most + volume, self.capacity)
+        self.unsure += unsure
+        self.fed = self.fed or volume > 0
+        for origin, share in liquid.items():
+            self.contents[origin] = self.contents.get(origin, 0.0) + volume * share
+
+    def contact(
+        self, from_top: float | None, from_bottom: float | None, from_liquid: float | None = None
+    ) -> Contact:
+        """How surely a tip with its end at this height meets the liquid that stands here now.
+
+        Args:
+            from_top: Height of the tip's end over the well's top, mm; ``None`` if unknown.
+            from_bottom: The same over its bottom, mm.
+            from_liquid: The same over the liquid, mm, where the protocol aims by the meniscus.
+        """
+        if from_top is not None and from_top >= 0:
+            return Contact.CLEAR
+        if from_liquid is not None:
+            near = from_liquid < CLEARANCE_MM
+            return Contact.WET if from_liquid <= 0 else Contact.NEAR if near else Contact.CLEAR
+        geometry = self.geometry
+        if from_bottom is None or geometry is None:
+            return Contact.WET
+        if geometry.volume_below(from_bottom) <= self.least:
+            return Contact.WET
+        below = geometry.volume_below(from_bottom - CLEARANCE_MM)
+        if below < self.volume:
+            return Contact.NEAR
+        if self.known or below >= self.most or from_bottom >= UPPER_PART * geometry.depth:
+            return Contact.CLEAR
+        return Contact.NEAR
+
+    def contact_when_empty(self, from_top: float | None, from_bottom: float | None) -> Contact:
+        """The same for what is given into it while it is empty: all that the tip carries."""
+        if from_top is not None and from_top >= 0:
+            return Contact.CLEAR
+        geometry = self.geometry
+        if geometry and from_bottom is not None and from_bottom >= UPPER_PART * geometry.depth:
+            return Contact.NEAR
+        return Contact.WET
+
+
+@dataclass(eq=False, slots=True)
+class Met:
+    """First contact of a tip with one liquid or one well; ``wet``: index of the first wet one."""
+
+    well: Well
+    line: int | None
+    index: int
+    wet: float
+
+    def contact(self, index: float = math.inf) -> Contact:
+        """How surely the tip had met it by this index."""
+        return Contact.WET if self.wet <= index else Contact.NEAR
+
+
+@dataclass(eq=False, slots=True)
+class Tip:
+    """One tip from its first pick-up on; a returned tip goes on with the same history.
+
+    Attributes:
+        number: Counts the tips of a run.
+        session: Counts this tip's pick-ups.
+        layers: Liquid and air in it, drawn last stands last.
+        origins: Each liquid it has met, with the first contact, in that order.
+        touched: Each well it has touched, with the first contact, in that order.
+        unsure: µL of its liquid that may be air: drawn from a well beyond what that held.
+    """
+
+    number: int
+    session: int = 0
+    layers: list[Layer] = field(default_factory=list)
+    origins: dict[Well, Met] = field(default_factory=dict)
+    touched: dict[Well, Met] = field(default_factory=dict)
+    unsure: float = 0.0
+
+    def touch(
+        self, well: Well, line: int | None, index: int, contact: Contact = Contact.WET
+    ) -> None:
+        """The tip's outside met ``well``: it now carries all that the well holds."""
+        wet = index if contact is Contact.WET else math.inf
+        met = self.touched.get(well)
+        if met is None:
+            met = self.touched[well] = Met(well, line, index, wet)
+        elif (
+            met.contact() >= contact
+            and len(well.contents) <= 1
+            and next(iter(well.contents), None) in self.origins
+        ):
+            return
+        met.wet = min(met.wet, wet)
+        for origin in well.contents:
+            known = self.origins.get(origin)
+            if known is None:
+                self.origins[origin] = Met(well, line, index, wet)
+            else:
+                known.wet = min(known.wet, wet)
+
+    def push(
+        self, source: Well | None, volume: float, liquid: Composition, line: int | None
+    ) -> None:
+        """Draw liquid (or air, without a source)."""
+        self.layers.append((source, volume, liquid, line))
+
+    def pop(self, volume: float = math.inf) -> list[Layer]:
+        """Give off ``volume`` µL: what was drawn last leaves first; air is given off unlisted.
+
+        The volume that a protocol commands includes the air it drew.
+        """
+        given: list[Layer] = []
+        layers = self.layers
+        while layers and volume > EMPTY_UL:
+            source, held, liquid, line = layers.pop()
+            out = held if held <= volume + EMPTY_UL else volume
+            if held - out > EMPTY_UL:
+                layers.append((source, held - out, liquid, line))
+            if source is not None:
+                given.append((source, out, liquid, line))
+            volume -= out
+        return given
+
+
+@dataclass(eq=False, slots=True, repr=False)
+class Visit:
+    """One thing that one tip did at one well.
+
+    Attributes:
+        kind: ``aspirate``, ``dispense``, ``blow_out`` or ``touch_tip``.
+        tip: The tip.
+        session: Which of the tip's sessions this was.
+        well: The well.
+        index: Position in the run; channels that act together share it.
+        line: Source line.
+        lines: Source lines of the whole call stack within the protocol.
+        volume: µL of liquid drawn or given, air left out.
+        parts: What was given: liquid by the well it was drawn from.
+        contact: How surely the tip met the well's liquid, and so left there what it carries. In
+            a well that was empty: how surely what it gives carries along what the tip met before.
+        empty_before: Whether the well held nothing just before; then the tip took nothing along.
+        mixing: Whether it is part of a mix.
+        carried: How many liquids the tip had met before (a prefix of ``tip.origins``).
+        met: How many wells the tip had touched before (a prefix of ``tip.touched``).
+    """
+
+    kind: OperationKind
+    tip: Tip
+    well: Well
+    index: int
+    line: int | None = None
+    lines: tuple[int, ...] = ()
+    mixing: bool = False
+    volume: float = 0.0
+    parts: Sequence[Layer] = ()
+    contact: Contact = Contact.CLEAR
+    session: int = field(init=False)
+    empty_before: bool = field(init=False)
+    carried: int = field(init=False)
+    met: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.session = self.tip.session
+        self.empty_before = self.well.empty
+        self.carried = len(self.tip.origins)
+        self.met = len(self.tip.touched)
+
+    def __repr__(self) -> str:
+        return f"<{self.kind.value} {self.well!r} tip {self.tip.number} line {self.line}>"
+
+    @property
+    def touches(self) -> bool:
+        """Whether the tip met liquid that stood there before, surely or perhaps."""
+        return self.contact is not Contact.CLEAR and not self.empty_before
+
+
+@dataclass(frozen=True)
+class Imbalance:
+    """A well that was filled beyond its capacity, or drawn below what it held.
+
+    Attributes:
+        visit: What did it.
+        overfilled: Which of the two.
+        volume: What it would hold, or what was drawn, µL.
+        limit: Its capacity, or what it held, µL.
+    """
+
+    visit: Visit
+    overfilled: bool
+    volume: float
+    limit: float
+
+
+def row_column(name: str) -> tuple[int, int]:
+    """``"B12"`` -> ``(1, 11)``; names that are not of this form count as the first well."""
+    letters = name.rstrip("0123456789")
+    digits = name[len(letters) :]
+    row = 0
+    for letter in letters.upper():
+        if not "A" <= letter <= "Z":
+            return (0, 0)
+        row = row * 26 + ord(letter) - ord("A") + 1
+    return (max(row - 1, 0), int(digits) - 1 if digits else 0)

@@ -1,0 +1,81 @@
+"""Which tip is on which nozzle: new from the rack, or one that was returned to it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from ...vocabulary import WellRef
+from .model import Tip
+
+
+class TipBox:
+    """Knows every tip of a run by the rack well in which it stands or stood."""
+
+    def __init__(self) -> None:
+        self._returned: dict[WellRef, Tip] = {}
+        self._on: dict[tuple[str, str], Tip] = {}
+        self._taken: set[WellRef] = set()
+        self._seen: set[str] = set()
+        self.tips: list[Tip] = []
+
+    def pick_up(
+        self, pipette: str, nozzles: Iterable[str], racks: Iterable[WellRef | None]
+    ) -> None:
+        """Put a tip on each nozzle: the returned one if one stands there, else a new one.
+
+        Nozzles beside the rack, or over places whose tips are gone, stay bare: that is how a
+        multi-channel pipette is used with one tip.
+        """
+        racks = list(racks)
+        self._seen.add(pipette)
+        lead = next((home for home in racks if home is not None), None)
+        for nozzle, home in zip(nozzles, racks, strict=False):
+            tip = self._returned.pop(home, None) if home is not None else None
+            bare = lead is not None and (home is None or (home in self._taken and home != lead))
+            if tip is None and bare:
+                self._on.pop((pipette, nozzle), None)
+                continue
+            if home is not None:
+                self._taken.add(home)
+            tip = self._on[(pipette, nozzle)] = tip or self._new()
+            tip.session += 1
+
+    def drop(self, pipette: str, nozzles: Iterable[str], racks: Iterable[WellRef | None]) -> None:
+        """Take the tips off; those put back into a rack keep their history there."""
+        for nozzle, home in zip(nozzles, racks, strict=False):
+            tip = self._on.pop((pipette, nozzle), None)
+            if tip is not None and home is not None:
+                self._returned[home] = tip  # with what is in it: tips are parked full, too
+                self._taken.discard(home)
+        for key in [key for key in self._on if key[0] == pipette]:
+            del self._on[key]
+
+    def on(self, pipette: str, nozzle: str) -> Tip | None:
+        """The tip on a nozzle, ``None`` on a bare one.
+
+        One that nobody saw being picked up counts as new.
+        """
+        tip = self._on.get((pipette, nozzle))
+        if tip is None and pipette not in self._seen:
+            tip = self._on[(pipette, nozzle)] = self._new()
+        return tip
+
+    def replace_rack(self, labware: str) -> None:
+        """Someone put a fresh rack in this one's place."""
+        for home in [home for home in self._returned if home.labware == labware]:
+            del self._returned[home]
+        self.refill_rack(labware)
+
+    def refill_rack(self, labware: str) -> None:
+        """The empty places of a rack hold new tips; returned ones stay what they are."""
+        self._taken = {home for home in self._taken if home.labware != labware}
+
+    def replace_all_racks(self) -> None:
+        """Someone put fresh racks everywhere."""
+        self._returned.clear()
+        self._taken.clear()
+
+    def _new(self) -> Tip:
+        tip = Tip(len(self.tips))
+        self.tips.append(tip)
+        return tip

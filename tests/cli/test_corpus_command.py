@@ -1,0 +1,40 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+from .commands import Command
+from .test_check_command import protocol
+
+
+def test_a_corpus_is_told_and_compared(aegis: Command, tmp_path: Path) -> None:
+    protocol(tmp_path / "shelf" / "pcr.py", tips="once")
+    first = aegis("corpus", "shelf", "--out", "first.csv")
+    assert first.code == 0
+    assert "1 protocol: fail 1." in first.out
+    assert "Protocols by broken rule: PCR-3:error 1." in first.out
+    assert "fail   shelf/pcr.py" in first.err
+    assert (tmp_path / "first.findings.jsonl").is_file()
+
+    protocol(tmp_path / "shelf" / "pcr.py")
+    second = aegis("corpus", "shelf", "--out", "second.csv", "--against", "first.csv")
+    assert second.code == 1
+    assert "Against first.csv: 1 of 1 protocols changed." in second.out
+    assert "shelf/pcr.py: fail -> pass; PCR-3:error*1 -> no rule" in second.out
+    assert "- PCR-3 error [" in second.out
+
+    again = aegis("corpus", "shelf", "--out", "second.csv", "--against", "second.csv")
+    assert again.code == 0
+    assert "0 of 1 protocols changed." in again.out
+
+
+def test_a_wrong_call_says_what_is_wrong(aegis: Command, tmp_path: Path) -> None:
+    (tmp_path / "empty").mkdir()
+    for arguments, words in [
+        (["nowhere", "--out", "r.csv"], "nowhere: there is no such folder"),
+        (["empty", "--out", "r.csv"], "There is no protocol below"),
+        (["empty", "--out", "r.csv", "--against", "old.csv"], "there is no file old.csv"),
+    ]:
+        result = aegis("corpus", *arguments)
+        assert result.code == 2
+        assert words in result.err
+    assert not (tmp_path / "r.csv").exists()

@@ -1,0 +1,83 @@
+"""Which evidence decides what a well is for."""
+
+from __future__ import annotations
+
+from aegis_ot.preflight import Options, Script, load_database, record
+from aegis_ot.preflight.judging import read_recording
+
+from ..reading import read, roles_by_well
+
+
+def test_a_loaded_liquid_beats_a_name() -> None:
+    reading = read(
+        """
+        water = tubes["A1"]
+        water.load_liquid(protocol.define_liquid("Master mix", "", "#ffffff"), 100)
+        p20.transfer(2, water, plate["A1"])
+        """
+    )
+    assert roles_by_well(reading)["2:A1"] == "master_mix"
+
+
+def test_what_the_guard_is_given_beats_all() -> None:
+    text = read("ntc = plate['A1']\np20.transfer(2, tubes['A1'], ntc)").recording.text
+    options = Options(assay=("pcr",), roles={"positive_reaction": ["1:A1"]})
+    reading = read_recording(record(Script(text, "p.py")), load_database(), options)
+    assert roles_by_well(reading)["1:A1"] == "positive_reaction"
+
+
+def test_the_label_of_a_plate_speaks_for_wells_that_nothing_else_speaks_for() -> None:
+    reading = read(
+        """
+        ntc = plate["H12"]
+        p20.transfer(2, tubes["A1"], [plate["A1"], ntc])
+        """,
+        label='"sample reactions"',
+    )
+    assert roles_by_well(reading) == {"1:A1": "reaction", "1:H12": "ntc"}
+
+
+def test_the_last_word_is_the_head_of_a_name() -> None:
+    reading = read(
+        """
+        template_buffer_water = tubes["A1"]
+        p20.transfer(2, template_buffer_water, plate["A1"])
+        """
+    )
+    assert roles_by_well(reading)["2:A1"] == "water"
+
+
+def test_a_name_that_joins_several_things_says_of_no_well_which() -> None:
+    reading = read(
+        """
+        p20.transfer(2, tubes["A1"], plate.wells()[:2])
+        """,
+        label='"samples and NTC"',
+    )
+    assert roles_by_well(reading) == {}
+
+
+def test_names_that_contradict_each_other_are_told() -> None:
+    reading = read(
+        """
+        ntc = plate["H12"]
+        positive_control = plate["H12"]
+        p20.transfer(2, tubes["A1"], ntc)
+        """
+    )
+    (roles,) = reading.roles
+    (conflict,) = roles.conflicts
+    assert "`ntc`" in conflict
+    assert "`positive_control`" in conflict
+
+
+def test_a_dose_of_zero_is_no_drug() -> None:
+    reading = read(
+        """
+        tubes_by_dose = {"drug 0 uM": tubes["A1"], "drug 10 uM": tubes["A2"]}
+        p20.transfer(2, tubes_by_dose["drug 0 uM"], plate["A1"])
+        p20.transfer(2, tubes_by_dose["drug 10 uM"], plate["B1"])
+        """,
+        assay="cell_treatment",
+    )
+    assert roles_by_well(reading) == {"2:A2": "drug"}

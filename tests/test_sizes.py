@@ -1,0 +1,34 @@
+"""Size is a cost: each room has a budget of lines, so that it does not grow back unnoticed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[1] / "aegis_ot"
+
+BUDGETS = {
+    "preflight": 9_500,
+    "preflight/checks": 2_100,
+    "preflight/database": 400,
+    "preflight/evidence": 1_000,
+    "preflight/judging": 950,
+    "preflight/opinion": 800,
+    "preflight/rehearsal": 1_200,
+    "preflight/roles": 1_000,
+    "preflight/rules": 800,
+    "preflight/source": 700,
+    "preflight/trace": 1_900,
+    "": 48_000,
+}
+"""Lines of Python by room; the whole package last."""
+
+
+def lines_of(folder: Path) -> int:
+    return sum(len(path.read_text("utf-8").splitlines()) for path in folder.rglob("*.py"))
+
+
+@pytest.mark.parametrize("room", BUDGETS)
+def test_a_room_keeps_to_its_budget(room: str) -> None:
+    assert lines_of(PACKAGE / room) <= BUDGETS[room]
