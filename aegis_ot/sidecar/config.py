@@ -199,13 +199,10 @@ class SidecarConfig(Section):
     operator: OperatorSettings = OperatorSettings()
     notifications: NotificationSettings = NotificationSettings()
     model: ModelSettings = ModelSettings()
-<<<<<<< HEAD
     gate_model: GateModelSettings = GateModelSettings()
-=======
     retention: RetentionSettings = RetentionSettings()
     log: Literal["text", "json"] = "text"
     url: str | None = None
->>>>>>> main
 
     @field_validator("token")
     @classmethod
