@@ -27,8 +27,15 @@ _LONGEST_END = 0.94
 """Rows nearer to the orifice show its rim's glints, u."""
 
 _ROWS_LEAST = 12
-_BORE_LEAST_PX = 4.0
-"""In a narrower bore a frame laid a pixel beside the other one changes as much as a dye does."""
+_BORE_LEAST_PX, _ROW_LEAST_PX = 4.0, 3.0
+"""In a narrower bore, on the average of the upper rows and in each row, a frame laid a pixel beside
+the other one changes as much as a dye does."""
+
+_UNSEEN_MOST = 0.4
+"""Share of the delivery that may stand in rows too narrow to tell, for the others to prove it."""
+
+_LEFT_LEAST = 0.2
+"""Share of the delivery that must have stayed to be called so."""
 
 _PLAIN = 4.0
 """Change of the upper rows from which the liquid is plain to see, in a row's usual noise. Two
@@ -48,9 +55,12 @@ the liquid left, at most the second where it stayed."""
 
 _SECTIONS = 12
 
-_GAP_SURE, _GAP_CHANGE = 9.5, 0.33
-"""Change of the upper rows from which a gap would show; and the share of what the column's rows
-change that those of a gap change at most. Columns without one show 0.5 at least, with one of 8 % of
+_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 11.0, 9.0, 6.0
+"""Change of the upper rows from which a gap would show, and from which it would in a bore at least
+so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
+
+_GAP_CHANGE = 0.33
+"""Share of what the column's rows change that those of a gap change at most. Columns without one show 0.5 at least, with one of 8 % of
 their volume 0.25 at most, on simulated frames."""
 
 _GAP_LENGTH, _GAP_WITHIN = 0.05, 0.8
@@ -118,9 +128,22 @@ def delivery_of(
     end = min(_LONGEST_END, scale.place(before.tip, kept) - 0.02)
     u = before.profile.u.astype(np.float64)
     inside = (u > top) & (u < end)
+    inside &= _bores(before) >= _ROW_LEAST_PX
     if int(inside.sum()) < _ROWS_LEAST or before.bore_px(top, (top + end) / 2) < _BORE_LEAST_PX:
         return unknown
-    return _compared(before, after, inside, (u > 0.12) & (u < top - 0.07))
+    lowest = float(before.tip.volume_of((1.0 - u[inside].max()) * before.tip.length_mm))
+    if lowest - kept > _UNSEEN_MOST * (drawn - kept):
+        return unknown
+    found = _compared(before, after, inside, (u > 0.12) & (u < top - 0.07))
+    little = found.left_ul is not None and found.left_ul - kept < _LEFT_LEAST * (drawn - kept)
+    return replace(unknown, strength=found.strength) if little else found
+
+
+def _bores(look: Look) -> NDArray[np.float64]:
+    """Width of the bore in each row, px."""
+    heights = (1.0 - look.profile.u.astype(np.float64)) * look.tip.length_mm
+    px_per_mm = look.profile.length / look.tip.length_mm
+    return np.asarray(2.0 * look.tip.inner_radius(heights) * px_per_mm, dtype=np.float64)
 
 
 def _compared(
@@ -139,14 +162,13 @@ def _compared(
     if above.any() and abs(float(along[above].mean())) > _ELSEWHERE * strength:
         return Delivery(Shown.UNKNOWN, spoiled=True)
     per_width = strength / float(width[upper].mean())
-    if len(rows) < 2 * _ROWS_LEAST:
-        return Delivery(Shown.EMPTIED, per_width)
     share = along / (per_width * width)
     lower = rows[len(rows) // 2 :]
     emptied = float(np.average(share[lower], weights=width[lower]))
     if emptied >= _EMPTIED:
-        gap = _gap(share[rows]) if strength >= _GAP_SURE else None
-        if gap is None:
+        gap = _gap(share[rows]) if strength >= _GAP_SURE_WIDE else None
+        wide = gap is not None and _bores(before)[rows[gap[1]]] >= _GAP_WIDE_PX
+        if gap is None or not (wide or strength >= _GAP_SURE):
             return Delivery(Shown.EMPTIED, per_width)
         upper_end, lower_end = ((1.0 - u[rows[end]]) * tip.length_mm for end in gap)
         air = float(tip.volume_of(upper_end)) - float(tip.volume_of(lower_end))
