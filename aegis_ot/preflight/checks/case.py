@@ -105,6 +105,15 @@ class Case:
         """The visits that brought liquid straight from one well into another, in order."""
         return self._straight.get((source, well), ())
 
+    def sources_of(self, well: Well) -> set[Well]:
+        """All wells, itself apart, that liquid was drawn from for this one."""
+        return {
+            part[0]
+            for visit in self.trace.deliveries(well)
+            for part in visit.parts
+            if part[0] is not None and part[0] is not well
+        }
+
     @cached_property
     def series(self) -> Sequence[Series]:
         """The dilution series of the protocol."""

@@ -15,7 +15,6 @@ from .dilution_steps import (
     diluent_arrivals,
     diluent_roles,
     is_dilution,
-    is_used_up,
     stock_roles,
 )
 from .series import Series
@@ -94,8 +93,11 @@ class SeriesFilledFrom(Check):
                 if not known and not case.has(source, stock):
                     yield Doubt("nothing says which reservoir holds the diluent")
                     return
-                if not case.of(source):
+                if not case.of(source) and not _stands_in_for_diluent(case, series, step, source):
                     yield Doubt(f"nothing says what {place(source)} holds")
+                    continue
+                if case.has(source, stock) and _is_in_all(case, series, source):
+                    yield Doubt(f"all wells are given {place(source)}; it may be what dilutes")
                     continue
                 yield Violation(
                     f"{place(step.well)} is filled from the {case.title(source)} "
@@ -113,6 +115,27 @@ class SeriesFilledFrom(Check):
     def _wants(case: Case, series: Series, step: Transfer) -> bool:
         """Whether a first well that gets stock was meant to be diluted: something came before."""
         return wrong_fill(case, series, step) is not None
+
+
+def _stands_in_for_diluent(case: Case, series: Series, step: Transfer, source: Well) -> bool:
+    """Whether a well gets as much of this as another one of its series gets of the diluent."""
+    given = sum(visit.volume for visit in case.straight(source, step.well))
+    volumes = [
+        sum(visit.volume for visit in case.straight(other, well))
+        for well in series.wells
+        for other in case.sources_of(well)
+        if case.has(other, diluent_roles(case))
+    ]
+    return any(abs(given - volume) <= 0.05 * volume for volume in volumes)
+
+
+def _is_in_all(case: Case, series: Series, source: Well) -> bool:
+    """Whether all wells of a chain are given this, and its head another liquid that it dilutes."""
+    linked = {well for link in series.links for well in (link.source, link.well)}
+    heads = linked - {link.well for link in series.links}
+    return linked <= case.destinations.get(source, {}).keys() and any(
+        case.sources_of(head) - linked - {source} for head in heads
+    )
 
 
 def first_index(step: Transfer) -> int:
@@ -142,8 +165,7 @@ def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
     It needs no diluent, and a later transfer into it runs the wrong way, which is SD-2's.
     """
     first = next(case.trace.deliveries(well), None)
-    given = first.parts[0][0] if first is not None and first.parts else None
-    if not series.directed or series.position[well] != 0 or is_used_up(case, well, given):
+    if not series.directed or series.position[well] != 0:
         return False
     stock = stock_roles(case)
     drawn = [first_index(link) for link in series.links if link.source is well]

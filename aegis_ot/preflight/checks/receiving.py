@@ -11,7 +11,7 @@ from ..evidence import Kind
 from ..trace import Well
 from .case import Case, RoleSet, delivered
 from .check import Check, Doubt, Result, Violation, at, place, role_field
-from .received import filled, received, sources_of
+from .received import filled, received
 
 
 def _unknown_source(case: Case, well: Well, served: set[tuple[str, str]]) -> Well | None:
@@ -130,7 +130,7 @@ class Receives(Check):
                 f"{place(well)} receives something from {place(unknown)}, and nothing says "
                 "what stands there"
             )
-        sources = sources_of(case, well)
+        sources = case.sources_of(well)
         if sources and all(case.has(source, frozenset(self.wells)) for source in sources):
             return f"{place(well)} is filled from wells like it, at a later stage perhaps"
         if case.roles.is_named_by_labware(well.ref):

@@ -11,7 +11,7 @@ from ..rules import AtLeast
 from ..trace import Well
 from .case import Case, RoleSet
 from .check import Check, Result, Violation, at, place, role_field
-from .received import came_from, filled, received, sources_of
+from .received import came_from, filled, received
 
 Member = tuple[Well, float, float]
 """A well, the µL of the liquid that it received, and those that it received in all."""
@@ -49,7 +49,7 @@ class UniformVolume(Check):
                 continue
             if self._is_shared_out(case, well, wells):
                 continue
-            sources = sources_of(case, well)
+            sources = case.sources_of(well)
             if sources and all(case.has(source, wells) for source in sources):
                 continue  # a product that goes on to a gel
             got, _ = received(case, well, liquid)
