@@ -58,7 +58,7 @@ def find_series(
         )
         and link.well.ref not in waste
     ]
-    links, fillers = along_series(trace, roles, links, diluent)
+    links, fillers = along_series(trace, links)
     groups = [
         group
         for group in chains_of(links)
