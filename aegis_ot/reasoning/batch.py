@@ -104,6 +104,8 @@ def _named_by_file(given: Any, files: Mapping[str, Sequence[str]]) -> str:
     """Fill in the id of an answer that names the protocol; what is wrong with that, if anything."""
     if not isinstance(given, dict) or "id" in given or "about" not in given:
         return ""
+    if not files:
+        return "it names a protocol's file; --requests is needed to find its request."
     ids = files.get(Path(str(given["about"])).name, ())
     if len(ids) != 1:
         return f"{len(ids)} of the exported requests are about {given['about']!r}, expected one."
