@@ -25,6 +25,10 @@ from .trajectory import (
 _BLIND = 3e-3
 """Chance per row that a frame's best meniscus is none: about one frame in two."""
 
+_PRIOR_WELLS = 1.5
+"""Wells of a run that what earlier plates taught of a meniscus's place is worth: one reading is off
+by more than plates differ. On rendered plates a first well tells 0.4 of the next one's shift."""
+
 _SD = (0.004, 0.02)
 """Standard deviation of an empty tip's colour step: what a few dozen frames can prove, and what
 still tells anything."""
@@ -38,9 +42,7 @@ def learn_run(signs: Sequence[Signs]) -> RunReference:
     for kind in LOADED:
         seen = [s.misfill[kind] for s in signs if abs(s.misfill.get(kind, 1.0)) < NEAR]
         if seen:
-            # One reading is about as uncertain as plates differ, so the prior counts as half
-            # a well.
-            shift[kind] = float(np.median(seen)) * len(seen) / (len(seen) + 0.5)
+            shift[kind] = float(np.median(seen)) * len(seen) / (len(seen) + _PRIOR_WELLS)
     return RunReference(dyes, shift)
 
 

@@ -157,7 +157,7 @@ def place(
 
 def _coloured(dye: Dye | None) -> bool:
     """Whether the reagent is known to have a colour that a tip shows."""
-    return dye is not None and float(np.hypot(dye.red, dye.blue)) > max(4 * dye.sd, 0.02)
+    return dye is not None and float(np.hypot(dye.red, dye.blue)) > max(3 * dye.sd, 0.04)
 
 
 def _reference(model: TipModel, dye: Dye | None) -> Reference:
@@ -217,7 +217,11 @@ def _retained(
     # A glint in one frame alone is no meniscus. But colour in one frame is colour, for labware
     # may hide the column in the other.
     edge = combine(edges[0], edges[1], _GLINT) if len(edges) > 1 else edges[0]
-    joint = sum(colours[1:], colours[0]) + edge
+    colour = sum(colours[1:], colours[0])
+    if _coloured(dye):
+        # A dye shows below its meniscus: without it, a bright bar is a glint.
+        edge = np.minimum(edge, np.maximum(colour, 0.0))
+    joint = colour + edge
     joint = np.where(possible_tops(looks[seen[-1]], tip), joint, IMPOSSIBLE)
     u = looks[seen[-1]].u
     # No more than was drawn can be left; a little more where a failure accumulates.
