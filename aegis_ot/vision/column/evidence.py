@@ -99,7 +99,7 @@ def taper(u: Array) -> NDArray[np.float64]:
 def long_step(u: Array, signal: Array, top: float, bottom: float) -> Step:
     """Matched filter for a column that ends at each row between ``top`` and ``bottom`` (u).
 
-    All rows below, each by how much colour a column would show there, against the rows next above.
+    All rows below against those next above, each by how much colour a column would show there.
     """
     size = np.zeros(len(u), dtype=np.float32)
     sd = np.full(len(u), np.inf, dtype=np.float32)
@@ -112,23 +112,20 @@ def long_step(u: Array, signal: Array, top: float, bottom: float) -> Step:
     k = np.arange(_FEWEST_ROWS, n - _FEWEST_ROWS + 1)
     reach = max(int(_ABOVE / float(u[1] - u[0])), 2 * _FEWEST_ROWS)
     rows_above = np.minimum(k, reach)
-    sums = np.concatenate(([0.0], np.cumsum(x)))
-    above = (sums[k] - sums[k - rows_above]) / rows_above
-    matched, total, power = (_from_below(values)[k] for values in (weight * x, weight, weight**2))
-    step = (matched - above * total) / power
-    best = int(np.argmax(np.abs(step) * np.sqrt(power)))
-    rest = x - above[best] - np.where(np.arange(n) >= k[best], step[best] * weight, 0.0)
+    # An empty tip has a tint of its own, which dwindles with the bore as well.
+    matched, power = np.cumsum(weight * x), np.cumsum(weight**2)
+    power_above = power[k - 1] - np.where(k > reach, power[k - 1 - rows_above], 0.0)
+    above = matched[k - 1] - np.where(k > reach, matched[k - 1 - rows_above], 0.0)
+    above = above / power_above
+    power_below = power[-1] - power[k - 1]
+    step = (matched[-1] - matched[k - 1]) / power_below - above
+    best = int(np.argmax(np.abs(step) * np.sqrt(power_below)))
+    rest = x - weight * (above[best] + np.where(np.arange(n) >= k[best], step[best], 0.0))
     noise = 1.48 * float(np.median(np.abs(rest - np.median(rest)))) + _ROW_NOISE
     spread = _correlation_length(np.clip(rest, -3 * noise, 3 * noise))
     size[inside[k]] = step
-    variance = 1.0 / power + (total / power) ** 2 / rows_above
-    sd[inside[k]] = noise * np.sqrt(spread * variance)
+    sd[inside[k]] = noise * np.sqrt(spread * (1.0 / power_below + 1.0 / power_above))
     return Step(size, sd)
-
-
-def _from_below(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Sums from each row down to the last."""
-    return np.cumsum(values[::-1])[::-1]
 
 
 def colour_steps(profile: TipProfile, top: float, bottom: float) -> tuple[Step, Step]:

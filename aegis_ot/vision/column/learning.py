@@ -25,6 +25,9 @@ from .trajectory import (
 _BLIND = 3e-3
 """Chance per row that a frame's best meniscus is none: about one frame in two."""
 
+_LEAST_PX = 1.2
+"""How well a meniscus can be placed at best, px."""
+
 _PRIOR_WELLS = 1.5
 """Wells of a run that what earlier plates taught of a meniscus's place is worth: one reading is off
 by more than plates differ. On rendered plates a first well tells 0.4 of the next one's shift."""
@@ -73,6 +76,7 @@ def learn_tip(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry) -
         return TipModel(empty=empty)
     scale = float(scales[int(np.argmax(votes))])
     reference = Reference(empty=empty, height_scale=scale, height_sd=0.03)
+    length = float(np.median([look.length for _, look, _ in loaded]))
     offset, spread = dict.fromkeys(KeyframeKind, 0.0), dict.fromkeys(KeyframeKind, 0.03)
     for wanted in LOADED:
         misses = []
@@ -85,7 +89,7 @@ def learn_tip(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry) -
             offset[wanted] = float(np.median(near))
             # A high quantile, for the readings have tails: 0.85 of a normal lies within 1.44 sd.
             deviation = float(np.quantile(np.abs(near - offset[wanted]), 0.85)) / 1.44
-            spread[wanted] = float(np.clip(deviation, 0.008, 0.05))
+            spread[wanted] = float(np.clip(deviation, max(0.008, _LEAST_PX / length), 0.05))
     return TipModel(scale, offset, spread, empty)
 
 

@@ -29,9 +29,11 @@ _SHARED = 0.7
 
 PRIORS: Mapping[str, Tail] = {
     "retained": Tail(3.0, 1.0),
-    "gap_aspirate": Tail(1.0, 0.8),
+    "gap_lit": Tail(1.0, 0.8),
+    "gap_aspirate": Tail(2.5, 1.0),
     "gap_transit": Tail(3.0, 2.0),
-    "misfill": Tail(1.2, 1.0),
+    "overfull": Tail(1.2, 1.0),
+    "underfull": Tail(1.2, 1.0),
     "absent": Tail(-1.0, 1.5),
 }
 """Tails before any normal is known, by sign; a fit moves their scale by half at most.
@@ -59,9 +61,9 @@ class ColumnReport:
 class ColumnScorer:
     """Surprise of the measured column, in nats; near 0 for most normals.
 
-    Five signs, each judged by the normals' own tail: a column left after the dispense (both
-    frames together), a break in the loaded column (ASPIRATE, TRANSIT), a column that ends elsewhere
-    than its volume says (both together), and a dye that should be there and is not.
+    Its signs, each judged by the normals' own tail: a column left after the dispense (both frames
+    together), a break in the loaded column (ASPIRATE, lit or not, and TRANSIT), a column that ends
+    higher or lower than its volume says (both together), and a dye that should be there and is not.
     """
 
     name = "column"
@@ -231,21 +233,30 @@ def _values(signs: Signs, model: TipModel) -> dict[str, float | None]:
     """One number per sign of :data:`PRIORS`; larger is worse."""
     values: dict[str, float | None] = {"retained": signs.retained, "absent": signs.absent}
     for kind in LOADED:
-        values[f"gap_{kind.value}"] = signs.gap.get(kind)
-    values["misfill"] = _misfill(signs, model)
+        where = "lit" if kind in signs.lit else kind.value
+        values[f"gap_{where}"] = signs.gap.get(kind)
+    off = _misfill(signs, model)
+    values["overfull"] = None if off is None else max(-off, 0.0)
+    values["underfull"] = None if off is None else max(off, 0.0)
     return values
 
 
 def _misfill(signs: Signs, model: TipModel) -> float | None:
-    """How far the loaded column's end is from its place, both frames together, sd.
+    """How far below its place the loaded column ends, sd; the loaded frames together.
 
-    The tip holds as much in the one as in the other: what they agree about counts. One frame
-    alone may show another edge.
+    The tip holds as much in the one frame as in the other, so what they agree about counts. A lit
+    column proves it alone; an ASPIRATE that is not lit shows the labware's edges as well.
     """
-    off = [
-        float(np.clip(miss / model.spread.get(kind, 0.03), -_MOST_MISFILL, _MOST_MISFILL))
+    off = {
+        kind: float(np.clip(miss / model.spread.get(kind, 0.03), -_MOST_MISFILL, _MOST_MISFILL))
         for kind, miss in signs.misfill.items()
-    ]
-    if not off:
-        return None
-    return abs(sum(off)) / len(off) ** 0.5
+    }
+    first, second = (off.get(kind) for kind in LOADED)
+    if first is None or second is None:
+        alone = [kind for kind in off if kind is not KeyframeKind.ASPIRATE or kind in signs.lit]
+        return off[alone[0]] if alone else None
+    agree = first * second > 0
+    if KeyframeKind.ASPIRATE in signs.lit:
+        both = (first + second) / 2**0.5
+        return both if agree and abs(both) > abs(first) else first
+    return 2**0.5 * min(first, second, key=abs) if agree else 0.0
