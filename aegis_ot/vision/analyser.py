@@ -149,7 +149,7 @@ class RunAnalyser:
         p_value = stream.p_value(score)
         return Case(
             sample, Route.GREY_ZONE, score, readings, missing, stream.learned > 0, p_value,
-            clearly_absent=seen.clearly_absent,
+            alarm_p=stream.settings.alarm_p, clearly_absent=seen.clearly_absent,
         )  # fmt: skip
 
     def _look(
