@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from ..vocabulary import KeyframeKind
 from .crops import trajectory_vector
 from .scorers import Calibrating
 from .scorers.pca import PcaScorer
+from .tips import tip_for
 from .types import FREE, Scorer, TrajectorySample
 
 LEAST_ALARM = 3.5
@@ -56,6 +57,12 @@ class RunScorer:
     def gives_p_values(self) -> bool:
         """Whether a score is ``-log p`` of a normal well, in nats."""
         return hasattr(self._scorer, "p_value")
+
+    @property
+    def height_factors(self) -> Mapping[str, float]:
+        """How high columns stood in the runs it was fitted on, over what the geometry says."""
+        models = getattr(getattr(self._scorer, "column", self._scorer), "models", {})
+        return {tip_for(name).name: model.height_scale for name, model in models.items()}
 
     @property
     def needed(self) -> tuple[KeyframeKind, ...]:

@@ -78,8 +78,11 @@ class Stream:
         self.cascade = Cascade(self.scorer.name, settings, always_gate, least)
         self.reader = reader
         self.tip: TipConsistency = kin.tip if kin is not None else TipConsistency()
-        if kin is not None and isinstance(reader, MeasuredColumns):
-            reader.share_tip(kin.reader)
+        if isinstance(reader, MeasuredColumns):
+            if kin is None:
+                reader.expect_heights(self.scorer.height_factors)
+            else:
+                reader.share_tip(kin.reader)
         self.learned = 0
         self.first_wells = 0
         self.doubt = ""
