@@ -82,6 +82,9 @@ class CascadeSettings(Section):
         blank_floor: Scores below it are a blank view; ``None``: the preset's (1e-4).
         always_gate: Send every well after calibration to the gates.
         gates: Asked in this order, the operator after them: ``volumetric``, ``vlm``.
+        spot_check: Share of the wells that pass silently that the gate ``vlm`` sees all the same,
+            0 to 1; with any of it, it also sees the first wells of each liquid and those near the
+            band. 0: only what was flagged, so that it can only clear.
     """
 
     model: Path | None = None
@@ -92,6 +95,7 @@ class CascadeSettings(Section):
     blank_floor: Annotated[float, Field(ge=0)] | None = None
     always_gate: bool = False
     gates: tuple[str, ...] = ("volumetric",)
+    spot_check: Annotated[float, Field(ge=0, le=1)] = 0.05
 
     @field_validator("gates")
     @classmethod

@@ -15,6 +15,7 @@ from ..vision.gates import ConfirmingGate, OperatorGate
 from ..vision.models import SHIPPED, load_model
 from ..vision.monitor import MonitorSettings, RunMonitor
 from ..vision.scorers import make_scorer
+from ..vision.second_opinion import SpotCheck
 from ..vision.types import Scorer
 from ..vision.volumetric_gate import VolumetricGate
 from .analysis import Analyser
@@ -54,7 +55,7 @@ def make_analyser(
     return RunMonitor(
         load_detector("default" if cascade.detector is None else cascade.detector),
         _world_model(cascade),
-        MonitorSettings(calibration, cascade.always_gate),
+        MonitorSettings(calibration, cascade.always_gate, SpotCheck(cascade.spot_check)),
         [*(known[name] for name in cascade.gates), OperatorGate()],
         MeasuredColumns,
     )

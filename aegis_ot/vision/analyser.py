@@ -16,6 +16,7 @@ from .consistency import second_look
 from .evidence import evidence_of
 from .gates import Case, ConfirmingGate, GateDecision, examine_in_turn, in_sentences
 from .measuring import TipView
+from .second_opinion import SecondOpinion
 from .stream import OpenTrajectory, Stream
 from .tips import pipette_class, tip_for
 from .types import FREE, Detector, Image, TipDetection, TrajectorySample
@@ -42,6 +43,7 @@ class RunAnalyser:
         detector: Finds the tip.
         make_stream: Makes a stream, given one of the same pipette and tip, if there is one.
         gates: Asked in turn.
+        second: Asked about wells that pass.
     """
 
     def __init__(
@@ -50,8 +52,10 @@ class RunAnalyser:
         detector: Detector,
         make_stream: Callable[[Stream | None], Stream],
         gates: Sequence[ConfirmingGate],
+        second: SecondOpinion | None = None,
     ) -> None:
         self.run = run
+        self._second = second or SecondOpinion(gates)
         self._detector = detector
         self._make_stream = make_stream
         self._gates = gates
@@ -102,6 +106,10 @@ class RunAnalyser:
         triage = stream.cascade.triage(case.score, case.missing, against)
         case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
+        if not triage.to_gate:
+            band = stream.cascade.calibration.band
+            limit = None if band is None else band[1]
+            decision = self._second.on(case, decision, stream.first_wells, limit)
         self._learn(stream, case, seen, decision)
         decision = _with_doubt(stream, decision)
         verdict = Verdict(
@@ -150,6 +158,7 @@ class RunAnalyser:
         return Case(
             sample, Route.GREY_ZONE, score, readings, missing, stream.learned > 0, p_value,
             alarm_p=stream.settings.alarm_p, clearly_absent=seen.clearly_absent,
+            signs={} if score is None else stream.scorer.signs(sample), normal=stream.normal,
         )  # fmt: skip
 
     def _look(

@@ -30,6 +30,8 @@ class Case:
             left to the operator. In a run of a hundred wells it has to be small; on a plate of
             few wells, of which one is known to be normal, the scorer's own threshold serves.
         clearly_absent: Whether nothing like this run's tips is in the frames without one.
+        signs: What the scorer found, by sign, nats; empty if it cannot say.
+        normal: A normal well of this run, to compare with.
     """
 
     sample: TrajectorySample
@@ -41,6 +43,8 @@ class Case:
     p_value: float | None = None
     alarm_p: float = RUN_ALARM
     clearly_absent: bool = True
+    signs: Mapping[str, float] = field(default_factory=dict)
+    normal: TrajectorySample | None = None
 
     @property
     def alarming(self) -> bool:

@@ -14,6 +14,7 @@ from .calibration import CalibrationSettings
 from .column_reader import MeasuredColumns
 from .gates import ConfirmingGate, OperatorGate
 from .measuring import ColumnReader
+from .second_opinion import SecondOpinion, SpotCheck
 from .stream import Stream
 from .types import Detector, Scorer
 from .volumetric_gate import VolumetricGate
@@ -28,10 +29,12 @@ class MonitorSettings:
     Attributes:
         calibration: See :class:`CalibrationSettings`.
         always_gate: Send every well after calibration to the gates.
+        spot_check: Which wells that pass a vision model sees, if there is one.
     """
 
     calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
     always_gate: bool = False
+    spot_check: SpotCheck = field(default_factory=SpotCheck)
 
 
 class RunMonitor:
@@ -68,7 +71,8 @@ class RunMonitor:
         world model learned of the run are not restored: both calibrate anew on the wells that
         follow, and without a model file so does the band.
         """
-        analyser = RunAnalyser(run, self.detector, self._stream, self.gates)
+        second = SecondOpinion(self.gates, self.settings.spot_check)
+        analyser = RunAnalyser(run, self.detector, self._stream, self.gates, second)
         if self.scorer is not None:
             analyser.recall(history)
         return analyser

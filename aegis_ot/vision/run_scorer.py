@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..vocabulary import KeyframeKind
 from .crops import trajectory_vector
-from .scorers import Calibrating
+from .scorers import Calibrating, signs_of
 from .scorers.pca import PcaScorer
 from .tips import tip_for
 from .types import FREE, Scorer, TrajectorySample
@@ -90,6 +90,10 @@ class RunScorer:
         if partial is None or not set(missing) <= set(excused):
             return None
         return float(partial(sample))
+
+    def signs(self, sample: TrajectorySample) -> Mapping[str, float]:
+        """What a score is made of, by sign, nats; empty if the scorer cannot say."""
+        return {} if self._scorer is None else signs_of(self._scorer, sample)
 
     def look_ahead(self, sample: TrajectorySample) -> None:
         """Do what can be done before the last frame, while the robot moves."""

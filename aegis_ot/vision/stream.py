@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -86,6 +86,7 @@ class Stream:
         self.learned = 0
         self.first_wells = 0
         self.doubt = ""
+        self.normal: TrajectorySample | None = None
         self._first: list[tuple[Mapping[KeyframeKind, object], TrajectorySample]] = []
 
     def p_value(self, score: float | None) -> float | None:
@@ -112,6 +113,9 @@ class Stream:
             return
         self.reader.learn(looks, sample.expected_ul)
         self.learned += 1
+        if self.normal is None:
+            # Kept with its frames: a person, or a model, compares other wells with it.
+            self.normal = replace(sample, frames=dict(sample.frames))
         if scored:
             self.scorer.accept(sample)
         if len(self._first) < self.settings.wells:

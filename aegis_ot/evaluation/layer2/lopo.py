@@ -13,7 +13,7 @@ import numpy as np
 
 from ...errors import ConfigurationError, DatasetError
 from ...vision.dataset import first_normals
-from ...vision.scorers import Calibrating
+from ...vision.scorers import Calibrating, signs_of
 from ...vision.types import Scorer, TrajectorySample
 from .progress import Progress
 
@@ -160,7 +160,7 @@ def score_plate(
     wells = []
     for sample in [anchor_well, *(sample for sample in samples if sample is not anchor_well)]:
         score = anchor if sample is anchor_well else scorer.score(sample)
-        parts = _parts(scorer, sample) if explain and not sample.lacks_tip else {}
+        parts = signs_of(scorer, sample) if explain and not sample.lacks_tip else {}
         wells.append(ScoredWell(sample, score, anchor, 0.0, sample.lacks_tip, parts=parts))
     return wells
 
@@ -194,15 +194,6 @@ def _place(wells: Sequence[ScoredWell], like: Scorer, threshold: str) -> list[Sc
     if threshold == "first-normal":
         return _first_normal(wells)
     return _pooled(wells, isinstance(like, Calibrating))
-
-
-def _parts(scorer: Scorer, sample: TrajectorySample) -> dict[str, float]:
-    """Surprises of the signs behind a score, by sign, nats; none where the scorer has no report."""
-    report = scorer.report(sample) if hasattr(scorer, "report") else None
-    column = getattr(report, "column", report)
-    parts = {str(sign): float(value) for sign, value in getattr(column, "surprises", {}).items()}
-    patches = getattr(report, "patches", None)
-    return parts if patches is None else parts | {"patches": float(patches)}
 
 
 def _first_normal(wells: Sequence[ScoredWell]) -> list[ScoredWell]:
