@@ -80,7 +80,7 @@ class Case:
     def meant(self) -> FirstOrLast:
         """For each well the liquids that measured volumes brought to it, with first index."""
         found: dict[Well, dict[Well, int]] = {}
-        for visit, source, liquid in _transfers(self.trace):
+        for visit, _, liquid in _transfers(self.trace):
             into = found.setdefault(visit.well, {})
             for origin in liquid:
                 into.setdefault(origin, visit.index)
