@@ -204,7 +204,8 @@ def show(found: dict[str, Any]) -> str:
     after, routed = normals.get("after calibration", 0), normals.get("routed", 0)
     lines = [
         f"Live runs on simulated frames, seeds {found['seeds'][0]} to {found['seeds'][1]}",
-        f"normal wells: {total}, asked about {normals.get('asked', 0)} (once a run at most), failed {normals.get('fail', 0)}, "
+        f"normal wells: {total}, asked about {normals.get('asked', 0)} (once a run at most), "
+        f"failed {normals.get('fail', 0)}, "
         f"undecided {normals.get('undecided', 0)}; "
         f"to the gate {routed}/{after} ({100 * routed / max(after, 1):.1f} %)",
         f"runs with a normal well failed or undecided: {alarmed} of {last - first + 1}",

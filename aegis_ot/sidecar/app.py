@@ -21,7 +21,7 @@ from ..vision.camera import Camera
 from ..vision.types import Detector
 from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
-from .cameras import open_camera
+from .cameras import open_cameras
 from .cameras.history import HISTORY_S
 from .config import SidecarConfig
 from .description import ERRORS, describe, takes
@@ -86,7 +86,7 @@ def create_app(
         StoreError: The data folder cannot be used.
     """
     opinions = opinions_of(config)
-    camera = open_camera(config.camera) if camera is None else camera
+    camera = open_cameras(config) if camera is None else camera
     try:
         sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser, detector)
     except AegisError:

@@ -55,14 +55,19 @@ class CameraSettings(Section):
     """Which camera, and how long to wait for it.
 
     Attributes:
-        spec: ``usb:0``, ``http://...`` (MJPEG stream or snapshot), ``folder:PATH``,
-            ``pattern`` (test pattern) or ``simulated``.
+        spec: ``usb:0``, ``usb:/dev/v4l/by-id/...`` (the same camera in any socket),
+            ``http://...`` (MJPEG stream or snapshot), ``rtsp://...``, ``folder:PATH``,
+            ``video:PATH``, ``robot:http://...`` (the robot's own camera), ``pattern`` (test
+            pattern) or ``simulated``.
         timeout_s: How long a keyframe waits for a frame before it is refused, s.
         latency_s: Longest time from the start of an exposure to the frame's arrival here, s;
             a frame counts as exposed that long before it arrived. ``None``: the default of the
             kind of camera.
         width, height: What a USB camera is asked for, px; ``None``: its own default.
         fps: What a USB camera or the test pattern is asked for, frames/s.
+        lock: Keep a USB camera's exposure, white balance and focus at what its automatic found
+            in its first second, where the driver allows.
+        exposure, white_balance, focus: Set so instead, in the driver's own units.
         watch_view: Hold the run while the camera is frozen, covered, dark, blown out, blurred or
             misaimed.
     """
@@ -73,7 +78,23 @@ class CameraSettings(Section):
     width: Annotated[int, Field(ge=16, le=10_000)] | None = None
     height: Annotated[int, Field(ge=16, le=10_000)] | None = None
     fps: Annotated[float, Field(gt=0, le=240)] = 30.0
+    lock: bool = False
+    exposure: float | None = None
+    white_balance: float | None = None
+    focus: float | None = None
     watch_view: bool = True
+
+
+class BoundCameraSettings(CameraSettings):
+    """One of several cameras: ``[[cameras]]`` in a file.
+
+    Attributes:
+        robot: Name of the robot that it looks at; empty: any.
+        mount: ``left`` or ``right``; empty: both.
+    """
+
+    robot: str = ""
+    mount: Literal["", "left", "right"] = ""
 
 
 class CascadeSettings(Section):
@@ -164,6 +185,22 @@ class ModelSettings(Section):
     timeout_s: Annotated[float, Field(gt=0, le=600)] = 60.0
 
 
+class GateModelSettings(Section):
+    """The vision model as a gate of Layer 2.
+
+    Attributes:
+        name: A smaller model that is asked first, named as ``model.name`` is; that one is asked
+            where it is unsure. ``None``: ``model.name`` at once.
+        budget_per_run: What a run may cost, in the currency of the price table; ``None``: no limit.
+            When it is spent, flagged wells go to the operator.
+        calls_per_run: How often a model may be asked in a run; ``None``: no limit.
+    """
+
+    name: Annotated[str, Field(min_length=1)] | None = None
+    budget_per_run: Annotated[float, Field(ge=0)] | None = None
+    calls_per_run: Annotated[int, Field(ge=0)] | None = None
+
+
 class SidecarConfig(Section):
     """All settings of a sidecar. Use :meth:`load` for errors meant for people.
 
@@ -172,6 +209,7 @@ class SidecarConfig(Section):
         port: TCP port; 0 takes a free one.
         token: Bearer token; required when ``host`` is not loopback, with at least 16 characters.
         data: Folder of the store; the user's data folder by default.
+        cameras: Several cameras, each bound to a robot and mount, instead of the one.
         log: Form of the log on standard error: for people, or a JSON object a line.
         url: Where people open the page, for links in messages; ``None``: as it listens.
     """
@@ -181,10 +219,12 @@ class SidecarConfig(Section):
     token: SecretStr | None = None
     data: Path = Field(default_factory=lambda: default_data())
     camera: CameraSettings = CameraSettings()
+    cameras: tuple[BoundCameraSettings, ...] = ()
     cascade: CascadeSettings = CascadeSettings()
     operator: OperatorSettings = OperatorSettings()
     notifications: NotificationSettings = NotificationSettings()
     model: ModelSettings = ModelSettings()
+    gate_model: GateModelSettings = GateModelSettings()
     retention: RetentionSettings = RetentionSettings()
     log: Literal["text", "json"] = "text"
     url: str | None = None

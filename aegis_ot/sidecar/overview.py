@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from typing import Any
 from urllib.parse import quote
 
@@ -53,6 +54,27 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
     row = store.run(run) or {}
     return row | {
         "trajectories": [trajectories[number] for number in sorted(trajectories)],
+        "costs": _costs(evidence for _, evidence, _ in verdicts.values()),
         "actions": store.actions(run),
         "incidents": store.incidents(run),
+    }
+
+
+def _costs(evidences: Iterable[Mapping[str, Any]]) -> dict[str, Any] | None:
+    """What asking models took in a run; ``None`` if none was asked."""
+    asked = [cost for evidence in evidences for cost in evidence.get("costs") or ()]
+    if not asked:
+        return None
+    amounts: dict[str, Any] = {}
+    for cost in asked:
+        if cost["amount"] is not None:
+            amounts[cost["currency"]] = amounts.get(cost["currency"], 0.0) + cost["amount"]
+    return {
+        "models": ", ".join(sorted({cost["model"] for cost in asked})),
+        "calls": sum(cost["calls"] for cost in asked),
+        "unpriced_calls": sum(cost["calls"] for cost in asked if cost["amount"] is None),
+        "tokens_read": sum(cost["tokens_in"] for cost in asked),
+        "tokens_written": sum(cost["tokens_out"] for cost in asked),
+        "seconds": round(sum(cost["seconds"] for cost in asked), 1),
+        **{currency: round(amount, 6) for currency, amount in amounts.items()},
     }

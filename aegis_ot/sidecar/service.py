@@ -18,7 +18,7 @@ from ..vocabulary import Keyframe, to_json
 from .aiming import Aim
 from .analysis import Analyser
 from .bell import Bell
-from .cameras import FreeRunning, Health, camera_health
+from .cameras import BoundCameras, FreeRunning, Health, camera_health
 from .config import SidecarConfig
 from .housekeeping import Housekeeper, Tidied
 from .journal import event
@@ -83,7 +83,9 @@ class Sidecar:
         # A camera that is told what to show must not hear of another keyframe in between.
         # One that runs by itself serves everyone at once.
         self._camera_lock: contextlib.AbstractContextManager[Any] = (
-            contextlib.nullcontext() if isinstance(camera, FreeRunning) else threading.Lock()
+            contextlib.nullcontext()
+            if isinstance(camera, (FreeRunning, BoundCameras))
+            else threading.Lock()
         )
         self._closed = False
         self._housekeeper = Housekeeper(self.store, config.retention, self._tidied)
@@ -94,7 +96,7 @@ class Sidecar:
             self._met.add(start.run)
             event("run", run=start.run, protocol=start.protocol, robot=start.robot_name)
         self.store.reopen(start.run)
-        if start.mode == "watch" and isinstance(self.camera, FreeRunning):
+        if start.mode == "watch" and isinstance(self.camera, (FreeRunning, BoundCameras)):
             self.camera.remember()
         self.session(start.run)
         self.bell.ring()
@@ -111,6 +113,8 @@ class Sidecar:
                 self.require(run)
                 self._evict()
                 self._meet(run)
+                if isinstance(self.camera, BoundCameras):
+                    self.camera.meet(run, str((self.store.run(run) or {}).get("robot_name") or ""))
                 session = self._sessions[run] = Session(
                     run,
                     self.store,
@@ -263,7 +267,14 @@ class Sidecar:
                 error = CameraError(f"The camera failed: {type(error).__name__}: {error}")
             self._camera_trouble = str(error)
             self._in_trouble.add(keyframe.run)
-            self.tell(Notice(keyframe.run, "camera", "the camera gives no frame", str(error)))
+            self.tell(
+                Notice(
+                    keyframe.run,
+                    "camera",
+                    "the camera gives no frame that tells anything",
+                    str(error),
+                )
+            )
             raise error from None
         self._camera_trouble = ""
         self._last_frame = frame
@@ -281,7 +292,7 @@ class Sidecar:
             trouble = None if view is None else view.look(keyframe, frame.image, again=again)
             if trouble is None:
                 return frame
-            moment = time.monotonic()
+            moment = frame.exposed_at + 1e-6
         raise CameraError("" if trouble is None else trouble.message)
 
     def _evict(self) -> None:

@@ -25,6 +25,7 @@ from aegis_ot.reasoning import (
     import_answers,
     make_backend,
 )
+from aegis_ot.reasoning.gate_tiers import VlmTiers
 from aegis_ot.reasoning.vlm import VlmGate, gate_request
 from aegis_ot.sidecar import SidecarConfig, make_analyser
 from aegis_ot.sidecar.reasoning_routes import gates_of
@@ -203,6 +204,6 @@ def test_the_sidecars_settings_make_the_gate(tmp_path: Path) -> None:
         gates_of(SidecarConfig.load(environ={}, **values))
     config = SidecarConfig.load(environ={"AEGIS_OT_MODEL": f"replay:{tmp_path}"}, **values)
     gates = gates_of(config)
-    assert isinstance(gates["vlm"], VlmGate)
+    assert isinstance(gates["vlm"], VlmTiers)
     make_analyser(config.cascade, gates)
     assert gates_of(SidecarConfig.load(environ={})) == {}

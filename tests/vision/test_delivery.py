@@ -50,6 +50,12 @@ def test_a_column_that_stays_is_seen_and_measured(fault: str, left: float) -> No
     assert found.left_ul == pytest.approx(left, rel=0.35)
 
 
+def test_air_within_the_column_is_seen_and_measured() -> None:
+    found = delivery("air_bubble:12")
+    assert found.shown is Shown.GAP
+    assert found.gap_ul == pytest.approx(12.0, rel=0.4)
+
+
 def test_water_proves_nothing() -> None:
     assert delivery(reagent="water").shown is Shown.NOTHING
 

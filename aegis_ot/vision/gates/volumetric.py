@@ -152,6 +152,14 @@ class VolumetricGate:
         if shown is None or shown.shown in (Shown.EMPTIED, Shown.UNKNOWN):
             return None
         expected = case.sample.expected_ul.get(KeyframeKind.POST_DISPENSE, 0.0)
+        if shown.shown is Shown.GAP and shown.gap_ul is not None:
+            drawn = case.sample.expected_ul.get(KeyframeKind.TRANSIT, 0.0)
+            return self._fail(
+                FailureType.AIR_BUBBLE,
+                f"About {shown.gap_ul:.1f} µL of air stand inside the column.",
+                drawn - shown.gap_ul,
+                drawn,
+            )
         if shown.shown is Shown.LEFT and shown.left_ul is not None:
             nothing = shown.left_ul - expected >= 0.9 * case.sample.volume_ul
             return self._fail(
@@ -166,8 +174,8 @@ class VolumetricGate:
         seen = full is not None and not full.vague
         failure = FailureType.OTHER
         if seen and full is not None:
-            drawn = full.volume_ul > half
-            failure = FailureType.NO_DISPENSE if drawn else FailureType.NO_ASPIRATE
+            loaded = full.volume_ul > half
+            failure = FailureType.NO_DISPENSE if loaded else FailureType.NO_ASPIRATE
         return GateDecision(
             Outcome.FAIL,
             self.gate,
