@@ -223,6 +223,8 @@ class Sidecar:
         if run in self._met:
             return
         self._met.add(run)
+        for kind in ("camera", "store"):  # of an earlier process; what goes on begins anew
+            self.store.end_incidents(run, kind)
         row = self.store.run(run)
         if row is not None and not row["finished"] and self.store.next_sequence(run):
             said = "The sidecar was started anew within this run."
