@@ -89,7 +89,8 @@ def _table(rows: Sequence[WellRow]) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold")
     for heading, side in (
         ("#", "right"), ("well", "left"), ("µL", "right"), ("score", "right"),
-        ("limit", "right"), ("p", "right"), ("route", "left"), ("gate", "left"), ("verdict", "left"), ("hold s", "right"),
+        ("limit", "right"), ("p", "right"), ("route", "left"), ("gate", "left"),
+        ("verdict", "left"), ("hold s", "right"),
     ):  # fmt: skip
         table.add_column(heading, justify=side, no_wrap=True)  # type: ignore[arg-type]
     for row in rows:
