@@ -101,7 +101,7 @@ class TerminalScreen:
         self._interrupted = True
 
     def _print(self, text: str, style: str = "") -> None:
-        self._console.print(Text(text, style=style))
+        self._console.print(Text(text, style=style), soft_wrap=True)
 
 
 def describe(command: Command) -> str:
@@ -123,7 +123,7 @@ def tell(verdict: WellVerdict) -> str:
 def show_end(console: Console, run: RobotRun) -> None:
     """The last lines of a run."""
     for error in run.errors:
-        console.print(Text(error, style="red"))
+        console.print(Text(error, style="red"), soft_wrap=True)
     outcomes = [known.verdict.outcome for known in run.verdicts.values()]
     parts = [f"{run.protocol} on {run.robot}: {run.status}", f"{run.commands} commands"]
     parts.append(f"{run.seconds:.0f} s")
@@ -132,4 +132,4 @@ def show_end(console: Console, run: RobotRun) -> None:
     if outcomes:
         each = [f"{outcomes.count(o)} {o.value}" for o in Outcome if o in outcomes]
         parts.append(f"{counted(len(outcomes), 'delivery', 'deliveries')}: {', '.join(each)}")
-    console.print(Text("; ".join(parts) + "."))
+    console.print(Text("; ".join(parts) + "."), soft_wrap=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import sys
 from pathlib import Path
@@ -11,7 +12,7 @@ import typer
 from rich.console import Console
 from rich.text import Text
 
-from ..errors import ConfigurationError, RobotError
+from ..errors import ConfigurationError, LinkError, RobotError
 from .app import BROKEN, CLEAN, FINDINGS, INTERRUPTED, app
 
 if TYPE_CHECKING:
@@ -102,7 +103,8 @@ def watch(
     from ..robot import Analysis, RobotClient
     from ..robot.moments import PastLink
     from ..robot.running import RobotRun
-    from ..robot.watching import WatchPolicies, await_run, watch_run
+    from ..robot.verdicts import VerdictReader
+    from ..robot.watching import WatchPolicies, await_run, name_of_watch, watch_run
     from .judging import one_of
     from .robot_screen import TerminalScreen, show_end
 
@@ -117,15 +119,21 @@ def watch(
         raise ConfigurationError("Watching needs a sidecar: --sidecar http://127.0.0.1:7645.")
     with RobotClient(robot) as client:
         name = str(client.health().get("name") or client.url)
+        link = PastLink(url, secret)
+        link.health(policies.capture_timeout_s)
         _say(f"Waiting for a run on {name}")
         identifier = await_run(client)
         analysis = Analysis("", done=False)
         result = RobotRun(client.protocol_name(identifier), name, client.url, identifier, analysis)
         with TerminalScreen(console) as screen:
             screen.began(None)
-            watch_run(client, result, PastLink(url, secret), screen, policies)
+            watch_run(client, result, link, screen, policies)
     show_end(console, result)
     if report is not None:
+        reader = VerdictReader(url, secret, run=name_of_watch(identifier))
+        with contextlib.suppress(LinkError):  # the robot's own side is worth a report too
+            result.overview = reader.overview()
+        reader.close()
         _write_report(report, result)
     raise typer.Exit(_code(result))
 

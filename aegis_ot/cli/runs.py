@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -45,6 +46,9 @@ def list_runs(
     if as_json:
         typer.echo(json.dumps(rows, ensure_ascii=False, indent=1))
         return
+    if not rows:
+        typer.echo(f"{store.folder}: no run is like that.")
+        return
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("begun", "run", "protocol", "robot", "outcome", "wells"):
         table.add_column(name, overflow="fold")
@@ -59,7 +63,8 @@ def list_runs(
             ended["outcome"] if ended else "running",
             wells,
         )
-    Console(highlight=False).print(table if rows else f"{store.folder}: no run is like that.")
+    # What is piped is not folded.
+    Console(highlight=False, width=None if sys.stdout.isatty() else 200).print(table)
 
 
 @runs.command()

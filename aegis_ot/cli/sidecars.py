@@ -39,9 +39,11 @@ def sidecar(
     from ..sidecar.reasoning_routes import gates_of
 
     made: list[str] = []
+    kept: list[Path] = []
 
     def find_token(folder: Path) -> str:
-        new = not (folder / TOKEN_FILE).exists()
+        kept.append(folder / TOKEN_FILE)
+        new = not kept[0].exists()
         found = kept_token(folder)
         made.extend([found] if new else [])
         return found
@@ -66,11 +68,12 @@ def sidecar(
         typer.echo(f"camera {settings.camera.spec}, data {settings.data}")
         if made:
             typer.echo(
-                f"A token was made: {made[0]}\nIt is kept in {settings.data / TOKEN_FILE}. Log in "
+                f"A token was made: {made[0]}\nIt is kept in {kept[0]}. Log in "
                 'with it, and give it to the guard (token="...", or AEGIS_OT_TOKEN on the robot).'
             )
         elif settings.token is not None:
-            typer.echo("Log in with the sidecar's token.")
+            where = f"the token in {kept[0]}" if kept else "the sidecar's token"
+            typer.echo(f"Log in with {where}.")
 
     detector = make_detector(settings.cascade)
     analyser = make_analyser(settings.cascade, gates_of(settings), detector)

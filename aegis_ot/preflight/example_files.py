@@ -37,8 +37,8 @@ def examples_of(family: Family) -> Mapping[str, Examples]:
         RuleError: The file cannot be read, or a heading in it is wrong; with the line.
     """
     examples = {rule.id: rule.examples for rule in family.rules}
-    path = Path(family.path).with_suffix(".examples.py")
-    if not family.path or not path.is_file():
+    path = Path(family.path or "nowhere").with_suffix(".examples.py")
+    if not path.is_file():
         return examples
     try:
         lines = path.read_text(encoding="utf-8").splitlines()

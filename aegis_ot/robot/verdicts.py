@@ -32,6 +32,7 @@ class VerdictReader:
         url: The sidecar.
         token: Its token, or ``None``.
         protocol: File name of the protocol; of several runs it tells which is meant.
+        run: Identifier of the run there, where it is known.
         transport: Instead of the network, for tests.
 
     Attributes:
@@ -42,11 +43,12 @@ class VerdictReader:
         self,
         url: str,
         token: str | None,
-        protocol: str,
+        protocol: str = "",
+        run: str = "",
         transport: httpx.BaseTransport | None = None,
     ) -> None:
         self.url = url.rstrip("/")
-        self.run = ""
+        self.run = run
         self._protocol = protocol
         self._since = time.time() - _EARLY_S
         self._seen: dict[int, Outcome] = {}

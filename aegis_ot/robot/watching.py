@@ -103,6 +103,11 @@ def watch_run(
     return run
 
 
+def name_of_watch(run: str) -> str:
+    """What a watched run is called at its sidecar."""
+    return f"watch-{run}"
+
+
 class _Watch:
     def __init__(
         self,
@@ -117,7 +122,7 @@ class _Watch:
         self._link = sidecar
         self._screen = screen
         self._policies = policies
-        self.name = f"watch-{run.id}"
+        self.name = name_of_watch(run.id)
         self._courier = Courier(sidecar, self.name, self._about(), time.sleep)
         self._clock = RobotClock(robot.clock)
         self._reader = OperationReader(Deck(robot, run.id))

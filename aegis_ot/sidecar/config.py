@@ -37,6 +37,8 @@ ENVIRONMENT = {
     "AEGIS_OT_SIDECAR_DATA": ("data",),
     "AEGIS_OT_SIDECAR_CAMERA": ("camera", "spec"),
     "AEGIS_OT_SIDECAR_NOTIFY": ("notifications", "urls"),
+    "AEGIS_OT_SIDECAR_URL": ("url",),
+    "AEGIS_OT_SIDECAR_LOG": ("log",),
     "AEGIS_OT_MODEL": ("model", "name"),
     "AEGIS_OT_MODEL_RECORD": ("model", "record"),
 }
@@ -205,7 +207,7 @@ class SidecarConfig(Section):
     Attributes:
         host: Address to listen on; loopback unless told otherwise.
         port: TCP port; 0 takes a free one.
-        token: Bearer token; required when ``host`` is not loopback.
+        token: Bearer token; required when ``host`` is not loopback, with at least 16 characters.
         data: Folder of the store; the user's data folder by default.
         cameras: Several cameras, each bound to a robot and mount, instead of the one.
         log: Form of the log on standard error: for people, or a JSON object a line.

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 from urllib.parse import quote
 
-from ..vocabulary import to_json
+from ..vocabulary import WellRef, from_json, to_json
 from .decisions import effective
 from .store import Store
 
@@ -41,21 +41,14 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
             }
         return trajectories[number]
 
-    for captured in store.keyframes(run):
-        keyframe = captured.keyframe
-        trajectory = entry(keyframe.trajectory)
-        trajectory["keyframes"].append(
-            to_json(keyframe)
-            | {
-                "captured": captured.captured,
-                "exposed_after_s": captured.exposed_after_s,
-                "frame": f"/v1/runs/{quote(run, safe='')}/frames/{keyframe.sequence}.jpg",
-            }
-        )
-        wells = keyframe.destinations or keyframe.sources
-        if wells and (keyframe.destinations or not trajectory["well"]):
+    for keyframe in store.told_keyframes(run):
+        trajectory = entry(keyframe["trajectory"])
+        address = f"/v1/runs/{quote(run, safe='')}/frames/{keyframe['sequence']}.jpg"
+        trajectory["keyframes"].append(keyframe | {"frame": address})
+        wells = keyframe["destinations"] or keyframe["sources"]
+        if wells and (keyframe["destinations"] or not trajectory["well"]):
             more = f" and {len(wells) - 1} more" if len(wells) > 1 else ""
-            trajectory["well"] = f"{wells[0]}{more}"
+            trajectory["well"] = f"{from_json(WellRef, wells[0])}{more}"
     for number in (*verdicts, *abandoned, *holds):
         entry(number)
     row = store.run(run) or {}

@@ -14,11 +14,16 @@ def cells(*deliveries: dict) -> dict:
 
 def test_a_plate_has_the_size_of_the_smallest_that_holds_its_wells() -> None:
     (plate,) = plate_maps([delivery(0), delivery(3)])
-    assert (list(plate.rows), list(plate.columns)) == (["A", "B"], [1, 2, 3]) or len(
-        plate.columns
-    ) >= 4
+    assert (list(plate.rows), list(plate.columns)) == (["A", "B", "C"], [1, 2, 3, 4])
     assert plate.title == "plate, slot 4"
     assert {well: cell.state for well, cell in plate.cells.items()} == {"A1": "pass", "A4": "pass"}
+
+
+def test_a_plate_that_names_its_size_has_it_from_the_first_well() -> None:
+    first = delivery(0)
+    first["keyframes"][-1]["destinations"][0]["label"] = "Corning 96 Well Plate"
+    (plate,) = plate_maps([first])
+    assert (len(plate.rows), len(plate.columns)) == (8, 12)
 
 
 def test_the_gravest_of_several_deliveries_into_a_well_counts() -> None:

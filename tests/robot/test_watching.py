@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import threading
 import time
 from collections.abc import Iterator
@@ -14,12 +15,13 @@ from aegis_ot.robot import Analysis, RobotClient
 from aegis_ot.robot.deck import channels_of, largest_volume, under
 from aegis_ot.robot.moments import PastLink, moment_of_transit
 from aegis_ot.robot.running import RobotRun
-from aegis_ot.robot.shapes import Command
+from aegis_ot.robot.shapes import Command as RobotCommand
 from aegis_ot.robot.verdicts import WellVerdict
 from aegis_ot.robot.watching import LOSSES, WatchPolicies, await_run, watch_run
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.vocabulary import Outcome
 
+from ..cli.commands import Command
 from ..sidecar.helpers import Robot, StubAnalyser, StubCamera
 from ..support.robot_server import RobotServer
 
@@ -51,9 +53,9 @@ class Shown:
 
     def began(self, commands: int | None) -> None: ...
 
-    def doing(self, command: Command) -> None: ...
+    def doing(self, command: RobotCommand) -> None: ...
 
-    def done(self, command: Command) -> None: ...
+    def done(self, command: RobotCommand) -> None: ...
 
     def says(self, text: str) -> None:
         self.said.append(text)
@@ -196,11 +198,39 @@ def test_a_run_with_a_guard_is_told_so(client: RobotClient, tmp_path: Path) -> N
     assert any("carries a guard of its own" in said for said in shown.said)
 
 
+def test_the_command_waits_for_a_run_and_reports_it(
+    client: RobotClient, robot: RobotServer, tmp_path: Path,
+    capfdbinary: pytest.CaptureFixture[bytes],
+) -> None:  # fmt: skip
+    report = tmp_path / "report.json"
+    with sidecar(tmp_path) as url:
+        later = threading.Timer(1.0, begin, (client, tmp_path))
+        later.start()
+        done = Command(capfdbinary)(
+            "watch", "--robot", robot.url, "--sidecar", url, "--report", report
+        )
+        later.join()
+    assert done.code == 0, done.out + done.err
+    assert "4 deliveries: 4 pass" in done.out
+    told = json.loads(report.read_text(encoding="utf-8"))
+    assert (told["protocol"], told["status"]) == ("slow.py", "succeeded")
+    assert told["sidecar"]["counts"]["wells"] == 4
+
+
+def test_without_a_sidecar_there_is_nothing_to_watch_with(
+    robot: RobotServer, capfdbinary: pytest.CaptureFixture[bytes]
+) -> None:
+    aegis = Command(capfdbinary)
+    assert "needs a sidecar" in aegis("watch", "--robot", robot.url).err
+    gone = aegis("watch", "--robot", robot.url, "--sidecar", "http://127.0.0.1:9")
+    assert (gone.code, "cannot be reached" in gone.err) == (2, True)
+
+
 def test_transit_lies_before_the_plunger_moves() -> None:
     params = {"volume": 100.0, "flowRate": 50.0}
-    assert moment_of_transit(Command(0, "dispense", "succeeded", params, 10.0, 15.0)) == 12.8
+    assert moment_of_transit(RobotCommand(0, "dispense", "succeeded", params, 10.0, 15.0)) == 12.8
     # Within the command, however short it was.
-    assert moment_of_transit(Command(0, "dispense", "succeeded", params, 14.0, 15.0)) == 14.0
+    assert moment_of_transit(RobotCommand(0, "dispense", "succeeded", params, 14.0, 15.0)) == 14.0
 
 
 @pytest.mark.parametrize(

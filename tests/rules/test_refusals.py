@@ -81,9 +81,7 @@ REFUSED_BY_BOTH = [
     (lambda d: d["signals"][0].update(words=[""]), "signals[0]: words[0]: expected a word"),
     (
         lambda d: d.update(shapes=[{"shape": "chain", "weight": 1, "unless": ["star"]}]),
-        "shapes[0]: unless[0]: expected chain, chains_alone, pooling, reactions, copying or "
-        "culture, "
-        "found 'star'",
+        "shapes[0]: unless[0]: expected chain, pooling or reactions, found 'star'",
     ),
     (lambda d: d.update(rules=[]), "rules: expected at least one, found an empty list"),
     (lambda d: d.update(schema=3), "schema: expected 2, found 3"),

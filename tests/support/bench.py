@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from aegis_ot.instrumentation import (
     Event,
@@ -31,13 +32,18 @@ def plate(key: str, wells: Sequence[str], label: str = "") -> LabwareInfo:
 
 
 class Bench:
-    """Records a run step by step; each step stands on the line of its number."""
+    """Records a run step by step; each step stands on the line of its number.
 
-    def __init__(self) -> None:
+    Args:
+        troughs: Which of ``plate`` and ``source`` are reservoirs.
+    """
+
+    def __init__(self, troughs: Sequence[str] = ()) -> None:
         self.recorder = Recorder()
         self.line = 0
         for key in ("plate", "source"):
             info = plate(key, [f"{row}{column}" for column in range(1, 13) for row in "ABCDEFGH"])
+            info = replace(info, centers_channels=key in troughs)
             self.recorder.event(
                 Event(EventKind.LABWARE_LOADED, 0, key, text="1", labware_info=info)
             )

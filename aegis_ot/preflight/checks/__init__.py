@@ -10,8 +10,9 @@ from typing import Any
 
 from ...errors import RuleError
 from ..rules import read_dataclass
-from .base import Case, Check, Doubt, Result, Violation
 from .carry import Carry
+from .case import Case
+from .check import Check, Doubt, Result, Violation
 from .dilution import SeriesDirection, SeriesMixed
 from .dose_order import DoseOrder
 from .filling import SeriesFilledFirst, SeriesFilledFrom

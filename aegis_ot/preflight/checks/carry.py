@@ -11,18 +11,8 @@ from typing import ClassVar, Literal
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Contact, Met, Tip, Visit, Well
-from .base import (
-    Case,
-    Check,
-    Result,
-    RoleSet,
-    Violation,
-    at,
-    carried_liquids,
-    delivered,
-    place,
-    role_field,
-)
+from .case import Case, RoleSet, carried_liquids, delivered
+from .check import Check, Result, Violation, at, place, role_field
 from .unnamed import unnamed_contact
 
 

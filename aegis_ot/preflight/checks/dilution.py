@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
-from .base import Case, Check, Doubt, Result, Violation, at, place
+from .case import Case
+from .check import Check, Doubt, Result, Violation, at, place
 from .dilution_steps import NO_SERIES, is_dilution, is_mixed, next_draw
 from .series_links import branching
 

@@ -6,7 +6,7 @@ import math
 
 from ...instrumentation import OperationKind
 from ..trace import Composition, Transfer, Visit, Well
-from .base import Case
+from .case import Case
 
 NO_SERIES = "no chain of transfers from well to well was found"
 

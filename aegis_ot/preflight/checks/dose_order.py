@@ -9,18 +9,8 @@ from typing import ClassVar
 from ...vocabulary import Site
 from ..source import comparable, lexicon_of, name_without_level
 from ..trace import Met, Visit, Well
-from .base import (
-    Case,
-    Check,
-    Doubt,
-    Result,
-    Violation,
-    at,
-    carried_liquids,
-    delivered,
-    place,
-    role_field,
-)
+from .case import Case, carried_liquids, delivered
+from .check import Check, Doubt, Result, Violation, at, place, role_field
 
 
 @dataclass(frozen=True)

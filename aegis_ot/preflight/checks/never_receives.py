@@ -8,7 +8,8 @@ from typing import ClassVar
 
 from ...vocabulary import Site
 from ..trace import Well
-from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
+from .case import Case, RoleSet, delivered
+from .check import Check, Doubt, Result, Violation, at, place, role_field
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ from typing import ClassVar
 from ...vocabulary import Site
 from ..source import comparable
 from ..trace import Visit, Well
-from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
+from .case import Case, RoleSet, delivered
+from .check import Check, Doubt, Result, Violation, at, place, role_field
 
 
 def arrivals(case: Case, well: Well, liquid: RoleSet) -> list[Visit]:

@@ -12,8 +12,9 @@ from ..evidence import Kind
 from ..rules import Word
 from ..source import lexicon_of, tokens
 from ..trace import Well
-from .base import Case, Check, Doubt, Result, RoleSet, Violation, at, delivered, place, role_field
-from .given import filled, received, sources_of
+from .case import Case, RoleSet, delivered
+from .check import Check, Doubt, Result, Violation, at, place, role_field
+from .received import filled, received, sources_of
 
 
 def _unknown_source(case: Case, well: Well, served: set[tuple[str, str]]) -> Well | None:

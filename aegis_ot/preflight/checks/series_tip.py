@@ -8,7 +8,8 @@ from typing import ClassVar
 
 from ...vocabulary import Site
 from ..trace import Transfer, Visit, Well
-from .base import Case, Check, Doubt, Result, Violation, at, place
+from .case import Case
+from .check import Check, Doubt, Result, Violation, at, place
 from .dilution_steps import NO_SERIES, is_dilution, is_mixed
 from .series import Series
 

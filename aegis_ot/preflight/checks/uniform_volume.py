@@ -9,8 +9,9 @@ from typing import Annotated, ClassVar
 from ...vocabulary import Site
 from ..rules import AtLeast
 from ..trace import Well
-from .base import Case, Check, Result, RoleSet, Violation, at, place, role_field
-from .given import came_from, filled, received, sources_of
+from .case import Case, RoleSet
+from .check import Check, Result, Violation, at, place, role_field
+from .received import came_from, filled, received, sources_of
 
 Member = tuple[Well, float, float]
 """A well, the µL of the liquid that it received, and those that it received in all."""

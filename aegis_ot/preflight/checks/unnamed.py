@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Set
 
 from ..trace import Visit, Well
-from .base import Case, Doubt, RoleSet, at, carried_liquids, place
+from .case import Case, RoleSet, carried_liquids
+from .check import Doubt, at, place
 
 
 def unnamed_contact(case: Case, carriers: Set[Well], into: RoleSet) -> Doubt | None:
@@ -23,19 +24,25 @@ def unnamed_contact(case: Case, carriers: Set[Well], into: RoleSet) -> Doubt | N
         carriers: Wells whose liquid must not be carried.
         into: Roles of the wells that it must not be carried into.
     """
-    stocks = any(case.family.roles[role].side != "destination" for role in into)
+    unnamed = [well for well in case.trace.wells.values() if not case.of(well)]
+    drawn = {well for well in unnamed if _is_drawn_first(case, well)}
+    stocks: set[Well] = set()
+    if any(case.family.roles[role].side != "destination" for role in into):
+        stocks = {well for well in unnamed if len(case.destinations.get(well, ())) > 1}
+    if not drawn and not stocks:
+        return None
     for visit in case.trace.visits:
         if not visit.contact or not visit.carried or visit.well.ref in case.waste:
             continue
-        if stocks and _is_unnamed_stock(case, visit.well):
+        if visit.well in stocks:
             for origin, met in carried_liquids(visit):
                 if origin in carriers and not _is_meant(case, visit.well, origin):
                     return Doubt(
                         f"nothing says what {place(visit.well)} holds, and the tip that met "
                         f"{case.title(origin)} {at(met.line)} enters it {at(visit.line)}"
                     )
-        elif case.has(visit.well, into):
-            found = _unnamed_on_tip(case, visit)
+        elif drawn and case.has(visit.well, into):
+            found = _unnamed_on_tip(case, visit, drawn)
             if found is not None:
                 return Doubt(
                     f"nothing says what {place(found)} holds, and its tip enters the "
@@ -44,16 +51,15 @@ def unnamed_contact(case: Case, carriers: Set[Well], into: RoleSet) -> Doubt | N
     return None
 
 
-def _is_unnamed_stock(case: Case, well: Well) -> bool:
-    return not case.of(well) and len(case.destinations.get(well, ())) > 1
+def _is_drawn_first(case: Case, well: Well) -> bool:
+    used = case.usage.get(well.ref)
+    return used is not None and used.first_drawn
 
 
-def _unnamed_on_tip(case: Case, visit: Visit) -> Well | None:
+def _unnamed_on_tip(case: Case, visit: Visit, drawn: Set[Well]) -> Well | None:
     """An unnamed source whose liquid is on the tip, and none of it is meant for this well."""
     for origin, _ in carried_liquids(visit):
-        used = case.usage.get(origin.ref)
-        drawn_first = used is not None and used.first_drawn
-        if drawn_first and not case.of(origin) and not _is_meant(case, visit.well, origin):
+        if origin in drawn and not _is_meant(case, visit.well, origin):
             return origin
     return None
 

@@ -9,7 +9,8 @@ from typing import ClassVar
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Imbalance, Visit, Well
-from .base import Case, Check, Doubt, Result, Violation, at, place
+from .case import Case
+from .check import Check, Doubt, Result, Violation, at, place
 
 _FAR_SHORT = 2.0
 """Where so many times more is drawn than the run has put in, the plate was filled by hand."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..trace import Well
-from .base import Case, RoleSet, delivered
+from .case import Case, RoleSet, delivered
 
 
 def received(case: Case, well: Well, liquid: RoleSet) -> tuple[float, int | None]:

@@ -1,0 +1,74 @@
+"""What every check is, and what it finds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from ...vocabulary import Site
+from ..trace import Contact, Well
+from .case import Case
+
+
+@dataclass(frozen=True)
+class Violation:
+    """One place where a rule is broken, before places of one cause are joined.
+
+    Attributes:
+        message: One sentence in plain words about this place.
+        sites: Both ends; the well that suffers stands last.
+        well: The well that suffers.
+        cause: Violations of one cause become one finding.
+        rests_on: Wells without whose roles nothing would be wrong.
+        contact: How surely the tips touched what it rests on.
+        warning: Why it is a warning at most, in a sentence; empty for what surely ruins the assay.
+        in_any_assay: Whether it holds by what happened and by names alone, whatever the assay is.
+    """
+
+    message: str
+    sites: tuple[Site, ...]
+    well: Well
+    cause: tuple[Any, ...]
+    rests_on: tuple[Well, ...] = ()
+    contact: Contact = Contact.WET
+    warning: str = ""
+    in_any_assay: bool = False
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """A place that a check cannot judge, and why."""
+
+    reason: str
+
+
+Result = Violation | Doubt
+
+
+def place(well: Well) -> str:
+    """A well in a message: "A1 of PCR plate (slot 4)"."""
+    return str(well.ref)
+
+
+def at(line: int | None) -> str:
+    """ "at line 14", or nothing."""
+    return f"at line {line}" if line else "somewhere in the protocol"
+
+
+@dataclass(frozen=True)
+class Check:
+    """A predicate over trace and roles, with its parameters as fields."""
+
+    name: ClassVar[str] = ""
+
+    def find(self, case: Case) -> Iterable[Result]:
+        """Places where it does not hold, and places that it cannot judge."""
+        raise NotImplementedError
+
+
+def role_field(default: tuple[str, ...] | None = None) -> Any:
+    """A parameter that lists roles."""
+    if default is None:
+        return field(metadata={"roles": True})
+    return field(default=default, metadata={"roles": True})

@@ -1,0 +1,311 @@
+"""Each check on runs of a few steps, built by hand: what it reports, where, and how surely."""
+
+from __future__ import annotations
+
+import pytest
+
+from aegis_ot.preflight.trace import Contact
+from tests.support.bench import Bench
+from tests.support.cases import broken, case_of, doubts, wells
+
+PCR = {
+    "template": "source:A1 source:A2",
+    "master_mix": "source:C1",
+    "water": "source:D1",
+    "reaction": "plate:A1 plate:A2",
+    "ntc": "plate:H1",
+}
+HIGH, NEAR, DEEP = 1.0, -7.5, -9.5
+"""Over a well of 10 mm that holds 30 µL, a level of 1 mm: above the top, near, in the liquid."""
+
+
+def transfer(
+    bench: Bench,
+    source: str,
+    target: str,
+    volume: float = 10,
+    top: float = DEEP,
+    fresh: bool = True,
+) -> None:
+    if fresh:
+        bench.pick()
+    bench.draw(source, volume)
+    bench.give(target, volume, top=top)
+    if fresh:
+        bench.drop()
+
+
+# -- carry
+
+
+@pytest.mark.parametrize(
+    ("top", "contact"), [(DEEP, Contact.WET), (NEAR, Contact.NEAR), (-4.0, None), (HIGH, None)]
+)
+def test_template_on_a_tip_gets_into_an_ntc_by_contact_alone(
+    top: float, contact: Contact | None
+) -> None:
+    bench = Bench()
+    bench.load("plate:H1", 20)
+    bench.pick()
+    transfer(bench, "source:A1", "plate:A1", fresh=False)
+    transfer(bench, "source:D1", "plate:H1", top=top, fresh=False)
+    bench.drop()
+    found = broken(case_of(bench.trace(), "pcr", PCR), "PCR-2")
+    assert [one.contact for one in found] == ([] if contact is None else [contact])
+    if found:
+        assert wells(found) == {"plate:H1"}
+        assert [site.line for site in found[0].sites] == [2, 5]
+
+
+def test_a_fresh_tip_carries_nothing() -> None:
+    bench = Bench()
+    transfer(bench, "source:A1", "plate:A1")
+    transfer(bench, "source:D1", "plate:H1")
+    assert not broken(case_of(bench.trace(), "pcr", PCR), "PCR-2")
+
+
+def test_a_returned_tip_carries_what_it_met_before() -> None:
+    bench = Bench()
+    bench.pick("A1")
+    transfer(bench, "source:A1", "plate:A1", fresh=False)
+    bench.drop(back="A1")
+    bench.pick("A1")
+    transfer(bench, "source:D1", "plate:H1", fresh=False)
+    assert wells(broken(case_of(bench.trace(), "pcr", PCR), "PCR-2")) == {"plate:H1"}
+
+
+def test_template_goes_back_into_a_stock_only_by_a_dirty_tip() -> None:
+    bench = Bench()
+    transfer(bench, "source:C1", "plate:A1")
+    bench.pick()
+    transfer(bench, "source:A1", "plate:A1", fresh=False)
+    transfer(bench, "source:C1", "plate:A2", fresh=False)
+    bench.drop()
+    assert wells(broken(case_of(bench.trace(), "pcr", PCR), "PCR-5")) == {"source:C1"}
+
+
+# -- never_receives, receives, uniform_volume
+
+
+def test_a_measured_volume_of_template_in_an_ntc() -> None:
+    bench = Bench()
+    transfer(bench, "source:A1", "plate:H1", top=HIGH)
+    (found,) = broken(case_of(bench.trace(), "pcr", PCR), "PCR-4")
+    assert found.well.ref.name == "H1"
+    assert "10 µL" in found.message
+
+
+def test_a_reaction_without_master_mix() -> None:
+    bench = Bench()
+    for target in ("plate:A1", "plate:H1"):
+        transfer(bench, "source:C1", target)
+    transfer(bench, "source:A1", "plate:A2")
+    assert wells(broken(case_of(bench.trace(), "pcr", PCR), "PCR-1")) == {"plate:A2"}
+
+
+def test_where_no_well_gets_master_mix_it_may_be_there_already() -> None:
+    bench = Bench()
+    transfer(bench, "source:A1", "plate:A2")
+    roles = {role: places for role, places in PCR.items() if role != "master_mix"}
+    case = case_of(bench.trace(), "pcr", roles)
+    assert not broken(case, "PCR-1")
+    assert doubts(case, "PCR-1")
+
+
+def test_an_uneven_volume_of_master_mix() -> None:
+    bench = Bench()
+    roles = {**PCR, "reaction": "plate:A1 plate:A2 plate:A3"}
+    for target, volume in (("plate:A1", 15.0), ("plate:A2", 15.0), ("plate:A3", 12.0)):
+        transfer(bench, "source:C1", target, volume)
+    assert wells(broken(case_of(bench.trace(), "pcr", roles), "PCR-6")) == {"plate:A3"}
+
+
+# -- order, mixing
+
+
+def test_dye_before_protein_and_dye_never_mixed() -> None:
+    roles = {
+        "sample": "source:A1 source:B1",
+        "dye": "source:C1",
+        "sample_well": "plate:A1 plate:B1",
+    }
+    bench = Bench()
+    transfer(bench, "source:A1", "plate:A1")
+    transfer(bench, "source:C1", "plate:A1", 100, HIGH)
+    transfer(bench, "source:C1", "plate:B1", 100)
+    transfer(bench, "source:B1", "plate:B1")
+    messages = {one.well.ref.name: one.message for one in
+                broken(case_of(bench.trace(), "bradford", roles), "BRD-4")}  # fmt: skip
+    assert "never mixed" in messages["A1"]
+    assert "B1" in messages
+
+
+def test_standards_fall_in_one_tip_session() -> None:
+    roles = {"standard": "source:A1 source:B1"}
+    levels = {"source:A1": 100.0, "source:B1": 50.0}
+    falling, rising = Bench(), Bench()
+    for bench, order in ((falling, "AB"), (rising, "BA")):
+        bench.pick()
+        for row in order:
+            transfer(bench, f"source:{row}1", f"plate:{row}1", fresh=False)
+        bench.drop()
+    assert wells(broken(case_of(falling.trace(), "bradford", roles, levels), "BRD-1"))
+    assert not broken(case_of(rising.trace(), "bradford", roles, levels), "BRD-1")
+
+
+@pytest.mark.parametrize(("order", "found"), [("AB", {"plate:B1"}), ("BA", set())])
+def test_one_tip_doses_from_low_to_high(order: str, found: set[str]) -> None:
+    roles = {"drug": "source:A1 source:B1", "treated": "plate:A1 plate:B1"}
+    levels = {"source:A1": 100.0, "source:B1": 1.0}
+    bench = Bench()
+    for row in "AB":
+        bench.load(f"plate:{row}1", 100)
+    bench.pick()
+    for row in order:
+        transfer(bench, f"source:{row}1", f"plate:{row}1", fresh=False)
+    bench.drop()
+    assert wells(broken(case_of(bench.trace(), "cell_treatment", roles, levels), "CELL-4")) == found
+
+
+# -- dilution series
+
+
+SERIES = {"diluent": "source:C1", "stock": "source:A1"}
+
+
+def dilution(mixed: bool = True, one_tip: bool = True) -> Bench:
+    bench = Bench()
+    bench.pick()
+    for column in range(2, 6):
+        bench.draw("source:C1", 100)
+        bench.give(f"plate:A{column}", 100, top=HIGH)
+    bench.drop()
+    transfer(bench, "source:A1", "plate:A1", 150)
+    columns = [1, 2, 3, 4, 5]
+    if one_tip:
+        bench.pick()
+    for source, target in zip(columns, columns[1:], strict=False):
+        if not one_tip:
+            bench.pick()
+        bench.draw(f"plate:A{source}", 50)
+        bench.give(f"plate:A{target}", 50)
+        if mixed:
+            for _ in range(3):
+                bench.draw(f"plate:A{target}", 60, mixing=True)
+                bench.give(f"plate:A{target}", 60, mixing=True)
+        if not one_tip:
+            bench.drop()
+    return bench
+
+
+def test_a_series_that_is_mixed_with_fresh_tips_is_sound() -> None:
+    case = case_of(dilution(one_tip=False).trace(), "serial_dilution", SERIES)
+    for rule in ("SD-1", "SD-2", "SD-3", "SD-4", "SD-5"):
+        assert not broken(case, rule), rule
+
+
+def test_one_tip_through_a_mixed_series_is_practice() -> None:
+    found = broken(case_of(dilution().trace(), "serial_dilution", SERIES), "SD-5")
+    assert wells(found) == {"plate:A3", "plate:A4", "plate:A5"}
+    assert all("practice" in one.warning for one in found)
+
+
+def test_a_series_that_is_not_mixed() -> None:
+    case = case_of(dilution(mixed=False).trace(), "serial_dilution", SERIES)
+    assert wells(broken(case, "SD-1")) == {"plate:A2", "plate:A3", "plate:A4", "plate:A5"}
+    assert all(not one.warning for one in broken(case, "SD-5"))
+
+
+def test_stock_where_diluent_should_come() -> None:
+    bench = Bench()
+    for column in range(2, 5):
+        transfer(bench, "source:A1" if column == 3 else "source:C1", f"plate:A{column}", 100, HIGH)
+    transfer(bench, "source:A1", "plate:A1", 150)
+    for column in range(1, 4):
+        transfer(bench, f"plate:A{column}", f"plate:A{column + 1}", 50)
+    assert wells(broken(case_of(bench.trace(), "serial_dilution", SERIES), "SD-4")) == {"plate:A3"}
+
+
+# -- generic transfers
+
+
+def test_one_tip_through_several_sources() -> None:
+    roles = {"source": "source:A1 source:B1", "destination": "plate:A1 plate:B1"}
+    bench = Bench()
+    bench.pick()
+    for row in "AB":
+        transfer(bench, f"source:{row}1", f"plate:{row}1", fresh=False)
+    found = broken(case_of(bench.trace(), "generic", roles), "GEN-1")
+    assert wells(found) == {"source:B1", "plate:B1"}
+
+
+def test_pooling_is_meant() -> None:
+    roles = {"source": "source:A1 source:B1", "destination": "plate:A1"}
+    bench = Bench()
+    bench.pick()
+    for row in "AB":
+        transfer(bench, f"source:{row}1", "plate:A1", fresh=False)
+    assert not broken(case_of(bench.trace(), "generic", roles), "GEN-1")
+
+
+@pytest.mark.parametrize(("second", "found"), [("source:B1", False), ("plate:B1", True)])
+def test_reservoir_wells_that_one_loop_draws_from_are_one_source(second: str, found: bool) -> None:
+    """Two channels of one trough, drawn from at one line, each for a well of its own."""
+    roles = {"source": f"source:A1 {second}"}
+    bench = Bench(troughs=("source",))
+    bench.pick()
+    for source, target in (("source:A1", "plate:C1"), (second, "plate:D1")):
+        bench.line = 10
+        bench.draw(source, 10)
+        bench.give(target, 10)
+    assert bool(broken(case_of(bench.trace(), "generic", roles), "GEN-1")) is found
+
+
+# -- volumes
+
+
+def test_beyond_the_brim_is_an_error_below_it_a_warning() -> None:
+    """Wells of 200 µL hold 220 µL at the brim where no geometry tells."""
+    bench = Bench()
+    bench.load("source:A1", 1000)
+    transfer(bench, "source:A1", "plate:A1", 210)
+    transfer(bench, "source:A1", "plate:B1", 230)
+    found = {one.well.ref.name: one.warning for one in
+             broken(case_of(bench.trace(), "generic", {}), "GEN-3")}  # fmt: skip
+    assert "brim" in found["A1"]
+    assert found["B1"] == ""
+
+
+def test_filled_twice_what_its_neighbours_get_once() -> None:
+    bench = Bench()
+    bench.load("source:A1", 1000)
+    for target in ("A1", "B1", "C1", "D1"):
+        transfer(bench, "source:A1", f"plate:{target}", 105, HIGH)
+    transfer(bench, "source:A1", "plate:C1", 105, HIGH)
+    (found,) = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
+    assert found.well.ref.name == "C1"
+    assert not found.warning
+
+
+@pytest.mark.parametrize(
+    ("drawn", "targets", "warns"),
+    [(110, ["plate:A1"], True), (150, ["plate:A1"], False), (60, ["plate:A1", "plate:B1"], False)],
+)
+def test_a_draw_beyond_what_is_there(drawn: float, targets: list[str], warns: bool) -> None:
+    """A well of 100 µL: a little more to leave nothing, far too much, and a stock that runs out."""
+    bench = Bench()
+    bench.load("source:A1", 100)
+    for target in targets:
+        transfer(bench, "source:A1", target, drawn)
+    (found,) = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
+    assert bool(found.warning) is warns
+
+
+def test_a_supernatant_is_drawn_with_room_to_spare() -> None:
+    bench = Bench()
+    bench.load("source:A1", 100)
+    bench.pick()
+    bench.draw("source:A1", 190)
+    bench.drop()
+    (found,) = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
+    assert "waste" in found.warning
