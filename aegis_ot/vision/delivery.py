@@ -176,8 +176,11 @@ def _compared(
     if emptied > _LEFT or strength < _SURE:
         return Delivery(Shown.UNKNOWN, per_width)
     sections = np.array_split(rows, _SECTIONS)
-    ends = next((part[0] for part in sections[1:] if share[part].mean() < 0.5), rows[-1])
-    left = float(tip.volume_of((1.0 - u[ends]) * tip.length_mm))
+    first = next(n for n in range(1, _SECTIONS) if share[sections[n]].mean() < 0.5)
+    # What is behind the tip may have changed instead: then these rows change, another way.
+    if np.median([abs(share[part].mean()) for part in sections[first:]]) > _ELSEWHERE:
+        return Delivery(Shown.UNKNOWN, per_width, spoiled=True)
+    left = float(tip.volume_of((1.0 - u[sections[first][0]]) * tip.length_mm))
     return Delivery(Shown.LEFT, per_width, left)
 
 
