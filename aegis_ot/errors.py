@@ -7,12 +7,15 @@
     ├── RehearsalError           the protocol could not be rehearsed
     │   └── RehearsalTimeout     it did not end in the time allowed
     ├── RuleError                a rule file is wrong: file, rule and field
-    ├── ProtocolRejected         Layer 1 found errors; nothing has moved
+    ├── ProtocolRejected         Layer 1 found errors; no tip has moved
     ├── RunAborted               Layer 2 ended the run, as configured
     ├── LinkError                robot and sidecar could not talk
     │   ├── SidecarUnreachable   no answer in time
     │   ├── SidecarRefused       the token or the request was refused
     │   └── SidecarGarbled       the answer made no sense
+    ├── RobotError               the robot's server could not do what was asked
+    │   ├── RobotUnreachable     no answer in time
+    │   └── RobotRefused         it answered, and refused
     ├── CameraError              no usable frame
     ├── StoreError               the sidecar could not keep what it received
     ├── ModelError               a vision model file cannot be used
@@ -51,7 +54,15 @@ class RuleError(AegisError):
 
 
 class ProtocolRejected(AegisError):
-    """Layer 1 found errors. On a robot it is raised before anything moves."""
+    """Layer 1 found errors. On a robot it is raised before a tip moves.
+
+    Attributes:
+        line: 1-based source line of the first of them, if known.
+    """
+
+    def __init__(self, message: str, line: int | None = None) -> None:
+        super().__init__(message)
+        self.line = line
 
 
 class RunAborted(AegisError):
@@ -72,6 +83,26 @@ class SidecarRefused(LinkError):
 
 class SidecarGarbled(LinkError):
     """The sidecar's answer made no sense."""
+
+
+class RobotError(AegisError):
+    """The robot's server could not do what was asked."""
+
+
+class RobotUnreachable(RobotError):
+    """The robot's server gave no answer in time."""
+
+
+class RobotRefused(RobotError):
+    """The robot's server answered, and refused.
+
+    Attributes:
+        status: HTTP status.
+    """
+
+    def __init__(self, message: str, status: int) -> None:
+        super().__init__(message)
+        self.status = status
 
 
 class CameraError(AegisError):

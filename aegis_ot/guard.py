@@ -49,7 +49,7 @@ def guard(target: Any = None, /, *nameless: Any, **settings: Any) -> Any:
 
     Raises:
         ConfigurationError: Inside ``run``: a setting cannot be used.
-        ProtocolRejected: Inside ``run``: Layer 1 found errors. On a robot nothing has moved.
+        ProtocolRejected: Inside ``run``: Layer 1 found errors. On a robot no tip has moved.
         RunAborted: Inside ``run``: Layer 2 ended the run, as configured.
     """
     if _is_context(target):

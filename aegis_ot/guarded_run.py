@@ -7,7 +7,6 @@ moves; then it runs with the watcher on its instruments.
 
 from __future__ import annotations
 
-import dis
 import sys
 import weakref
 from collections.abc import Callable, Mapping
@@ -18,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .errors import AegisError, ProtocolRejected, RehearsalError
 from .instrumentation import NameCollector, Tap, tapped
+from .protocol_frames import at_return_of, line_of, make_final, outermost, raise_in_protocol
 from .settings import Settings, load_settings
 
 if TYPE_CHECKING:
@@ -60,12 +60,14 @@ def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any]
     token = _GUARDED.set(weakref.ref(protocol))
     try:
         settings = load_settings(**keywords)
+        _announce(protocol, settings)
         if protocol.is_simulating():
             return _rehearse_by_running(call, protocol, settings, file_name, module)
         layer1 = _preflight(protocol, settings, file_name)
         return _watched(call, protocol, settings, file_name, layer1)
     except AegisError as error:
-        _make_final(error, protocol, file_name, sys._getframe(1))
+        make_final(error, protocol, file_name, sys._getframe(1))
+        raise_in_protocol(error, file_name, line_of(run))
         raise
     finally:
         _GUARDED.reset(token)
@@ -85,6 +87,7 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
     file_name, _ = find_home(frame)
     try:
         settings = load_settings(**keywords)
+        _announce(protocol, settings)
         layer1 = _preflight(protocol, settings, file_name)
         watcher = _new_watcher(protocol, settings, file_name, layer1)
         with ExitStack() as beginning:
@@ -96,39 +99,20 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
                 tap.install()
             ending = beginning.pop_all()
     except AegisError as error:
-        _make_final(error, protocol, file_name, frame)
+        make_final(error, protocol, file_name, frame)
+        raise_in_protocol(error, file_name, frame.f_lineno)
         raise
-    run = _outermost(frame, file_name) or frame
-    _at_return_of(run, lambda by_itself: _end(by_itself, protocol, layer1, watcher, ending))
+    run = outermost(frame, file_name) or frame
+    at_return_of(run, lambda by_itself: _end(by_itself, protocol, layer1, watcher, ending))
 
 
-def _make_final(error: AegisError, protocol: Any, file_name: str, frame: FrameType) -> None:
-    """See to it that ``error`` ends the run, even where the protocol catches it.
+def _announce(protocol: Any, settings: Settings) -> None:
+    """What goes on before the first move, which can take a while on a robot.
 
-    Nothing moves after it, and a ``run`` that returns all the same raises it again.
+    In analysis too: the Opentrons App compares the commands of both.
     """
-    from .runtime.refusal import refuse_everything
-
-    refuse_everything(protocol, error, file_name)
-    run = _outermost(frame, file_name)
-
-    def raise_again(by_itself: bool) -> None:
-        if by_itself:
-            raise type(error)(str(error))
-
-    if run is not None:
-        _at_return_of(run, raise_again)
-
-
-def _outermost(frame: FrameType, file_name: str) -> FrameType | None:
-    """The protocol's ``run``: the outermost function of its file on the stack."""
-    found: FrameType | None = None
-    seen: FrameType | None = frame
-    while seen is not None:
-        if seen.f_code.co_filename == file_name and seen.f_code.co_name != "<module>":
-            found = seen
-        seen = seen.f_back
-    return found
+    if settings.rules != "off":
+        protocol.comment("aegis_ot: Layer 1 rehearses the protocol; then the run begins.")
 
 
 def _rehearse_by_running(
@@ -185,6 +169,10 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> _Layer1:
         # A protocol that fails by itself fails with its own error; that is not the guard's to
         # change.
         return _Layer1(f"Layer 1 could not rehearse the protocol: {error}")
+    except AegisError:
+        raise
+    except Exception as error:  # as in _judge
+        return _failed(error)
     return _judge(recording_of(script, recorder, rehearsal), protocol, settings)
 
 
@@ -219,30 +207,12 @@ def _end(
 ) -> None:
     try:
         if watcher is not None:
-            watcher.end(None if by_itself else RuntimeError("the protocol raised"))
+            error = None if by_itself else RuntimeError()
+            watcher.end(error, "The protocol raised an error; the robot's run log has it.")
     finally:
         ending.close()
     if by_itself:
         _say(protocol, layer1, watcher)
-
-
-def _at_return_of(frame: FrameType, action: Callable[[bool], None]) -> None:
-    """Call ``action`` when ``frame`` returns, with whether it returned by itself.
-
-    An exception raised by ``action`` becomes the exception of that function.
-    """
-    previous: Any = sys.getprofile()
-
-    def hook(seen: FrameType, event: str, argument: Any) -> None:
-        if previous is not None:
-            previous(seen, event, argument)
-        if seen is frame and event == "return":
-            sys.setprofile(previous)
-            # An exception is told as a return too; the instruction tells them apart.
-            opcode = dis.opname[seen.f_code.co_code[seen.f_lasti]]
-            action(opcode.startswith(("RETURN_", "INSTRUMENTED_RETURN")))
-
-    sys.setprofile(hook)
 
 
 def _new_watcher(
@@ -274,21 +244,33 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
     Raises:
         ProtocolRejected: It found errors, and ``rules`` is ``"on"`` or ``"strict"``.
     """
-    from .preflight.checking import check_recording, is_rejected, rejection, summary
+    from .preflight.checking import is_rejected, read_for_guard, rejection, summary
+    from .preflight.judging import judge_reading
 
     try:
-        report = check_recording(recording, settings)
+        reading = read_for_guard(recording, settings)
+        report = judge_reading(reading)
         if settings.opinion == "ask":
             from .preflight.asking import with_opinion
 
-            report = with_opinion(report, recording, settings, protocol)
+            report = with_opinion(report, reading, settings, protocol)
     except AegisError:
         raise
     except Exception as error:  # a fault of ours must not keep a good protocol from running
-        return _Layer1(f"Layer 1 failed and judged nothing ({type(error).__name__}: {error}).")
+        return _failed(error)
     if settings.rules in ("on", "strict") and is_rejected(report):
-        raise ProtocolRejected(rejection(report))
+        raise ProtocolRejected(rejection(report), _first_line(report))
     return _Layer1(summary(report), report)
+
+
+def _first_line(report: Report) -> int | None:
+    from .preflight.checking import errors_of
+
+    return next((line for finding in errors_of(report) for line in finding.lines), None)
+
+
+def _failed(error: Exception) -> _Layer1:
+    return _Layer1(f"Layer 1 failed and judged nothing ({type(error).__name__}: {error}).")
 
 
 def _say(protocol: Any, layer1: _Layer1, watcher: Watcher | None) -> None:

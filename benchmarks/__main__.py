@@ -1,4 +1,7 @@
-"""``python -m benchmarks [--only NAME ...] [DATASET ...]``: prints every figure, asserts none."""
+"""``python -m benchmarks [--only NAME ...] [--protocols FOLDER ...] [DATASET ...]``.
+
+Prints every figure, asserts none.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 from .figure import Figure
 from .vision_data import folders
 
-GROUPS = ("guard", "keyframe", "import", "layer1", "camera", "vision", "quality")
+GROUPS = ("guard", "protocols", "keyframe", "import", "layer1", "camera", "vision", "quality")
 
 
 def main() -> None:
@@ -24,13 +27,17 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("datasets", nargs="*", type=Path, help="trajectory data sets to look at")
     parser.add_argument("--only", nargs="+", choices=GROUPS, default=GROUPS)
+    parser.add_argument(
+        "--protocols", nargs="+", type=Path, default=[], metavar="FOLDER",
+        help="guard these protocols instead of the examples",
+    )  # fmt: skip
     asked = parser.parse_args()
     begun = time.monotonic()
     print("Processor time, but keyframes by the clock. Ratios are of runs in turns.")
     print(f"{os.cpu_count()} cores, load before the start {_load()}.", flush=True)
     looks = bool({"vision", "quality"} & set(asked.only))
     with folders(asked.datasets) if looks else contextlib.nullcontext([]) as datasets:
-        for name, run in _groups(datasets).items():
+        for name, run in _groups(datasets, asked.protocols).items():
             if name in asked.only:
                 print(f"\n{name}", flush=True)
                 for figure in run():
@@ -42,12 +49,15 @@ def _load() -> str:
     return f"{os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else "unknown"
 
 
-def _groups(datasets: list[Path]) -> dict[str, Callable[[], Iterator[Figure]]]:
+def _groups(
+    datasets: list[Path], protocols: list[Path]
+) -> dict[str, Callable[[], Iterator[Figure]]]:
     from . import (
         guard_overhead,
         import_time,
         keyframe_cost,
         layer1_cost,
+        public_protocols,
         simulated_camera,
         vision_cost,
         vision_quality,
@@ -55,6 +65,7 @@ def _groups(datasets: list[Path]) -> dict[str, Callable[[], Iterator[Figure]]]:
 
     return {
         "guard": guard_overhead.figures,
+        "protocols": lambda: public_protocols.figures(protocols),
         "keyframe": keyframe_cost.figures,
         "import": import_time.figures,
         "layer1": layer1_cost.figures,

@@ -1,11 +1,15 @@
 """Whole live runs on simulated frames: normal wells, and the same wells with a fault planted.
 
-``python -m benchmarks.live_runs [--seeds FIRST COUNT] [--wells N] [--no-faults] [--json OUT]``
+``python -m benchmarks.live_runs [--seeds FIRST COUNT] [--wells N] [--no-faults] [--json OUT]
+[--only planted|silent|camera]``
 
-Every run is judged as the sidecar judges it. At four of its wells (the second, the fifth, and two
+Every run is judged as the sidecar judges it, with an operator who finds sound wells right where
+the frames prove nothing. At four of its wells (the second, the fifth, and two
 after the calibration) each fault is also tried in the well's place: the run's state is put back
-after each, so that one run gives many faults and none of them changes another. Results are those
-of simulated frames, and say so.
+after each, so that one run gives many faults and none of them changes another. Then come the runs
+of ``silent_passes``, in which nothing looks unlike the rest because all of it is wrong: one fault
+in all wells, faults among the first six, a failure that drifts in, a camera that shows nothing.
+Results are those of simulated frames, and say so.
 """
 
 from __future__ import annotations
@@ -70,19 +74,13 @@ def judged(
     run: Run, number_of_wells: int = 16, planted: Sequence[str] = FAULTS
 ) -> Iterator[tuple[int, str, Any]]:
     """Number of the well, the fault planted in its place (or none), and the verdict."""
-    import numpy as np
-
     from aegis_ot.sidecar import make_analyser
-    from aegis_ot.simulation import SessionParameters, SimulatedCamera
+    from aegis_ot.simulation import SimulatedCamera
     from aegis_ot.vision.types import TrajectorySample
 
-    if run.camera == "drawn":
-        rng = np.random.default_rng((run.seed, 5))
-        session = SessionParameters.draw(rng, pipette=run.pipette, size=(960, 540))
-    else:
-        session = getattr(SessionParameters, run.camera)(run.seed)
+    session = session_of(run)
     analyser: Any = make_analyser().begin("run")
-    wells = _keyframes(run, number_of_wells)
+    wells = keyframes_of(run, number_of_wells)
 
     def judge(number: int, fault: str) -> Any:
         faults = [f"{fault}@#{number + 1}"] if fault else []
@@ -102,13 +100,37 @@ def judged(
                 for sample in [*stream.scorer._own, *(pair[1] for pair in stream._first)]
                 if isinstance(sample, TrajectorySample)
             }
+            known = analyser._first, analyser._leftovers, analyser._asked
             analyser._streams = copy.deepcopy(streams, kept)
+            analyser._first, analyser._leftovers = copy.deepcopy(known[:2])
+            analyser._asked = dict(known[2])
             yield number, fault, judge(number, fault)
             analyser._streams = streams
-        yield number, "", judge(number, "")
+            analyser._first, analyser._leftovers, analyser._asked = known
+        verdict = judge(number, "")
+        yield number, "", verdict
+        if is_question(verdict):
+            analyser.confirm(number)
 
 
-def _keyframes(run: Run, number_of_wells: int) -> list[list[Any]]:
+def session_of(run: Run) -> Any:
+    """Camera, light and deck of a run."""
+    import numpy as np
+
+    from aegis_ot.simulation import SessionParameters
+
+    if run.camera == "drawn":
+        rng = np.random.default_rng((run.seed, 5))
+        return SessionParameters.draw(rng, pipette=run.pipette, size=(960, 540))
+    return getattr(SessionParameters, run.camera)(run.seed)
+
+
+def is_question(verdict: Any) -> bool:
+    """Whether the operator is asked because the frames of a first well prove nothing."""
+    return verdict.outcome.value == "undecided" and verdict.reason.startswith("No liquid is seen")
+
+
+def keyframes_of(run: Run, number_of_wells: int) -> list[list[Any]]:
     from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
     source = WellRef("reservoir", "A1", "reservoir", "1")
@@ -153,11 +175,13 @@ def measure(
                 faults[run.pipette, liquid, fault, f"{when}: tried"] += 1
                 faults[run.pipette, liquid, fault, f"{when}: caught"] += outcome != "pass"
                 continue
+            if is_question(verdict):
+                outcome = "asked"
             normals[outcome] += 1
             if number >= CALIBRATION:
                 normals["after calibration"] += 1
                 normals["routed"] += verdict.route.value != "silent_pass"
-            if outcome != "pass":
+            if outcome not in ("pass", "asked"):
                 alarms.append((repr(run), number + 1, outcome, verdict.reason))
         if progress:
             sys.stderr.write(f"{run}\n")
@@ -174,13 +198,14 @@ def measure(
 def show(found: dict[str, Any]) -> str:
     """The counts as text."""
     normals = found["normals"]
-    total = sum(normals.get(outcome, 0) for outcome in ("pass", "fail", "undecided"))
+    total = sum(normals.get(outcome, 0) for outcome in ("pass", "asked", "fail", "undecided"))
     first, last = found["seeds"]
     alarmed = len({alarm[0] for alarm in found["alarms"]})
     after, routed = normals.get("after calibration", 0), normals.get("routed", 0)
     lines = [
         f"Live runs on simulated frames, seeds {found['seeds'][0]} to {found['seeds'][1]}",
-        f"normal wells: {total}, failed {normals.get('fail', 0)}, "
+        f"normal wells: {total}, asked about {normals.get('asked', 0)} (once a run at most), "
+        f"failed {normals.get('fail', 0)}, "
         f"undecided {normals.get('undecided', 0)}; "
         f"to the gate {routed}/{after} ({100 * routed / max(after, 1):.1f} %)",
         f"runs with a normal well failed or undecided: {alarmed} of {last - first + 1}",
@@ -211,12 +236,22 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--seeds", nargs=2, type=int, default=(REPORT_SEED, 30))
     parser.add_argument("--wells", type=int, default=16, help="of each run")
     parser.add_argument("--no-faults", action="store_true", help="normal wells only")
+    parser.add_argument("--only", choices=("planted", "silent", "camera"))
     parser.add_argument("--json", type=Path)
     given = parser.parse_args(arguments)
     planted = () if given.no_faults else FAULTS
     first, count = given.seeds
-    found = measure(first, count, progress=True, wells=given.wells, planted=planted)
-    sys.stdout.write(show(found))
+    found: dict[str, Any] = {}
+    if given.only in (None, "planted"):
+        found = measure(first, count, progress=True, wells=given.wells, planted=planted)
+        sys.stdout.write(show(found))
+    if given.only != "planted" and not given.no_faults:
+        from . import silent_passes
+
+        found["silent"] = silent_passes.measure(
+            list(runs(first, count)), progress=True, faults=given.only != "camera"
+        )
+        sys.stdout.write(silent_passes.show(found["silent"]))
     if given.json is not None:
         given.json.write_text(json.dumps(found, indent=1), encoding="utf-8")
 

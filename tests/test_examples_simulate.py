@@ -76,6 +76,7 @@ ALL = protocols(
     PROTOCOLS / "transparency",
     PROTOCOLS / "public_style",
 )
+ALL += protocols(EXAMPLES / "prose-benchmark")[::10]  # all of them have been rehearsed
 
 
 @pytest.mark.parametrize("path", ALL, ids=short)
@@ -101,7 +102,7 @@ def labels(folder: Path) -> list[dict[str, Any]]:
     return loaded
 
 
-@pytest.mark.parametrize("folder", ["benchmark", "benchmark-multi"])
+@pytest.mark.parametrize("folder", ["benchmark", "benchmark-multi", "prose-benchmark"])
 def test_labels_fit_the_files(folder: str) -> None:
     here = EXAMPLES / folder
     entries = labels(here)

@@ -6,6 +6,7 @@ import contextvars
 import inspect
 import io
 import os
+import re
 import sys
 import textwrap
 import time
@@ -62,8 +63,12 @@ def simulated(text: str) -> list[str]:
     return [entry["payload"].get("text", "") for entry in log]
 
 
+OPENING = "aegis_ot: Layer 1 rehearses the protocol; then the run begins."
+
+
 def of_guard(lines: list[str]) -> list[str]:
-    return [line for line in lines if line.startswith("aegis_ot: ")]
+    said = [line for line in lines if line.startswith("aegis_ot: ")]
+    return [line for line in said if line != OPENING]
 
 
 class TestDecoration:
@@ -118,7 +123,7 @@ def run(ctx):
     ctx.comment("ran")
 """
         lines = simulated(text)
-        assert lines[:2] == ["announced", "ran"]
+        assert lines[1:3] == ["announced", "ran"]
         assert len(of_guard(lines)) == 1
 
     def test_the_public_face(self):
@@ -187,6 +192,29 @@ class TestLive:
         assert run.status == "failed"
         moved = {c.commandType for c in run.commands}
         assert moved <= {"home", "loadLabware", "loadPipette", "comment"}
+        # As the App shows it: the line of the finding, and no error of ours behind it.
+        assert re.search(r"ProtocolRejected \[line \d+\]: Layer 1 found", run.told)
+        assert "KeyError" not in run.told
+
+    def test_a_stop_is_told_as_one_and_not_as_an_error(self, form):
+        with FakeSidecar() as sidecar:
+            sidecar.outcomes[0] = None
+            run = LiveRun(protocol(GOOD, f'sidecar="{sidecar.url}", run_id="run"', form)).start()
+            assert sidecar.asked.wait(30)
+            run.stop()
+            run.join()
+            assert sidecar.finished == [{"outcome": "stopped", "detail": ""}]
+
+    def test_an_error_of_the_protocol_is_told_to_the_sidecar(self, form):
+        with FakeSidecar() as sidecar:
+            settings = f'sidecar="{sidecar.url}", run_id="run"'
+            run = LiveRun(protocol("if True: raise ValueError('no')", settings, form)).start()
+            run.play()
+            run.join()
+            (finished,) = sidecar.finished
+        assert finished["outcome"] == "failed"
+        assert "RuntimeError" not in finished["detail"]
+        assert ("ValueError: no" if form == "decorator" else "run log") in finished["detail"]
 
     def test_a_good_one_runs_rehearsed_and_watched(self, form):
         with stub_sidecar() as (url, keyframes):

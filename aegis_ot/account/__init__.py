@@ -6,6 +6,7 @@ starts from the overview of a run (``GET /v1/runs/{run}``) as plain values.
 
 from .plates import PlateCell, PlateMap, plate_maps
 from .seen import seen_well, state_of
+from .situation import Situation, doing, situations
 from .summary import run_account
 from .wells import Axis, Box, Inspection, Level, Picture, Point, SeenFrame, SeenWell
 
@@ -20,8 +21,11 @@ __all__ = [
     "Point",
     "SeenFrame",
     "SeenWell",
+    "Situation",
+    "doing",
     "plate_maps",
     "run_account",
     "seen_well",
+    "situations",
     "state_of",
 ]

@@ -72,7 +72,7 @@ def plate_maps(trajectories: Sequence[Mapping[str, Any]]) -> list[PlateMap]:
             name = str(well["name"])
             plate.cells[name] = _graver(plate.cells.get(name), _cell(name, trajectory))
     for plate in plates.values():
-        plate.rows, plate.columns = _size(list(plate.cells))
+        plate.rows, plate.columns = _size(list(plate.cells), plate.title)
     return list(plates.values())
 
 
@@ -110,13 +110,20 @@ def _graver(known: PlateCell | None, new: PlateCell) -> PlateCell:
     )
 
 
-def _size(wells: Sequence[str]) -> tuple[Sequence[str], Sequence[int]]:
-    """Letters of the rows and numbers of the columns of the smallest plate with these wells."""
+def _size(wells: Sequence[str], title: str) -> tuple[Sequence[str], Sequence[int]]:
+    """Letters of the rows and numbers of the columns of the smallest plate with these wells.
+
+    A name such as ``"Corning 96 Well Plate"`` tells the size before the wells do.
+    """
     places = [match for well in wells if (match := re.fullmatch(r"([A-Z]{1,2})(\d+)", well))]
     lowest = max((_row_number(match[1]) for match in places), default=0)
     last = max((int(match[2]) for match in places), default=0)
+    named = re.search(r"\b(\d+)[ -]?well", title, re.IGNORECASE)
+    least = int(named[1]) if named else 0
+    fitting = [size for size in FORMATS if lowest <= size[0] and last <= size[1]]
     rows, columns = next(
-        (size for size in FORMATS if lowest <= size[0] and last <= size[1]), (lowest, last)
+        (size for size in fitting if size[0] * size[1] == least),
+        fitting[0] if fitting else (lowest, last),
     )
     return [_row_letters(number) for number in range(rows)], range(1, columns + 1)
 

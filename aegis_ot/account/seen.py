@@ -69,6 +69,7 @@ def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictur
         score=verdict.get("score"),
         limit=band[1] if band else None,
         frames=_frames(entry, pictures),
+        band=_band(band),
     )
 
 
@@ -95,6 +96,13 @@ def _frames(entry: Mapping[str, Any], pictures: Pictures) -> dict[KeyframeKind, 
             missing,
         )
     return frames
+
+
+def _band(band: Any) -> tuple[float, float] | None:
+    """A band that is open below begins at 0; one that is open above says nothing."""
+    if not band or band[1] is None:
+        return None
+    return float(band[0] or 0.0), float(band[1])
 
 
 def _box(found: Any) -> Box | None:

@@ -44,7 +44,9 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         "flagged": [t["trajectory"] for t in trajectories if is_flagged(t)],
         "calibration": _calibration(trajectories),
         "holds": [t["hold"] | {"well": t["well"]} for t in trajectories if t["hold"]],
-        "decisions": _decisions(trajectories) + _actions(overview),
+        "decisions": sorted(
+            _decisions(trajectories) + _actions(overview), key=lambda one: one["at"]
+        ),
         "latency": _latency(trajectories),
         "costs": overview.get("costs"),
         "incidents": overview.get("incidents") or [],
@@ -102,7 +104,8 @@ def _calibration(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, An
 
 def _decisions(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
     return [
-        decision | {"trajectory": trajectory["trajectory"], "well": trajectory["well"]}
+        decision
+        | {"trajectory": trajectory["trajectory"], "well": trajectory["well"], "action": None}
         for trajectory in trajectories
         for decision in trajectory["decisions"]
     ]
@@ -110,7 +113,11 @@ def _decisions(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]
 
 def _actions(overview: Mapping[str, Any]) -> list[dict[str, Any]]:
     """What people told the robot from the page: resume, stop."""
-    return [dict(action) for action in overview.get("actions") or ()]
+    wells = {t["trajectory"]: t["well"] for t in overview["trajectories"]}
+    return [
+        action | {"well": wells.get(action["trajectory"], ""), "outcome": None}
+        for action in overview.get("actions") or ()
+    ]
 
 
 def _latency(trajectories: Sequence[Mapping[str, Any]]) -> dict[str, Any]:

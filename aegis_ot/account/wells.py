@@ -89,6 +89,7 @@ class SeenWell:
         truth: The label, ``"normal"`` or ``"partial_50, 48 % retained"``; empty where unknown.
         agreement: ``"caught"``, ``"missed"``, ``"false alarm"``, ``"passed"``, or empty.
         score, limit: Anomaly score, and where it counts; ``None`` without.
+        band: From where to where a score passes silently; ``None`` without.
         parts: What the score is made of, largest first.
         frames: By keyframe.
     """
@@ -108,6 +109,7 @@ class SeenWell:
     limit: float | None
     frames: Mapping[KeyframeKind, SeenFrame]
     parts: Sequence[tuple[str, float]] = ()
+    band: tuple[float, float] | None = None
 
     @property
     def flagged(self) -> bool:

@@ -6,13 +6,12 @@ this package too, and has no use for it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..preflight import Database, Options, Report
-from ..preflight.dossier import Dossier
-from .rehearser import Rehearser, TaskFailed
-from .tasks import Check
+from ..preflight.judging import read_recording
+from .tasks import Examined
 
 if TYPE_CHECKING:
     from ..reasoning import Backend, Judgement
@@ -33,32 +32,19 @@ class Asking:
 
 
 def ask_model(
-    asking: Asking,
-    rehearser: Rehearser,
-    check: Check,
-    report: Report,
-    dossier: Dossier,
-    database: Database,
+    asking: Asking, report: Report, examined: Examined, database: Database, options: Options
 ) -> Judgement:
     """Judge a protocol, already checked, with a model.
 
     Args:
         asking: Whom to ask.
-        rehearser: Rehearses once more where the model reads roles that names leave open.
-        check: How it was checked.
         report: What the checks say.
-        dossier: What the model gets to know.
+        examined: What the model gets to know, and the recording, which is judged again with what
+            the model reads.
         database: The rules in force.
+        options: How it was checked.
     """
     from ..reasoning import judge_in
 
-    def rejudge(with_roles: Options) -> Report | None:
-        try:
-            second: Report = rehearser.perform(replace(check, options=with_roles))
-        except TaskFailed:
-            return None  # it could be rehearsed a moment ago: the model's roles are only told
-        return second
-
-    return judge_in(
-        asking.configuration, report, dossier, database, asking.backend, check.options, rejudge
-    )
+    reading = read_recording(examined.recording, database, options)
+    return judge_in(asking.configuration, report, examined.dossier, reading, asking.backend)

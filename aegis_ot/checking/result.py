@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..preflight import Database, Report
-from ..preflight.dossier import Dossier
-from ..preflight.judging import RoleEvidence, Waived, verdict_of
-from ..preflight.opinion import unanswered
+from ..preflight.judging import RoleEvidence, Waived, unanswered, verdict_of
+from ..preflight.opinion import Dossier
 from ..vocabulary import Finding, Remark, Undecided, VerdictWord
 
 if TYPE_CHECKING:

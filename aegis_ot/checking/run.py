@@ -11,7 +11,6 @@ from typing import Any
 
 from ..errors import ConfigurationError, RehearsalError
 from ..preflight import Database, Options, Report
-from ..preflight.dossier import Dossier
 from ..preflight.rehearsal import Script
 from ..preflight.source import source_lines
 from ..vocabulary import Finding, Remark
@@ -25,7 +24,7 @@ from .problems import with_helper
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, Problem, with_findings
 from .side_by_side import LazyRehearser, check_each
-from .tasks import Check, CheckWithDossier, Describe
+from .tasks import Check, CheckWithDossier, Describe, Examined
 from .waiving import waive, with_stale_waivers
 
 
@@ -159,23 +158,24 @@ def _judge(
 ) -> CheckedProtocol:
     """Rehearse and judge, with other parameters and with a model where that is asked for."""
     how = (script, options, settings.rules, settings.timeout_s)
-    dossier: Dossier | None = None
+    examined: Examined | None = None
     if settings.asking is None:
         report: Report = rehearser.perform(Check(*how))
     else:
-        report, dossier = rehearser.perform(CheckWithDossier(*how))
+        examined = rehearser.perform(CheckWithDossier(*how))
+        report = examined.report
     exploration = judgement = None
     if settings.all_parameters:
         report, exploration = explore(rehearser, *how, report)
-    if settings.asking is not None and dossier is not None:
-        judgement = ask_model(settings.asking, rehearser, Check(*how), report, dossier, database)
+    if settings.asking is not None and examined is not None:
+        judgement = ask_model(settings.asking, report, examined, database, options)
         report = judgement.report
     return CheckedProtocol(
         script.file_name,
         report=report,
         exploration=exploration,
         judgement=judgement,
-        dossier=dossier,
+        dossier=examined.dossier if examined else None,
     )
 
 

@@ -18,11 +18,11 @@ from ..preflight import (
     load_database,
     record,
 )
-from ..preflight.dossier import Dossier
-from ..preflight.dossier_making import check_with_dossier
 from ..preflight.examples import ExampleResult, run_examples
+from ..preflight.opinion import Dossier, check_with_dossier
 from ..preflight.rehearsal import (
     Parameter,
+    Recording,
     Script,
     declared_parameters,
     interrupted_after,
@@ -95,12 +95,24 @@ class TimedCheck(_OfProtocol):
 
 
 @dataclass(frozen=True)
+class Examined:
+    """A report, what a model should know of the protocol, and what both were made from."""
+
+    report: Report
+    dossier: Dossier
+    recording: Recording
+
+
+@dataclass(frozen=True)
 class CheckWithDossier(_OfProtocol):
     """Rehearse a protocol, judge it, and put together what a model should know of it."""
 
-    def perform(self) -> tuple[Report, Dossier]:
+    def perform(self) -> Examined:
         """Judge."""
-        return check_with_dossier(self.script, _database(self.rules), self.options, self.timeout_s)
+        report, dossier, reading = check_with_dossier(
+            self.script, _database(self.rules), self.options, self.timeout_s
+        )
+        return Examined(report, dossier, reading.recording)
 
 
 @dataclass(frozen=True)

@@ -74,7 +74,11 @@ from . import (  # noqa: E402
     inspections,  # noqa: F401
     layer2,  # noqa: F401
     llm,  # noqa: F401
+    onto_robot,  # noqa: F401
+    robots,  # noqa: F401
     rulebook,  # noqa: F401
+    runs,  # noqa: F401
+    services,  # noqa: F401
     sidecars,  # noqa: F401
     trainings,  # noqa: F401
     worldmodels,  # noqa: F401

@@ -1,4 +1,4 @@
-"""``aegis-ot dataset``: make trajectory data sets, drawn or recorded."""
+"""``aegis-ot dataset``: make trajectory data sets."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def simulate(
         raise ConfigurationError(
             f"--pipette: {pipette!r} is no pipette; write p20, p300, p1000 or Opentrons' name."
         )
-    _empty(out)
+    empty_folder(out)
     write_dataset(out, plates, seed, pipette, size=_size(size))
     made = load_dataset(out)
     failures = sum(record.label == "failure" for record in made.records)
@@ -55,36 +55,12 @@ def simulate(
     )
 
 
-@dataset.command()
-def export(
-    store: Annotated[Path, typer.Argument(help="Data folder of a sidecar.")],
-    out: Annotated[Path, typer.Argument(help="New or empty folder.")],
-    run: Annotated[list[str] | None, typer.Option(help="Only these runs. Repeatable.")] = None,
-    boxes: Annotated[
-        str, typer.Option(help="What finds the tips: detector, or an .onnx file.")
-    ] = "detector",
-) -> None:
-    """Write recorded runs as a data set.
+def empty_folder(folder: Path) -> None:
+    """Make sure that a folder is new or empty.
 
-    Labels are the verdicts as they stand after the operator: correct them by hand where they are
-    wrong before anything is measured against them. Trajectories that nobody decided are left
-    out, and so is a run without one that passed.
+    Raises:
+        ConfigurationError: It holds something, or is none.
     """
-    from ..evaluation.layer2.exporting import export_runs
-    from .progress import Shown
-
-    _empty(out)
-    with Shown() as shown:
-        told = export_runs(store, out, run or (), tip_finder(boxes), shown)
-    written = counted(told.written, "trajectory", "trajectories")
-    typer.echo(
-        f"{out}: {written} of {counted(told.runs, 'run')}, {told.failures} of them failures, "
-        f"{told.left_out} left out. The labels are verdicts, not truth."
-    )
-
-
-def _empty(folder: Path) -> None:
-    """Raises: ConfigurationError: The folder holds something, or is none."""
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise ConfigurationError(f"{folder} is not empty; name a new folder.")
 

@@ -14,12 +14,16 @@ from rich.text import Text
 
 from ..dryrun import DryRun, DryRunSettings, Progress, WellRow, dry_run
 from ..preflight.checking import summary
-from ..reports import dry_run_html
+from ..reports.run_html import run_report_html
 from ..sidecar import Judged, make_analyser
+from ..sidecar.config import CascadeSettings
 from ..vocabulary import Outcome, counted
 from .app import BROKEN, CLEAN, FINDINGS
 
 console = Console(highlight=False)
+
+UNATTENDED = CascadeSettings(first_wells="trust")
+"""Nobody is there to be asked whether a first well is right."""
 
 _COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
 
@@ -34,7 +38,7 @@ def run_and_show(script: Any, settings: DryRunSettings) -> DryRun:
         console=console,
         transient=True,
     ) as bar:
-        result = dry_run(script, settings, make_analyser(), _Shown(bar, script.file_name))
+        result = dry_run(script, settings, make_analyser(UNATTENDED), _Shown(bar, script.file_name))
     show(result)
     return result
 
@@ -84,8 +88,9 @@ def show(result: DryRun) -> None:
 def _table(rows: Sequence[WellRow]) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold")
     for heading, side in (
-        ("#", "right"), ("well", "left"), ("µL", "right"), ("score", "right"), ("route", "left"),
-        ("gate", "left"), ("verdict", "left"), ("hold s", "right"),
+        ("#", "right"), ("well", "left"), ("µL", "right"), ("score", "right"),
+        ("limit", "right"), ("p", "right"), ("route", "left"), ("gate", "left"),
+        ("verdict", "left"), ("hold s", "right"),
     ):  # fmt: skip
         table.add_column(heading, justify=side, no_wrap=True)  # type: ignore[arg-type]
     for row in rows:
@@ -95,7 +100,7 @@ def _table(rows: Sequence[WellRow]) -> Table:
             str(row.trajectory),
             Text(row.address),
             f"{row.volume_ul:g}",
-            "-" if row.score is None else f"{row.score:.3g}",
+            *("-" if n is None else f"{n:.2g}" for n in (row.score, row.limit, row.p_value)),
             row.route.value if row.route else "-",
             row.gate.value,
             Text(verdict + failure, style=_COLOURS.get(row.outcome or Outcome.UNDECIDED, "")),
@@ -107,7 +112,8 @@ def _table(rows: Sequence[WellRow]) -> Table:
 def write_report(path: Path, results: Sequence[DryRun]) -> None:
     """Write the HTML report, making its folder."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(dry_run_html(results), encoding="utf-8")
+    page = run_report_html([result.reported for result in results], "aegis_ot, simulated")
+    path.write_text(page, encoding="utf-8")
     console.print(f"Report: {path}", markup=False, soft_wrap=True)
 
 

@@ -33,6 +33,10 @@ def simulate(
         list[str] | None, typer.Option(help="Runtime parameter as NAME=VALUE.")
     ] = None,
     report: Annotated[Path | None, typer.Option(help="Write an HTML report here.")] = None,
+    data: Annotated[
+        Path | None,
+        typer.Option(help="Keep the run in this data folder: aegis-ot sidecar --data shows it."),
+    ] = None,
 ) -> None:
     """Run a protocol with both layers on this machine: no robot, no camera, no key."""
     from ..dryrun import DryRunSettings, read_script
@@ -43,6 +47,7 @@ def simulate(
         on_fail=one_of("--on-fail", on_fail, ("continue", "stop")),
         seed=seed,
         rules=one_of("--rules", rules, ("on", "warn", "off")),
+        data=data,
     )
     script = read_script(protocol, labware or (), parameter or ())
     result = run_and_show(script, settings)

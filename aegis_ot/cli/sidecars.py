@@ -33,11 +33,24 @@ def sidecar(
     ] = None,
 ) -> None:
     """Watch the robot's tips: capture, score, judge, and show a page."""
-    from ..sidecar import SidecarConfig, make_analyser, serve
+    from ..sidecar import SidecarConfig, make_analyser, make_detector, serve
+    from ..sidecar.config import TOKEN_FILE, kept_token
+    from ..sidecar.journal import event, set_up
     from ..sidecar.reasoning_routes import gates_of
+
+    made: list[str] = []
+    kept: list[Path] = []
+
+    def find_token(folder: Path) -> str:
+        kept.append(folder / TOKEN_FILE)
+        new = not kept[0].exists()
+        found = kept_token(folder)
+        made.extend([found] if new else [])
+        return found
 
     settings = SidecarConfig.load(
         config,
+        find_token=find_token,
         host=host,
         port=port,
         token=token,
@@ -47,8 +60,22 @@ def sidecar(
         cascade=None if world_model is None else {"model": world_model},
     )
 
-    def ready(url: str) -> None:
-        typer.echo(f"aegis-ot sidecar: {url} (camera {settings.camera.spec}, data {settings.data})")
+    set_up(settings.log)
 
-    analyser = make_analyser(settings.cascade, gates_of(settings))
-    serve(settings, analyser=analyser, ready=ready)
+    def ready(url: str) -> None:
+        event("ready", address=url, camera=settings.camera.spec, data=str(settings.data))
+        typer.echo(f"aegis-ot sidecar: {settings.url or url}")
+        typer.echo(f"camera {settings.camera.spec}, data {settings.data}")
+        if made:
+            typer.echo(
+                f"A token was made: {made[0]}\nIt is kept in {kept[0]}. Log in "
+                'with it, and give it to the guard (token="...", or AEGIS_OT_TOKEN on the robot).'
+            )
+        elif settings.token is not None:
+            where = f"the token in {kept[0]}" if kept else "the sidecar's token"
+            typer.echo(f"Log in with {where}.")
+
+    detector = make_detector(settings.cascade)
+    analyser = make_analyser(settings.cascade, gates_of(settings), detector)
+    serve(settings, analyser=analyser, ready=ready, detector=detector)
+    event("stopped")

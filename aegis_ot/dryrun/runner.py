@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import secrets
 import tempfile
@@ -19,7 +20,9 @@ from ..guard import guard
 from ..instrumentation import Event, Operation, OperationKind, tapped
 from ..preflight.checking import check_recording, is_rejected, rejection
 from ..preflight.rehearsal import Recorder, Script, play, recording_of, rehearse
+from ..reports.run_html import report_run
 from ..runtime import Planner
+from ..runtime.words import about_layer1
 from ..settings import load_settings
 from ..sidecar import Analyser, Judged, RunAnalyser, SidecarConfig, running_sidecar
 from ..simulation import SessionParameters, SimulatedCamera
@@ -41,6 +44,7 @@ class DryRunSettings:
         rules: ``"on"``, ``"warn"`` or ``"off"``.
         hold: As for the guard.
         timeout_s: Longest rehearsal, s.
+        data: Folder of a sidecar to keep the run in; ``None``: it is not kept.
     """
 
     faults: tuple[str, ...] = ()
@@ -49,6 +53,7 @@ class DryRunSettings:
     rules: str = "on"
     hold: str = "boundary"
     timeout_s: float = 120.0
+    data: Path | None = None
 
 
 class Progress:
@@ -87,7 +92,7 @@ def dry_run(
         report = check_recording(recording, guard_settings)
         progress.checked(report)
         if is_rejected(report) and settings.rules == "on":
-            return DryRun(script.file_name, report, (), "rejected", rejection(report))
+            return _rejected(script.file_name, report)
     camera = SimulatedCamera(
         settings.seed, settings.faults, _parameters(planner.keyframes, settings.seed)
     )
@@ -102,11 +107,34 @@ def dry_run(
     progress.begin(planner.trajectories)
     begun = time.monotonic()
     outcome, detail, told, overview, frames = _run(script, settings, analyser, camera, progress)
-    wells = rows_of(overview, frames)
-    touched = _touched_after(told, wells) if outcome == "stopped" else ()
-    return DryRun(
-        script.file_name, report, wells, outcome, detail, touched, time.monotonic() - begun
-    )
+    wells = rows_of(overview)
+    touched: tuple[str, ...] = ()
+    notes: list[str] = []
+    if outcome == "stopped":
+        touched = _touched_after(told, wells)
+        notes = [f"Wells touched after the failed dispense: {', '.join(touched) or 'none'}."]
+    overview |= {
+        "layer1": None if report is None else about_layer1(report),
+        "finished": (overview["finished"] or {"at": time.time()})
+        | {"outcome": outcome, "detail": detail},
+    }
+    reported = report_run(overview, frames.get, notes)
+    seconds = time.monotonic() - begun
+    return DryRun(script.file_name, report, reported, wells, outcome, detail, touched, seconds)
+
+
+def _rejected(file_name: str, report: Any) -> DryRun:
+    """Nothing ran: the report holds what Layer 1 found."""
+    detail = rejection(report)
+    overview = {
+        "run": "dry run",
+        "protocol": file_name,
+        "simulated": True,
+        "finished": {"at": None, "outcome": "rejected", "detail": ""},
+        "layer1": about_layer1(report),
+        "trajectories": [],
+    }
+    return DryRun(file_name, report, report_run(overview, lambda _: None), (), "rejected", detail)
 
 
 def _run(
@@ -118,10 +146,15 @@ def _run(
 ) -> tuple[str, str, list[Operation], dict[str, Any], dict[int, bytes]]:
     # Frames depend on the run's name: the same seed shows the same frames.
     run, token = f"dry-run-{settings.seed}", secrets.token_urlsafe(16)
+    if settings.data is not None:
+        run += time.strftime("-%Y%m%d-%H%M%S")
     robot = _Robot()
     outcome, detail = "succeeded", ""
-    with tempfile.TemporaryDirectory(prefix="aegis-ot-") as data:
-        config = SidecarConfig(port=0, token=SecretStr(token), data=Path(data))
+    with contextlib.ExitStack() as stack:
+        data = settings.data or Path(
+            stack.enter_context(tempfile.TemporaryDirectory(prefix="aegis-ot-"))
+        )
+        config = SidecarConfig(port=0, token=SecretStr(token), data=data)
         told = _Telling(analyser, progress.judged)
         with running_sidecar(config, camera, told) as url:
 
@@ -242,3 +275,6 @@ class _TellingRun:
         judged = self._inner.judge(trajectory)
         self._tell(judged)
         return judged
+
+    def confirm(self, trajectory: int) -> None:
+        self._inner.confirm(trajectory)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
-from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
-from .closeups import close_up
+from ..reports.run_html import ReportedRun
+from ..vocabulary import FailureType, Gate, Outcome, Route
 
 
 @dataclass(frozen=True)
@@ -21,14 +21,14 @@ class WellRow:
         pipette: Opentrons pipette name.
         volume_ul: Commanded, µL per channel.
         score: Anomaly score; ``None`` without frames.
+        limit: Score up to which a well passes in this run; ``None`` before it is calibrated.
+        p_value: How often a normal well of this run looks this unusual.
         route: Where triage sent it.
         gate: Who settled it.
         outcome: The verdict; ``None`` if the run ended before it was in.
         failure: What went wrong, for a fail.
         reason: One sentence.
         hold_s: How long the robot held for it, s.
-        frames: JPEG of each keyframe, by kind.
-        close_ups: JPEG of the tip in it, for flagged wells and where a tip was found.
         measured_ul: Left in the tip after the dispense as measured, µL.
         line: Source line of the protocol.
     """
@@ -45,10 +45,10 @@ class WellRow:
     failure: FailureType | None
     reason: str
     hold_s: float
-    frames: Mapping[KeyframeKind, bytes]
     measured_ul: float | None = None
     line: int | None = None
-    close_ups: Mapping[KeyframeKind, bytes] = field(default_factory=dict)
+    limit: float | None = None
+    p_value: float | None = None
 
     @property
     def flagged(self) -> bool:
@@ -63,6 +63,7 @@ class DryRun:
     Attributes:
         protocol: File name.
         report: Layer 1's report, ``None`` if it was turned off.
+        reported: What its report shows.
         wells: Every watched well, in order.
         outcome: ``"succeeded"``, ``"stopped"`` (by the guard), ``"rejected"`` (by Layer 1) or
             ``"failed"`` (the protocol raised).
@@ -73,6 +74,7 @@ class DryRun:
 
     protocol: str
     report: Any
+    reported: ReportedRun
     wells: tuple[WellRow, ...]
     outcome: str
     detail: str = ""
@@ -85,16 +87,9 @@ class DryRun:
         return tuple(row for row in self.wells if row.flagged)
 
 
-def rows_of(overview: Mapping[str, Any], frames: Mapping[int, bytes]) -> tuple[WellRow, ...]:
-    """Turn the sidecar's account of a run into rows.
-
-    Args:
-        overview: Answer of ``GET /v1/runs/{run}``.
-        frames: JPEG by sequence number.
-    """
-    return tuple(
-        _row(entry, frames) for entry in overview["trajectories"] if entry["abandoned"] is None
-    )
+def rows_of(overview: Mapping[str, Any]) -> tuple[WellRow, ...]:
+    """Turn the sidecar's overview of a run into rows."""
+    return tuple(_row(entry) for entry in overview["trajectories"] if entry["abandoned"] is None)
 
 
 def _address(keyframe: Mapping[str, Any]) -> str:
@@ -105,21 +100,10 @@ def _address(keyframe: Mapping[str, Any]) -> str:
     return f"{wells[0]['slot']}:{wells[0]['name']}{more}"
 
 
-def _row(entry: Mapping[str, Any], frames: Mapping[int, bytes]) -> WellRow:
+def _row(entry: Mapping[str, Any]) -> WellRow:
     verdict = entry["verdict"] or {}
     last = entry["keyframes"][-1] if entry["keyframes"] else {}
-    images = {
-        KeyframeKind(keyframe["kind"]): frames[keyframe["sequence"]]
-        for keyframe in entry["keyframes"]
-        if keyframe["sequence"] in frames
-    }
     outcome = Outcome(verdict["outcome"]) if verdict else None
-    boxes = entry["evidence"].get("boxes", {}) if outcome is not Outcome.PASS else {}
-    close_ups = {
-        kind: cut
-        for kind, image in images.items()
-        if kind.value in boxes and (cut := close_up(image, boxes[kind.value])) is not None
-    }
     return WellRow(
         trajectory=entry["trajectory"],
         well=entry["well"],
@@ -133,8 +117,8 @@ def _row(entry: Mapping[str, Any], frames: Mapping[int, bytes]) -> WellRow:
         failure=FailureType(verdict["failure"]) if verdict.get("failure") else None,
         reason=verdict.get("reason", ""),
         hold_s=float((entry["hold"] or {}).get("seconds", 0.0)),
-        frames=images,
-        close_ups=close_ups,
         measured_ul=verdict.get("measured_ul"),
         line=last.get("line"),
+        limit=(entry["evidence"].get("band") or (None, None))[1],
+        p_value=entry["evidence"].get("p_value"),
     )

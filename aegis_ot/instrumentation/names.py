@@ -73,6 +73,7 @@ class NameCollector:
         self._file_name = file_name
         self._bindings: dict[NameBinding, None] = {}
         self._looks: dict[tuple[str, str], tuple[int, ...]] = {}
+        self._last: dict[tuple[str, str], Any] = {}
         self._labware: dict[str, Any] = {}
         self._places: set[NameBinding] = set()
 
@@ -99,6 +100,11 @@ class NameCollector:
 
     def _is_new(self, function: str, name: str, value: Any) -> bool:
         """Whether a name holds anything else than at the last look: containers are long."""
+        if type(value) in self._reader.lasting:
+            if self._last.get((function, name)) is value:
+                return False
+            self._last[(function, name)] = value
+            return True
         listed = [item for _, item in entries(value)] or items(value)
         if not listed:
             return True
@@ -169,6 +175,7 @@ class NameCollector:
         finally:
             self._stack.returned = None
             self._stack.close()
+            self._last.clear()
             self._labware.clear()
 
     def _look_at(self, frame: FrameType) -> None:

@@ -52,8 +52,10 @@ def helper_modules(namespace: Mapping[str, Any]) -> tuple[ModuleType, ...]:
 
 
 def is_helper_module(module: Any) -> bool:
-    """Whether this is a helper module."""
-    file = vars(module).get("__file__") if type(module) is ModuleType else None
+    """Whether this is a helper module; ``__main__`` is what was started, not what was imported."""
+    if type(module) is not ModuleType or vars(module).get("__name__") == "__main__":
+        return False
+    file = vars(module).get("__file__")
     return isinstance(file, str) and is_helper_file(os.path.abspath(file))
 
 

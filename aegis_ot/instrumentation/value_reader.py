@@ -97,6 +97,7 @@ class ValueReader:
 
     Attributes:
         own_modules: Whether classes with this ``__module__`` are the protocol's own.
+        lasting: Types of what lives as long as the run, so that it may be held on to.
     """
 
     def __init__(self, wells: WellResolver) -> None:
@@ -110,11 +111,14 @@ class ValueReader:
         self._wells = wells
         self.own_modules: dict[str, bool] = {}
         # Lists of nothing else are read in one go: wells() of a plate is asked for in each helper.
+        self.lasting = frozenset({Well, Labware, str})
         self._all_wells = {Well}
         self._all_labware = {Labware}
 
     def read(self, value: Any, depth: int = 0) -> Held:
         """All that a value holds, in the given depth of what holds it."""
+        if type(value) is self._well_type:
+            return Held(wells=self.wells(value, depth))
         listed = items(value)
         kinds = set(map(type, listed))
         if kinds == self._all_wells and type(value) is list:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import functools
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from opentrons_shared_data import get_shared_data_root
@@ -81,6 +81,7 @@ class WellResolver:
         self._covered: dict[tuple[Any, ...], tuple[WellRef | None, ...]] = {}
         self._refs: dict[tuple[str, str], WellRef] = {}
         self._tops: dict[tuple[str, str], Any] = {}
+        self._descriptions: dict[int, tuple[Any, LabwareInfo]] = {}
         self.labware: dict[str, LabwareInfo] = {}
 
     def register(self, labware_core: Any) -> LabwareInfo:
@@ -90,8 +91,24 @@ class WellResolver:
         if key is None:
             key = self._keys[identity] = f"labware-{len(self._keys) + 1}"
             self._slots[key] = self._slot_of(labware_core)
-            self.labware[key] = _describe(key, labware_core, self._slots[key])
+            self.labware[key] = replace(
+                self._described(labware_core),
+                key=key,
+                label=str(labware_core.get_user_display_name() or ""),
+                slot=self._slots[key],
+            )
         return self.labware[key]
+
+    def _described(self, labware_core: Any) -> LabwareInfo:
+        """What a definition says, worked out once for all labware of one kind."""
+        labware_id = getattr(labware_core, "labware_id", None)
+        if labware_id is None:
+            return _describe(labware_core.get_definition())
+        definition = self._engine_state.labware.get_definition(labware_id)
+        if id(definition) not in self._descriptions:
+            described = _describe(definition.model_dump(exclude_none=True))
+            self._descriptions[id(definition)] = (definition, described)
+        return self._descriptions[id(definition)][1]
 
     def knows(self, labware_core: Any) -> bool:
         """Whether a labware core was registered before."""
@@ -196,29 +213,26 @@ class WellResolver:
 
 
 class _EngineLabware:
-    """The few questions :func:`_describe` asks, for a labware seen first through its wells."""
+    """Answers for a labware core, of a labware that is seen first through its wells."""
 
     def __init__(self, labware_id: str, state: Any) -> None:
         self.labware_id = labware_id
         self._state = state
 
-    def get_definition(self) -> Any:
-        return self._state.labware.get_definition(self.labware_id).model_dump(exclude_none=True)
-
     def get_user_display_name(self) -> Any:
         return self._state.labware.get_user_specified_display_name(self.labware_id)
 
 
-def _describe(key: str, labware_core: Any, slot: str) -> LabwareInfo:
-    definition = labware_core.get_definition()
+def _describe(definition: Any) -> LabwareInfo:
+    """What a definition says; the key, label and place of one piece of labware are left open."""
     parameters = definition.get("parameters", {})
     metadata = definition.get("metadata", {})
     return LabwareInfo(
-        key=key,
+        key="",
         load_name=str(parameters.get("loadName", "")),
         display_name=str(metadata.get("displayName", "")),
-        label=str(labware_core.get_user_display_name() or ""),
-        slot=slot,
+        label="",
+        slot="",
         is_tip_rack=bool(parameters.get("isTiprack", False)),
         is_trash=metadata.get("displayCategory") == "trash"
         or parameters.get("format") == "trash"

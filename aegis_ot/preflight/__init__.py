@@ -3,19 +3,18 @@
 Each step is a room of its own, and imports run down this list only (a contract in
 ``pyproject.toml``)::
 
+    asking      the robot asks the sidecar's model
+    opinion     what a model gets to know, what it answers, what of that counts
     checking    a protocol, or what a guard recorded, to a report
     database    the rule files: loaded, validated, their schema
-    judging     a recording to a verdict: cases, findings, waivers
+    judging     a recording to a reading and a verdict: cases, findings, waivers
     checks      predicates over trace and roles, of which rules are made
     roles       what each well is for, and which assay it is
-    evidence    all that speaks for the role of a well: names, plate maps, labels, texts
-    layouts     how people write where things stand
+    evidence    all that speaks for the role of a well: names, plate maps, labels
     trace       the recording read as tips, wells and liquids
-    text        what the protocol's text says
+    source      what the protocol's text says as Python
     rules       what a rule file may say
     rehearsal   the protocol run in the simulator, and recorded
-
-Beside them, ``dossier`` and ``opinion`` are what is asked of a model and what it answered.
 """
 
 from .checking import check_recording, check_script

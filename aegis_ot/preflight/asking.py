@@ -17,13 +17,8 @@ from typing import Any
 from ..http_client import HttpClient
 from ..settings import Settings
 from ..vocabulary import Undecided, from_json
-from .database import load_database
-from .dossier import Dossier
-from .dossier_making import make_dossier
-from .judging import MODEL, Options, Report, judge
-from .merging import merge, options_with_roles
-from .opinion import Opinion
-from .rehearsal import Recording
+from .judging import MODEL, Reading, Report
+from .opinion import Dossier, Opinion, make_dossier, merge
 
 LIVE_WAIT_S = 1.0
 """How long a live run waits for an opinion that should be remembered already, s."""
@@ -32,44 +27,29 @@ _REQUEST_S = 5.0
 _POLL_S = 0.5
 
 
-def with_opinion(report: Report, recording: Recording, settings: Settings, protocol: Any) -> Report:
+def with_opinion(report: Report, reading: Reading, settings: Settings, protocol: Any) -> Report:
     """The checks' report with the opinion of the sidecar's model merged into it.
 
     Never raises: whatever fails here, the checks' report stands.
 
     Args:
-        report: From :func:`~aegis_ot.preflight.checking.check_recording`, of the same recording.
-        recording: What the report judges.
+        report: From :func:`~aegis_ot.preflight.judging.judge_reading`, of the same reading.
+        reading: What the report judges.
         settings: The guard's.
-        protocol: The context, for its runtime parameters and for whether a robot waits.
+        protocol: The context, for whether a robot waits.
     """
     if settings.sidecar is None or not settings.sidecar.startswith("http"):
         return report
     try:
-        return _asked(report, recording, settings, protocol)
+        dossier = make_dossier(reading, report)
+        wait_s = settings.opinion_timeout_s
+        if not protocol.is_simulating():
+            wait_s = min(wait_s, LIVE_WAIT_S)
+        opinion = ask_sidecar(settings.sidecar, settings.token, dossier, wait_s)
+        return merge(report, opinion, dossier, reading)
     except Exception as error:
         reason = f"The model's opinion could not be had ({type(error).__name__}: {error})."
         return replace(report, undecided=(*report.undecided, Undecided(MODEL, reason)))
-
-
-def _asked(report: Report, recording: Recording, settings: Settings, protocol: Any) -> Report:
-    database = load_database([settings.rules_path] if settings.rules_path else [])
-    options = Options.from_settings(settings)
-    # `params` itself raises where the apiLevel knows none.
-    values = getattr(getattr(protocol, "_params", None), "get_all", None)
-    parameters = dict(values()) if callable(values) else {}
-    dossier = make_dossier(recording, report, database, options, parameters)
-    wait_s = settings.opinion_timeout_s
-    if not protocol.is_simulating():
-        wait_s = min(wait_s, LIVE_WAIT_S)
-    opinion = ask_sidecar(settings.sidecar or "", settings.token, dossier, wait_s)
-    second = None
-    if opinion.answered:
-        roles = {family.family: tuple(family.roles) for family in database.families}
-        with_roles = options_with_roles(options, report, opinion, roles)
-        if with_roles is not None:
-            second = judge(recording, database, with_roles)
-    return merge(report, opinion, dossier, second)
 
 
 def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: float) -> Opinion:

@@ -5,10 +5,28 @@ from __future__ import annotations
 from ..settings import Settings
 from ..vocabulary import Finding, Severity, VerdictWord, counted
 from .database import load_database
-from .judging import Options, Report, judge
-from .opinion import unanswered
+from .judging import (
+    Options,
+    Reading,
+    Report,
+    judge,
+    judge_reading,
+    read_recording,
+    unanswered,
+)
 from .rehearsal import Recording, Script, record
 from .rules import Database
+
+
+def read_for_guard(recording: Recording, settings: Settings) -> Reading:
+    """Read a rehearsal on record as a guard's settings say.
+
+    Raises:
+        RuleError: A rule file cannot be used.
+        ConfigurationError: A setting names a rule, role or family that does not exist.
+    """
+    database = load_database([settings.rules_path] if settings.rules_path else [])
+    return read_recording(recording, database, Options.from_settings(settings))
 
 
 def check_recording(recording: Recording, settings: Settings) -> Report:
@@ -18,8 +36,7 @@ def check_recording(recording: Recording, settings: Settings) -> Report:
         RuleError: A rule file cannot be used.
         ConfigurationError: A setting names a rule, role or family that does not exist.
     """
-    database = load_database([settings.rules_path] if settings.rules_path else [])
-    return judge(recording, database, Options.from_settings(settings))
+    return judge_reading(read_for_guard(recording, settings))
 
 
 def check_script(
@@ -42,11 +59,16 @@ def is_rejected(report: Report) -> bool:
     return report.verdict is VerdictWord.FAIL
 
 
+def errors_of(report: Report) -> list[Finding]:
+    """The findings for which it is refused."""
+    return [finding for finding in report.findings if finding.severity is Severity.ERROR]
+
+
 def rejection(report: Report) -> str:
     """Why a protocol is refused: every error with its rule, wells and lines."""
-    errors = [finding for finding in report.findings if finding.severity is Severity.ERROR]
+    errors = errors_of(report)
     count = "an error" if len(errors) == 1 else f"{len(errors)} errors"
-    lines = [f"Layer 1 found {count} in {report.file}; nothing has moved."]
+    lines = [f"Layer 1 found {count} in {report.file}; no tip has moved."]
     lines += [_tell(finding) for finding in errors]
     return "\n".join(lines)
 

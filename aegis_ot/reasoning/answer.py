@@ -1,7 +1,7 @@
 """The form in which a model answers about a protocol.
 
 Equal for all protocols, so that it stands in the cached prefix; which rules, wells and lines
-exist is checked afterwards (:mod:`aegis_ot.preflight.opinion_reading`). Every member is
+exist is checked afterwards (:mod:`aegis_ot.preflight.opinion`). Every member is
 required and nothing else allowed: what the strict modes of the services ask for.
 """
 
@@ -27,15 +27,25 @@ def _list(items: Mapping[str, Any]) -> dict[str, Any]:
 
 _TEXT = {"type": "string"}
 _WELLS = _list(_TEXT)
+_LINES = _list({"type": "integer"})
 
 ANSWER_SCHEMA: dict[str, Any] = strict_object(
     family=_TEXT,
-    roles=_list(strict_object(role=_TEXT, wells=_WELLS, reason=_TEXT)),
+    roles=_list(
+        strict_object(
+            role=_TEXT,
+            wells=_WELLS,
+            levels=_list(_TEXT),
+            citations=_list(strict_object(line={"type": "integer"}, quote=_TEXT)),
+        )
+    ),
     answers=_list(
         strict_object(
             rule=_TEXT,
             answer={"type": "string", "enum": ["holds", "violated", "cannot_tell"]},
             reason=_TEXT,
+            wells=_WELLS,
+            lines=_LINES,
         )
     ),
     findings=_list(
@@ -43,7 +53,7 @@ ANSWER_SCHEMA: dict[str, Any] = strict_object(
             rule=_TEXT,
             message=_TEXT,
             wells=_WELLS,
-            lines=_list({"type": "integer"}),
+            lines=_LINES,
             why=_TEXT,
             fix=_TEXT,
         )

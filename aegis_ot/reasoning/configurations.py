@@ -13,22 +13,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import Enum
 
-from ..preflight import Database, Options, Report
-from ..preflight.dossier import Dossier
-from ..preflight.judging import MODEL
-from ..preflight.merging import merge, options_with_roles
-from ..preflight.opinion import Opinion, no_answer
-from ..preflight.opinion_reading import read_opinion
+from ..preflight import Database, Report
+from ..preflight.judging import MODEL, Reading, verdict_of
+from ..preflight.opinion import Dossier, Opinion, merge, no_answer, read_opinion
 from ..vocabulary import Severity, Undecided, VerdictWord
 from .backend import Backend, Reply, Request, State, Usage
 from .layer1_prompt import blind_request, hybrid_request, llm_only_request
-
-Rejudge = Callable[[Options], "Report | None"]
-"""Judges the same protocol once more, with other options; ``None`` if that is not possible."""
 
 
 class Configuration(str, Enum):
@@ -70,31 +63,26 @@ def judge_in(
     configuration: Configuration | str,
     report: Report,
     dossier: Dossier,
-    database: Database,
+    reading: Reading,
     backend: Backend | None = None,
-    options: Options | None = None,
-    rejudge: Rejudge | None = None,
 ) -> Judgement:
     """Judge a protocol, already rehearsed and checked, in one configuration.
 
     Args:
         configuration: Which.
         report: What the checks say.
-        dossier: From :func:`aegis_ot.preflight.dossier_making.check_with_dossier`.
-        database: The rules.
+        dossier: From :func:`aegis_ot.preflight.opinion.make_dossier`.
+        reading: What both were made from.
         backend: Whom to ask; not needed for ``rules-only``.
-        options: How the checks judged.
-        rejudge: For ``hybrid``: judges again, with the roles that the model read where names are
-            silent. Without it these roles are reported only.
     """
     configuration = Configuration(configuration)
     if configuration is Configuration.RULES_ONLY:
         return rules_only(report)
     if configuration is Configuration.HYBRID:
-        return hybrid(report, dossier, database, backend, options, rejudge)
+        return hybrid(report, dossier, reading, backend)
     if configuration is Configuration.TRACE_BLIND:
-        return trace_blind(report, dossier, database, backend)
-    return llm_only(report, dossier, database, backend)
+        return trace_blind(report, dossier, reading.database, backend)
+    return llm_only(report, dossier, reading.database, backend)
 
 
 def request_in(
@@ -116,18 +104,11 @@ def rules_only(report: Report) -> Judgement:
 
 
 def hybrid(
-    report: Report,
-    dossier: Dossier,
-    database: Database,
-    backend: Backend | None,
-    options: Options | None = None,
-    rejudge: Rejudge | None = None,
+    report: Report, dossier: Dossier, reading: Reading, backend: Backend | None
 ) -> Judgement:
     """The checks, and a model that sees what they saw; it can only add."""
-    reply = ask(backend, hybrid_request(dossier, database))
-    opinion = opinion_of(reply, dossier)
-    second = second_report(report, opinion, database, options or Options(), rejudge)
-    merged = merge(report, opinion, dossier, second)
+    reply = ask(backend, hybrid_request(dossier, reading.database))
+    merged = merge(report, opinion_of(reply, dossier), dossier, reading)
     return Judgement(Configuration.HYBRID, merged, reply)
 
 
@@ -165,21 +146,6 @@ def opinion_of(reply: Reply, dossier: Dossier, blind: bool = False) -> Opinion:
     return read_opinion(reply.value, dossier, reply.model, blind)
 
 
-def second_report(
-    report: Report,
-    opinion: Opinion,
-    database: Database,
-    options: Options,
-    rejudge: Rejudge | None,
-) -> Report | None:
-    """What the checks say with the model's roles, where it named any that were missing."""
-    if rejudge is None or not opinion.answered:
-        return None
-    roles = {family.family: tuple(family.roles) for family in database.families}
-    with_roles = options_with_roles(options, report, opinion, roles)
-    return None if with_roles is None else rejudge(with_roles)
-
-
 def ask(backend: Backend | None, request: Request) -> Reply:
     """Ask, where there is someone to ask."""
     if backend is None:
@@ -200,8 +166,7 @@ def _model_alone(
     )
     undecided: tuple[Undecided, ...] = ()
     if opinion.answered:
-        errors = any(finding.severity is Severity.ERROR for finding in findings)
-        verdict = VerdictWord.FAIL if errors else VerdictWord.WARN if findings else VerdictWord.PASS
+        verdict = verdict_of(findings)
     else:
         verdict = VerdictWord.ERROR
         undecided = (no_answer(opinion),)

@@ -10,9 +10,8 @@ from __future__ import annotations
 
 import hashlib
 
-from ..preflight.dossier import Dossier
-from ..preflight.dossier_making import rule_text
-from ..preflight.rules import Database
+from ..preflight.opinion import Dossier, rule_text
+from ..preflight.rules import Database, Family
 from ..vocabulary import one_line
 from .answer import ANSWER_SCHEMA, BLIND_SCHEMA
 from .backend import Message, Passage, Request
@@ -64,12 +63,21 @@ def rules_text(database: Database) -> str:
     lines = ["# Rules", ""]
     for family in database.families:
         lines.append(f"## {family.family}: {family.title}")
-        lines.append(f"Roles: {', '.join(family.roles)}.")
+        lines.append(_roles_by_side(family))
         for rule in family.rules:
             scope = " [all families]" if rule.scope == "all" else ""
             lines.append(f"- {rule_text(rule)}{scope}")
         lines.append("")
     return "\n".join(lines).strip()
+
+
+def _roles_by_side(family: Family) -> str:
+    sides = {"source": "drawn from", "destination": "filled", "any": "either"}
+    listed = (
+        (told, [name for name, role in family.roles.items() if role.side == side])
+        for side, told in sides.items()
+    )
+    return "Roles: " + "; ".join(f"{told}: {', '.join(names)}" for told, names in listed if names)
 
 
 def _system(task: str, rules: str) -> tuple[Passage, ...]:
@@ -125,6 +133,8 @@ def _asked(dossier: Dossier) -> list[str]:
         lines.append(f"Found by the checks: {finding.rule}, lines {where}.")
     questions = [question.rule for question in dossier.questions]
     lines.append(f"Open questions, one answer each: {', '.join(questions) or 'none'}.")
+    if dossier.wanted:
+        lines.append(f"Roles that these lack, by rule: {'; '.join(dossier.wanted)}.")
     return lines
 
 

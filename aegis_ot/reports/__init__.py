@@ -9,7 +9,6 @@ from .check_json import check_json
 from .check_junit import check_junit
 from .check_sarif import check_sarif
 from .check_text import check_text
-from .dryrun_html import dry_run_html
 from .rule_pages import rule_pages
 from .rule_text import rule_list, rule_text
 
@@ -35,7 +34,6 @@ __all__ = [
     "check_junit",
     "check_sarif",
     "check_text",
-    "dry_run_html",
     "rule_list",
     "rule_pages",
     "rule_text",

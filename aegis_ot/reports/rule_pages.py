@@ -13,7 +13,7 @@ from ..errors import RuleError
 from ..preflight.checks import CHECKS
 from ..preflight.rules import Database, Example, Family, RoleSpec, RuleSpec
 from .field_page import field_page, parameters
-from .rule_text import code_of, needs_in_words
+from .rule_text import code_of, needs_in_words, shown_examples
 
 _HEAD = "<!-- Written by `aegis-ot rules docs` from the rule files. Edit those. -->"
 _CODE_HEAD = (
@@ -150,10 +150,9 @@ def _rule(family: Family, rule: RuleSpec) -> Iterator[str]:
     yield ""
     for check in rule.checks:
         yield f"- {_check(check)}"
-    for kind, examples in (("Passes", rule.examples.passing), ("Fails", rule.examples.failing)):
-        for example in examples:
-            yield ""
-            yield from _example(kind, example)
+    for kind, example in shown_examples(family, rule):
+        yield ""
+        yield from _example(kind, example)
 
 
 def _check(check: Mapping[str, Any]) -> str:

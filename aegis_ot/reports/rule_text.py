@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator
 
+from ..preflight.example_files import examples_of
 from ..preflight.rules import Database, Example, Family, RuleSpec
 from ..vocabulary import counted
 
@@ -33,11 +34,26 @@ def _rule(family: Family, rule: RuleSpec) -> Iterator[str]:
             f"Not reported for wells already reported under {', '.join(rule.unless_reported)}."
         )
     yield f"Waive: # aegis: ignore[{rule.id}] reason   (on the line, or at the top of the file)"
-    for kind, examples in (("Passes", rule.examples.passing), ("Fails", rule.examples.failing)):
-        for example in examples:
-            yield ""
-            yield f"{kind}: {example.title}"
-            yield textwrap.indent(code_of(example), "    ")
+    for kind, example in shown_examples(family, rule):
+        yield ""
+        yield f"{kind}: {example.title}"
+        yield textwrap.indent(code_of(example), "    ")
+
+
+SHOWN_EXAMPLES = 2
+"""Examples of a kind that a page shows; all of them stand in the rule's files."""
+
+
+def shown_examples(family: Family, rule: RuleSpec) -> Iterator[tuple[str, Example]]:
+    """Some examples of a rule, with what each does.
+
+    Raises:
+        RuleError: A file of examples cannot be used.
+    """
+    examples = examples_of(family)[rule.id]
+    for kind, carried in (("Passes", examples.passing), ("Fails", examples.failing)):
+        for example in carried[:SHOWN_EXAMPLES]:
+            yield "Warns" if example.severity == "warning" else kind, example
 
 
 def needs_in_words(family: Family, rule: RuleSpec) -> str:

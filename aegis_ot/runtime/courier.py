@@ -15,6 +15,10 @@ from ..http_client import SLICE_S
 from ..vocabulary import Keyframe, Verdict
 from .link import CameraSilent, RunUnknown, SequenceGap, SidecarLink
 
+_FIRST_TRY_S = 3.0
+"""How long a first try may take before somebody is told that it is tried again, s."""
+_SILENT_S = 1.0
+"""Shorter trouble is not worth a word, s."""
 _FIRST_RETRY_S = 0.1
 _SLOWEST_RETRY_S = 1.0
 _GLANCE_S = 0.25
@@ -28,6 +32,7 @@ _MOST_MENDS = 3
 _REQUEST_S = 2.0
 """Longest wait for an answer that needs no camera, s."""
 
+OnTrouble = Callable[[LinkError, float], None]
 Message = Callable[[float], None]
 """Says something that needs no camera; takes at most so many seconds."""
 
@@ -42,6 +47,7 @@ class Courier:
         rest: Sleeps in short slices and raises when the run is being stopped.
 
     Attributes:
+        on_trouble: Told, during retries, what the trouble is and for how long they go on, s.
         away: Whether the sidecar is given up for now; then only cheap looks are taken.
         stale: Trajectories of which a keyframe was, or will be, sent too late.
         forgotten: Those of them that were sent in time, and that the sidecar lost.
@@ -66,6 +72,7 @@ class Courier:
         self._next_look = 0.0
         self._pause_s = _FIRST_REST_S
         self._registered = False
+        self.on_trouble: OnTrouble = lambda error, seconds_left: None
         self.away = False
         self.stale: set[int] = set()
         self.forgotten: set[int] = set()
@@ -141,14 +148,30 @@ class Courier:
         self._messages.append(self._abandonment(number, reason))
         self._tell()
 
-    def report_hold(self, number: int, seconds: float, ended_by: str, policy: str | None) -> None:
-        """Tell likewise how a hold went."""
+    def action(self, number: int) -> str | None:
+        """Ask once what a person told the robot that is paused at a trajectory."""
+        return self._link.action(self._run, number, _REQUEST_S)
+
+    def report_hold(
+        self,
+        number: int,
+        seconds: float,
+        ended_by: str,
+        policy: str | None,
+        paused_s: float | None = None,
+        answered: str | None = None,
+    ) -> None:
+        """Tell likewise how a hold went, and, when it is over, how long the robot was paused and
+        where that was answered.
+        """
         body = {
             "trajectory": number,
             "seconds": round(seconds, 4),
             "resolution": ended_by,
             "policy": policy,
         }
+        if paused_s is not None:
+            body |= {"paused_s": round(paused_s, 3), "answered": answered}
         self._messages.append(lambda most: self._link.report_hold(self._run, body, most))
         self._tell()
 
@@ -197,19 +220,21 @@ class Courier:
             camera = self._link.health(_GLANCE_S).get("camera")
         except LinkError:
             return None
-        said = str(camera.get("detail", ""))[:200].rstrip(".") if isinstance(camera, dict) else ""
+        said = str(camera.get("detail", ""))[:400].rstrip(".") if isinstance(camera, dict) else ""
         return CameraSilent(
             f"The sidecar at {self._link.url} is there, but took no frame within {waited_s:g} s"
             f"{f' ({said})' if said else ''}. Look at the camera and at the sidecar's page."
         )
 
     def _insist(self, attempt: Callable[[float], None], timeout_s: float) -> None:
-        deadline = time.monotonic() + timeout_s
+        began = time.monotonic()
+        deadline = began + timeout_s
+        limit = min(deadline, began + _FIRST_TRY_S)
         wait = _FIRST_RETRY_S
         answered: LinkError | None = None
         while True:
             try:
-                attempt(deadline)
+                attempt(limit)
                 return
             except SidecarRefused:
                 raise  # asking again changes nothing
@@ -219,6 +244,9 @@ class Courier:
                 if time.monotonic() + wait >= deadline:
                     # The last attempt is often cut short: what was answered before says more.
                     raise answered or error from None
+                if time.monotonic() - began >= _SILENT_S:
+                    self.on_trouble(answered or error, deadline - time.monotonic())
+                limit = deadline
                 self._rest(wait)
                 wait = min(_SLOWEST_RETRY_S, wait * 2)
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 from ..errors import LinkError, RunAborted
-from ..http_client import SLICE_S
+from ..http_client import SLICE_S, CheckStop
 from ..settings import Settings
 from ..vocabulary import Gate, Outcome, Verdict
 from .courier import Courier
+from .link import SidecarLink
 from .linkloss import LinkLoss
 from .operator import Answer, Operator
+from .page_answers import PageAnswers
 from .runstate import RunState
 from .steps import Hold
 from .stopping import Waits
@@ -28,6 +31,8 @@ class Holding:
         operator: Told of bad verdicts.
         state, waits: Of the run.
         result: Holds and verdicts are counted here.
+        link: Makes a further connection to the sidecar.
+        run: Identifier of the run.
     """
 
     def __init__(
@@ -39,7 +44,11 @@ class Holding:
         state: RunState,
         waits: Waits,
         result: WatchSummary,
+        link: Callable[[CheckStop], SidecarLink],
+        run: str,
     ) -> None:
+        self._link = link
+        self._run = run
         self._courier = courier
         self._link_loss = link_loss
         self._settings = settings
@@ -120,18 +129,34 @@ class Holding:
         elif policy == "abort":
             raise RunAborted(f"{text} The run ends here, as configured (before {step.reason}).")
         elif policy == "pause":
-            self._operator.pause(
+            self._pause(
+                number,
                 f"{text} Paused before {step.reason}. Resume to go on, or cancel the run.",
-                lambda: self._decision(number),
+                lambda told: self._courier.report_hold(number, seconds, ended_by, policy, *told),
             )
 
-    def _decision(self, number: int) -> Answer | None:
-        """What the operator decided on the sidecar's page, where the run cannot be resumed."""
+    def _pause(self, number: int, text: str, report: Callable[[tuple[float, str]], None]) -> None:
+        """Wait for a person, then tell how long that took and where it was answered."""
+        began = time.monotonic()
+        page = PageAnswers(self._link, self._run, number, lambda: self._state.paused)
+        answered = self._operator.pause(text, lambda: self._told(number), page)
+        if answered:
+            report((time.monotonic() - began, answered))
+            self._hear_decision(number)
+
+    def _told(self, number: int) -> Answer | None:
+        """What a person told on the sidecar's page, where the run cannot be resumed."""
+        try:
+            action = self._courier.action(number)
+        except LinkError:
+            return None
+        return {"resume": Answer.RESUME, "stop": Answer.ABORT}.get(action or "")
+
+    def _hear_decision(self, number: int) -> None:
+        """A person may have put the verdict right meanwhile."""
         try:
             verdict = self._courier.verdict(number)
         except LinkError:
-            return None
-        if verdict is None or verdict.gate is not Gate.OPERATOR:
-            return None
-        self._result.verdicts[number] = verdict
-        return Answer.RESUME if verdict.outcome is Outcome.PASS else Answer.ABORT
+            return
+        if verdict is not None and verdict.gate is Gate.OPERATOR:
+            self._result.verdicts[number] = verdict

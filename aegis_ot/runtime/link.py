@@ -37,7 +37,8 @@ class SequenceGap(LinkError):
 
 
 class CameraSilent(LinkError):
-    """503: the sidecar is there, its camera gave no frame; the keyframe may be sent again."""
+    """503: the sidecar is there, its camera gave no frame that tells anything; the keyframe may be
+    sent again."""
 
 
 @dataclass(frozen=True)
@@ -84,8 +85,13 @@ class SidecarLink:
                 "install the same version of aegis-ot on both machines",
             )
 
-    def keyframe(self, keyframe: Keyframe, timeout_s: float) -> Captured:
+    def keyframe(self, keyframe: Keyframe, timeout_s: float, ago_s: float = 0.0) -> Captured:
         """Have one keyframe captured.
+
+        Args:
+            keyframe: Which.
+            timeout_s: How long it may take.
+            ago_s: How long ago its moment was, where the robot has not waited for this, s.
 
         Raises:
             CameraSilent: The camera gave no frame in time.
@@ -93,6 +99,8 @@ class SidecarLink:
             RunUnknown: The run has to be registered again.
         """
         path = f"/v1/runs/{quote(keyframe.run, safe='')}/keyframes"
+        if ago_s:
+            path += f"?ago={ago_s:.4f}"
         answer = self._request("POST", path, to_json(keyframe), timeout_s)
         if answer.get("captured") is not True or answer.get("sequence") != keyframe.sequence:
             raise self._garbled(f"it did not acknowledge keyframe {keyframe.sequence}")
@@ -115,6 +123,13 @@ class SidecarLink:
         if (verdict.run, verdict.trajectory) != (run, number):
             raise self._garbled(f"it sent another trajectory's verdict for trajectory {number}")
         return verdict
+
+    def action(self, run: str, number: int, timeout_s: float) -> str | None:
+        """What a person told the robot that is paused at a trajectory: ``"resume"``, ``"stop"``,
+        or ``None`` as long as nobody did."""
+        answer = self._request("GET", f"{_trajectory(run, number)}/action", None, timeout_s)
+        action = answer.get("action")
+        return str(action.get("action")) if isinstance(action, dict) else None
 
     def abandon(self, run: str, number: int, reason: str, timeout_s: float) -> None:
         """Say that a trajectory will have no further keyframes."""
@@ -165,8 +180,8 @@ class SidecarLink:
             raise self._gap(answer, said)
         if status == 503:
             raise CameraSilent(
-                f"The sidecar at {self.url} got no frame from its camera{said}. Look at the "
-                "camera's cable and at the sidecar's page."
+                f"The sidecar at {self.url} got no usable frame from its camera{said}. Its page "
+                "shows what the camera sees."
             )
         if status in (400, 405, 413, 415, 422):
             raise SidecarRefused(
@@ -207,4 +222,4 @@ def _error_text(answer: Any) -> str:
     error = answer.get("error") if isinstance(answer, dict) else None
     if isinstance(error, dict):
         error = error.get("message")
-    return f" ({str(error)[:200].rstrip('.')})" if error else ""
+    return f" ({str(error)[:400].rstrip('.')})" if error else ""

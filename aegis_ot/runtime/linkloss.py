@@ -8,10 +8,13 @@ from ..errors import LinkError, RunAborted
 from ..settings import Settings
 from .courier import Courier
 from .operator import Answer, Operator
+from .runstate import RunState
+from .stopping import Waits
 from .summary import WatchSummary
 
 _TRY_S = 0.1
 """How long one try to reach the sidecar may take while the operator is waited for, s."""
+_LOOK_S = 0.5
 
 Attempt = Callable[[], None]
 
@@ -23,6 +26,7 @@ class LinkLoss:
         courier: Speaks to the sidecar.
         settings: ``on_link_loss`` and ``capture_timeout_s`` count here.
         operator: Asked to mend it.
+        state, waits: Of the run.
         simulating: In simulation nobody mends anything.
         result: Outages are counted here.
     """
@@ -32,14 +36,20 @@ class LinkLoss:
         courier: Courier,
         settings: Settings,
         operator: Operator,
+        state: RunState,
+        waits: Waits,
         simulating: bool,
         result: WatchSummary,
     ) -> None:
         self._courier = courier
         self._settings = settings
         self._operator = operator
+        self._state = state
+        self._waits = waits
         self._simulating = simulating
         self._result = result
+        self._told = False
+        courier.on_trouble = self._tell
 
     def register(self) -> None:
         """Say which run this is; raises LinkError."""
@@ -51,8 +61,11 @@ class LinkLoss:
         Raises:
             RunAborted: The policy, or the operator, ends the run.
         """
-        trouble = _trouble_of(attempt)
+        self._told = False
+        trouble = self._outlast_pause(attempt, _trouble_of(attempt))
         if trouble is None:
+            if self._told:
+                self._operator.comment("The sidecar answers again; the run goes on.")
             return
         self._result.outages += 1
         policy = self._settings.on_link_loss
@@ -72,6 +85,23 @@ class LinkLoss:
             self._operator.comment(
                 f"{trouble} The run goes on unwatched until the sidecar is back."
             )
+
+    def _tell(self, trouble: LinkError, seconds_left: float) -> None:
+        """Say at once why the robot stands still, not only when it has been tried for long."""
+        # A comment would wait behind an operator's pause, and with it the next try.
+        if self._told or self._simulating or self._state.paused:
+            return
+        self._told = True
+        self._operator.comment(f"{trouble} Trying again for {seconds_left:.0f} s.")
+
+    def _outlast_pause(self, attempt: Attempt, trouble: LinkError | None) -> LinkError | None:
+        """An operator who has paused the run meanwhile resumes once, not twice: the guard's own
+        pause would wait behind that one."""
+        while trouble is not None and self._state.paused:
+            while self._state.paused and self._is_back() is None:
+                self._waits.rest(_LOOK_S)
+            trouble = _trouble_of(attempt)
+        return trouble
 
     def _is_back(self) -> Answer | None:
         trouble = _trouble_of(lambda: self._courier.register(_TRY_S))

@@ -5,12 +5,14 @@ from __future__ import annotations
 import select
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
 from enum import Enum
 from typing import Any
 
 from ..errors import RunAborted
 from .legacyrun import LegacyRun
+from .page_answers import PageAnswers
 from .runstate import can_be_resumed
 
 _REMIND_S = 60.0
@@ -41,37 +43,41 @@ class Operator:
         self._simulating = simulating
         self._rest = rest
         self._legacy_run = LegacyRun.of(protocol)
-        self._unsaid: list[str] = []
         self.busy = False
         """Whether the guard itself is pausing or commenting just now."""
 
-    def comment(self, text: str) -> None:
-        """Write into the run log; where that is not possible now, at the end of the run."""
+    def begin(self) -> None:
+        """The run begins."""
         if self._legacy_run is not None:
-            self._unsaid.append(text)
-            return
-        self._comment(text)
+            self._legacy_run.begin()
 
-    def catch_up(self) -> None:
-        """The protocol has ended: write what could not be written before."""
-        unsaid, self._unsaid = self._unsaid, []
-        for text in unsaid:
-            self._comment(text)
+    def end(self) -> None:
+        """The run is over; leave its context as it was. Idempotent."""
+        if self._legacy_run is not None:
+            self._legacy_run.end()
 
-    def _comment(self, text: str) -> None:
-        self.busy = True
-        try:
+    def proceed(self) -> None:
+        """Nothing more is to be said before the operation that the protocol asked for."""
+        if self._legacy_run is not None:
+            self._legacy_run.announce()
+
+    def comment(self, text: str) -> None:
+        """Write into the run log."""
+        with self._speaking():
             self._protocol.comment(f"aegis_ot: {text}")
-        finally:
-            self.busy = False
 
-    def pause(self, text: str, poll: Poll) -> None:
+    def pause(self, text: str, poll: Poll, page: PageAnswers | None = None) -> str:
         """Wait until the operator resumes the run, or cancels it.
 
         Args:
             text: What happened and what to do.
             poll: Asked now and then where the run cannot be resumed from outside
                 (``opentrons_execute``, notebooks): an answer given on the sidecar's page.
+            page: Carries out such an answer where the run can be resumed.
+
+        Returns:
+            Where it was answered: ``"robot"`` (its screen, or the App), ``"page"``,
+            ``"console"``; empty in simulation, which does not pause.
 
         Raises:
             RunAborted: The operator chose so at the console or on the sidecar's page.
@@ -79,36 +85,41 @@ class Operator:
         """
         if self._simulating:
             self.comment(f"{text} (Simulation: on a robot the run would pause here.)")
-            return
+            return ""
         if not can_be_resumed():
-            self._ask_at_console(text, poll)
-            return
+            return self._ask_at_console(text, poll)
+        with page or nullcontext():
+            with self._speaking():
+                self._protocol.pause(f"aegis_ot: {text}")
+            if self._legacy_run is not None:
+                self._legacy_run.wait_for_play(self._protocol, self._rest)
+        return "page" if page is not None and page.given else "robot"
+
+    @contextmanager
+    def _speaking(self) -> Iterator[None]:
         self.busy = True
         try:
-            if self._legacy_run is None:
-                self._protocol.pause(f"aegis_ot: {text}")
-            else:
-                _say(text)
-                self.comment(text)
-                self._legacy_run.pause(self._protocol, self._rest)
+            with nullcontext() if self._legacy_run is None else self._legacy_run.speaking():
+                yield
         finally:
             self.busy = False
 
-    def _ask_at_console(self, text: str, poll: Poll) -> None:
+    def _ask_at_console(self, text: str, poll: Poll) -> str:
         # pause() would hang for ever here: nothing can send the "play" that it waits for.
         has_console = _is_terminal()
         how = (
             "Type 'c' and Enter to continue, 'a' and Enter to abort"
             if has_console
-            else "Decide on the sidecar's page, or interrupt the program"
+            else "Answer on the sidecar's page, or interrupt the program"
         )
         _say(f"{text}\n{how}.")
         reminded = time.monotonic()
         while True:
             self._rest(_POLL_S)
-            answer = poll() or (_typed() if has_console else None)
+            on_page = poll()
+            answer = on_page or (_typed() if has_console else None)
             if answer is Answer.RESUME:
-                return
+                return "page" if on_page else "console"
             if answer is Answer.ABORT:
                 raise RunAborted(f"The operator ended the run. {text}")
             if time.monotonic() - reminded > _REMIND_S:

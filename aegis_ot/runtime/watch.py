@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..errors import LinkError, RunAborted
+from ..http_client import CheckStop
 from ..instrumentation import Event, Operation
 from ..settings import Settings
 from ..vocabulary import Keyframe, KeyframeKind
@@ -87,10 +88,12 @@ class Watcher:
         self._lift = lift
         if not self.result.watching:
             return
+        self._operator.begin()
         self._line = line = self._connect()
         try:
             self._stoppable(lambda: line.loss.insist(line.loss.register))
         except BaseException:
+            self._operator.end()
             line.courier.close()
             raise
 
@@ -107,8 +110,12 @@ class Watcher:
         if not self._operator.busy:  # the guard's own pauses and comments are no events
             self._perform(self._tracker.event(event))
 
-    def end(self, error: BaseException | None) -> None:
+    def end(self, error: BaseException | None, told: str = "") -> None:
         """After the protocol's last command, or when it raised ``error``.
+
+        Args:
+            error: What it raised, or ``None``.
+            told: What there is to say of it, where it is not ``error`` itself.
 
         Raises:
             RunAborted: A last well failed, and the policy says so.
@@ -119,10 +126,9 @@ class Watcher:
                 outcome, detail = "aborted", self._aborted
             elif error is None:
                 self._perform(self._tracker.finish())
-                self._operator.catch_up()
             else:
                 outcome = "failed"
-                detail = f"{type(error).__name__}: {error}"
+                detail = told or f"{type(error).__name__}: {error}"
         except RunAborted as aborted:
             outcome, detail = "aborted", str(aborted)
             raise
@@ -131,7 +137,8 @@ class Watcher:
             raise
         finally:
             if outcome in ("succeeded", "failed") and (self._stopped or self._state.stopping):
-                outcome = "stopped"
+                outcome, detail = "stopped", ""  # what Opentrons raises then is no news
+            self._operator.end()
             self._say_goodbye(outcome, detail)
 
     def summary(self) -> str:
@@ -161,6 +168,7 @@ class Watcher:
                     self._abandon(step)
 
         self._stoppable(perform)
+        self._operator.proceed()
 
     def _capture(self, keyframe: Keyframe) -> None:
         if keyframe.kind is KeyframeKind.DISPENSE:
@@ -194,13 +202,26 @@ class Watcher:
     # The line to the sidecar
 
     def _connect(self) -> _Line:
-        assert self._settings.sidecar is not None
-        link = SidecarLink(self._settings.sidecar, self._settings.token, self._waits.check)
-        courier = Courier(link, self.run_id, self._about, self._waits.rest)
-        loss = LinkLoss(courier, self._settings, self._operator, self._simulating, self.result)
-        holding = Holding(
-            courier, loss, self._settings, self._operator, self._state, self._waits, self.result
+        url, token = self._settings.sidecar, self._settings.token
+        assert url is not None
+
+        def link(check: CheckStop) -> SidecarLink:
+            return SidecarLink(url, token, check)
+
+        courier = Courier(link(self._waits.check), self.run_id, self._about, self._waits.rest)
+        loss = LinkLoss(
+            courier,
+            self._settings,
+            self._operator,
+            self._state,
+            self._waits,
+            self._simulating,
+            self.result,
         )
+        holding = Holding(
+            courier, loss, self._settings, self._operator, self._state, self._waits, self.result,
+            link, self.run_id,
+        )  # fmt: skip
         return _Line(courier, loss, holding)
 
     def _connected(self) -> _Line:

@@ -3,7 +3,7 @@
 from .analysis import Analyser, Evidence, Judged, RunAnalyser
 from .app import create_app
 from .config import SidecarConfig
-from .judging import make_analyser
+from .judging import make_analyser, make_detector
 from .server import running_sidecar, serve
 
 __all__ = [
@@ -14,6 +14,7 @@ __all__ = [
     "SidecarConfig",
     "create_app",
     "make_analyser",
+    "make_detector",
     "running_sidecar",
     "serve",
 ]

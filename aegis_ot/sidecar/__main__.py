@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
-import logging
 import sys
 
 from ..errors import AegisError
-from .config import SidecarConfig
-from .judging import make_analyser
+from .config import SidecarConfig, kept_token
+from .journal import event, set_up
+from .judging import make_analyser, make_detector
 from .server import serve
 
 
 def main(arguments: list[str]) -> int:
     """Run until stopped. Returns the exit status: 2 if the settings cannot be used."""
-    logging.basicConfig(level=logging.INFO, format="%(asctime)s %(name)s: %(message)s")
     try:
-        config = SidecarConfig.load(arguments[0] if arguments else None)
-        analyser = make_analyser(config.cascade)
+        config = SidecarConfig.load(arguments[0] if arguments else None, find_token=kept_token)
+        set_up(config.log)
+        detector = make_detector(config.cascade)
+        analyser = make_analyser(config.cascade, detector=detector)
         serve(
             config,
             analyser=analyser,
-            ready=lambda url: logging.info("The sidecar answers at %s", url),
+            detector=detector,
+            ready=lambda url: event("ready", address=url),
         )
     except AegisError as error:
         sys.stderr.write(f"{error}\n")

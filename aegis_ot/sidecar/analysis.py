@@ -30,6 +30,9 @@ class RunAnalyser(Protocol):
     def judge(self, trajectory: int) -> Judged:
         """The trajectory's POST_DISPENSE was observed: judge it. Called once each."""
 
+    def confirm(self, trajectory: int) -> None:
+        """The operator found an undecided trajectory right, or looked and let the run go on."""
+
 
 class Analyser(Protocol):
     """Makes one :class:`RunAnalyser` per run."""
@@ -60,6 +63,9 @@ class _UnscoredRun:
 
     def judge(self, trajectory: int) -> Judged:
         return undecided(self._run, trajectory, "No analyser is configured in the sidecar."), {}
+
+    def confirm(self, trajectory: int) -> None:
+        """Nothing to learn."""
 
 
 def undecided(run: str, trajectory: int, reason: str) -> Verdict:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from typing import Annotated, Any, TypeVar
@@ -17,11 +18,14 @@ from starlette.responses import JSONResponse, Response
 from .._version import __version__
 from ..errors import AegisError, CameraError, StoreError
 from ..vision.camera import Camera
+from ..vision.types import Detector
 from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
-from .cameras import open_camera
+from .cameras import open_cameras
+from .cameras.history import HISTORY_S
 from .config import SidecarConfig
-from .pages import router as pages
+from .description import ERRORS, describe, takes
+from .pages import page_router
 from .reasoning_routes import opinion_router, opinions_of
 from .security import Doorkeeper
 from .service import Sidecar
@@ -31,6 +35,7 @@ from .wire import (
     MAX_WAIT,
     WIRE,
     Abandon,
+    Action,
     Decision,
     Finish,
     Hold,
@@ -52,11 +57,17 @@ async def _run_name(run: Annotated[str, Path()]) -> str:
 
 Run = Annotated[str, Depends(_run_name)]
 Number = Annotated[int, Path(ge=0, le=MAX_COUNT)]
+After = Annotated[int | None, Query(ge=0, le=2**53)]
 Wait = Annotated[float, Query(ge=0, allow_inf_nan=False)]
+Ago = Annotated[float, Query(ge=-HISTORY_S, le=HISTORY_S, allow_inf_nan=False)]
+"""How long before its arrival the moment of a keyframe was, s; negative: it is still to come."""
 
 
 def create_app(
-    config: SidecarConfig, camera: Camera | None = None, analyser: Analyser | None = None
+    config: SidecarConfig,
+    camera: Camera | None = None,
+    analyser: Analyser | None = None,
+    detector: Detector | None = None,
 ) -> FastAPI:
     """Build the sidecar's application. It holds the camera and store until it is shut down.
 
@@ -64,6 +75,7 @@ def create_app(
         config: Settings.
         camera: Instead of the one that ``config.camera.spec`` names.
         analyser: What judges wells; without one every well is undecided.
+        detector: With one, a frame counts only if the camera's view tells something.
 
     Returns:
         The application; ``app.state.sidecar`` is the :class:`~.service.Sidecar` behind it, whose
@@ -74,9 +86,9 @@ def create_app(
         StoreError: The data folder cannot be used.
     """
     opinions = opinions_of(config)
-    camera = open_camera(config.camera) if camera is None else camera
+    camera = open_cameras(config) if camera is None else camera
     try:
-        sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser)
+        sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser, detector)
     except AegisError:
         camera.close()
         raise
@@ -90,16 +102,20 @@ def create_app(
         title="aegis-ot sidecar",
         version=__version__,
         lifespan=lifespan,
+        openapi_url="/v1/openapi.json",
         # The interactive pages load scripts from elsewhere; wire.md is the reference.
-        openapi_url=None,
+        docs_url=None,
+        redoc_url=None,
+        responses=ERRORS,
     )
+    app.openapi = functools.cache(lambda: describe(app))  # type: ignore[method-assign]
     app.state.sidecar = sidecar
     app.add_middleware(Doorkeeper, config=config)
     _answer_errors(app)
     _robot_routes(app, sidecar)
     _reader_routes(app, sidecar)
     app.include_router(opinion_router(opinions, read_body))
-    app.include_router(pages)
+    app.include_router(page_router(sidecar, read_body))
     return app
 
 
@@ -114,19 +130,20 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
             "camera": {"kind": sidecar.camera.kind, "ok": camera.ok, "detail": camera.detail},
         }
 
-    @app.put("/v1/runs/{run}")
+    @app.put("/v1/runs/{run}", openapi_extra=takes(RunStart))
     async def register(run: Run, start: Annotated[RunStart, _body(RunStart)]) -> dict[str, Any]:
         _must_match(run, start.run)
         await run_in_threadpool(sidecar.register, start)
         return {"run": run, "wire": WIRE}
 
-    @app.post("/v1/runs/{run}/keyframes")
+    @app.post("/v1/runs/{run}/keyframes", openapi_extra=takes(Keyframe))
     async def keyframe(
-        run: Run, arrived: Annotated[float, Depends(_now)], request: Request
+        run: Run, arrived: Annotated[float, Depends(_now)], request: Request, ago: Ago = 0.0
     ) -> dict[str, Any]:
         keyframe = parse(Keyframe, await read_body(request))
         _must_match(run, keyframe.run)
-        captured = await run_in_threadpool(lambda: sidecar.session(run).capture(keyframe, arrived))
+        moment = arrived - ago
+        captured = await run_in_threadpool(lambda: sidecar.session(run).capture(keyframe, moment))
         return {
             "sequence": keyframe.sequence,
             "captured": True,
@@ -136,45 +153,67 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
     @app.get("/v1/runs/{run}/trajectories/{number}/verdict")
     async def verdict(run: Run, number: Number, wait: Wait = 0.0) -> dict[str, Any]:
         session = await run_in_threadpool(sidecar.session, run)
-        found = await sidecar.bell.until(lambda: session.verdict(number), min(wait, MAX_WAIT))
+        found = await sidecar.bell.until(lambda: session.ask(number), min(wait, MAX_WAIT))
         answer: dict[str, Any] = {"verdict": None if found is None else to_json(found)}
         if found is None and session.awaiting_operator(number):
             answer["awaiting"] = "operator"
         return answer
 
-    @app.post("/v1/runs/{run}/trajectories/{number}/abandon")
+    @app.get("/v1/runs/{run}/trajectories/{number}/action")
+    async def action(run: Run, number: Number, wait: Wait = 0.0) -> dict[str, Any]:
+        session = await run_in_threadpool(sidecar.session, run)
+        found = await sidecar.bell.until(lambda: session.action(number), min(wait, MAX_WAIT))
+        return {"action": found}
+
+    @app.post("/v1/runs/{run}/trajectories/{number}/abandon", openapi_extra=takes(Abandon))
     async def abandon(
         run: Run, number: Number, body: Annotated[Abandon, _body(Abandon)]
     ) -> dict[str, Any]:
         await run_in_threadpool(lambda: sidecar.session(run).abandon(number, body.reason))
         return {}
 
-    @app.post("/v1/runs/{run}/hold")
+    @app.post("/v1/runs/{run}/hold", openapi_extra=takes(Hold))
     async def hold(run: Run, body: Annotated[Hold, _body(Hold)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.hold, run, body)
         return {}
 
-    @app.post("/v1/runs/{run}/finish")
+    @app.post("/v1/runs/{run}/finish", openapi_extra=takes(Finish))
     async def finish(run: Run, body: Annotated[Finish, _body(Finish)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.finish, run, body)
         return {}
 
 
 def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
+    """For people, their page, and programs that follow runs."""
+
     async def news(after: int | None, wait: float) -> None:
         if after is not None:
             await sidecar.bell.until(
                 lambda: True if sidecar.bell.rings != after else None, min(wait, PAGE_WAIT)
             )
 
+    @app.get("/v1/news")
+    async def version(after: After = None, wait: Wait = 0.0) -> dict[str, Any]:
+        await news(after, wait)
+        return {"version": sidecar.bell.rings}
+
     @app.get("/v1/runs")
-    async def runs(after: int | None = None, wait: Wait = 0.0) -> dict[str, Any]:
+    async def runs(
+        after: After = None,
+        wait: Wait = 0.0,
+        search: Annotated[str, Query(max_length=200)] = "",
+        most: Annotated[int, Query(ge=1, le=1000)] = 200,
+    ) -> dict[str, Any]:
         await news(after, wait)
         version = sidecar.bell.rings
-        return {"runs": await run_in_threadpool(sidecar.runs), "version": version}
+        return {"runs": await run_in_threadpool(sidecar.runs, search, most), "version": version}
+
+    @app.get("/v1/camera/view")
+    async def view() -> dict[str, Any]:
+        return (await run_in_threadpool(sidecar.aim.look)).to_json()
 
     @app.get("/v1/runs/{run}")
-    async def overview(run: Run, after: int | None = None, wait: Wait = 0.0) -> dict[str, Any]:
+    async def overview(run: Run, after: After = None, wait: Wait = 0.0) -> dict[str, Any]:
         await news(after, wait)
         return await run_in_threadpool(sidecar.overview, run)
 
@@ -187,12 +226,19 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
             jpeg, media_type="image/jpeg", headers={"Cache-Control": "private, max-age=86400"}
         )
 
-    @app.post("/v1/runs/{run}/trajectories/{number}/decision")
+    @app.post("/v1/runs/{run}/trajectories/{number}/decision", openapi_extra=takes(Decision))
     async def decide(
         run: Run, number: Number, body: Annotated[Decision, _body(Decision)]
     ) -> dict[str, Any]:
         decided = await run_in_threadpool(lambda: sidecar.session(run).decide(number, body))
         return {"verdict": to_json(decided)}
+
+    @app.post("/v1/runs/{run}/trajectories/{number}/action", openapi_extra=takes(Action))
+    async def act(
+        run: Run, number: Number, body: Annotated[Action, _body(Action)]
+    ) -> dict[str, Any]:
+        await run_in_threadpool(lambda: sidecar.session(run).act(number, body))
+        return {}
 
 
 async def _now() -> float:
@@ -270,6 +316,10 @@ def _answer_errors(app: FastAPI) -> None:
                 503, "store", str(error), "Check the workstation; the keyframe can be resent."
             )
         ),
+    )
+    app.add_exception_handler(
+        AegisError,
+        answer(lambda error: WireError(503, "trouble", str(error), "Run aegis-ot doctor.")),
     )
     app.add_exception_handler(RequestValidationError, answer(invalid))
     app.add_exception_handler(HTTPException, answer(http))

@@ -7,7 +7,8 @@ import importlib
 import ipaddress
 import json
 import os
-from collections.abc import Mapping
+import secrets
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -25,6 +26,9 @@ from pydantic import (
 from ..errors import ConfigurationError
 
 DEFAULT_PORT = 7645
+LEAST_TOKEN = 16
+"""Characters of a token, so that it cannot be guessed."""
+TOKEN_FILE = "token"
 
 ENVIRONMENT = {
     "AEGIS_OT_SIDECAR_HOST": ("host",),
@@ -33,6 +37,8 @@ ENVIRONMENT = {
     "AEGIS_OT_SIDECAR_DATA": ("data",),
     "AEGIS_OT_SIDECAR_CAMERA": ("camera", "spec"),
     "AEGIS_OT_SIDECAR_NOTIFY": ("notifications", "urls"),
+    "AEGIS_OT_SIDECAR_URL": ("url",),
+    "AEGIS_OT_SIDECAR_LOG": ("log",),
     "AEGIS_OT_MODEL": ("model", "name"),
     "AEGIS_OT_MODEL_RECORD": ("model", "record"),
 }
@@ -49,14 +55,21 @@ class CameraSettings(Section):
     """Which camera, and how long to wait for it.
 
     Attributes:
-        spec: ``usb:0``, ``http://...`` (MJPEG stream or snapshot), ``folder:PATH``,
-            ``pattern`` (test pattern) or ``simulated``.
+        spec: ``usb:0``, ``usb:/dev/v4l/by-id/...`` (the same camera in any socket),
+            ``http://...`` (MJPEG stream or snapshot), ``rtsp://...``, ``folder:PATH``,
+            ``video:PATH``, ``robot:http://...`` (the robot's own camera), ``pattern`` (test
+            pattern) or ``simulated``.
         timeout_s: How long a keyframe waits for a frame before it is refused, s.
         latency_s: Longest time from the start of an exposure to the frame's arrival here, s;
             a frame counts as exposed that long before it arrived. ``None``: the default of the
             kind of camera.
         width, height: What a USB camera is asked for, px; ``None``: its own default.
         fps: What a USB camera or the test pattern is asked for, frames/s.
+        lock: Keep a USB camera's exposure, white balance and focus at what its automatic found
+            in its first second, where the driver allows.
+        exposure, white_balance, focus: Set so instead, in the driver's own units.
+        watch_view: Hold the run while the camera is frozen, covered, dark, blown out, blurred or
+            misaimed.
     """
 
     spec: str = "usb:0"
@@ -65,6 +78,23 @@ class CameraSettings(Section):
     width: Annotated[int, Field(ge=16, le=10_000)] | None = None
     height: Annotated[int, Field(ge=16, le=10_000)] | None = None
     fps: Annotated[float, Field(gt=0, le=240)] = 30.0
+    lock: bool = False
+    exposure: float | None = None
+    white_balance: float | None = None
+    focus: float | None = None
+    watch_view: bool = True
+
+
+class BoundCameraSettings(CameraSettings):
+    """One of several cameras: ``[[cameras]]`` in a file.
+
+    Attributes:
+        robot: Name of the robot that it looks at; empty: any.
+        mount: ``left`` or ``right``; empty: both.
+    """
+
+    robot: str = ""
+    mount: Literal["", "left", "right"] = ""
 
 
 class CascadeSettings(Section):
@@ -81,7 +111,12 @@ class CascadeSettings(Section):
             which sends most normal wells to the gate; the default is wider).
         blank_floor: Scores below it are a blank view; ``None``: the preset's (1e-4).
         always_gate: Send every well after calibration to the gates.
+        first_wells: ``ask``: the operator looks at a first well in which no liquid is seen to leave
+            the tip; ``trust``: it is taken for normal.
         gates: Asked in this order, the operator after them: ``volumetric``, ``vlm``.
+        spot_check: Share of the wells that pass silently that the gate ``vlm`` sees all the same,
+            0 to 1; with any of it, it also sees the first wells of each liquid and those near the
+            band. 0: only what was flagged, so that it can only clear.
     """
 
     model: Path | None = None
@@ -91,7 +126,9 @@ class CascadeSettings(Section):
     band: Annotated[float, Field(gt=0, le=100)] | None = None
     blank_floor: Annotated[float, Field(ge=0)] | None = None
     always_gate: bool = False
+    first_wells: Literal["ask", "trust"] = "ask"
     gates: tuple[str, ...] = ("volumetric",)
+    spot_check: Annotated[float, Field(ge=0, le=1)] = 0.05
 
     @field_validator("gates")
     @classmethod
@@ -124,6 +161,20 @@ class NotificationSettings(Section):
         return tuple(value.split()) if isinstance(value, str) else value
 
 
+class RetentionSettings(Section):
+    """How long runs are kept; a run that has not ended is never removed.
+
+    Attributes:
+        days: Remove runs that ended longer ago; ``None``: never.
+        gigabytes: Remove the oldest runs while all frames take more; ``None``: never.
+        silent_h: A robot that said nothing for so long has ended its run without a word, h.
+    """
+
+    days: Annotated[float, Field(gt=0)] | None = None
+    gigabytes: Annotated[float, Field(gt=0)] | None = None
+    silent_h: Annotated[float, Field(gt=0)] = 24.0
+
+
 class ModelSettings(Section):
     """The language or vision model, if there is one. Keys come from the environment alone.
 
@@ -138,25 +189,49 @@ class ModelSettings(Section):
     timeout_s: Annotated[float, Field(gt=0, le=600)] = 60.0
 
 
+class GateModelSettings(Section):
+    """The vision model as a gate of Layer 2.
+
+    Attributes:
+        name: A smaller model that is asked first, named as ``model.name`` is; that one is asked
+            where it is unsure. ``None``: ``model.name`` at once.
+        budget_per_run: What a run may cost, in the currency of the price table; ``None``: no limit.
+            When it is spent, flagged wells go to the operator.
+        calls_per_run: How often a model may be asked in a run; ``None``: no limit.
+    """
+
+    name: Annotated[str, Field(min_length=1)] | None = None
+    budget_per_run: Annotated[float, Field(ge=0)] | None = None
+    calls_per_run: Annotated[int, Field(ge=0)] | None = None
+
+
 class SidecarConfig(Section):
     """All settings of a sidecar. Use :meth:`load` for errors meant for people.
 
     Attributes:
         host: Address to listen on; loopback unless told otherwise.
         port: TCP port; 0 takes a free one.
-        token: Bearer token; required when ``host`` is not loopback.
+        token: Bearer token; required when ``host`` is not loopback, with at least 16 characters.
         data: Folder of the store; the user's data folder by default.
+        cameras: Several cameras, each bound to a robot and mount, instead of the one.
+        log: Form of the log on standard error: for people, or a JSON object a line.
+        url: Where people open the page, for links in messages; ``None``: as it listens.
     """
 
     host: str = "127.0.0.1"
     port: Annotated[int, Field(ge=0, le=65535)] = DEFAULT_PORT
     token: SecretStr | None = None
-    data: Path = Field(default_factory=lambda: user_data_path("aegis-ot", appauthor=False))
+    data: Path = Field(default_factory=lambda: default_data())
     camera: CameraSettings = CameraSettings()
+    cameras: tuple[BoundCameraSettings, ...] = ()
     cascade: CascadeSettings = CascadeSettings()
     operator: OperatorSettings = OperatorSettings()
     notifications: NotificationSettings = NotificationSettings()
     model: ModelSettings = ModelSettings()
+    gate_model: GateModelSettings = GateModelSettings()
+    retention: RetentionSettings = RetentionSettings()
+    log: Literal["text", "json"] = "text"
+    url: str | None = None
 
     @field_validator("token")
     @classmethod
@@ -177,6 +252,13 @@ class SidecarConfig(Section):
                 "read frames and decide wells. Set a token (AEGIS_OT_SIDECAR_TOKEN), or listen "
                 "on 127.0.0.1"
             )
+        if self.token is not None and not is_loopback(self.host):
+            length = len(self.token.get_secret_value())
+            if length < LEAST_TOKEN:
+                raise ValueError(
+                    f"the token has {length} characters; on a network it needs at least "
+                    f"{LEAST_TOKEN}. Leave it out, and one is made"
+                )
         return self
 
     @classmethod
@@ -184,6 +266,7 @@ class SidecarConfig(Section):
         cls,
         path: str | Path | None = None,
         environ: Mapping[str, str] | None = None,
+        find_token: Callable[[Path], str] | None = None,
         **overrides: Any,
     ) -> SidecarConfig:
         """Read a file, then the environment, then ``overrides``; later ones win.
@@ -191,6 +274,8 @@ class SidecarConfig(Section):
         Args:
             path: JSON or TOML (by its suffix); ``None``: no file.
             environ: Defaults to the environment of this process.
+            find_token: Finds or makes one in the data folder, where one is needed and none is
+                given.
             overrides: Settings by name; sections as mappings; ``None`` means "not given".
 
         Raises:
@@ -202,10 +287,37 @@ class SidecarConfig(Section):
             if environ.get(variable):
                 _merge(values, _nest(place, environ[variable]))
         _merge(values, {name: value for name, value in overrides.items() if value is not None})
+        host = str(values.get("host") or "127.0.0.1")
+        if find_token is not None and not values.get("token") and not is_loopback(host):
+            values["token"] = find_token(Path(values.get("data") or default_data()))
         try:
             return cls.model_validate(values)
         except ValidationError as error:
             raise ConfigurationError(_explain(error)) from None
+
+
+def default_data() -> Path:
+    """The user's data folder for this program."""
+    return user_data_path("aegis-ot", appauthor=False)
+
+
+def kept_token(data: Path) -> str:
+    """The token that is kept in a data folder; one is made the first time.
+
+    Raises:
+        ConfigurationError: It cannot be read or written.
+    """
+    path = data / TOKEN_FILE
+    try:
+        if path.exists():
+            return path.read_text(encoding="ascii").strip()
+        data.mkdir(parents=True, exist_ok=True)
+        token = secrets.token_urlsafe(24)
+        with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
+            file.write(token + "\n")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigurationError(f"The token in {path} cannot be kept: {error}.") from error
+    return token
 
 
 def is_loopback(host: str) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
+import shutil
 from pathlib import Path
 
 FRAMES = "frames"
@@ -37,6 +38,17 @@ class FrameFiles:
         partial = path.with_suffix(".partial")
         partial.write_bytes(jpeg)
         partial.replace(path)
+
+    def size(self, run: str) -> int:
+        """What a run's frames take, bytes."""
+        folder = self._folder / folder_name(run)
+        return sum(file.stat().st_size for file in folder.glob("*")) if folder.is_dir() else 0
+
+    def remove(self, run: str) -> None:
+        """Remove a run's frames."""
+        folder = self._folder / folder_name(run)
+        if folder.is_dir():
+            shutil.rmtree(folder)
 
     def settle(self, run: str, sequence: int) -> None:
         """Force a frame onto the disk, so that it survives a power cut as well."""

@@ -11,24 +11,37 @@ from ..errors import ConfigurationError, ModelError
 from ..vision.calibration import PRESETS
 from ..vision.column_reader import MeasuredColumns
 from ..vision.detection import load_detector
-from ..vision.gates import ConfirmingGate, OperatorGate
+from ..vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
 from ..vision.models import SHIPPED, load_model
 from ..vision.monitor import MonitorSettings, RunMonitor
 from ..vision.scorers import make_scorer
-from ..vision.types import Scorer
-from ..vision.volumetric_gate import VolumetricGate
+from ..vision.second_opinion import SpotCheck
+from ..vision.types import Detector, Scorer
 from .analysis import Analyser
 from .config import CascadeSettings
 
 
+def make_detector(cascade: CascadeSettings | None = None) -> Detector:
+    """The tip detector that the settings name; the shipped one by default.
+
+    Raises:
+        ModelError: Its file is missing, damaged or of another layout.
+    """
+    chosen = None if cascade is None else cascade.detector
+    return load_detector("default" if chosen is None else chosen)
+
+
 def make_analyser(
-    cascade: CascadeSettings | None = None, gates: Mapping[str, ConfirmingGate] | None = None
+    cascade: CascadeSettings | None = None,
+    gates: Mapping[str, ConfirmingGate] | None = None,
+    detector: Detector | None = None,
 ) -> Analyser:
     """The vision room's monitor with detector, world model, cascade and gates.
 
     Args:
         cascade: Which models and limits; the defaults if left out.
         gates: Gates by name that the vision room cannot make itself (``"vlm"``).
+        detector: From :func:`make_detector`, if it is there already.
 
     Raises:
         ConfigurationError: A gate is asked for that nobody gave, or a limit is out of range.
@@ -52,9 +65,14 @@ def make_analyser(
         **{name: value for name, value in given.items() if value is not None},
     )
     return RunMonitor(
-        load_detector("default" if cascade.detector is None else cascade.detector),
+        detector or make_detector(cascade),
         _world_model(cascade),
-        MonitorSettings(calibration, cascade.always_gate),
+        MonitorSettings(
+            calibration,
+            cascade.always_gate,
+            cascade.first_wells == "ask",
+            SpotCheck(cascade.spot_check),
+        ),
         [*(known[name] for name in cascade.gates), OperatorGate()],
         MeasuredColumns,
     )

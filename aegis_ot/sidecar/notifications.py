@@ -5,13 +5,36 @@ from __future__ import annotations
 import logging
 import queue
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 from pydantic import SecretStr
+
+from ..errors import ConfigurationError
+from .journal import event
+from .notices import Notice
 
 log = logging.getLogger(__name__)
 
 _QUEUE = 100
+RETRIES_S = (2.0, 15.0, 60.0)
+"""How long to wait before each further try, s."""
+
+
+@dataclass(frozen=True)
+class Message:
+    """What is sent.
+
+    Attributes:
+        title, text: Plain text.
+        pictures: JPEG files to attach, where the service takes any.
+    """
+
+    title: str
+    text: str
+    pictures: Sequence[Path] = ()
 
 
 class Notifier:
@@ -19,48 +42,125 @@ class Notifier:
 
     Args:
         urls: Apprise URLs; without any, messages go nowhere.
+        compose: Makes the message of some notices of one run and kind; called in that thread.
+        failed: Told of notices that could not be delivered, and why; likewise.
+        retries_s: See :data:`RETRIES_S`.
+
+    Raises:
+        ConfigurationError: A URL is none that Apprise understands. It is not shown: it may hold
+            a password.
     """
 
-    def __init__(self, urls: Sequence[SecretStr] = ()) -> None:
-        self._urls = [url.get_secret_value() for url in urls]
-        self._messages: queue.Queue[tuple[str, str] | None] = queue.Queue(_QUEUE)
+    def __init__(
+        self,
+        urls: Sequence[SecretStr] = (),
+        compose: Callable[[Sequence[Notice]], Message] | None = None,
+        failed: Callable[[Notice, str], None] | None = None,
+        retries_s: Sequence[float] = RETRIES_S,
+    ) -> None:
+        self._services = _services([url.get_secret_value() for url in urls])
+        self._compose = compose or _plain
+        self._failed = failed or (lambda notice, why: None)
+        self._retries_s = tuple(retries_s)
+        self._notices: queue.Queue[Notice | None] = queue.Queue(_QUEUE)
+        self._closing = threading.Event()
         self._thread: threading.Thread | None = None
-        if self._urls:
+        self.trouble = ""
+        """What went wrong with the last message; empty if it was delivered."""
+        if self._services:
             self._thread = threading.Thread(target=self._work, name="notifier", daemon=True)
             self._thread.start()
 
-    def send(self, title: str, text: str) -> None:
-        """Queue a message. Never blocks and never raises; a full queue drops it, logged."""
+    def send(self, notice: Notice) -> None:
+        """Queue a notice. Never blocks and never raises; a full queue drops it, logged."""
         if self._thread is None:
             return
         try:
-            self._messages.put_nowait((title, text))
+            self._notices.put_nowait(notice)
         except queue.Full:
-            log.warning("Too many notifications at once; dropped: %s", title)
+            self.trouble = "Too many notifications at once; some were dropped."
+            log.warning("Too many notifications at once; dropped: %s", notice.what)
 
     def close(self, timeout: float = 2.0) -> None:
-        """Send what is queued, for at most ``timeout`` seconds."""
+        """Send what is queued, for at most ``timeout`` seconds, without further retries."""
         thread, self._thread = self._thread, None
         if thread is not None:
+            self._closing.set()
             try:
-                self._messages.put(None, timeout=timeout)
+                self._notices.put(None, timeout=timeout)
             except queue.Full:
                 log.warning("Notifications were still waiting when the sidecar stopped")
                 return
             thread.join(timeout)
 
     def _work(self) -> None:
-        import apprise  # takes half a second
-
-        # Failed deliveries are told here in one line; the URLs may hold passwords.
-        sender = apprise.Apprise()
-        for number, url in enumerate(self._urls, 1):
-            if not sender.add(url):
-                log.error("Notification URL number %d is not one that Apprise understands", number)
-        while (message := self._messages.get()) is not None:
-            title, text = message
+        while (notice := self._notices.get()) is not None:
             try:
-                if sender and not sender.notify(title=title, body=text):
-                    log.warning("A notification could not be delivered: %s", title)
+                self._deliver(self._take_alike(notice))
             except Exception:
-                log.exception("A notification failed: %s", title)
+                log.exception("A notification failed: %s", notice.what)
+
+    def _take_alike(self, first: Notice) -> list[Notice]:
+        """What else waits of the same run and kind goes into the same message."""
+        others: list[Notice | None] = []
+        while True:
+            try:
+                others.append(self._notices.get_nowait())
+            except queue.Empty:
+                break
+        alike = [n for n in others if n is not None and (n.run, n.kind) == (first.run, first.kind)]
+        for other in others:
+            if other is not None and other not in alike:
+                self._notices.put_nowait(other)
+        if None in others:
+            self._notices.put_nowait(None)
+        return [first, *alike]
+
+    def _deliver(self, notices: Sequence[Notice]) -> None:
+        message = self._compose(notices)
+        waiting = list(enumerate(self._services, 1))
+        for pause in (0.0, *self._retries_s):
+            if pause and self._closing.wait(pause):
+                break
+            waiting = [(n, service) for n, service in waiting if not _notify(service, message)]
+            if not waiting:
+                self.trouble = ""
+                event("notification", run=notices[0].run, title=message.title)
+                return
+        numbers = ", ".join(str(number) for number, _ in waiting)
+        self.trouble = f"Notification URL number {numbers} could not be reached: {message.title}"
+        log.warning("A notification could not be delivered: %s", self.trouble)
+        for notice in notices:
+            self._failed(notice, self.trouble)
+
+
+def _services(urls: Sequence[str]) -> list[Any]:
+    if not urls:
+        return []
+    import apprise  # takes half a second
+
+    logging.getLogger("apprise").setLevel(logging.CRITICAL)  # it would log passwords
+    services = []
+    for number, url in enumerate(urls, 1):
+        service = apprise.Apprise()
+        if not service.add(url):
+            raise ConfigurationError(
+                f"Notification URL number {number} is not one that Apprise understands. "
+                "Apprise's documentation says how each service's is written."
+            )
+        services.append(service)
+    return services
+
+
+def _notify(service: Any, message: Message) -> bool:
+    pictures = [str(path) for path in message.pictures if path.is_file()]
+    try:
+        return bool(service.notify(title=message.title, body=message.text, attach=pictures or None))
+    except Exception as error:
+        log.warning("A notification failed: %s", type(error).__name__)
+        return False
+
+
+def _plain(notices: Sequence[Notice]) -> Message:
+    first = notices[0]
+    return Message(f"aegis-ot: {first.what}", "\n".join(n.seen for n in notices))

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from typing import Any
 from urllib.parse import quote
 
-from ..vocabulary import to_json
+from ..vocabulary import WellRef, from_json, to_json
 from .decisions import effective
 from .store import Store
 
@@ -40,22 +41,40 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
             }
         return trajectories[number]
 
-    for captured in store.keyframes(run):
-        keyframe = captured.keyframe
-        trajectory = entry(keyframe.trajectory)
-        trajectory["keyframes"].append(
-            to_json(keyframe)
-            | {
-                "captured": captured.captured,
-                "exposed_after_s": captured.exposed_after_s,
-                "frame": f"/v1/runs/{quote(run, safe='')}/frames/{keyframe.sequence}.jpg",
-            }
-        )
-        wells = keyframe.destinations or keyframe.sources
-        if wells and (keyframe.destinations or not trajectory["well"]):
+    for keyframe in store.told_keyframes(run):
+        trajectory = entry(keyframe["trajectory"])
+        address = f"/v1/runs/{quote(run, safe='')}/frames/{keyframe['sequence']}.jpg"
+        trajectory["keyframes"].append(keyframe | {"frame": address})
+        wells = keyframe["destinations"] or keyframe["sources"]
+        if wells and (keyframe["destinations"] or not trajectory["well"]):
             more = f" and {len(wells) - 1} more" if len(wells) > 1 else ""
-            trajectory["well"] = f"{wells[0]}{more}"
+            trajectory["well"] = f"{from_json(WellRef, wells[0])}{more}"
     for number in (*verdicts, *abandoned, *holds):
         entry(number)
     row = store.run(run) or {}
-    return row | {"trajectories": [trajectories[number] for number in sorted(trajectories)]}
+    return row | {
+        "trajectories": [trajectories[number] for number in sorted(trajectories)],
+        "costs": _costs(evidence for _, evidence, _ in verdicts.values()),
+        "actions": store.actions(run),
+        "incidents": store.incidents(run),
+    }
+
+
+def _costs(evidences: Iterable[Mapping[str, Any]]) -> dict[str, Any] | None:
+    """What asking models took in a run; ``None`` if none was asked."""
+    asked = [cost for evidence in evidences for cost in evidence.get("costs") or ()]
+    if not asked:
+        return None
+    amounts: dict[str, Any] = {}
+    for cost in asked:
+        if cost["amount"] is not None:
+            amounts[cost["currency"]] = amounts.get(cost["currency"], 0.0) + cost["amount"]
+    return {
+        "models": ", ".join(sorted({cost["model"] for cost in asked})),
+        "calls": sum(cost["calls"] for cost in asked),
+        "unpriced_calls": sum(cost["calls"] for cost in asked if cost["amount"] is None),
+        "tokens_read": sum(cost["tokens_in"] for cost in asked),
+        "tokens_written": sum(cost["tokens_out"] for cost in asked),
+        "seconds": round(sum(cost["seconds"] for cost in asked), 1),
+        **{currency: round(amount, 6) for currency, amount in amounts.items()},
+    }

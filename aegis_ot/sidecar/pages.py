@@ -1,76 +1,225 @@
-"""The page for people: runs, wells, frames, and the operator's decision."""
+"""The page for people: the live run, history, camera, and the operator's answers."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Annotated, Any
 from urllib.parse import parse_qs
 
-from fastapi import APIRouter, Request
-from jinja2 import Environment, FileSystemLoader, select_autoescape
-from starlette.responses import FileResponse, HTMLResponse, RedirectResponse, Response
+from fastapi import APIRouter, Query, Request
+from starlette.concurrency import run_in_threadpool
+from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 
-from .._version import __version__
-from .security import same, set_cookie
-from .wire import MAX_BODY, WireError
+from ..account import run_account
+from ..errors import StoreError
+from ..reports.html_page import html_page, shared_file
+from ..reports.run_html import ReportedRun, report_run, run_report_html
+from ..vocabulary import Outcome
+from .frames import folder_name
+from .journal import event
+from .security import COOKIE_S, LoginThrottle, client_of, same, set_cookie
+from .service import Sidecar
+from .views import history_view, live_run, run_address, run_view
+from .wire import MAX_COUNT, Action, Decision, ReadBody, WireError, check_run
 
-FOLDER = Path(__file__).parent / "page"
-STATIC = {"page.js": "text/javascript", "page.css": "text/css"}
+FOLDER = Path(__file__).parent / "templates"
+STATIC = {"page.js": "text/javascript", "page.css": "text/css", "parts.css": "text/css"}
 HEADERS = {
     "Content-Security-Policy": (
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
         "connect-src 'self'; form-action 'self'; frame-ancestors 'none'; base-uri 'none'"
     ),
     "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "no-referrer",
+    # Not "no-referrer": browsers then send forms with "Origin: null", which the door refuses.
+    "Referrer-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
+NAME = "aegis_ot_name"
+"""Cookie with the operator's name, so that it is typed once."""
 
-router = APIRouter()
-_templates = Environment(
-    loader=FileSystemLoader(FOLDER), autoescape=select_autoescape(default=True)
-)
-
-
-@router.get("/")
-def index() -> Response:
-    """The page; it fetches its contents by itself."""
-    return _render("index.html")
+Well = Annotated[int | None, Query(ge=0, le=MAX_COUNT)]
 
 
-@router.get("/static/{name}")
-def static(name: str) -> Response:
-    """The page's script and style."""
-    if name not in STATIC:
-        raise WireError(404, "no_such_address", "There is nothing at this address.")
-    return FileResponse(
-        FOLDER / name, media_type=STATIC[name], headers={"X-Content-Type-Options": "nosniff"}
+def page_router(sidecar: Sidecar, read_body: ReadBody) -> APIRouter:
+    """All pages of one sidecar.
+
+    Args:
+        sidecar: What they show.
+        read_body: Reads a body up to a length.
+    """
+    router = APIRouter(include_in_schema=False)
+    _reading(router, sidecar)
+    _answering(router, sidecar, read_body)
+    _logging_in(router, sidecar, read_body)
+    return router
+
+
+def _reading(router: APIRouter, sidecar: Sidecar) -> None:
+    @router.get("/")
+    async def live(request: Request, well: Well = None) -> Response:
+        run = await run_in_threadpool(live_run, sidecar)
+        if run is None:
+            token = sidecar.config.token is not None
+            return _show(sidecar, "welcome.html", "live", address=sidecar.address, token=token)
+        return await _run_page(sidecar, request, run, well, "/", "live")
+
+    @router.get("/runs")
+    async def history(
+        q: Annotated[str, Query(max_length=200)] = "",
+        skip: Annotated[int, Query(ge=0, le=MAX_COUNT)] = 0,
+    ) -> Response:
+        values = await run_in_threadpool(history_view, sidecar, q, skip)
+        return _show(sidecar, "history.html", "history", **values)
+
+    @router.get("/runs/{run}")
+    async def run_page(request: Request, run: str, well: Well = None) -> Response:
+        return await _run_page(sidecar, request, check_run(run), well, run_address(run), "run")
+
+    @router.get("/runs/{run}/report.html")
+    async def report_html(run: str) -> Response:
+        page = await run_in_threadpool(lambda: run_report_html([_report(sidecar, run)]))
+        return HTMLResponse(page, headers=_download(run, "html"))
+
+    @router.get("/runs/{run}/report.json")
+    async def report_json(run: str) -> Response:
+        account = await run_in_threadpool(lambda: run_account(sidecar.overview(check_run(run))))
+        return JSONResponse(account, headers=_download(run, "json"))
+
+    @router.get("/camera")
+    def camera() -> Response:
+        return _show(sidecar, "camera.html", "camera")
+
+    @router.get("/static/{name}")
+    def static(name: str) -> Response:
+        if name not in STATIC:
+            raise WireError(404, "no_such_address", "There is nothing at this address.")
+        text = shared_file(name) if name == "parts.css" else (FOLDER / name).read_text("utf-8")
+        return Response(
+            text, media_type=STATIC[name], headers={"X-Content-Type-Options": "nosniff"}
+        )
+
+
+def _answering(router: APIRouter, sidecar: Sidecar, read_body: ReadBody) -> None:
+    @router.post("/runs/{run}/wells/{number}")
+    async def answer(request: Request, run: str, number: int) -> Response:
+        form = _form(await read_body(request))
+        back = form.get("back") or run_address(check_run(run), number)
+        try:
+            by, words = form.get("by", "").strip(), form.get("answer", "").split()
+            if not 1 <= len(by) <= 200 or not words:
+                raise WireError(422, "by", "Who decides? Write your name.")
+            note = form.get("note", "")[:5000]
+            await run_in_threadpool(_answer, sidecar, run, number, words, by, note)
+        except WireError as error:
+            return await _run_page(
+                sidecar, request, run, number, run_address(run), "run", error.message, error.status
+            )
+        response = RedirectResponse(back if back.startswith("/runs/") else "/", 303)
+        response.set_cookie(NAME, by.encode().hex(), max_age=COOKIE_S, samesite="strict")
+        return response
+
+
+def _answer(sidecar: Sidecar, run: str, number: int, words: list[str], by: str, note: str) -> None:
+    """``pass`` or ``fail`` says what happened in the well, ``resume`` or ``stop`` what to do."""
+    session = sidecar.session(run)
+    for word in words:
+        if word in ("pass", "fail"):
+            session.decide(number, Decision(outcome=Outcome(word), by=by, note=note))  # type: ignore[arg-type]
+        elif word in ("resume", "stop"):
+            session.act(number, Action(action=word, by=by, note=note))  # type: ignore[arg-type]
+        else:
+            raise WireError(422, "answer", f"There is no answer {word!r}.")
+
+
+def _logging_in(router: APIRouter, sidecar: Sidecar, read_body: ReadBody) -> None:
+    throttle = LoginThrottle()
+
+    @router.get("/login")
+    def form() -> Response:
+        return _login("")
+
+    @router.post("/login")
+    async def login(request: Request) -> Response:
+        given = _form(await read_body(request)).get("token", "").strip()
+        token = sidecar.config.token
+        who = client_of(request.scope)
+        if token is not None and (wait := throttle.wait(who)) > 0:
+            return _login(f"Too many wrong tokens. Try again in {wait:.0f} s.", 429, wait)
+        if token is not None and not same(given, token.get_secret_value()):
+            throttle.wrong(who)
+            event("login", ok=False, address=who)
+            return _login("That is not the sidecar's token.", 401)
+        answer = RedirectResponse("/", 303)
+        if token is not None:
+            event("login", ok=True, address=who)
+            set_cookie(answer, token.get_secret_value())
+        return answer
+
+
+def _report(sidecar: Sidecar, run: str) -> ReportedRun:
+    overview = sidecar.overview(check_run(run))
+
+    def frame(sequence: int) -> bytes | None:
+        try:
+            return sidecar.store.frame(run, sequence)
+        except StoreError:
+            return None
+
+    return report_run(overview, frame)
+
+
+def _download(run: str, suffix: str) -> dict[str, str]:
+    return {"Content-Disposition": f'attachment; filename="{folder_name(run)}.{suffix}"'}
+
+
+async def _run_page(
+    sidecar: Sidecar,
+    request: Request,
+    run: str,
+    well: int | None,
+    here: str,
+    page: str,
+    problem: str = "",
+    status: int = 200,
+) -> Response:
+    values = await run_in_threadpool(run_view, sidecar, run, well, here)
+    name = _name(request)
+    return _show(sidecar, "run.html", page, status, problem=problem, name=name, **values)
+
+
+def _show(
+    sidecar: Sidecar, template: str, page: str, status: int = 200, **values: Any
+) -> HTMLResponse:
+    shown = {"problem": sidecar.notifier.trouble, **values}
+    shown["problem"] = shown["problem"] or sidecar.notifier.trouble
+    text = html_page(
+        "aegis_ot.sidecar",
+        template,
+        {},
+        page=page,
+        camera=sidecar.camera_health(),
+        camera_kind=sidecar.camera.kind,
+        **shown,
     )
-
-
-@router.get("/login")
-def login_form() -> Response:
-    """Asks for the token."""
-    return _render("login.html", wrong=False)
-
-
-@router.post("/login")
-async def login(request: Request) -> Response:
-    """Checks the token and lets the browser in."""
-    body = bytearray()
-    async for chunk in request.stream():
-        body += chunk
-        if len(body) > MAX_BODY:
-            raise WireError(413, "body", f"The body is longer than {MAX_BODY} bytes.")
-    given = parse_qs(body.decode("utf-8", "replace")).get("token", [""])[0].strip()
-    token = request.app.state.sidecar.config.token
-    if token is not None and not same(given, token.get_secret_value()):
-        return _render("login.html", 401, wrong=True)
-    answer = RedirectResponse("/", 303)
-    if token is not None:
-        set_cookie(answer, token.get_secret_value())
-    return answer
-
-
-def _render(name: str, status: int = 200, **values: object) -> Response:
-    text = _templates.get_template(name).render(version=__version__, **values)
     return HTMLResponse(text, status, HEADERS)
+
+
+def _login(problem: str, status: int = 200, wait: float = 0.0) -> Response:
+    text = html_page("aegis_ot.sidecar", "login.html", {}, problem=problem)
+    headers = HEADERS | ({"Retry-After": f"{wait:.0f}"} if wait else {})
+    return HTMLResponse(text, status, headers)
+
+
+def _form(body: bytes) -> dict[str, str]:
+    try:
+        fields = parse_qs(body.decode("utf-8", "replace"), max_num_fields=20)
+    except ValueError:
+        raise WireError(422, "body", "The form has too many fields.") from None
+    return {name: values[0] for name, values in fields.items()}
+
+
+def _name(request: Request) -> str:
+    try:
+        return bytes.fromhex(request.cookies.get(NAME, "")).decode()[:200]
+    except ValueError:
+        return ""

@@ -14,10 +14,9 @@ from fastapi import APIRouter, Query, Request
 from starlette.concurrency import run_in_threadpool
 
 from ..errors import ConfigurationError
-from ..preflight.dossier import Dossier
-from ..preflight.opinion import Opinion
-from ..reasoning import Backend, Opinions, make_backend
-from ..reasoning.vlm import VlmGate
+from ..preflight.opinion import Dossier, Opinion
+from ..reasoning import Backend, Opinions, load_prices, make_backend
+from ..reasoning.gate_tiers import Budget, VlmTiers
 from ..vision.gates import ConfirmingGate
 from ..vocabulary import to_json
 from .config import SidecarConfig
@@ -54,7 +53,8 @@ def gates_of(config: SidecarConfig) -> Mapping[str, ConfirmingGate]:
     """The gates that need a model, if the cascade asks for them.
 
     Raises:
-        ConfigurationError: The VLM is asked for and no model is named.
+        ConfigurationError: The VLM is asked for and no model is named, or the prices that the
+            user gave cannot be read.
     """
     if "vlm" not in config.cascade.gates:
         return {}
@@ -64,7 +64,12 @@ def gates_of(config: SidecarConfig) -> Mapping[str, ConfirmingGate]:
             "The gate 'vlm' is asked for and no model is named. Set model.name (or "
             "AEGIS_OT_MODEL), or leave it out of cascade.gates."
         )
-    return {"vlm": VlmGate(backend)}
+    settings = config.gate_model
+    tiers = [backend]
+    if settings.name is not None:
+        tiers.insert(0, make_backend(settings.name, config.model.record, config.model.timeout_s))
+    budget = Budget(settings.budget_per_run, settings.calls_per_run)
+    return {"vlm": VlmTiers(tiers, load_prices(), budget)}
 
 
 def opinion_router(opinions: Opinions, read_body: ReadBody) -> APIRouter:

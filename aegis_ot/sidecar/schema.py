@@ -39,6 +39,22 @@ MIGRATIONS: tuple[str, ...] = (
     );
     CREATE INDEX decisions_of ON decisions (run, trajectory);
     """,
+    """
+    ALTER TABLE runs ADD COLUMN sidecar TEXT;
+    ALTER TABLE holds ADD COLUMN paused_s REAL;
+    ALTER TABLE holds ADD COLUMN answered TEXT;
+    CREATE TABLE actions (
+        id INTEGER PRIMARY KEY, run TEXT NOT NULL REFERENCES runs, trajectory INTEGER NOT NULL,
+        action TEXT NOT NULL, "by" TEXT NOT NULL, note TEXT NOT NULL, at REAL NOT NULL
+    );
+    CREATE INDEX actions_of ON actions (run);
+    CREATE TABLE incidents (
+        id INTEGER PRIMARY KEY, run TEXT NOT NULL REFERENCES runs, kind TEXT NOT NULL,
+        text TEXT NOT NULL, at REAL NOT NULL, ended REAL
+    );
+    CREATE INDEX incidents_of ON incidents (run, kind);
+    CREATE INDEX keyframes_of ON keyframes (run, captured);
+    """,
 )
 """One script per version, ``user_version`` counting those done. Only ever append."""
 

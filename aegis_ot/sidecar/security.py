@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
 import hashlib
 import hmac
+import threading
+import time
+from collections import OrderedDict
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
@@ -12,9 +16,17 @@ from starlette.responses import JSONResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from .config import SidecarConfig, is_loopback
+from .journal import event
 from .wire import WireError
 
 COOKIE = "aegis_ot"
+COOKIE_S = 30 * 86400
+FREE_TRIES = 3
+LONGEST_WAIT_S = 60.0
+SLOW_S = 1.0
+"""How long the answer to a wrong token is kept back, s."""
+MOST_SLOWED = 16
+"""Wrong tokens that are answered slowly at once; further ones are turned away."""
 OPEN = {"/v1/health", "/login"}
 OPEN_BELOW = "/static/"
 
@@ -30,6 +42,7 @@ class Doorkeeper:
     def __init__(self, app: ASGIApp, config: SidecarConfig) -> None:
         self._app = app
         self._token = None if config.token is None else config.token.get_secret_value()
+        self._slowed = 0
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
@@ -41,7 +54,23 @@ class Doorkeeper:
         if refusal is None:
             await self._app(scope, receive, send)
         else:
+            if refusal.status_code == 401:
+                refusal = await self._slow(scope, refusal)
             await refusal(scope, receive, send)
+
+    async def _slow(self, scope: Scope, refusal: Response) -> Response:
+        """Guessing is slow and leaves a trace; asking without a token is neither."""
+        if not _given(scope):
+            return refusal
+        event("login", ok=False, address=client_of(scope), path=scope["path"])
+        if self._slowed >= MOST_SLOWED:
+            return _refuse(429, "slow", "Too many wrong tokens at once.", "Give the right token.")
+        self._slowed += 1
+        try:
+            await asyncio.sleep(SLOW_S)
+        finally:
+            self._slowed -= 1
+        return refusal
 
     def _judge(self, scope: Scope) -> Response | None:
         headers = Headers(scope=scope)
@@ -93,6 +122,44 @@ class Doorkeeper:
         return RedirectResponse("/login", 303)
 
 
+class LoginThrottle:
+    """Makes who gives wrong tokens wait: 1, 2, 4 ... 60 s after the third."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._wrong: OrderedDict[str, tuple[int, float]] = OrderedDict()
+
+    def wait(self, who: str) -> float:
+        """How long this address has to wait still, s."""
+        with self._lock:
+            times, last = self._wrong.get(who, (0, 0.0))
+        if times < FREE_TRIES:
+            return 0.0
+        pause = min(2.0 ** (times - FREE_TRIES), LONGEST_WAIT_S)
+        return max(0.0, last + pause - time.monotonic())
+
+    def wrong(self, who: str) -> None:
+        """It gave a wrong token."""
+        now = time.monotonic()
+        with self._lock:
+            times, last = self._wrong.pop(who, (0, now))
+            self._wrong[who] = (1 if now - last > 3600 else times + 1, now)
+            while len(self._wrong) > 1000:  # a flood of addresses must not fill memory
+                self._wrong.popitem(last=False)
+
+
+def client_of(scope: Scope) -> str:
+    """The address that a request came from."""
+    client = scope.get("client")
+    return str(client[0]) if client else "unknown"
+
+
+def _given(scope: Scope) -> bool:
+    """Whether the request brings anything that should be a token."""
+    headers = Headers(scope=scope)
+    return "authorization" in headers or b"token=" in scope["query_string"]
+
+
 def same(given: str, wanted: str) -> bool:
     """Compare in constant time."""
     return hmac.compare_digest(
@@ -108,7 +175,7 @@ def cookie_value(token: str) -> str:
 def set_cookie(answer: Response, token: str) -> None:
     """Let the browser in from now on."""
     answer.set_cookie(
-        COOKIE, cookie_value(token), max_age=30 * 86400, httponly=True, samesite="strict"
+        COOKIE, cookie_value(token), max_age=COOKIE_S, httponly=True, samesite="strict"
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import signal
 import socket
 import sys
 import threading
@@ -12,9 +13,11 @@ from types import FrameType
 
 import uvicorn
 from fastapi import FastAPI
+from uvicorn.server import HANDLED_SIGNALS
 
 from ..errors import ConfigurationError
 from ..vision.camera import Camera
+from ..vision.types import Detector
 from .analysis import Analyser
 from .app import create_app
 from .config import SidecarConfig
@@ -25,6 +28,9 @@ log = logging.getLogger(__name__)
 KEEP_ALIVE = 3600
 """The robot keeps its connection open between keyframes, which may be minutes apart, s."""
 STARTING = 30.0
+MOST_AT_ONCE = 400
+"""Connections and requests at once; further ones are answered 503. Robots and pages hold one
+or two each."""
 GRACE = 3
 SWITCH_S = 0.0005
 """How long a thread that computes may keep the interpreter from the one that answers, s. Python's
@@ -36,12 +42,13 @@ def serve(
     camera: Camera | None = None,
     analyser: Analyser | None = None,
     ready: Callable[[str], None] | None = None,
+    detector: Detector | None = None,
 ) -> None:
     """Run the sidecar until it is stopped by SIGINT or SIGTERM.
 
     Args:
         config: Settings.
-        camera, analyser: As for :func:`~.app.create_app`.
+        camera, analyser, detector: As for :func:`~.app.create_app`.
         ready: Called with the base URL once requests are answered.
 
     Raises:
@@ -50,14 +57,18 @@ def serve(
     """
     with _listening(config) as (listener, url):
         sys.setswitchinterval(SWITCH_S)
-        app = create_app(config, camera, analyser)
+        app = create_app(config, camera, analyser, detector)
+        app.state.sidecar.address = config.url or url
         server = _Server(app, lambda: ready(url) if ready else None)
         server.run(sockets=[listener])
 
 
 @contextlib.contextmanager
 def running_sidecar(
-    config: SidecarConfig, camera: Camera | None = None, analyser: Analyser | None = None
+    config: SidecarConfig,
+    camera: Camera | None = None,
+    analyser: Analyser | None = None,
+    detector: Detector | None = None,
 ) -> Iterator[str]:
     """Run the sidecar in a thread, over a real socket, for as long as the block lasts.
 
@@ -68,7 +79,8 @@ def running_sidecar(
         ConfigurationError, StoreError: As :func:`serve`.
     """
     with _listening(config) as (listener, url):
-        app = create_app(config, camera, analyser)
+        app = create_app(config, camera, analyser, detector)
+        app.state.sidecar.address = config.url or url
         started = threading.Event()
         server = _Server(app, started.set)
         thread = threading.Thread(
@@ -96,6 +108,7 @@ class _Server(uvicorn.Server):
                 timeout_keep_alive=KEEP_ALIVE,
                 timeout_graceful_shutdown=GRACE,
                 server_header=False,
+                limit_concurrency=MOST_AT_ONCE,
             )
         )
         self._sidecar: Sidecar = app.state.sidecar
@@ -105,6 +118,19 @@ class _Server(uvicorn.Server):
         await super().startup(sockets)
         if self.started:
             self._on_started()
+
+    @contextlib.contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """As uvicorn does, but a signal that was obeyed is not raised again: a clean stop."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        before = {sig: signal.signal(sig, self.handle_exit) for sig in HANDLED_SIGNALS}
+        try:
+            yield
+        finally:
+            for sig, handler in before.items():
+                signal.signal(sig, handler)
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         super().handle_exit(sig, frame)
@@ -138,5 +164,15 @@ def _listening(config: SidecarConfig) -> Iterator[tuple[socket.socket, str]]:
                 "Is another sidecar running? Name another port, or stop it."
             ) from error
         port = listener.getsockname()[1]
-        shown = f"[{host}]" if family == socket.AF_INET6 else host
-        yield listener, f"http://{shown}:{port}"
+        yield listener, f"http://{_reachable(host, family)}:{port}"
+
+
+def _reachable(host: str, family: int) -> str:
+    """How a browser names this machine: an address that listens everywhere cannot be opened."""
+    if host not in ("", "0.0.0.0", "::"):
+        return f"[{host}]" if ":" in host else host
+    with contextlib.suppress(OSError), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        # Nothing is sent: this only asks which of our addresses would be used.
+        probe.connect(("192.0.2.1", 9))
+        return str(probe.getsockname()[0])
+    return socket.gethostname() if family == socket.AF_INET else "127.0.0.1"

@@ -6,16 +6,25 @@ import contextlib
 import logging
 import threading
 import time
+from collections.abc import Sequence
 from typing import Any
 
-from ..errors import AegisError, CameraError
+from .._version import __version__
+from ..errors import AegisError, CameraError, StoreError
 from ..vision.camera import Camera, Frame
+from ..vision.types import Detector
+from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, to_json
+from .aiming import Aim
 from .analysis import Analyser
 from .bell import Bell
-from .cameras import FreeRunning, Health, camera_health
+from .cameras import BoundCameras, FreeRunning, Health, camera_health
 from .config import SidecarConfig
-from .notifications import Notifier
+from .housekeeping import Housekeeper, Tidied
+from .journal import event
+from .messages import compose
+from .notices import Notice
+from .notifications import Message, Notifier
 from .overview import run_overview
 from .sessions import Session
 from .store import Store
@@ -37,31 +46,58 @@ class Sidecar:
         config: Settings.
         camera: Where frames come from; closed with the sidecar.
         analyser: Judges wells.
+        detector: Finds the tip where it is in doubt that the camera sees it; without one, frames
+            are not asked whether they show anything.
 
     Raises:
-        StoreError: The data folder cannot be used.
+        StoreError: The data folder cannot be used, or another sidecar uses it.
+
+    Attributes:
+        address: Where people open the page; for links in messages.
     """
 
-    def __init__(self, config: SidecarConfig, camera: Camera, analyser: Analyser) -> None:
+    def __init__(
+        self,
+        config: SidecarConfig,
+        camera: Camera,
+        analyser: Analyser,
+        detector: Detector | None = None,
+    ) -> None:
         self.config = config
         self.camera = camera
         self.bell = Bell()
-        self.store = Store(config.data)
+        self.address = ""
         self._analyser = analyser
-        self._notifier = Notifier(config.notifications.urls)
+        self.notifier = Notifier(config.notifications.urls, self._compose, self._undelivered)
+        self.store = Store(config.data, alone=True)
+        # A test pattern shows no pipette, and is not meant to.
+        watched = config.camera.watch_view and camera.kind != "pattern"
+        self._detector = detector if watched else None
         self._sessions: dict[str, Session] = {}
+        self._met: set[str] = set()
         self._opening = threading.Lock()
         self._camera_trouble = ""
+        self._in_trouble: set[str] = set()
+        self._last_frame: Frame | None = None
+        self.aim = Aim(config, camera, self._frame_to_show)
         # A camera that is told what to show must not hear of another keyframe in between.
         # One that runs by itself serves everyone at once.
         self._camera_lock: contextlib.AbstractContextManager[Any] = (
-            contextlib.nullcontext() if isinstance(camera, FreeRunning) else threading.Lock()
+            contextlib.nullcontext()
+            if isinstance(camera, (FreeRunning, BoundCameras))
+            else threading.Lock()
         )
         self._closed = False
+        self._housekeeper = Housekeeper(self.store, config.retention, self._tidied)
 
     def register(self, start: RunStart) -> None:
         """A run starts, or the robot says again that it has."""
-        self.store.register(start)
+        if self.store.register(start, about_sidecar(self.config, self.camera)):
+            self._met.add(start.run)
+            event("run", run=start.run, protocol=start.protocol, robot=start.robot_name)
+        self.store.reopen(start.run)
+        if start.mode == "watch" and isinstance(self.camera, (FreeRunning, BoundCameras)):
+            self.camera.remember()
         self.session(start.run)
         self.bell.ring()
 
@@ -76,14 +112,18 @@ class Sidecar:
             if session is None:
                 self.require(run)
                 self._evict()
+                self._meet(run)
+                if isinstance(self.camera, BoundCameras):
+                    self.camera.meet(run, str((self.store.run(run) or {}).get("robot_name") or ""))
                 session = self._sessions[run] = Session(
                     run,
                     self.store,
                     self._analyser,
                     self.bell,
                     self._grab,
-                    self._notifier.send,
+                    self.tell,
                     self.config.operator.timeout_s,
+                    None if self._detector is None else ViewWatch(self._detector),
                 )
             session.asked = time.monotonic()
             return session
@@ -99,24 +139,47 @@ class Sidecar:
         """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
         self.require(run)
         self.store.add_hold(run, hold)
+        self.session(run).held(hold.trajectory, hold.policy)
         self.bell.ring()
-        if hold.resolution not in ("verdict", "stopped"):
-            policy = f"; policy: {hold.policy}" if hold.policy else ""
-            self._notifier.send(
-                f"aegis-ot: a hold ended without a verdict in run {run}",
-                f"Trajectory {hold.trajectory}, after {hold.seconds:.1f} s: "
-                f"{hold.resolution}{policy}",
+        event("hold", run=run, **hold.model_dump())
+        if hold.resolution not in ("verdict", "stopped") and hold.paused_s is None:
+            policy = f"; then: {hold.policy}" if hold.policy else ""
+            self.tell(
+                Notice(
+                    run,
+                    "hold",
+                    "a hold ended without a verdict",
+                    f"After {hold.seconds:.1f} s: {hold.resolution}{policy}.",
+                    hold.trajectory,
+                )
             )
+
+    def tell(self, notice: Notice) -> None:
+        """Tell people of an incident, once; trouble is kept with its run until it is over."""
+        if notice.trajectory is None:
+            with contextlib.suppress(StoreError):  # trouble of the store cannot be kept in it
+                if not self.store.begin_incident(notice.run, notice.kind, notice.seen):
+                    return
+            event("incident", run=notice.run, kind=notice.kind, seen=notice.seen)
+        self.notifier.send(notice)
+        self.bell.ring()
+
+    def over(self, run: str, kind: str) -> None:
+        """Trouble of this kind is over."""
+        if self.store.end_incidents(run, kind):
+            event("over", run=run, kind=kind)
+            self.bell.ring()
 
     def finish(self, run: str, finish: Finish) -> None:
         """Keep how the run ended."""
         self.session(run)  # after a restart: judges what had not been judged
         self.store.finish(run, finish)
+        event("finish", run=run, outcome=finish.outcome, detail=finish.detail)
         self.bell.ring()
 
-    def runs(self) -> list[dict[str, Any]]:
-        """All runs, newest first, as plain JSON."""
-        return self.store.runs()
+    def runs(self, search: str = "", most: int = -1) -> list[dict[str, Any]]:
+        """Runs, newest first, as plain JSON (see :meth:`.Store.runs`)."""
+        return self.store.runs(search, most)
 
     def overview(self, run: str) -> dict[str, Any]:
         """All that is known of a run, as plain JSON (docs/reference/wire.md)."""
@@ -125,11 +188,14 @@ class Sidecar:
         overview = run_overview(self.store, run)
         session = self._sessions.get(run)
         for trajectory in overview["trajectories"]:
-            waits = session is not None and session.awaiting_operator(trajectory["trajectory"])
+            number = trajectory["trajectory"]
+            waits = session is not None and session.awaiting_operator(number)
             trajectory["awaiting"] = "operator" if waits else None
+            trajectory["awaiting_s"] = session.operator_has(number) if session and waits else None
+            trajectory["held_for_s"] = session.held_for(number) if session else None
             if session is not None and trajectory["verdict"] is None:
                 # Judged, but the store could not keep it.
-                verdict = session.verdict(trajectory["trajectory"])
+                verdict = session.verdict(number)
                 trajectory["verdict"] = None if verdict is None else to_json(verdict)
         return overview | {"version": version}
 
@@ -147,26 +213,87 @@ class Sidecar:
         self._closed = True
         for session in self._sessions.values():
             session.close()
+        self._housekeeper.close()
         self.camera.close()
-        self._notifier.close()
+        self.notifier.close()
         self.store.close()
 
-    def _grab(self, keyframe: Keyframe, moment: float) -> Frame:
+    def _meet(self, run: str) -> None:
+        """Keep that this process took a run up in the middle."""
+        if run in self._met:
+            return
+        self._met.add(run)
+        for kind in ("camera", "store"):  # of an earlier process; what goes on begins anew
+            self.store.end_incidents(run, kind)
+        row = self.store.run(run)
+        if row is not None and not row["finished"] and self.store.next_sequence(run):
+            said = "The sidecar was started anew within this run."
+            self.store.begin_incident(run, "restart", said)
+            self.store.end_incidents(run, "restart")
+            event("incident", run=run, kind="restart", seen=said)
+
+    def _frame_to_show(self) -> Frame | None:
+        """Of a camera that shows what runs announce, the last frame; others give a fresh one."""
+        return None if isinstance(self.camera, FreeRunning) else self._last_frame
+
+    def _tidied(self, done: Tidied) -> None:
+        for run in done.removed:
+            with self._opening:
+                session = self._sessions.pop(run, None)
+            if session is not None:
+                session.close()
+        for run in done.closed:
+            seen = "The robot has said nothing for long; its run was closed."
+            self.notifier.send(Notice(run, "silent", "a run ended without a word", seen))
+        self.bell.ring()
+
+    def _compose(self, notices: Sequence[Notice]) -> Message:
+        return compose(self.store, notices, self.address)
+
+    def _undelivered(self, notice: Notice, why: str) -> None:
+        with contextlib.suppress(StoreError):
+            self.store.begin_incident(notice.run, "notification", why)
+            self.store.end_incidents(notice.run, "notification")
+        self.bell.ring()
+
+    def _grab(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
         try:
             with self._camera_lock:
                 self.camera.announce(keyframe)
-                frame = self.camera.frame_after(moment, self.config.camera.timeout_s)
-            _check_frame(frame, moment)
+                frame = self._usable(keyframe, moment, view)
         except Exception as error:
             if not isinstance(error, AegisError):
                 log.exception("The camera failed")
                 error = CameraError(f"The camera failed: {type(error).__name__}: {error}")
-            if not self._camera_trouble:
-                self._notifier.send(f"aegis-ot: camera trouble in run {keyframe.run}", str(error))
             self._camera_trouble = str(error)
+            self._in_trouble.add(keyframe.run)
+            self.tell(
+                Notice(
+                    keyframe.run,
+                    "camera",
+                    "the camera gives no frame that tells anything",
+                    str(error),
+                )
+            )
             raise error from None
         self._camera_trouble = ""
+        self._last_frame = frame
+        if keyframe.run in self._in_trouble:
+            self._in_trouble.discard(keyframe.run)
+            self.over(keyframe.run, "camera")
         return frame
+
+    def _usable(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
+        """A frame that tells something; a second one is taken before that is given up."""
+        trouble = None
+        for again in (True, False):
+            frame = self.camera.frame_after(moment, self.config.camera.timeout_s)
+            _check_frame(frame, moment)
+            trouble = None if view is None else view.look(keyframe, frame.image, again=again)
+            if trouble is None:
+                return frame
+            moment = frame.exposed_at + 1e-6
+        raise CameraError("" if trouble is None else trouble.message)
 
     def _evict(self) -> None:
         if len(self._sessions) < SESSIONS_KEPT:
@@ -178,6 +305,17 @@ class Sidecar:
             if session.idle and (finished or session.asked < silent_before):
                 session.close()
                 del self._sessions[run]
+
+
+def about_sidecar(config: SidecarConfig, camera: Camera) -> dict[str, Any]:
+    """Settings and versions that a run is judged under, without secrets; plain JSON."""
+    return {
+        "version": __version__,
+        "camera": camera.kind,
+        "cascade": config.cascade.model_dump(mode="json"),
+        "operator_timeout_s": config.operator.timeout_s,
+        "model": config.model.name,
+    }
 
 
 def _check_frame(frame: Frame, moment: float) -> None:

@@ -10,20 +10,27 @@ from typing import Any
 
 from ..errors import StoreError
 from ..vision.camera import Frame
+from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, Outcome, Verdict
 from .analysis import Analyser
 from .bell import Bell
 from .decisions import effective
+from .journal import event
+from .notices import Notice
 from .store import Captured, Store
-from .wire import Decision, WireError
+from .wire import Action, Decision, WireError
 from .worker import AnalysisWorker
 
 log = logging.getLogger(__name__)
 
-Grab = Callable[[Keyframe, float], Frame]
-"""Grabs the first frame exposed at or after a moment; raises CameraError."""
-Tell = Callable[[str, str], None]
-"""Sends a notification: title, text."""
+Grab = Callable[[Keyframe, float, ViewWatch | None], Frame]
+"""Grabs the first frame exposed at or after a moment, in which the view shows what it should;
+raises CameraError."""
+Tell = Callable[[Notice], None]
+"""Keeps an incident, and tells people of it."""
+
+ASKS_S = 3.0
+"""A robot that holds asks every 0.15 s; one that has not asked for so long does something else."""
 
 
 class Session:
@@ -33,8 +40,9 @@ class Session:
         run: Identifier of the run; known to the store.
         store, analyser, bell: Shared by all sessions.
         grab: Takes a frame.
-        tell: Sends a notification.
+        tell: Hears of bad verdicts and of trouble.
         operator_timeout: How long an undecided verdict is held back for the operator, s.
+        view: Looks at each frame before it counts; ``None``: every frame counts.
 
     Attributes:
         asked: When it was last asked for, ``time.monotonic``, s.
@@ -49,6 +57,7 @@ class Session:
         grab: Grab,
         tell: Tell,
         operator_timeout: float = 0.0,
+        view: ViewWatch | None = None,
     ) -> None:
         self.run = run
         self.asked = time.monotonic()
@@ -57,6 +66,7 @@ class Session:
         self._grab = grab
         self._tell = tell
         self._operator_timeout = operator_timeout
+        self._view = view
         self._capturing = threading.Lock()
         self._state = threading.Lock()
         store.forget_torn(run)
@@ -65,6 +75,9 @@ class Session:
         self._verdicts: dict[int, Verdict] = {v.trajectory: v for v, _, _ in judged}
         self._decisions = store.decisions(run)
         self._release: dict[int, float] = {}
+        self._asks: dict[int, tuple[float, float]] = {}
+        self._actions = {action["trajectory"]: action for action in store.actions(run)}
+        self._paused: set[int] = set()
         self._worker = AnalysisWorker(
             run, analyser, [(v, evidence) for v, evidence, _ in judged], store, self._publish
         )
@@ -87,7 +100,7 @@ class Session:
 
         Raises:
             WireError: 409, with the number expected, if one is missing or taken.
-            CameraError: No frame in time; the number is not used up.
+            CameraError: No frame in time, or none that tells anything; the number is not used up.
             StoreError: It could not be kept; the number is not used up.
         """
         # A resent keyframe waits here for its twin, and is then answered from the store.
@@ -102,10 +115,12 @@ class Session:
                     "Resend from the expected number.",
                     expected=self._next,
                 )
-            frame = self._grab(keyframe, moment)
+            frame = self._grab(keyframe, moment, self._view)
             captured = Captured(keyframe, max(0.0, frame.exposed_at - moment), time.time())
             self._store.add_keyframe(captured, frame.jpeg)
+            self._store.reopen(self.run)
             self._next += 1
+            self._resumed()
             self._worker.submit(keyframe, frame)
         self._bell.ring()
         return captured
@@ -118,10 +133,33 @@ class Session:
                 return None
             return effective(verdict, self._decisions.get(trajectory, []))
 
+    def ask(self, trajectory: int) -> Verdict | None:
+        """The robot asks for a verdict, again and again while it holds."""
+        now = time.monotonic()
+        with self._state:
+            first, last = self._asks.get(trajectory, (now, now))
+            news = trajectory not in self._asks
+            self._asks[trajectory] = (first if now - last < ASKS_S else now, now)
+        found = self.verdict(trajectory)
+        if news and found is None:
+            self._bell.ring()
+        return found
+
+    def held_for(self, trajectory: int) -> float | None:
+        """For how long the robot has held for this verdict, s; ``None`` if it does not."""
+        now = time.monotonic()
+        with self._state:
+            first, last = self._asks.get(trajectory, (now, -ASKS_S))
+            return now - first if now - last < ASKS_S else None
+
     def awaiting_operator(self, trajectory: int) -> bool:
         """Whether an undecided verdict is being held back for the operator."""
         with self._state:
             return self._awaited(trajectory)
+
+    def operator_has(self, trajectory: int) -> float:
+        """How long the verdict will still be held back for the operator, s."""
+        return max(0.0, self._release.get(trajectory, 0.0) - time.monotonic())
 
     def abandon(self, trajectory: int, reason: str) -> None:
         """The trajectory will have no further keyframes and needs no verdict."""
@@ -129,23 +167,53 @@ class Session:
         self._worker.drop(trajectory)
         self._bell.ring()
 
+    def held(self, trajectory: int, policy: str | None) -> None:
+        """The robot says how a hold ended: by a pause, if the operator is to look at the well."""
+        with self._state:
+            verdict = self._verdicts.get(trajectory)
+            if policy == "pause" and verdict is not None and verdict.outcome is Outcome.UNDECIDED:
+                self._paused.add(trajectory)
+
+    def _resumed(self) -> None:
+        """The robot moves: whoever was asked by a pause has looked, and let the run go on."""
+        with self._state:
+            paused, self._paused = self._paused, set()
+            going = [number for number in paused if number not in self._decisions]
+        for trajectory in sorted(going):
+            self._worker.confirm(trajectory)
+
     def decide(self, trajectory: int, decision: Decision) -> Verdict:
-        """The operator decides a failed or undecided trajectory; deciding again is allowed.
+        """The operator confirms or corrects a verdict; deciding again is allowed.
 
         Raises:
-            WireError: 409 if there is no verdict yet, or it passed.
+            WireError: 409 if there is no verdict yet.
         """
         with self._state:
             verdict = self._verdicts.get(trajectory)
             if verdict is None:
                 raise WireError(409, "no_verdict", f"Trajectory {trajectory} has no verdict yet.")
-            if verdict.outcome is Outcome.PASS:
-                raise WireError(409, "passed", f"Trajectory {trajectory} passed by itself.")
             self._store.add_decision(self.run, trajectory, decision)
             self._decisions = self._store.decisions(self.run)
             decided = effective(verdict, self._decisions[trajectory])
+        if decision.outcome is Outcome.PASS and verdict.outcome is Outcome.UNDECIDED:
+            self._worker.confirm(trajectory)
         self._bell.ring()
+        event("decision", run=self.run, trajectory=trajectory, outcome=decision.outcome.value,
+              by=decision.by)  # fmt: skip
         return decided
+
+    def act(self, trajectory: int, action: Action) -> None:
+        """A person tells the robot, paused at this trajectory, to go on or to end the run."""
+        with self._state:
+            self._store.add_action(self.run, trajectory, action)
+            self._actions[trajectory] = action.model_dump()
+        self._bell.ring()
+        event("action", run=self.run, trajectory=trajectory, action=action.action, by=action.by)
+
+    def action(self, trajectory: int) -> dict[str, Any] | None:
+        """What a person told the robot about this trajectory last; ``None`` if nothing."""
+        with self._state:
+            return self._actions.get(trajectory)
 
     def close(self) -> None:
         """End the worker. Idempotent."""
@@ -187,15 +255,14 @@ class Session:
             self._store.add_verdict(verdict, evidence)
         except StoreError as error:
             log.error("The verdict on trajectory %d was not kept: %s", verdict.trajectory, error)
-            self._tell("aegis-ot: store trouble", str(error))
+            self._tell(Notice(self.run, "store", "the store is in trouble", str(error)))
         with self._state:
             self._verdicts[verdict.trajectory] = verdict
             if verdict.outcome is Outcome.UNDECIDED and self._operator_timeout > 0:
                 self._release[verdict.trajectory] = time.monotonic() + self._operator_timeout
         self._bell.ring()
+        event("verdict", run=self.run, trajectory=verdict.trajectory, outcome=verdict.outcome.value,
+              route=verdict.route.value, gate=verdict.gate.value, score=verdict.score,
+              failure=verdict.failure.value if verdict.failure else None)  # fmt: skip
         if verdict.outcome is not Outcome.PASS:
-            word = verdict.outcome.value.upper()
-            self._tell(
-                f"aegis-ot: {word} in run {self.run}",
-                f"Trajectory {verdict.trajectory}: {verdict.reason or 'no reason given'}",
-            )
+            self._tell(Notice.of_verdict(verdict))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
@@ -21,6 +21,8 @@ MAX_WAIT = 1.0
 """Longest wait of one request for a verdict, s."""
 
 T = TypeVar("T")
+ReadBody = Callable[..., Awaitable[bytes]]
+"""Reads the body of a request, up to a length."""
 Count = Annotated[int, Field(ge=0, le=MAX_COUNT)]
 Word = Annotated[str, Field(max_length=200)]
 Text = Annotated[str, Field(max_length=5000)]
@@ -106,6 +108,7 @@ class RunStart(Body):
     simulated: bool = False
     started: float = 0.0
     package: Word = ""
+    mode: Literal["guard", "watch"] = "guard"
     guard: GuardWords | None = None
     layer1: Layer1Words | None = None
 
@@ -117,12 +120,18 @@ class Abandon(Body):
 
 
 class Hold(Body):
-    """How long the robot held, and what ended it."""
+    """How long the robot held, what ended it, and what it does then.
+
+    Told again when a pause is over, with how long it lasted and who ended it: ``"page"``,
+    ``"robot"`` (its own screen, or the App) or ``"console"``.
+    """
 
     trajectory: Count
     seconds: Annotated[float, Field(ge=0)]
     resolution: Word
     policy: Word | None = None
+    paused_s: Annotated[float, Field(ge=0)] | None = None
+    answered: Word | None = None
 
 
 class Finish(Body):
@@ -136,6 +145,14 @@ class Decision(Body):
     """The operator decides a flagged trajectory."""
 
     outcome: Literal[Outcome.PASS, Outcome.FAIL]
+    by: Annotated[str, Field(min_length=1, max_length=200)]
+    note: Text = ""
+
+
+class Action(Body):
+    """The operator tells a paused robot to go on, or to end the run."""
+
+    action: Literal["resume", "stop"]
     by: Annotated[str, Field(min_length=1, max_length=200)]
     note: Text = ""
 

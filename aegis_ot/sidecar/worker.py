@@ -54,6 +54,7 @@ class AnalysisWorker:
         self._store = store
         self._publish = publish
         self._tasks: deque[tuple[Keyframe, Frame | None, float]] = deque()
+        self._confirmed: deque[int] = deque()
         self._frames_waiting = 0
         self._news = threading.Condition()
         self._closed = False
@@ -76,6 +77,12 @@ class AnalysisWorker:
                 frame = None
             self._frames_waiting += frame is not None
             self._tasks.append((keyframe, frame, time.monotonic() + HEAD_START_S))
+            self._news.notify()
+
+    def confirm(self, trajectory: int) -> None:
+        """The operator found an undecided trajectory right: told before what comes after it."""
+        with self._news:
+            self._confirmed.append(trajectory)
             self._news.notify()
 
     def drop(self, trajectory: int) -> None:
@@ -101,10 +108,13 @@ class AnalysisWorker:
         while True:
             with self._news:
                 self._busy = False
-                while not self._tasks and not self._closed:
+                while not (self._tasks or self._confirmed or self._closed):
                     self._news.wait()
                 if self._closed:
                     return
+                if self._confirmed:
+                    self._confirm(run, self._confirmed.popleft())
+                    continue
                 keyframe, frame, begin = self._tasks.popleft()
                 self._frames_waiting -= frame is not None
                 self._busy = True
@@ -127,6 +137,13 @@ class AnalysisWorker:
             self._failed[keyframe.trajectory] = (
                 f"The {keyframe.kind.value} frame could not be analysed: {_say(error)}"
             )
+
+    def _confirm(self, run: RunAnalyser | None, trajectory: int) -> None:
+        try:
+            if run is not None:
+                run.confirm(trajectory)
+        except Exception:
+            log.exception("Trajectory %d of run %s, confirmed", trajectory, self._run)
 
     def _judge(self, run: RunAnalyser | None, trajectory: int) -> tuple[Verdict, dict[str, Any]]:
         failed = self._failed.pop(trajectory, None)

@@ -3,30 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
-
-import numpy as np
 
 from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
 from .calibration import CalibrationState
 from .camera import Frame
 from .cascade import Triage
-from .consistency import second_look
+from .consistency import once_each, second_look
+from .delivery import Delivery, delivery_of
 from .evidence import evidence_of
-from .gates import Case, ConfirmingGate, GateDecision, examine_in_turn, in_sentences
+from .first_wells import FirstWells, Liquid, liquid_of
+from .gates import Case, GateDecision, Gates, in_sentences
+from .leftover import Leftover, Leftovers, explains, still_there
 from .measuring import TipView
+from .second_opinion import SecondOpinion
 from .stream import OpenTrajectory, Stream
 from .tips import pipette_class, tip_for
-from .types import FREE, Detector, Image, TipDetection, TrajectorySample
-from .volumetric_gate import VolumetricGate
+from .types import FREE, Detector, TipDetection, TrajectorySample, is_image
 
 MOST_OPEN = 32
 """Trajectories whose frames are kept at once: one that is never judged must not fill memory."""
 
+MOST_ASKED = 2
+"""Undecided first wells whose frames are kept, to learn from them once the operator vouches."""
+
 Judged = tuple[Verdict, Mapping[str, Any]]
 
-_Key = tuple[str, float, str]
+
+@dataclass(frozen=True)
+class _Well:
+    """What a run learns from."""
+
+    stream: Stream
+    liquid: Liquid
+    case: Case
+    looks: dict[KeyframeKind, object]
 
 
 class RunAnalyser:
@@ -42,6 +54,8 @@ class RunAnalyser:
         detector: Finds the tip.
         make_stream: Makes a stream, given one of the same pipette and tip, if there is one.
         gates: Asked in turn.
+        first: Holds the run's first wells against what is known without them.
+        second: Asked about wells that pass.
     """
 
     def __init__(
@@ -49,13 +63,19 @@ class RunAnalyser:
         run: str,
         detector: Detector,
         make_stream: Callable[[Stream | None], Stream],
-        gates: Sequence[ConfirmingGate],
+        gates: Gates,
+        first: FirstWells,
+        second: SecondOpinion,
     ) -> None:
         self.run = run
+        self._second = second
         self._detector = detector
         self._make_stream = make_stream
         self._gates = gates
-        self._streams: dict[_Key, Stream] = {}
+        self._first = first
+        self._leftovers = Leftovers()
+        self._asked: dict[int, _Well] = {}
+        self._streams: dict[Liquid, Stream] = {}
         self._open: dict[int, OpenTrajectory] = {}
 
     def observe(self, keyframe: Keyframe, frame: Frame) -> None:
@@ -65,7 +85,7 @@ class RunAnalyser:
             del self._open[min(self._open)]
         kind, image = keyframe.kind, frame.image
         trajectory.keyframes[kind] = keyframe
-        if not _is_image(image):
+        if not is_image(image):
             trajectory.unusable.append(kind)
             return
         detection = self._detector.detect(image)
@@ -92,18 +112,32 @@ class RunAnalyser:
                 reason="No usable frame of this trajectory was captured; please look at the tip.",
             )
             return verdict, {}
-        stream = self._stream(max(seen.keyframes.values(), key=lambda k: k.sequence))
+        last = max(seen.keyframes.values(), key=lambda k: k.sequence)
+        stream = self._stream(last)
         self._settle(stream, seen)
         sample = self._sample(trajectory, seen)
-        case = self._case(stream, seen, sample)
-        volumetric = VolumetricGate().examine(case)
-        speaks = volumetric.outcome is Outcome.FAIL or case.alarming
-        against = volumetric.reason if speaks else ""
+        case = self._case(stream, seen, sample, last)
+        screened = self._gates.screen(case)
+        speaks = screened.outcome is Outcome.FAIL or case.alarming
+        against = screened.reason if speaks else ""
         triage = stream.cascade.triage(case.score, case.missing, against)
         case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
-        self._learn(stream, case, seen, decision)
-        decision = _with_doubt(stream, decision)
+        if not triage.to_gate:
+            band = stream.cascade.calibration.band
+            limit = None if band is None else band[1]
+            decision = self._second.on(case, decision, stream.learned + 1, limit)
+        left = self._leftovers.known(last)
+        if (
+            left is not None
+            and decision.outcome is not Outcome.PASS
+            and explains(left, case, self._delivery(seen, last, left.volume_ul))
+        ):
+            decision = still_there(left, decision)
+        else:
+            well = _Well(stream, liquid_of(last), case, dict(seen.looks))
+            decision = self._learn(well, trajectory, decision)
+        self._leftovers.note(last, case, decision)
         verdict = Verdict(
             self.run,
             trajectory,
@@ -116,10 +150,22 @@ class RunAnalyser:
             decision.measured_ul,
             decision.expected_ul,
         )
-        key = next(key for key, known in self._streams.items() if known is stream)
-        evidence = evidence_of(key, stream, case, seen, triage, decision)
-        seen.frames.clear()
+        kept = self._leftovers.known(last)
+        evidence = evidence_of(liquid_of(last), stream, case, seen, triage, decision, kept)
+        if trajectory not in self._asked:
+            seen.frames.clear()
         return verdict, evidence
+
+    def confirm(self, trajectory: int) -> None:
+        """The operator looked at an undecided well and found it right, or let the run go on.
+
+        If it is one of the first wells, those after it are compared with it.
+        """
+        asked = self._asked.pop(trajectory, None)
+        if asked is None:
+            return
+        self._first.vouched = asked.stream.vouched = True
+        self._take(asked, GateDecision(Outcome.PASS, Gate.OPERATOR, ""))
 
     def recall(self, history: Sequence[Judged]) -> None:
         """Restore the bands from what was judged before a restart."""
@@ -132,13 +178,20 @@ class RunAnalyser:
                 key = (str(pipette), float(capacity), str(liquid))
                 scores = {str(name): float(score) for name, score in known["scores"].items()}
                 normal, volume = bool(known["normal"]), float(known["volume_ul"])
-            except (KeyError, TypeError, ValueError, AttributeError):
+                strength, left = known.get("strength"), known.get("left")
+                if left is not None:
+                    self._leftovers.restore(pipette.split()[0], Leftover(**left))
+            except (KeyError, TypeError, ValueError, AttributeError, IndexError):
                 continue
+            if normal and isinstance(strength, float):
+                self._first.restore(key, strength)
             stream = self._stream_of(key)
             score = scores.get(stream.scorer.name)
             stream.cascade.learn(score, normal=normal, volume_ul=volume)
 
-    def _case(self, stream: Stream, seen: OpenTrajectory, sample: TrajectorySample) -> Case:
+    def _case(
+        self, stream: Stream, seen: OpenTrajectory, sample: TrajectorySample, last: Keyframe
+    ) -> Case:
         missing = tuple(
             kind
             for kind, found in seen.detections.items()
@@ -149,8 +202,15 @@ class RunAnalyser:
         p_value = stream.p_value(score)
         return Case(
             sample, Route.GREY_ZONE, score, readings, missing, stream.learned > 0, p_value,
-            clearly_absent=seen.clearly_absent,
+            alarm_p=stream.settings.alarm_p, clearly_absent=seen.clearly_absent,
+            delivery=self._delivery(seen, last),
+            signs={} if score is None else stream.scorer.signs(sample), normal=stream.normal,
         )  # fmt: skip
+
+    def _delivery(self, seen: OpenTrajectory, last: Keyframe, left_ul: float = 0.0) -> Delivery:
+        """What a trajectory shows of its delivery, if the tip held so much before and after, µL."""
+        expected = {kind: frame.expected_ul + left_ul for kind, frame in seen.keyframes.items()}
+        return self._first.held_against(liquid_of(last), delivery_of(seen.looks, expected))
 
     def _look(
         self, stream: Stream, seen: OpenTrajectory, kind: KeyframeKind, detection: TipDetection
@@ -165,7 +225,7 @@ class RunAnalyser:
         """Put the detections right by the run's own tip, and look again where one changed."""
         guess = getattr(self._detector, "best_guess", None)
         if guess is not None:
-            guess = _once_each(guess)
+            guess = once_each(guess)
             seen.detections.update(second_look(guess, seen.detections, seen.frames))
             seen.detections.update(stream.tip.recognise(guess, seen.detections, seen.frames))
             missing = [kind for kind in FREE if seen.detections.get(kind, ...) is None]
@@ -186,10 +246,9 @@ class RunAnalyser:
         )
 
     def _stream(self, keyframe: Keyframe) -> Stream:
-        pipette = f"{keyframe.mount} {keyframe.pipette}"
-        return self._stream_of((pipette, keyframe.capacity_ul, keyframe.reagent or ""))
+        return self._stream_of(liquid_of(keyframe))
 
-    def _stream_of(self, key: _Key) -> Stream:
+    def _stream_of(self, key: Liquid) -> Stream:
         if key not in self._streams:
             kin = next((s for k, s in self._streams.items() if k[:2] == key[:2]), None)
             self._streams[key] = self._make_stream(kin)
@@ -197,32 +256,48 @@ class RunAnalyser:
 
     def _decide(self, stream: Stream, case: Case, triage: Triage) -> GateDecision:
         if triage.route is Route.CALIBRATION:
-            stream.first_wells += 1
-            # Assumed normal, but a failure that shows is caught even here.
-            gross = VolumetricGate().examine(case)
+            gross = self._gates.screen(case)
             if gross.outcome is Outcome.FAIL:
                 return gross
             if case.alarming or triage.missing:
                 return replace(gross, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR)
-            number = f"Calibration well {stream.first_wells} of {stream.settings.wells}."
+            number = f"Calibration well {stream.learned + 1} of {stream.settings.wells}."
             return replace(gross, outcome=Outcome.PASS, gate=Gate.NONE, reason=number)
         if not triage.to_gate:
-            last = case.readings.get(KeyframeKind.POST_DISPENSE)
+            after = case.readings.get(KeyframeKind.POST_DISPENSE)
             return GateDecision(
                 Outcome.PASS,
                 Gate.NONE,
                 triage.reason,
                 None,
-                None if last is None or last.vague else last.volume_ul,
+                None if after is None or after.vague else after.volume_ul,
                 case.sample.expected_ul.get(KeyframeKind.POST_DISPENSE),
             )
-        decision = examine_in_turn(self._gates, case)
+        decision = self._gates.confirm(case)
         return replace(decision, reason=in_sentences(triage.reason, decision.reason))
 
-    def _learn(
-        self, stream: Stream, case: Case, seen: OpenTrajectory, decision: GateDecision
-    ) -> None:
+    def _learn(self, well: _Well, trajectory: int, decision: GateDecision) -> GateDecision:
+        """Calibrate on a well, unless the operator has to look at it first."""
+        unseen = decision.outcome is Outcome.PASS and decision.gate in (Gate.NONE, Gate.VOLUMETRIC)
+        question = self._first.question(well.liquid, well.case.delivery) if unseen else ""
+        if question:
+            decision = replace(
+                decision, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR, reason=question
+            )
+        first = well.case.route is Route.CALIBRATION and decision.outcome is Outcome.UNDECIDED
+        if question or first:
+            self._asked[trajectory] = well
+            while len(self._asked) > MOST_ASKED:
+                del self._asked[min(self._asked)]
+            return decision
+        self._take(well, decision)
+        return _with_doubt(well.stream, decision)
+
+    def _take(self, well: _Well, decision: GateDecision) -> None:
+        stream, case, looks = well.stream, well.case, well.looks
         normal = decision.outcome is Outcome.PASS
+        if not normal and self._first.proven(well.liquid):
+            return  # the others were not taken on trust, so this one casts no doubt on them
         collecting = stream.cascade.state is CalibrationState.COLLECTING
         whole = len(case.sample.frames) == len(KeyframeKind) and not case.missing
         if collecting and normal and whole and not stream.scorer.ready:
@@ -233,7 +308,8 @@ class RunAnalyser:
             volume = case.sample.volume_ul
             stream.cascade.learn(case.score, normal=normal, volume_ul=volume)
         if normal:
-            stream.learn(case.sample, seen.looks, case.score is not None)
+            self._first.learn(well.liquid, case)
+            stream.learn(case.sample, looks, case.score is not None)
 
     def _sample(self, trajectory: int, seen: OpenTrajectory) -> TrajectorySample:
         last = seen.keyframes[max(seen.keyframes, key=lambda kind: seen.keyframes[kind].sequence)]
@@ -257,27 +333,3 @@ def _with_doubt(stream: Stream, decision: GateDecision) -> GateDecision:
         return decision
     reason, stream.doubt = stream.doubt, ""
     return replace(decision, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR, reason=reason)
-
-
-def _once_each(
-    guess: Callable[[Image], TipDetection | None],
-) -> Callable[[Image], TipDetection | None]:
-    """The same, asked once for each frame: it costs as much as finding the tip."""
-    known: dict[int, TipDetection | None] = {}
-
-    def remembered(image: Image) -> TipDetection | None:
-        if id(image) not in known:
-            known[id(image)] = guess(image)
-        return known[id(image)]
-
-    return remembered
-
-
-def _is_image(image: object) -> bool:
-    return (
-        isinstance(image, np.ndarray)
-        and image.dtype == np.uint8
-        and image.ndim == 3
-        and image.shape[2] == 3
-        and min(image.shape[:2]) >= 16
-    )

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
 from typing import Any
 
 from ..vocabulary import KeyframeKind, Outcome
 from .cascade import Triage
+from .delivery import Shown
 from .gates import Case, GateDecision
+from .leftover import Leftover
 from .measuring import ColumnReading
 from .stream import OpenTrajectory, Stream
 
@@ -19,6 +22,7 @@ def evidence_of(
     seen: OpenTrajectory,
     triage: Triage,
     decision: GateDecision,
+    left: Leftover | None = None,
 ) -> dict[str, Any]:
     """Boxes, scores, band, measured and expected volumes, and what restores the calibration."""
     channels = max(keyframe.channels for keyframe in seen.keyframes.values())
@@ -34,6 +38,8 @@ def evidence_of(
         "measured_ul": dict(_readings(case.readings)),
         "expected_ul": {kind.value: v for kind, v in case.sample.expected_ul.items()},
         "unusable_frames": [kind.value for kind in seen.unusable],
+        "p_value": case.p_value,
+        "costs": [asdict(cost) for cost in decision.costs],
         "channels": channels,
         "tips_judged": 1,
         "calibration": {
@@ -41,8 +47,16 @@ def evidence_of(
             "volume_ul": case.sample.volume_ul,
             "scores": scores,
             "normal": decision.outcome is Outcome.PASS,
+            "strength": _strength(case),
+            "left": None if left is None else asdict(left),
         },
     }
+
+
+def _strength(case: Case) -> float | None:
+    """How plainly the liquid was seen to leave the tip."""
+    seen = case.delivery
+    return seen.strength if seen is not None and seen.shown is Shown.EMPTIED else None
 
 
 def _readings(
@@ -57,5 +71,6 @@ def _readings(
                 "volume": round(reading.volume_ul, 2),
                 "uncertainty": round(reading.sigma_ul, 2),
                 "air": round(reading.gap_ul, 2),
+                "top": round(reading.top, 4),
             },
         )

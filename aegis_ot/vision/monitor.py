@@ -12,11 +12,12 @@ from dataclasses import dataclass, field
 from .analyser import Judged, RunAnalyser
 from .calibration import CalibrationSettings
 from .column_reader import MeasuredColumns
-from .gates import ConfirmingGate, OperatorGate
+from .first_wells import FirstWells
+from .gates import ConfirmingGate, Gates, OperatorGate, VolumetricGate
 from .measuring import ColumnReader
+from .second_opinion import SecondOpinion, SpotCheck
 from .stream import Stream
 from .types import Detector, Scorer
-from .volumetric_gate import VolumetricGate
 
 __all__ = ["Judged", "MonitorSettings", "RunMonitor"]
 
@@ -28,10 +29,14 @@ class MonitorSettings:
     Attributes:
         calibration: See :class:`CalibrationSettings`.
         always_gate: Send every well after calibration to the gates.
+        ask_first: Ask the operator about first wells whose frames prove nothing.
+        spot_check: Which wells that pass a vision model sees, if there is one.
     """
 
     calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
     always_gate: bool = False
+    ask_first: bool = True
+    spot_check: SpotCheck = field(default_factory=SpotCheck)
 
 
 class RunMonitor:
@@ -58,7 +63,7 @@ class RunMonitor:
         self.detector = detector
         self.scorer = scorer
         self.settings = settings or MonitorSettings()
-        self.gates = tuple(gates) if gates is not None else (VolumetricGate(), OperatorGate())
+        self.gates = Gates((VolumetricGate(), OperatorGate()) if gates is None else gates)
         self.reader = reader
 
     def begin(self, run: str, history: Sequence[Judged] = ()) -> RunAnalyser:
@@ -68,7 +73,9 @@ class RunMonitor:
         world model learned of the run are not restored: both calibrate anew on the wells that
         follow, and without a model file so does the band.
         """
-        analyser = RunAnalyser(run, self.detector, self._stream, self.gates)
+        first = FirstWells(self.settings.ask_first)
+        second = SecondOpinion(self.gates, self.settings.spot_check)
+        analyser = RunAnalyser(run, self.detector, self._stream, self.gates, first, second)
         if self.scorer is not None:
             analyser.recall(history)
         return analyser
@@ -81,4 +88,5 @@ class RunMonitor:
             settings.calibration,
             settings.always_gate,
             kin,
+            self.gates,
         )

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from ..vocabulary import Keyframe, KeyframeKind, Outcome, Route
-from .calibration import CalibrationSettings
+from .calibration import CalibrationSettings, CalibrationState
 from .cascade import Cascade
 from .column_reader import MeasuredColumns
 from .consistency import TipConsistency
-from .gates import Case
+from .gates import Case, Gates, VolumetricGate
 from .measuring import ColumnReader
 from .run_scorer import LEAST_ALARM, RunScorer
 from .types import Image, Scorer, TipDetection, TrajectorySample
-from .volumetric_gate import VolumetricGate
 
 _MODEL_WEIGHT = 4.0
 """How many of the run's own wells above their median the model's scale, one nat, is worth."""
@@ -62,6 +61,7 @@ class Stream:
         settings: Of the calibration.
         always_gate: Send every well after calibration to the gates.
         kin: A stream of the same pipette, whose reader knows the tip already.
+        gates: Asked again about the first wells, beside those after them.
     """
 
     def __init__(
@@ -71,18 +71,24 @@ class Stream:
         settings: CalibrationSettings,
         always_gate: bool = False,
         kin: Stream | None = None,
+        gates: Gates | None = None,
     ) -> None:
         self.settings = settings
+        self._gates = gates or Gates([VolumetricGate()])
         self.scorer = RunScorer(scorer, settings.wells)
         least = LEAST_ALARM if self.scorer.gives_p_values else 0.0
         self.cascade = Cascade(self.scorer.name, settings, always_gate, least)
         self.reader = reader
         self.tip: TipConsistency = kin.tip if kin is not None else TipConsistency()
-        if kin is not None and isinstance(reader, MeasuredColumns):
-            reader.share_tip(kin.reader)
+        if isinstance(reader, MeasuredColumns):
+            if kin is None:
+                reader.expect_heights(self.scorer.height_factors)
+            else:
+                reader.share_tip(kin.reader)
         self.learned = 0
-        self.first_wells = 0
+        self.vouched = False
         self.doubt = ""
+        self.normal: TrajectorySample | None = None
         self._first: list[tuple[Mapping[KeyframeKind, object], TrajectorySample]] = []
 
     def p_value(self, score: float | None) -> float | None:
@@ -90,16 +96,21 @@ class Stream:
 
         All wells of a run may look unusual to a model of other runs. So the score is taken
         against this run's own normal wells: beyond their median it falls off exponentially, as
-        it does among the wells of the model, and more slowly if theirs scatter more.
+        it does among the wells of the model, and more slowly if theirs scatter more. While the run
+        calibrates, a well that looks unusual to the model is unusual, however many do.
         """
         known = np.array(self.cascade.calibration.normals)
-        if not self.scorer.gives_p_values or score is None or not len(known):
+        if not self.scorer.gives_p_values or score is None:
             return None
+        if not len(known):
+            return math.exp(-score)  # the first one is held against the wells of the model
         middle = float(np.median(known))
         over = float(np.maximum(known - middle, 0.0).sum())
         scale = (_MODEL_WEIGHT + over) / (_MODEL_WEIGHT + 0.5 * len(known))
         scale = max(scale, _LEAST_SCALE[0], _LEAST_SCALE[1] * middle)
-        return math.exp(-max(score - middle, 0.0) / scale)
+        in_run = math.exp(-max(score - middle, 0.0) / scale)
+        collecting = self.cascade.state is CalibrationState.COLLECTING
+        return min(in_run, math.exp(-score)) if collecting and not self.vouched else in_run
 
     def learn(
         self, sample: TrajectorySample, looks: dict[KeyframeKind, object], scored: bool
@@ -109,6 +120,9 @@ class Stream:
             return
         self.reader.learn(looks, sample.expected_ul)
         self.learned += 1
+        if self.normal is None:
+            # Kept with its frames: a person, or a model, compares other wells with it.
+            self.normal = replace(sample, frames=dict(sample.frames))
         if scored:
             self.scorer.accept(sample)
         if len(self._first) < self.settings.wells:
@@ -128,7 +142,7 @@ class Stream:
             others = [(its, other.expected_ul) for its, other in self._first if other is not sample]
             readings = self.reader.read_beside(looks, sample.expected_ul, others)
             case = Case(sample, Route.CALIBRATION, None, readings, (), calibrated=False)
-            found = VolumetricGate().examine(case)
+            found = self._gates.screen(case)
             if found.outcome is Outcome.FAIL:
                 self._first = [kept for kept in self._first if kept[1] is not sample]
                 self.reader.forget([(its, other.expected_ul) for its, other in self._first])

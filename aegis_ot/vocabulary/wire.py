@@ -6,6 +6,7 @@ The workstation reads the same dataclasses through pydantic; this is the robot's
 from __future__ import annotations
 
 import dataclasses
+import functools
 import types
 import typing
 from enum import Enum
@@ -35,7 +36,7 @@ def from_json(cls: type[T], data: Any) -> T:
     """
     if not isinstance(data, dict):
         raise ValueError(f"{cls.__name__}: expected an object, got {type(data).__name__}")
-    hints = typing.get_type_hints(cls)
+    hints = _hints(cls)  # type: ignore[arg-type]
     values: dict[str, Any] = {}
     for f in dataclasses.fields(cls):  # type: ignore[arg-type]
         if f.name not in data:
@@ -47,6 +48,12 @@ def from_json(cls: type[T], data: Any) -> T:
         except (TypeError, ValueError) as error:
             raise ValueError(f"{cls.__name__}.{f.name}: {error}") from error
     return cls(**values)
+
+
+@functools.cache
+def _hints(cls: type[Any]) -> dict[str, Any]:
+    """Reading them takes a millisecond, and a run holds hundreds of keyframes."""
+    return typing.get_type_hints(cls)
 
 
 def _read(hint: Any, value: Any) -> Any:

@@ -38,7 +38,8 @@ def test_a_users_own_family_is_tested_and_a_broken_promise_reported(
     family["default"] = False
     (rule,) = [rule for rule in family["rules"] if rule["id"] == "GEN-3"]
     rule.update(id="OUR-1", scope="family", unless_reported=[])
-    good, bad = rule["examples"]["passing"][0], rule["examples"]["failing"][0]
+    good = {"title": "exactly full", "code": ['p300.transfer(200, tubes["A1"], plate["A1"])']}
+    bad = {"title": "too much", "code": [*good["code"], *good["code"]]}
     rule["examples"] = {"passing": [good], "failing": [bad]}
     family["rules"] = [rule]
     path = tmp_path / "ours.json"

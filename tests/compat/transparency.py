@@ -157,7 +157,7 @@ def engine_commands(text, name):
         for command in state.commands.get_all():
             if command.commandType not in LIQUID:
                 continue
-            params = command.params.model_dump(mode="json", exclude_none=True)
+            params = _params(command)
             params.pop("message", None)
             text_params = json.dumps(params, sort_keys=True, default=str)
             for found_id in re.findall(r"[0-9a-f]{8}-[0-9a-f-]{27}", text_params):
@@ -166,6 +166,13 @@ def engine_commands(text, name):
                 text_params = text_params.replace(found_id, plain)
             found.append(f"{command.commandType} {text_params}")
         return {"commands": found, "error": error}
+
+
+def _params(command):
+    model = command.params
+    if hasattr(model, "model_dump"):
+        return model.model_dump(mode="json", exclude_none=True)
+    return json.loads(model.json(exclude_none=True))  # opentrons 8.2 and older
 
 
 def compare(path, url, keyframes):

@@ -7,7 +7,7 @@ import pytest
 from aegis_ot.dryrun import DryRunSettings, dry_run
 from aegis_ot.errors import ConfigurationError, RehearsalError
 from aegis_ot.preflight.rehearsal import Script
-from aegis_ot.reports import dry_run_html
+from aegis_ot.reports.run_html import run_report_html
 from aegis_ot.sidecar import make_analyser
 from aegis_ot.vocabulary import KeyframeKind, Outcome, Route
 
@@ -51,11 +51,15 @@ def test_a_planted_fault_stops_the_run_before_another_well_is_touched(stopped):
 
 
 def test_the_report_holds_the_four_frames_of_the_flagged_well(stopped):
-    page = dry_run_html([stopped])
-    flagged = stopped.flagged[0]
+    page = run_report_html([stopped.reported])
+    (flagged,) = stopped.reported.flagged
     assert set(flagged.frames) == set(KeyframeKind)
-    assert page.count("data:image/jpeg;base64,") == 4 + len(flagged.close_ups)
+    assert page.count("data:image/jpeg;base64,") == sum(
+        f.tip is not None for f in flagged.frames.values()
+    )
     assert "simulated" in page
+    assert "A2: failed, no dispense" in page
+    assert "Wells touched after the failed dispense: none." in page
     assert "http" not in page.replace("http-equiv", "")
 
 

@@ -7,8 +7,8 @@ import textwrap
 from typing import Any
 
 from aegis_ot.preflight import Database, Options, Report, load_database
-from aegis_ot.preflight.dossier import Dossier
-from aegis_ot.preflight.dossier_making import check_with_dossier
+from aegis_ot.preflight.judging import Reading
+from aegis_ot.preflight.opinion import Dossier, check_with_dossier
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import Message, Passage, Picture, Request
 from aegis_ot.reasoning.answer import strict_object
@@ -55,13 +55,13 @@ def database() -> Database:
 
 
 @functools.cache
-def checked(text: str, options: Options | None = None) -> tuple[Report, Dossier]:
+def examined(text: str, options: Options | None = None) -> tuple[Report, Dossier, Reading]:
     script = Script(textwrap.dedent(text), "protocol.py")
     return check_with_dossier(script, database(), options)
 
 
-def recheck(text: str, options: Options) -> Report:
-    return check_with_dossier(Script(textwrap.dedent(text), "protocol.py"), database(), options)[0]
+def checked(text: str) -> tuple[Report, Dossier]:
+    return examined(text)[:2]
 
 
 def answer(**changes: Any) -> dict[str, Any]:
@@ -70,6 +70,20 @@ def answer(**changes: Any) -> dict[str, Any]:
         "family": "pcr", "roles": [], "answers": [], "findings": [], "summary": "",
     }  # fmt: skip
     return empty | changes
+
+
+def proposal(
+    role: str, wells: list[str], line: int, quote: str, levels: list[str] | None = None
+) -> dict[str, Any]:
+    said = [{"line": line, "quote": quote}]
+    return {"role": role, "wells": wells, "levels": levels or [], "citations": said}
+
+
+def reading_of(
+    rule: str, said: str, wells: list[str], lines: list[int], reason: str = "So it is."
+) -> dict[str, Any]:
+    """An answer to an open question."""
+    return {"rule": rule, "answer": said, "reason": reason, "wells": wells, "lines": lines}
 
 
 def finding(
@@ -102,6 +116,33 @@ def run(protocol):
     p20.transfer(5, water, ntc)
 """
 """The template's tip mixes the NTC at line 18: PCR-2, decided by the checks."""
+
+PROSE = """
+metadata = {"apiLevel": "2.15", "protocolName": "PCR set-up"}
+
+# Tubes of slot 2: the first one is the master mix, and the second one holds genomic DNA.
+# On the plate A1 is the reaction. The last well is our no-template control.
+def run(protocol):
+    tips = protocol.load_labware("opentrons_96_tiprack_20ul", 1)
+    plate = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 4)
+    tubes = protocol.load_labware("opentrons_24_tuberack_nest_2ml_snapcap", 2)
+    p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[tips])
+    p20.transfer(15, tubes["A1"], [plate["A1"], plate["H12"]], new_tip="once")
+    p20.pick_up_tip()
+    p20.aspirate(5, tubes["A2"])
+    p20.dispense(5, plate["A1"])
+    p20.mix(2, 10, plate["A1"])
+    p20.mix(2, 10, plate["H12"])
+    p20.drop_tip()
+"""
+"""The same mistake where only sentences say what the wells are for."""
+
+READ = [
+    proposal("master_mix", ["2:A1"], 4, "the first one is the master mix"),
+    proposal("template", ["2:A2"], 4, "the second one holds genomic DNA"),
+    proposal("ntc", ["4:H12"], 5, "The last well is our no-template control."),
+]
+"""What a careful model proposes for it."""
 
 SILENT = """
 metadata = {"apiLevel": "2.15", "protocolName": "PCR set-up"}

@@ -14,7 +14,7 @@ from aegis_ot.reasoning import (
 )
 from aegis_ot.vocabulary import Severity, VerdictWord
 
-from .samples import CONTAMINATED, SILENT, answer, checked, database, finding
+from .samples import CONTAMINATED, SILENT, answer, database, examined, finding
 
 BLIND = {
     "family": "pcr",
@@ -24,9 +24,9 @@ BLIND = {
 
 
 def test_rules_only_asks_nobody() -> None:
-    report, dossier = checked(CONTAMINATED)
+    report, dossier, reading = examined(CONTAMINATED)
     backend = ScriptedBackend([])
-    result = judge_in("rules-only", report, dossier, database(), backend)
+    result = judge_in("rules-only", report, dossier, reading, backend)
     assert result.report is report
     assert result.reply is None
     assert not result.unanswered
@@ -34,9 +34,9 @@ def test_rules_only_asks_nobody() -> None:
 
 
 def test_hybrid_keeps_and_counts() -> None:
-    report, dossier = checked(CONTAMINATED)
+    report, dossier, reading = examined(CONTAMINATED)
     backend = ScriptedBackend([answer()], Usage(10, 20, 30, 40))
-    result = judge_in(Configuration.HYBRID, report, dossier, database(), backend)
+    result = judge_in(Configuration.HYBRID, report, dossier, reading, backend)
     assert result.report.findings == report.findings
     assert result.usage == Usage(10, 20, 30, 40)
     assert result.reply is not None
@@ -44,9 +44,9 @@ def test_hybrid_keeps_and_counts() -> None:
 
 
 def test_trace_blind_is_the_models_verdict_alone() -> None:
-    report, dossier = checked(CONTAMINATED)
+    report, dossier, reading = examined(CONTAMINATED)
     backend = ScriptedBackend([BLIND])
-    result = judge_in("trace-blind", report, dossier, database(), backend)
+    result = judge_in("trace-blind", report, dossier, reading, backend)
     (found,) = result.report.findings
     assert (found.rule, found.source, found.severity) == ("PCR-2", "model", Severity.ERROR)
     assert {well.address for well in found.wells} == {"2:A2", "4:H12"}, "wells of the deck only"
@@ -59,33 +59,33 @@ def test_trace_blind_is_the_models_verdict_alone() -> None:
 
 
 def test_without_checks_a_model_that_finds_nothing_passes_it() -> None:
-    report, dossier = checked(CONTAMINATED)
+    report, dossier, reading = examined(CONTAMINATED)
     nothing = {"family": "generic", "findings": [], "summary": ""}
-    result = judge_in("trace-blind", report, dossier, database(), ScriptedBackend([nothing]))
+    result = judge_in("trace-blind", report, dossier, reading, ScriptedBackend([nothing]))
     assert result.report.verdict is VerdictWord.PASS
     assert result.report.family == "generic"
 
 
 def test_llm_only_sees_no_rules() -> None:
-    report, dossier = checked(SILENT)
+    report, dossier, reading = examined(SILENT)
     said = BLIND | {"findings": [finding("MODEL", ["4:H12"], [15])]}
     backend = ScriptedBackend([said])
-    result = judge_in("llm-only", report, dossier, database(), backend)
+    result = judge_in("llm-only", report, dossier, reading, backend)
     told = "".join(passage.text for passage in backend.requests[0].system)
     assert not any(rule.id in told for rule in database().rules)
     assert result.report.verdict is VerdictWord.FAIL
     # What it calls a rule is its own name for it, and flags the protocol all the same.
     named = BLIND | {"findings": [finding("cross-contamination", ["4:H12"], [15])]}
-    result = judge_in("llm-only", report, dossier, database(), ScriptedBackend([named]))
+    result = judge_in("llm-only", report, dossier, reading, ScriptedBackend([named]))
     assert [found.rule for found in result.report.findings] == ["MODEL"]
 
 
 @pytest.mark.parametrize("configuration", ["trace-blind", "llm-only"])
 def test_a_model_alone_that_does_not_answer_is_an_error_never_a_pass(configuration: str) -> None:
-    report, dossier = checked(SILENT)
+    report, dossier, reading = examined(SILENT)
     for state in (State.TIMEOUT, State.REFUSED, State.INVALID):
         backend = ScriptedBackend([state])
-        result = judge_in(configuration, report, dossier, database(), backend)
+        result = judge_in(configuration, report, dossier, reading, backend)
         assert result.unanswered
         assert result.report.verdict is VerdictWord.ERROR
         assert result.report.undecided
@@ -94,12 +94,12 @@ def test_a_model_alone_that_does_not_answer_is_an_error_never_a_pass(configurati
 def test_every_configuration_works_on_recordings(tmp_path) -> None:  # type: ignore[no-untyped-def]
     from aegis_ot.reasoning import RecordingBackend
 
-    report, dossier = checked(CONTAMINATED)
+    report, dossier, reading = examined(CONTAMINATED)
     for name, said in (("hybrid", answer()), ("trace-blind", BLIND), ("llm-only", BLIND)):
         folder = tmp_path / name
         recorder = RecordingBackend(ScriptedBackend([said]), folder)
-        live = judge_in(name, report, dossier, database(), recorder)
-        again = judge_in(name, report, dossier, database(), ReplayBackend(folder))
+        live = judge_in(name, report, dossier, reading, recorder)
+        again = judge_in(name, report, dossier, reading, ReplayBackend(folder))
         assert again.report == live.report
 
 
@@ -108,7 +108,7 @@ def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-
 
     from aegis_ot.preflight import load_database
     from aegis_ot.preflight.database import shipped_rules
-    from aegis_ot.preflight.dossier_making import check_with_dossier
+    from aegis_ot.preflight.opinion import check_with_dossier
 
     family = json.loads((shipped_rules() / "generic.json").read_text())
     rule = next(r for r in family["rules"] if r["id"] == "GEN-1")
@@ -119,7 +119,7 @@ def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-
     }
     (tmp_path / "ours.json").write_text(json.dumps(own))
     database_ = load_database([tmp_path])
-    _, dossier = check_with_dossier(Script(CONTAMINATED, "p.py"), database_)
+    _, dossier, _ = check_with_dossier(Script(CONTAMINATED, "p.py"), database_)
     # The sidecar knows the shipped rules only; the dossier carries the others.
     request = request_in("hybrid", dossier, database())
     assert request is not None

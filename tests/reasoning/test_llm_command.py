@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from aegis_ot.cli.app import app
 from aegis_ot.reasoning import ReplayBackend, judge_in
 
-from .samples import CONTAMINATED, SILENT, answer, checked, database
+from .samples import CONTAMINATED, SILENT, answer, examined
 
 runner = CliRunner()
 
@@ -35,11 +35,10 @@ def test_requests_out_and_answers_in(tmp_path: Path) -> None:
     )
     assert done.exit_code == 0, done.output
     # The child process saw the protocol as this one does, but for the file's name.
-    report, dossier = checked(SILENT)
     request_of = {Path(line["about"]).name: line for line in lines}
     assert '"hash"' in next(replay.glob("*.json")).read_text()
     assert request_of["b.py"]["purpose"] == "layer1"
-    result = judge_in("hybrid", report, dossier, database(), ReplayBackend(replay))
+    result = judge_in("hybrid", *examined(SILENT), ReplayBackend(replay))
     assert not result.unanswered, result.report.undecided
 
 

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-import functools
 import json
-import textwrap
-from collections.abc import Callable
 from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from aegis_ot.preflight import Options, Recording, Report, judge, record
-from aegis_ot.preflight.dossier import Dossier
-from aegis_ot.preflight.dossier_making import make_dossier
-from aegis_ot.preflight.rehearsal import Script
+from aegis_ot.preflight import Report
+from aegis_ot.preflight.opinion import Dossier
 from aegis_ot.reasoning import ScriptedBackend, State, judge_in
-from aegis_ot.vocabulary import VerdictWord
+from aegis_ot.vocabulary import Severity, VerdictWord
 
-from .samples import CONTAMINATED, SILENT, database
+from .samples import CONTAMINATED, PROSE, SILENT, database, examined
 
 WAIVED = SILENT.replace(
     'p20.mix(2, 10, plate["H12"])',
@@ -28,16 +23,10 @@ WAIVED = SILENT.replace(
 WAIVED_FAULT = CONTAMINATED.replace(
     "p20.mix(2, 10, ntc)", "p20.mix(2, 10, ntc)  # aegis: ignore[PCR-2] water only"
 )
-PROTOCOLS = [CONTAMINATED, SILENT, WAIVED, WAIVED_FAULT]
+PROTOCOLS = [CONTAMINATED, SILENT, PROSE, WAIVED, WAIVED_FAULT]
+NAMES = ["fault", "silent", "prose", "waived", "waived-fault"]
 
 RANK = {VerdictWord.PASS: 0, VerdictWord.WARN: 1, VerdictWord.FAIL: 2, VerdictWord.ERROR: 3}
-
-
-@functools.cache
-def checked(text: str) -> tuple[Recording, Report, Dossier]:
-    recording = record(Script(textwrap.dedent(text), "protocol.py"))
-    report = judge(recording, database())
-    return recording, report, make_dossier(recording, report, database())
 
 
 def _rules() -> st.SearchStrategy[str]:
@@ -79,12 +68,31 @@ def answers() -> st.SearchStrategy[dict[str, Any]]:
             "fix": WORDS,
         }
     )
-    role = st.fixed_dictionaries({"role": _roles(), "wells": WELLS, "reason": WORDS})
+    quote = st.one_of(
+        WORDS,
+        st.sampled_from(
+            ["the first one is the master mix", "second one", "no-template control", "tubes", "1"]
+        ),
+    )
+    role = st.fixed_dictionaries(
+        {
+            "role": _roles(),
+            "wells": WELLS,
+            "levels": st.lists(
+                st.one_of(st.sampled_from(["1", "0", "5 mM", "nan"]), WORDS), max_size=2
+            ),
+            "citations": st.lists(
+                st.fixed_dictionaries({"line": st.integers(-5, 40), "quote": quote}), max_size=2
+            ),
+        }
+    )
     reading = st.fixed_dictionaries(
         {
             "rule": _rules(),
             "answer": st.sampled_from(["holds", "violated", "cannot_tell"]),
             "reason": WORDS,
+            "wells": WELLS,
+            "lines": st.lists(st.integers(-5, 40), max_size=4),
         }
     )
     return st.fixed_dictionaries(
@@ -98,10 +106,6 @@ def answers() -> st.SearchStrategy[dict[str, Any]]:
     )
 
 
-def rejudging(recording: Recording) -> Callable[[Options], Report]:
-    return lambda options: judge(recording, database(), options)
-
-
 def stands(before: Report, after: Report, dossier: Dossier) -> None:
     assert set(before.findings) <= set(after.findings)
     assert RANK[after.verdict] >= RANK[before.verdict]
@@ -109,8 +113,9 @@ def stands(before: Report, after: Report, dossier: Dossier) -> None:
     assert set(before.roles) <= set(after.roles)
     added = [finding for finding in after.findings if finding not in before.findings]
     assert all(finding.source == "model" for finding in added)
+    assert all(finding.severity is Severity.WARNING for finding in added)
     for finding in added:
-        assert set(finding.wells) <= set(dossier.wells)
+        assert {well.labware for well in finding.wells} <= {item.key for item in dossier.deck}
         assert set(finding.lines) <= set(dossier.lines)
     told = {undecided.rule for undecided in after.undecided}
     for undecided in before.undecided:
@@ -119,20 +124,17 @@ def stands(before: Report, after: Report, dossier: Dossier) -> None:
     assert decided.isdisjoint(finding.rule for finding in added)
 
 
-@pytest.mark.parametrize("text", PROTOCOLS, ids=["fault", "silent", "waived", "waived-fault"])
+@pytest.mark.parametrize("text", PROTOCOLS, ids=NAMES)
 @settings(max_examples=60, deadline=None)
 @given(said=answers())
 def test_no_answer_takes_anything_from_the_checks(text: str, said: dict[str, Any]) -> None:
-    recording, before, dossier = checked(text)
-    backend = ScriptedBackend([said])
-    after = judge_in(
-        "hybrid", before, dossier, database(), backend, Options(), rejudging(recording)
-    )
+    before, dossier, reading = examined(text)
+    after = judge_in("hybrid", before, dossier, reading, ScriptedBackend([said]))
     assert not after.unanswered
     stands(before, after.report, dossier)
 
 
-@pytest.mark.parametrize("text", PROTOCOLS, ids=["fault", "silent", "waived", "waived-fault"])
+@pytest.mark.parametrize("text", PROTOCOLS, ids=NAMES)
 @settings(max_examples=40, deadline=None)
 @given(
     said=st.one_of(
@@ -147,17 +149,14 @@ def test_no_answer_takes_anything_from_the_checks(text: str, said: dict[str, Any
     )
 )
 def test_no_nonsense_takes_anything_from_the_checks(text: str, said: str | State) -> None:
-    recording, before, dossier = checked(text)
-    backend = ScriptedBackend([said])
-    after = judge_in(
-        "hybrid", before, dossier, database(), backend, Options(), rejudging(recording)
-    )
+    before, dossier, reading = examined(text)
+    after = judge_in("hybrid", before, dossier, reading, ScriptedBackend([said]))
     assert after.unanswered
     stands(before, after.report, dossier)
 
 
 def test_a_waiver_of_an_undecided_rule_is_not_stale_and_covers_the_models_finding() -> None:
-    _, before, dossier = checked(WAIVED)
+    before, dossier, reading = examined(WAIVED)
     assert before.remarks == ()
     said = {
         "family": "pcr", "roles": [], "answers": [], "summary": "",
@@ -166,6 +165,6 @@ def test_a_waiver_of_an_undecided_rule_is_not_stale_and_covers_the_models_findin
              "lines": [11, 15], "why": "", "fix": ""}
         ],
     }  # fmt: skip
-    after = judge_in("hybrid", before, dossier, database(), ScriptedBackend([said])).report
+    after = judge_in("hybrid", before, dossier, reading, ScriptedBackend([said])).report
     assert [waived.finding.rule for waived in after.waived] == ["PCR-2"]
     assert after.remarks == ()

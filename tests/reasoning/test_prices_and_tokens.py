@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.preflight.dossier_making import check_with_dossier
+from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import Usage, load_prices, request_in, request_size
 from aegis_ot.reasoning.prompts_text import prompt
@@ -71,7 +71,7 @@ def test_a_hybrid_request_keeps_to_its_budget() -> None:
     """
     sizes = []
     for path in sorted(BENCHMARK.glob("*.py"))[::4]:
-        _, dossier = check_with_dossier(Script(path.read_text(), path.name), database())
+        _, dossier, _ = check_with_dossier(Script(path.read_text(), path.name), database())
         request = request_in("hybrid", dossier, database())
         assert request is not None
         assert request.max_output <= 1200

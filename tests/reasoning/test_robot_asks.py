@@ -203,7 +203,7 @@ def test_bad_bodies_are_refused(serve: Serve) -> None:
 
 def _guarded(text: str) -> str:
     return "from aegis_ot import guard\n" + textwrap.dedent(text).replace(
-        "def run(protocol):", "@guard(opinion='ask')\ndef run(protocol):"
+        "def run(protocol):", "@guard(opinion='ask', rules='strict')\ndef run(protocol):"
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import textwrap
 
-from aegis_ot.preflight.dossier import Dossier
+from aegis_ot.preflight.opinion import Dossier
 from aegis_ot.preflight.trace import places
 from aegis_ot.vocabulary import WellRef
 

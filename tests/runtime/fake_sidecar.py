@@ -31,6 +31,7 @@ class FakeSidecar:
         self.keyframes: dict[str, list[dict[str, Any]]] = {}
         self.outcomes: dict[int, str | None] = {}
         self.decided: dict[int, str] = {}
+        self.actions: dict[int, str] = {}
         self.requests: list[tuple[str, str, Any]] = []
         self.connections: list[socket.socket] = []
         self.holds: list[dict[str, Any]] = []
@@ -126,6 +127,9 @@ class Handler(BaseHTTPRequestHandler):
         elif words[5] == "abandon":
             owner.abandoned.append(int(words[4]))
             self.answer(200, {})
+        elif words[5] == "action":
+            told = owner.actions.get(int(words[4]))
+            self.answer(200, {"action": told and {"action": told, "by": "Ada", "note": ""}})
         else:
             wait = float(parse_qs(parts.query).get("wait", ["0"])[0])
             self.answer(200, {"verdict": self.verdict(run, int(words[4]), wait)})

@@ -94,6 +94,10 @@ class LiveRun:
             error.model_dump_json() for error in self._orchestrator.get_state_summary().errors
         )
 
+    def seen(self) -> list[Any]:
+        """The commands so far, as the App would list them."""
+        return list(self._orchestrator.get_all_commands())
+
     def wait_for_status(self, status: str, timeout: float = 10.0) -> None:
         until = time.monotonic() + timeout
         while self.status != status:

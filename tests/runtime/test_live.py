@@ -12,6 +12,7 @@ import pytest
 from aegis_ot.errors import RunAborted
 from aegis_ot.runtime import operator as operator_module
 from aegis_ot.settings import Settings
+from aegis_ot.vocabulary import Outcome
 
 from .fake_sidecar import FakeSidecar, Handler
 from .live import LiveRun
@@ -186,6 +187,43 @@ def test_a_lost_sidecar_pauses_and_nothing_is_lost_when_it_is_back(sidecar: Fake
     assert "2 passed" in run.watcher.summary()
 
 
+def lost_at_the_third_keyframe(sidecar: FakeSidecar, seconds: float) -> LiveRun:
+    """A run whose sidecar dies, and that says so while it tries again."""
+    sidecar.fault = lambda handler: sidecar.fault is not None and _die_at(handler, sidecar, 2)
+    run = LiveRun(two_wells, settings(sidecar, capture_timeout_s=seconds)).start()
+    in_time(lambda: any("Trying again for" in said for said in comments(run.seen())))
+    assert run.status == "running"
+    return run
+
+
+def comments(commands: list[Any]) -> list[str]:
+    return [c.params.message for c in commands if c.commandType == "comment"]
+
+
+def test_a_lost_sidecar_is_told_while_it_is_tried_again(sidecar: FakeSidecar) -> None:
+    run = lost_at_the_third_keyframe(sidecar, 20.0)
+    with FakeSidecar(port=sidecar.port) as reborn:
+        reborn.keyframes = sidecar.keyframes
+        run.join()
+    assert run.error is None
+    assert "waitForResume" not in [command.commandType for command in run.commands]
+    assert any("The sidecar answers again" in said for said in comments(run.commands))
+
+
+def test_an_operator_who_pauses_during_the_retries_resumes_once(sidecar: FakeSidecar) -> None:
+    run = lost_at_the_third_keyframe(sidecar, 4.0)
+    run.pause()
+    run.wait_for_status("paused")
+    time.sleep(3.5)  # the retries end meanwhile
+    with FakeSidecar(port=sidecar.port) as reborn:
+        reborn.keyframes = sidecar.keyframes
+        in_time(lambda: len(reborn.stored()) == 3)
+        run.play()
+        run.join()
+    assert run.error is None
+    assert "waitForResume" not in [command.commandType for command in run.commands]
+
+
 def _die_at(handler: Handler, sidecar: FakeSidecar, count: int) -> bool:
     if handler.path.endswith("/keyframes") and len(sidecar.stored()) == count:
         sidecar.fault = None
@@ -195,7 +233,7 @@ def _die_at(handler: Handler, sidecar: FakeSidecar, count: int) -> bool:
     return False
 
 
-def test_where_nobody_can_resume_the_operator_decides_on_the_page(
+def test_where_nobody_can_resume_the_operator_answers_on_the_page(
     sidecar: FakeSidecar, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(operator_module, "can_be_resumed", lambda: False)
@@ -203,9 +241,14 @@ def test_where_nobody_can_resume_the_operator_decides_on_the_page(
     run = LiveRun(two_wells, settings(sidecar)).start()
     in_time(lambda: bool(sidecar.holds))
     sidecar.decided[0] = "pass"
-    in_time(lambda: len(sidecar.holds) == 2)
+    sidecar.actions[0] = "resume"
+    in_time(lambda: len(sidecar.holds) == 3)
+    assert [hold.get("answered") for hold in sidecar.holds] == [None, "page", None]
     sidecar.decided[1] = "fail"
+    sidecar.actions[1] = "stop"
     run.join()
+    assert run.watcher is not None
+    assert run.watcher.result.verdicts[0].outcome is Outcome.PASS
     assert isinstance(run.error, RunAborted)
     assert "waitForResume" not in [c.commandType for c in run.commands]
 
@@ -240,8 +283,24 @@ def test_a_legacy_protocol_pauses_and_plays_on(legacy: str, sidecar: FakeSidecar
     assert run.error is None
     assert run.status == "succeeded"
     assert len(sidecar.stored()) == 8
-    comments = [c.params.message for c in run.commands if c.commandType == "comment"]
-    assert any("partial dispense" in comment for comment in comments)
+    kinds = [command.commandType for command in run.commands]
+    pause = kinds.index("waitForResume")
+    assert "partial dispense" in run.commands[pause].params.message
+    # The command that had to wait for the verdict is the next one.
+    assert kinds[pause - 1 : pause + 2] == ["dispense", "waitForResume", "aspirate"]
+
+
+def test_a_legacy_protocol_tells_its_reason_while_it_is_paused(
+    legacy: str, sidecar: FakeSidecar
+) -> None:
+    sidecar.outcomes[0] = "fail"
+    run = LiveRun(two_wells, settings(sidecar), legacy).start()
+    run.wait_for_status("paused")
+    seen = run.seen()
+    assert seen[-1].commandType == "waitForResume"
+    assert "partial dispense" in seen[-1].params.message
+    run.play()
+    run.join()
 
 
 def test_a_legacy_protocol_is_stopped_during_its_pause(legacy: str, sidecar: FakeSidecar) -> None:

@@ -209,7 +209,7 @@ class TestLinkLoss:
         patience = settings(sidecar, capture_timeout_s=0.45, on_link_loss="abort")
         _, _, error = watch(wells(1), patience)
         assert isinstance(error, RunAborted)
-        assert "got no frame from its camera" in str(error)
+        assert "got no usable frame from its camera" in str(error)
 
     def test_garbage_is_a_lost_link(self, sidecar: FakeSidecar) -> None:
         sidecar.fault = once("/keyframes", lambda h: h.raw(b"\x00\x01 garbage\r\n\r\n"), 1000)

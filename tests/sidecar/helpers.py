@@ -94,6 +94,7 @@ class StubAnalyser:
         self.unsure = unsure
         self.histories: list[list[Judged]] = []
         self.observed: list[tuple[str, int]] = []
+        self.confirmed: list[int] = []
         self.gate = threading.Event()
         self.gate.set()
 
@@ -110,6 +111,9 @@ class StubRun:
     def observe(self, keyframe: Keyframe, frame: Frame) -> None:
         assert frame.image.shape == (48, 64, 3)
         self.analyser.observed.append((self.run, keyframe.sequence))
+
+    def confirm(self, trajectory: int) -> None:
+        self.analyser.confirmed.append(trajectory)
 
     def judge(self, trajectory: int) -> Judged:
         assert self.analyser.gate.wait(10)

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from aegis_ot.errors import CameraError, ConfigurationError
@@ -118,6 +119,22 @@ def test_a_camera_that_dies_is_opened_again(hand: tuple[HandSource, FreeRunning]
     assert camera.frame_after(1.0, 5.0).exposed_at == 2.0
     assert camera.health().ok
     assert source.opened == 2
+
+
+def test_a_camera_that_remembers_gives_the_frame_of_a_moment_that_is_over(
+    hand: tuple[HandSource, FreeRunning],
+) -> None:
+    source, camera = hand
+    camera.remember()
+    for number in range(100):  # many more than a camera keeps by itself
+        source.put(Raw(100 + number / 10, image=np.full((48, 64, 3), number, np.uint8)))
+    assert camera.frame_after(109.9, 5.0).exposed_at == pytest.approx(109.9)
+    frame = camera.frame_after(101.95, 0.1)
+    assert frame.exposed_at == pytest.approx(102.0)
+    assert abs(int(frame.image.mean()) - 20) <= 1
+    source.put(Raw(130.0, make_jpeg()))
+    assert camera.frame_after(130.0, 5.0).exposed_at == 130.0
+    assert camera.frame_after(101.95, 0.1).exposed_at == 130.0  # the others are forgotten
 
 
 def test_a_closed_camera_wakes_who_waits() -> None:

@@ -73,6 +73,6 @@ def test_a_port_in_use_is_told(tmp_path: Path) -> None:
 
 
 def test_an_address_that_is_not_ours_is_told(tmp_path: Path) -> None:
-    config = SidecarConfig.load(environ={}, host="192.0.2.1", token="t", port=0, data=tmp_path)
+    config = SidecarConfig.load(environ={}, host="192.0.2.1", token="t" * 16, port=0, data=tmp_path)
     with pytest.raises(ConfigurationError, match="Cannot listen"):
         serve(config, StubCamera())

@@ -46,11 +46,22 @@ def test_the_last_decision_counts_and_all_are_kept(judged: Robot) -> None:
     assert [d["by"] for d in decisions] == ["Ada", "Grace"]
 
 
-def test_what_passed_or_was_never_judged_is_not_decided(judged: Robot) -> None:
-    assert decide(judged, 0, "fail") == 409
+def test_a_well_that_passed_is_corrected_and_what_was_never_judged_is_not(judged: Robot) -> None:
+    assert decide(judged, 0, "fail") == 200
+    assert judged.verdict(0)["verdict"]["outcome"] == "fail"
     assert decide(judged, 9, "pass") == 409
     assert decide(judged, 1, "undecided") == 422
     assert decide(judged, 1, "pass", by="") == 422
+
+
+def test_a_person_tells_a_paused_robot_what_to_do(judged: Robot) -> None:
+    assert judged.http.get("/v1/runs/run-1/trajectories/1/action").json() == {"action": None}
+    told = {"action": "stop", "by": "Ada", "note": "leak"}
+    assert judged.post("trajectories/1/action", told).status_code == 200
+    assert judged.http.get("/v1/runs/run-1/trajectories/1/action").json()["action"] == told
+    (kept,) = judged.overview()["actions"]
+    assert (kept["trajectory"], kept["by"], kept["note"]) == (1, "Ada", "leak")
+    assert judged.post("trajectories/1/action", {"action": "dance", "by": "Ada"}).status_code == 422
 
 
 def test_a_decision_outlives_a_restart(config: SidecarConfig) -> None:
@@ -99,3 +110,26 @@ def test_a_fail_is_never_held_back(patient: Robot) -> None:
     patient.cycle(0)
     patient.cycle(1)
     assert patient.verdict(1, wait=0.5)["verdict"]["outcome"] == "fail"
+
+
+def test_the_analyser_hears_of_a_well_that_the_operator_found_right(
+    judged: Robot, analyser: StubAnalyser
+) -> None:
+    assert decide(judged, 1, "pass") == 200  # a fail that is overruled teaches nothing
+    assert decide(judged, 2, "pass") == 200
+    judged.cycle(3)
+    assert judged.verdict(3)["verdict"] is not None
+    assert analyser.confirmed == [2]
+
+
+@pytest.mark.parametrize(("policy", "confirmed"), [("pause", [2]), ("continue", [])])
+def test_a_run_that_was_paused_for_a_look_and_goes_on_was_looked_at(
+    judged: Robot, analyser: StubAnalyser, policy: str, confirmed: list[int]
+) -> None:
+    for trajectory in (1, 2):
+        hold = {"trajectory": trajectory, "seconds": 0.1, "resolution": "verdict", "policy": policy}
+        assert judged.post("hold", hold).status_code == 200
+    assert analyser.confirmed == []
+    judged.cycle(3)
+    assert judged.verdict(3)["verdict"] is not None
+    assert analyser.confirmed == confirmed

@@ -105,7 +105,7 @@ def sidecar_process(settings: Path, limit: int | None = None) -> Iterator[tuple[
         seen = []
         for line in process.stderr:
             seen.append(line)
-            if found := re.search(r"answers at (\S+)", line):
+            if found := re.search(r"address=(\S+)", line):
                 yield process.pid, found[1]
                 return
         pytest.fail("the sidecar did not start: " + "".join(seen))
@@ -235,3 +235,31 @@ def test_an_unusable_data_folder_is_told(tmp_path: Path) -> None:
     (tmp_path / "broken" / DATABASE).write_bytes(b"not a database" * 100)
     with pytest.raises(StoreError, match="not a database"):
         Store(tmp_path / "broken")
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_stop_is_clean(number: signal.Signals, tmp_path: Path) -> None:
+    """Whoever waits is answered, the exit status is 0, and the folder is free."""
+    command = [
+        sys.executable, "-c", "from aegis_ot.cli import main; main()", "sidecar",
+        "--camera", "pattern", "--port", "0", "--data", str(tmp_path),
+    ]  # fmt: skip
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        url = process.stdout.readline().split()[-1]
+        answers: list[int] = []
+        version = httpx.get(f"{url}/v1/news", trust_env=False).json()["version"]
+
+        def wait() -> None:
+            query = {"after": version, "wait": 20}
+            answer = httpx.get(f"{url}/v1/news", params=query, trust_env=False, timeout=30)
+            answers.append(answer.status_code)
+
+        page = threading.Thread(target=wait)
+        page.start()
+        page.join(0.5)
+        process.send_signal(number)
+        assert process.wait(10) == 0
+        page.join(10)
+        assert answers == [200]
+    Store(tmp_path, alone=True).close()

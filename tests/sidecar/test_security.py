@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import logging
+import re
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,10 +15,12 @@ from pydantic import SecretStr
 
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.sidecar.config import NotificationSettings, kept_token
+from aegis_ot.sidecar.journal import set_up
 
 from .helpers import Robot, StubAnalyser, StubCamera
 
-TOKEN = "s3cret-token"
+TOKEN = "s3cret-token-of-the-lab"
 
 
 @pytest.fixture
@@ -87,6 +93,90 @@ def test_no_open_door_without_a_token(host: str) -> None:
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "::1", "127.1.2.3"])
 def test_loopback_needs_none(host: str) -> None:
     assert SidecarConfig.load(environ={}, host=host).token is None
+
+
+def test_on_a_network_a_token_cannot_be_guessed() -> None:
+    with pytest.raises(ConfigurationError, match="at least 16"):
+        SidecarConfig.load(environ={}, host="0.0.0.0", token="short")
+    assert SidecarConfig.load(environ={}, token="short").token is not None
+
+
+def test_a_token_is_made_once_and_kept_for_its_owner(tmp_path: Path) -> None:
+    def load() -> SidecarConfig:
+        return SidecarConfig.load(
+            environ={}, find_token=kept_token, host="0.0.0.0", data=tmp_path / "d"
+        )
+
+    first, second = load().token, load().token
+    assert first is not None
+    assert first == second
+    assert len(first.get_secret_value()) >= 16
+    assert (tmp_path / "d" / "token").stat().st_mode & 0o077 == 0
+    here = SidecarConfig.load(environ={}, find_token=kept_token, data=tmp_path / "other")
+    assert here.token is None
+    assert not (tmp_path / "other").exists()
+
+
+def test_wrong_logins_are_slowed_and_logged(guarded: str, caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("INFO")
+    with httpx.Client(base_url=guarded, trust_env=False) as http:
+        for _ in range(3):
+            assert http.post("/login", data={"token": "guess"}).status_code == 401
+        slowed = http.post("/login", data={"token": TOKEN})
+        assert slowed.status_code == 429
+        assert int(slowed.headers["retry-after"]) <= 1
+        begun = time.monotonic()
+        assert http.get("/v1/runs", headers={"Authorization": "Bearer no"}).status_code == 401
+        assert time.monotonic() - begun >= 0.9
+        time.sleep(1.0)
+        assert http.post("/login", data={"token": TOKEN}).status_code == 303
+    told = [record.facts for record in caplog.records if record.getMessage() == "login"]
+    assert [fact["ok"] for fact in told] == [False] * 4 + [True]
+    assert {fact["address"] for fact in told} == {"127.0.0.1"}
+
+
+def test_no_secret_is_in_the_log_or_the_store(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    data = tmp_path / "data"
+    hook = SecretStr("json://user:hook-passw0rd@127.0.0.1:9/")
+    config = SidecarConfig(
+        port=0, data=data, token=SecretStr(TOKEN), notifications=NotificationSettings(urls=(hook,))
+    )
+    set_up("json")
+    try:
+        with (
+            running_sidecar(config, StubCamera(), StubAnalyser(fails=[0])) as url,
+            Robot(url, token=TOKEN) as robot,
+        ):
+            robot.register()
+            robot.cycle(0)
+            robot.verdict(0)
+            robot.http.get("/", params={"token": TOKEN})
+            robot.http.post("/login", data={"token": TOKEN})
+    finally:
+        logging.getLogger("aegis_ot").handlers.clear()
+        logging.getLogger("aegis_ot").propagate = True
+    said = capfd.readouterr()
+    lines = [json.loads(line) for line in said.err.splitlines() if line.startswith("{")]
+    assert {"run", "verdict", "login"} <= {line["event"] for line in lines}
+    everything = said.out + said.err
+    for path in data.rglob("*"):
+        if path.is_file():
+            everything += path.read_bytes().decode("latin-1")
+    for secret in (TOKEN, "hook-passw0rd"):
+        assert secret not in everything
+
+
+@pytest.mark.parametrize(
+    ("host", "opens"), [("0.0.0.0", r"http://[\d.]+:\d+"), ("127.0.0.1", r"http://127.0.0.1:\d+")]
+)
+def test_the_printed_address_is_one_that_opens(host: str, opens: str, tmp_path: Path) -> None:
+    config = SidecarConfig(host=host, port=0, data=tmp_path, token=SecretStr(TOKEN))
+    with running_sidecar(config, StubCamera()) as url:
+        assert re.fullmatch(opens, url)
+        assert "0.0.0.0" not in url
+        assert httpx.get(f"{url}/v1/health", trust_env=False).status_code == 200
 
 
 def test_the_token_is_not_shown(tmp_path: Path) -> None:

@@ -7,9 +7,8 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.vision.gates import Case, OperatorGate, examine_in_turn, in_sentences
+from aegis_ot.vision.gates import Case, Gates, OperatorGate, VolumetricGate, in_sentences
 from aegis_ot.vision.measuring import ColumnReading
-from aegis_ot.vision.volumetric_gate import VolumetricGate
 from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
 
 from .samples import sample
@@ -133,11 +132,11 @@ def test_a_calibration_wells_column_of_another_height_proves_little_an_empty_tip
 
 def test_gates_are_asked_in_turn_until_one_decides() -> None:
     gates = [VolumetricGate(), OperatorGate()]
-    assert examine_in_turn(gates, case()).gate is Gate.VOLUMETRIC
-    blind = examine_in_turn(gates, case(None, None))
+    assert Gates(gates).confirm(case()).gate is Gate.VOLUMETRIC
+    blind = Gates(gates).confirm(case(None, None))
     assert blind.outcome is Outcome.UNDECIDED
     assert blind.gate is Gate.OPERATOR
-    assert examine_in_turn([], case()).outcome is Outcome.UNDECIDED
+    assert Gates([]).confirm(case()).outcome is Outcome.UNDECIDED
 
 
 def test_no_reason_is_said_twice() -> None:

@@ -50,6 +50,7 @@ def keyframes(
     reagent: str = "red dye",
     volumes: Sequence[float] = VOLUMES,
     pipette: str = "p1000",
+    tip: str = "",
 ) -> Iterator[Keyframe]:
     sequence = 0
     for number in range(wells):
@@ -60,7 +61,7 @@ def keyframes(
             loaded = kind in (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT)
             yield Keyframe(
                 "run", sequence, number, kind, f"{pipette}_single_gen2", "left", channels,
-                f"1:{number}", (source,), (well,), volume, volume if loaded else 0.0,
+                tip or f"1:{number}", (source,), (well,), volume, volume if loaded else 0.0,
                 float(pipette[1:]), reagent,
             )  # fmt: skip
             sequence += 1
@@ -73,12 +74,15 @@ def judge_run(
     seed: int = 0,
     volumes: Sequence[float] = VOLUMES,
     pipette: str = "p1000",
+    reagent: str = "red dye",
+    tip: str = "",
+    operator: bool = False,
 ) -> list:
     parameters = SessionParameters.webcam(seed)
     plan, rng, detector = FaultPlan(faults), np.random.default_rng(seed), Told()
     analyser = RunMonitor(detector).begin("run", history)
     judged = []
-    for keyframe in keyframes(wells, volumes=volumes, pipette=pipette):
+    for keyframe in keyframes(wells, reagent=reagent, volumes=volumes, pipette=pipette, tip=tip):
         contents = plan.apply(keyframe).contents
         state = place_tip(
             parameters, keyframe.kind, tip_for(keyframe.pipette, keyframe.capacity_ul), contents,
@@ -92,6 +96,8 @@ def judge_run(
         analyser.observe(keyframe, Frame(jpeg, decode(jpeg), 0.0))
         if keyframe.kind is KeyframeKind.POST_DISPENSE:
             judged.append(analyser.judge(keyframe.trajectory))
+            if operator and judged[-1][0].outcome is Outcome.UNDECIDED:
+                analyser.confirm(keyframe.trajectory)
     return judged
 
 
@@ -179,3 +185,43 @@ def test_garbled_history_does_not_stop_a_run(run) -> None:
     verdict = run[0][0]
     history = [(verdict, {}), (verdict, {"calibration": "?"}), (verdict, {"calibration": {}})]
     assert RunMonitor(Told()).begin("run", history) is not None
+
+
+def every(fault: str, wells: int) -> list[str]:
+    return [f"{fault}@#{number}" for number in range(1, wells + 1)]
+
+
+@pytest.mark.parametrize("fault", ["no_aspirate", "no_dispense", "partial:50", "no_tip"])
+def test_wells_that_all_go_wrong_alike_never_pass(fault) -> None:
+    judged = judge_run(5, every(fault, 5), seed=1)
+    assert Outcome.PASS not in {verdict.outcome for verdict, _ in judged}
+
+
+def test_a_clear_liquid_is_asked_about_once_and_the_operators_word_counts() -> None:
+    unasked = judge_run(4, reagent="water", seed=1)
+    assert {verdict.outcome for verdict, _ in unasked} == {Outcome.UNDECIDED}
+    asked = judge_run(8, reagent="water", seed=1, operator=True)
+    assert [verdict.outcome for verdict, _ in asked] == [Outcome.UNDECIDED, *[Outcome.PASS] * 7]
+    assert [v.route for v, _ in asked[:6]] == [Route.CALIBRATION] * 6
+
+
+def test_an_empty_source_after_sound_wells_is_no_pass() -> None:
+    judged = judge_run(6, ("no_aspirate@#4", "no_dispense@#5"), seed=1)
+    assert [verdict.outcome for verdict, _ in judged] == [
+        *[Outcome.PASS] * 3, Outcome.FAIL, Outcome.FAIL, Outcome.PASS
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize("fault", ["partial:50", "no_dispense"])
+def test_one_fault_on_a_tip_that_is_used_again_is_told_once(fault) -> None:
+    judged = judge_run(8, (f"{fault}@#4",), seed=1, volumes=(100.0,), tip="1:A1")
+    told = [verdict.trajectory for verdict, _ in judged if verdict.outcome is not Outcome.PASS]
+    assert told == [3]
+    assert "as reported there" in judged[4][0].reason
+
+
+def test_a_second_fault_on_that_tip_is_told_too() -> None:
+    faults = ("partial:50@#4", "no_dispense@#6")
+    judged = judge_run(8, faults, seed=1, volumes=(100.0,), tip="1:A1")
+    told = [verdict.trajectory for verdict, _ in judged if verdict.outcome is not Outcome.PASS]
+    assert told == [3, 5]

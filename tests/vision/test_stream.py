@@ -19,9 +19,16 @@ def stream(*normals: float) -> Stream:
     return made
 
 
-def test_nothing_can_be_told_before_a_well_was_scored() -> None:
-    assert stream().p_value(9.0) is None
+def test_the_first_well_is_held_against_the_models_own_wells() -> None:
+    assert stream().p_value(9.0) == pytest.approx(math.exp(-9.0))
     assert stream(0.5).p_value(None) is None
+
+
+def test_first_wells_that_all_look_unusual_are_so_until_somebody_vouches() -> None:
+    calibrating = stream(9.0, 9.0)
+    assert calibrating.p_value(9.0) == pytest.approx(math.exp(-9.0))
+    calibrating.vouched = True
+    assert calibrating.p_value(9.0) == 1.0
 
 
 def test_a_score_is_taken_against_the_runs_own_wells() -> None:

@@ -60,8 +60,8 @@ def is_store(folder: Path) -> bool:
     return (folder / DATABASE).is_file()
 
 
-def open_store(folder: Path) -> Store:
-    """Open an existing store.
+def open_store(folder: Path, alone: bool = False) -> Store:
+    """Open an existing store, ``alone`` for who writes to it.
 
     Raises:
         ConfigurationError: The folder holds none. One is never made.
@@ -71,7 +71,7 @@ def open_store(folder: Path) -> Store:
         raise ConfigurationError(
             f"{folder} holds no {DATABASE}: name the data folder of a sidecar (its setting 'data')."
         )
-    return Store(folder)
+    return Store(folder, alone)
 
 
 def recorded_runs(store: Store, detector: Detector, runs: Sequence[str] = ()) -> list[RecordedRun]:

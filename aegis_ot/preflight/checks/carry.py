@@ -12,6 +12,7 @@ from ...vocabulary import Site
 from ..trace import Contact, Met, Tip, Visit, Well
 from .case import Case, RoleSet, carried_liquids, delivered
 from .check import Check, Result, Violation, at, place, role_field
+from .unnamed import unnamed_contact
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,9 @@ class Carry(Check):
                 elif not once:
                     let_be.setdefault(key, []).append((origin, met))
             judged[key] = visit.carried
+        doubt = unnamed_contact(case, carriers, into)
+        if doubt is not None:
+            yield doubt
 
     def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
         well = visit.well

@@ -106,13 +106,19 @@ def _lists_of_levels(
     found: dict[str, tuple[float, ...]] = {}
     for binding in names:
         if len(binding.values) > 1 and amounts.find(binding.name):
-            levels = [
-                level_in(item, common.levels) if isinstance(item, str) else float(item)
-                for item in binding.values
-            ]
+            levels = [_level(item, common) for item in binding.values]
             if None not in levels:
                 found[binding.name] = tuple(level for level in levels if level is not None)
     return found
+
+
+def _level(item: float | str, common: Common) -> float | None:
+    if isinstance(item, str):
+        return level_in(item, common.levels)
+    try:
+        return float(item)
+    except OverflowError:  # an integer of hundreds of digits
+        return None
 
 
 def _listed_beside(

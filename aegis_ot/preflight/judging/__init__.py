@@ -1,10 +1,10 @@
 """From a recording to a verdict: every rule judged, its findings joined, waivers applied."""
 
-from .doubts import spelled, unnamed_wells
-from .judging import judge
+from .doubts import missing_needs, spelled, unnamed_wells
+from .judging import judge, judge_reading
 from .options import Options
 from .reading import Reading, read_recording
-from .report import Report, RoleEvidence, verdict_of
+from .report import Report, RoleEvidence, unanswered, verdict_of
 from .waivers import MODEL, Waived, Waiver, apply_waivers, read_waivers
 
 __all__ = [
@@ -17,9 +17,12 @@ __all__ = [
     "Waiver",
     "apply_waivers",
     "judge",
+    "judge_reading",
+    "missing_needs",
     "read_recording",
     "read_waivers",
     "spelled",
+    "unanswered",
     "unnamed_wells",
     "verdict_of",
 ]

@@ -5,12 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ...vocabulary import Undecided, WellRef
+from ..roles import Roles
 from ..rules import RoleSpec, RuleSpec
 from ..trace import Sides, places
 from .reading import Reading
 
 _MOST_SHOWN = 3
 """Labware that are offered for one role."""
+
+
+def missing_needs(rule: RuleSpec, roles: Roles) -> list[str]:
+    """The needs of a rule that no well is known for; ``"a|b"`` for either."""
+    return [need for need in rule.needs if not any(map(roles.known, need.split("|")))]
 
 
 def missing_roles(reading: Reading, rule: RuleSpec, family: str, needs: Sequence[str]) -> Undecided:

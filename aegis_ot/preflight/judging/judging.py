@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ...vocabulary import Remark, Severity, Undecided
@@ -15,10 +13,10 @@ from ..roles import Roles
 from ..rules import Database, RuleSpec
 from ..source import source_lines
 from ..trace import Contact, Well
-from .doubts import missing_roles, unnamed_wells
+from .doubts import missing_needs, missing_roles, unnamed_wells
 from .findings import Broken, findings_of
-from .options import Options, check_options
-from .reading import Reading, read_recording
+from .options import Options
+from .reading import Reading, read_recording, uncollected
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
@@ -34,17 +32,20 @@ def judge(recording: Recording, database: Database, options: Options | None = No
         ConfigurationError: If an option names a rule, role or family that does not exist.
         RuleError: If a family given by hand does not exist.
     """
-    options = options or Options()
-    check_options(options, database)
-    with _uncollected():
-        reading = read_recording(recording, database, options)
+    return judge_reading(read_recording(recording, database, options or Options()))
+
+
+def judge_reading(reading: Reading) -> Report:
+    """Judge a protocol that was read already; to keep the reading, or to judge it again."""
+    options = reading.options
+    with uncollected():
         broken: list[Broken] = []
         undecided: list[Undecided] = []
         for rule, case in reading.cases():
             severity = options.severity_of(rule)
             if severity == "off":
                 continue
-            missing = _missing(rule, case)
+            missing = missing_needs(rule, case.roles)
             if missing:
                 family = case.family.family
                 undecided.append(missing_roles(reading, rule, family, missing))
@@ -55,19 +56,7 @@ def judge(recording: Recording, database: Database, options: Options | None = No
                 undecided.append(Undecided(rule.id, doubt))
         open_ = {question.rule for question in undecided}
         judged = [one.rule.id for one in broken if one.rule.id not in open_]
-        return _report(recording, reading, broken, undecided, judged)
-
-
-@contextmanager
-def _uncollected() -> Iterator[None]:
-    """Hold the garbage collector: a trace is many small objects, none of them garbage."""
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
+        return _report(reading, broken, undecided, judged)
 
 
 def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Violation], str]:
@@ -132,12 +121,12 @@ def _is_named(well: Well, roles: Roles) -> bool:
 
 
 def _report(
-    recording: Recording,
     reading: Reading,
     broken: Sequence[Broken],
     undecided: Sequence[Undecided],
     judged: Sequence[str],
 ) -> Report:
+    recording = reading.recording
     waivers = read_waivers(recording.text, reading.facts)
     standing, waived = apply_waivers(findings_of(broken), waivers)
     known = [rule.id for rule in reading.database.rules]
@@ -155,13 +144,6 @@ def _report(
         lines=tuple(source_lines(recording.text)),
         unnamed=unnamed_wells(reading),
     )
-
-
-def _missing(rule: RuleSpec, case: Case) -> list[str]:
-    """The needs of a rule that no well is known for."""
-    return [
-        need for need in rule.needs if not any(case.roles.known(role) for role in need.split("|"))
-    ]
 
 
 def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from ...vocabulary import WellRef
@@ -21,7 +23,7 @@ from ..roles import (
 from ..rules import Common, Database, Family, RuleSpec
 from ..source import SourceFacts, lexicon_of, read_source, tokens
 from ..trace import Pauses, Trace, Usage, build_trace, usage_of
-from .options import Options
+from .options import Options, check_options
 
 _PLAUSIBLE = 1.0
 """From this score on a family that is not judged may still say what wells held."""
@@ -56,6 +58,12 @@ class Reading:
     roles: tuple[Roles, ...]
     waste: frozenset[WellRef]
     unsure: frozenset[WellRef]
+
+    @property
+    def family_known(self) -> bool:
+        """Whether the likeliest family is given, or more than a guess and more than a fallback."""
+        first = self.families[0] if self.families else None
+        return bool(self.options.assay or (first and first.sure and not first.left_over))
 
     def cases(self) -> Iterator[tuple[RuleSpec, Case]]:
         """Every rule that concerns this protocol, with the case that it is judged on."""
@@ -95,9 +103,28 @@ class Reading:
         )
 
 
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Hold the garbage collector: a trace is many small objects, none of them garbage."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
+
+
 def read_recording(recording: Recording, database: Database, options: Options) -> Reading:
-    """Read a recording with the eyes of every family that applies."""
-    return _read(recording, database, options, read_source(recording.text), ())
+    """Read a recording with the eyes of every family that applies.
+
+    Raises:
+        ConfigurationError: If an option names a rule, role or family that does not exist.
+        RuleError: If a family given by hand does not exist.
+    """
+    check_options(options, database)
+    with uncollected():
+        return _read(recording, database, options, read_source(recording.text), ())
 
 
 def _read(

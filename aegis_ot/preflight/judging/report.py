@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ...vocabulary import Finding, Remark, Severity, Undecided, VerdictWord, WellRef
 from ..roles import Inference
-from .waivers import Waived
+from .waivers import MODEL, Waived
 
 
 @dataclass(frozen=True)
@@ -62,3 +62,8 @@ def verdict_of(findings: Sequence[Finding]) -> VerdictWord:
     if any(finding.severity is Severity.ERROR for finding in findings):
         return VerdictWord.FAIL
     return VerdictWord.WARN if findings else VerdictWord.PASS
+
+
+def unanswered(report: Report) -> str:
+    """Why the model that was asked gave no answer, or ``""``: a reason for exit code 2."""
+    return next((u.reason for u in report.undecided if u.rule == MODEL), "")

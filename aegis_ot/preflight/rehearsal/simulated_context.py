@@ -8,6 +8,7 @@ the same parts, inside a ``with`` block.
 from __future__ import annotations
 
 import asyncio
+import inspect
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from typing import Any
@@ -125,15 +126,19 @@ def _engine(
         use_virtual_gripper=True,
         use_simulated_deck_config=True,
     )
+    parts = {
+        "hardware_api": hardware.wrapped(),
+        "config": config,
+        "deck_configuration": None,
+        "file_provider": None,  # from 8.2 on
+        "error_recovery_policy": error_recovery_policy.never_recover,
+        "drop_tips_after_run": False,
+        "post_run_hardware_state": PostRunHardwareState.STAY_ENGAGED_IN_PLACE,
+        "load_fixed_trash": should_load_fixed_trash_labware_for_python_protocol(api_level),
+    }
+    known = inspect.signature(create_protocol_engine_in_thread).parameters
     with create_protocol_engine_in_thread(
-        hardware_api=hardware.wrapped(),
-        config=config,
-        deck_configuration=None,
-        file_provider=None,
-        error_recovery_policy=error_recovery_policy.never_recover,
-        drop_tips_after_run=False,
-        post_run_hardware_state=PostRunHardwareState.STAY_ENGAGED_IN_PLACE,
-        load_fixed_trash=should_load_fixed_trash_labware_for_python_protocol(api_level),
+        **{name: part for name, part in parts.items() if name in known}
     ) as (engine, loop):
         if extra_labware:
             asyncio.run_coroutine_threadsafe(_add(engine, extra_labware), loop).result()
@@ -149,6 +154,7 @@ async def _add(engine: Any, definitions: Mapping[str, Any]) -> None:
             parsed: Any = definition
         elif adapter is not None:
             parsed = adapter.validate_python(definition)
-        else:
-            parsed = labware_definition.LabwareDefinition.model_validate(definition)
+        else:  # before 8.3, with either version of pydantic
+            model = labware_definition.LabwareDefinition
+            parsed = (getattr(model, "model_validate", None) or model.parse_obj)(definition)
         engine.add_labware_definition(parsed)

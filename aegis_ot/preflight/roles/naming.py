@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ..evidence import Evidence
+from ..evidence import Evidence, Kind
 from ..rules import Common, Family
 from ..source import Lexicon, Match, lexicon_of, tokens, without_concentrations
 
@@ -45,6 +45,8 @@ class RoleNames:
         """
         if evidence.role in self._family.roles:
             return [evidence.role]
+        if evidence.kind is Kind.MODEL:
+            return []  # a verified role, of another family
         text = evidence.text
         _, dot, field = text.rpartition(".")
         if dot and self._lexicon.find(field):

@@ -151,23 +151,27 @@ class Example:
     Attributes:
         title: What it shows: "one tip for two samples".
         code: Its lines: the body of ``run`` on a small fixed deck, or a whole protocol.
+        also: Further rules that a failing one breaks.
+        severity: What the findings of a failing one are: ``error``, ``warning``, or ``any``.
     """
 
     title: str
     code: tuple[str, ...]
+    also: tuple[str, ...] = ()
+    severity: Literal["any", "error", "warning"] = "any"
 
 
 @dataclass(frozen=True)
 class Examples:
-    """At least one of each.
+    """At least one of each, here or in the file of examples beside the rule file.
 
     Attributes:
-        passing: Snippets in which the rule finds nothing.
-        failing: Snippets in which it does.
+        passing: Snippets in which no rule of the family finds anything.
+        failing: Snippets in which the rule does.
     """
 
-    passing: Annotated[tuple[Example, ...], NotEmpty()]
-    failing: Annotated[tuple[Example, ...], NotEmpty()]
+    passing: tuple[Example, ...] = ()
+    failing: tuple[Example, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -188,7 +192,7 @@ class RuleSpec:
         rationale: Why it matters.
         reference: Where that is written.
         fix: How to mend a violation.
-        examples: Passing and failing snippets.
+        examples: Passing and failing snippets; the shipped ones lie in files of their own.
     """
 
     id: Name
@@ -200,7 +204,7 @@ class RuleSpec:
     rationale: str
     reference: str
     fix: str
-    examples: Examples
+    examples: Examples = field(default_factory=Examples)
     scope: Literal["family", "all"] = "family"
     unless_reported: tuple[str, ...] = ()
     indicators: tuple[str, ...] = ()

@@ -8,7 +8,7 @@ the sources says nothing of the wells beside them.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -54,11 +54,11 @@ class Flow:
         return [index for index in self.indexed if name in self.origins(index.names)]
 
 
-def read_flow(tree: ast.Module) -> Flow:
-    """Read a parsed protocol."""
+def read_flow(nodes: Sequence[ast.AST]) -> Flow:
+    """Read all nodes of a parsed protocol."""
     flow = Flow()
-    functions = {n.name: n for n in ast.walk(tree) if isinstance(n, ast.FunctionDef)}
-    for node in ast.walk(tree):
+    functions = {n.name: n for n in nodes if isinstance(n, ast.FunctionDef)}
+    for node in nodes:
         if isinstance(node, ast.Assign):
             for target in node.targets:
                 _bind(flow, target, node.value, looped=False)

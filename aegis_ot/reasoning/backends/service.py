@@ -94,19 +94,10 @@ class ServiceBackend(ABC):
 
     def ask(self, request: Request) -> Reply:
         """Answer one request; see :class:`~aegis_ot.reasoning.backend.Backend`."""
-        key = self._manner.key
-        if key is None:
-            key = key_from(self._key_variables)
-        if not key and self._needs_key:
-            return self._without_asking(
-                State.NO_KEY, f"Set {' or '.join(self._key_variables)} to ask {self.name}."
-            )
-        if key and not is_sendable(key):
-            return self._without_asking(
-                State.NO_KEY,
-                f"What {' or '.join(self._key_variables)} holds is no key: it has spaces, line "
-                "ends or letters that no key has. Copy it again.",
-            )
+        problem = self.key_problem()
+        if problem:
+            return self._without_asking(State.NO_KEY, problem)
+        key = self._key()
         try:
             # Loading an SDK takes a second or more, which is not the service's.
             sdk = _sdk(self.package)
@@ -118,6 +109,21 @@ class ServiceBackend(ABC):
             self._manner.patience,
             self._manner.clock,
         )
+
+    def key_problem(self) -> str:
+        """What is wrong with the key, and what to do; empty if it can be used."""
+        key = self._key()
+        if not key and self._needs_key:
+            return f"Set {' or '.join(self._key_variables)} to ask {self.name}."
+        if key and not is_sendable(key):
+            return (
+                f"What {' or '.join(self._key_variables)} holds is no key: it has spaces, line "
+                "ends or letters that no key has. Copy it again."
+            )
+        return ""
+
+    def _key(self) -> str:
+        return key_from(self._key_variables) if self._manner.key is None else self._manner.key
 
     def _without_asking(self, state: State, detail: str) -> Reply:
         return Reply(state, self.model, detail=detail, attempts=0)

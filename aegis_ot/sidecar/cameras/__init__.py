@@ -1,6 +1,20 @@
-"""Cameras by name: ``usb:0``, ``http://...``, ``folder:PATH``, ``pattern``, ``simulated``."""
+"""Cameras by name: USB, RTSP, HTTP, folder, video, the robot's own, a test pattern, simulated.
 
+Door: :func:`open_camera` for one, :func:`open_cameras` for all that the settings name.
+"""
+
+from .bound import BoundCameras
 from .freerunning import FreeRunning, Health, Raw, Source
-from .registry import camera_health, open_camera
+from .health import camera_health
+from .registry import open_camera, open_cameras
 
-__all__ = ["FreeRunning", "Health", "Raw", "Source", "camera_health", "open_camera"]
+__all__ = [
+    "BoundCameras",
+    "FreeRunning",
+    "Health",
+    "Raw",
+    "Source",
+    "camera_health",
+    "open_camera",
+    "open_cameras",
+]

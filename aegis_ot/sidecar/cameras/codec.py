@@ -9,6 +9,9 @@ from ...errors import CameraError
 from ...vision.types import Image
 
 QUALITY = 92
+MOST_BYTES = 30_000_000
+MOST_PIXELS = 50_000_000
+"""A camera gives less; a picture that says it is larger would only fill the memory."""
 
 
 def decode_jpeg(jpeg: bytes) -> Image:
@@ -23,6 +26,11 @@ def decode_jpeg(jpeg: bytes) -> Image:
     # Some cameras pad their frames with zeros.
     if not jpeg.rstrip(b"\0\r\n").endswith(b"\xff\xd9"):
         raise CameraError(f"a JPEG of {len(jpeg)} bytes breaks off before its end")
+    width, height = _size(jpeg)
+    if len(jpeg) > MOST_BYTES or width * height > MOST_PIXELS:
+        raise CameraError(
+            f"a JPEG of {len(jpeg)} bytes, {width} x {height} px, is larger than any camera's"
+        )
     try:
         image = cv2.imdecode(np.frombuffer(jpeg, np.uint8), cv2.IMREAD_COLOR)
     except cv2.error as error:
@@ -30,6 +38,21 @@ def decode_jpeg(jpeg: bytes) -> Image:
     if image is None:
         raise CameraError(f"a JPEG of {len(jpeg)} bytes cannot be decoded")
     return np.asarray(image, dtype=np.uint8)
+
+
+def _size(jpeg: bytes) -> tuple[int, int]:
+    """Width and height that its header tells, px; 0, 0 where there is none."""
+    place = 2
+    while place + 9 <= len(jpeg) and jpeg[place] == 0xFF:
+        marker = jpeg[place + 1]
+        if marker == 0xFF:  # fill byte
+            place += 1
+            continue
+        if 0xC0 <= marker <= 0xCF and marker not in (0xC4, 0xC8, 0xCC):
+            height, width = jpeg[place + 5 : place + 7], jpeg[place + 7 : place + 9]
+            return int.from_bytes(width, "big"), int.from_bytes(height, "big")
+        place += 2 + int.from_bytes(jpeg[place + 2 : place + 4], "big")
+    return 0, 0
 
 
 def encode_jpeg(image: Image) -> bytes:

@@ -38,17 +38,18 @@ class FolderCamera:
         self._number = threading.local()
 
     def announce(self, keyframe: Keyframe) -> None:
-        """Choose the frame for this thread's next :meth:`frame_after`."""
-        self._number.value = keyframe.sequence
+        """Choose the frame that this thread gets until it chooses another."""
+        self._number.value, self._number.chosen = keyframe.sequence, True
 
     def frame_after(self, moment: float, timeout: float) -> Frame:
-        """The frame chosen by :meth:`announce`, else the next one; exposed now.
+        """The frame chosen by :meth:`announce`; before that the next one. Exposed now.
 
         Raises:
             CameraError: The folder has no such frame, or it cannot be decoded.
         """
         number = getattr(self._number, "value", 0)
-        self._number.value = number + 1
+        if not getattr(self._number, "chosen", False):
+            self._number.value = number + 1
         if number >= len(self._paths):
             raise CameraError(
                 f"The folder {self._folder} has {len(self._paths)} frames; all are used up."

@@ -15,6 +15,7 @@ from ...vision.camera import Frame
 from ...vision.types import Image
 from ...vocabulary import Keyframe
 from .codec import decode_jpeg, encode_jpeg
+from .history import History
 
 log = logging.getLogger(__name__)
 
@@ -72,6 +73,7 @@ class FreeRunning:
         """Frames that were wanted and could not be decoded."""
         self._open_source = open_source
         self._ring: deque[Raw] = deque(maxlen=RING)
+        self._history: History | None = None
         self._news = threading.Condition()
         self._closed = threading.Event()
         self._trouble = ""
@@ -103,6 +105,11 @@ class FreeRunning:
                 tried, first = raw.exposed_at, False
         raise CameraError(self._why_not(timeout, spoiled))
 
+    def remember(self) -> None:
+        """From now on keep frames for moments that are told of late (watch mode)."""
+        with self._news:
+            self._history = self._history or History()
+
     def health(self) -> Health:
         """Whether frames are coming."""
         with self._news:
@@ -128,7 +135,7 @@ class FreeRunning:
     def _next(self, moment: float, inclusive: bool, deadline: float) -> Raw | None:
         with self._news:
             while not self._closed.is_set():
-                for raw in self._ring:
+                for raw in self._history or self._ring:
                     if raw.exposed_at > moment or (inclusive and raw.exposed_at == moment):
                         return raw
                 left = deadline - time.monotonic()
@@ -171,6 +178,8 @@ class FreeRunning:
     def _put(self, raw: Raw) -> None:
         with self._news:
             self._ring.append(raw)
+            if self._history is not None:
+                self._history.put(raw)
             self._last_frame = time.monotonic()
             self._trouble = ""
             self._news.notify_all()

@@ -31,13 +31,18 @@ class HttpSource:
     Args:
         url: ``http://`` or ``https://``.
         latency: Longest time from the start of an exposure to the frame's arrival, s.
+        robot: The address is that of a robot's own camera, which takes a picture when it is told
+            to: slow, and seldom aimed at the tip, but evidence.
 
     Raises:
         CameraError: No answer, an error status, or something that is no picture.
     """
 
-    def __init__(self, url: str, latency: float) -> None:
+    def __init__(self, url: str, latency: float, robot: bool = False) -> None:
         self._request, self.shown = _request(url)
+        if robot:
+            self._request.method = "POST"
+            self._request.add_header("Opentrons-Version", "*")
         self._latency = latency
         self._stop = threading.Event()
         self._asked = time.monotonic()

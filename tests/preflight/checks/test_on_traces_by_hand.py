@@ -20,7 +20,12 @@ HIGH, NEAR, DEEP = 1.0, -7.5, -9.5
 
 
 def transfer(
-    bench: Bench, source: str, target: str, volume: float = 10, top: float = DEEP, fresh: bool = True
+    bench: Bench,
+    source: str,
+    target: str,
+    volume: float = 10,
+    top: float = DEEP,
+    fresh: bool = True,
 ) -> None:
     if fresh:
         bench.pick()

@@ -16,6 +16,9 @@ INFO = next(i for i in read("pass").trace.labware.values() if len(i.wells) == 96
     [
         ("A1", ["A1"]),
         ("A01", ["A1"]),
+        ("A12", ["A12"]),
+        ("H10, H12", ["H10", "H12"]),
+        ("A120", []),
         ("A1-C1", ["A1", "B1", "C1"]),
         ("A1:B2", ["A1", "B1", "A2", "B2"]),
         ("A1, A3", ["A1", "A3"]),

@@ -1,4 +1,3 @@
-# expect: bradford fail BRD-4
 """DC protein assay: the dye stands in the wells, and the protein comes after it."""
 
 metadata = {"apiLevel": "2.15", "protocolName": "DC protein assay"}

@@ -1,4 +1,3 @@
-# expect: bradford pass
 """Coomassie protein assay. Standards in column 1-2 in duplicate, unknowns after."""
 
 metadata = {"apiLevel": "2.13"}

@@ -1,4 +1,3 @@
-# expect: bradford fail BRD-2
 """Coomassie protein assay. Standards in column 1-2 in duplicate, unknowns after."""
 
 metadata = {"apiLevel": "2.13"}

@@ -1,4 +1,3 @@
-# expect: bradford fail BRD-1
 """Coomassie assay; the tubes' concentrations stand only in the lab book."""
 
 metadata = {"apiLevel": "2.13"}

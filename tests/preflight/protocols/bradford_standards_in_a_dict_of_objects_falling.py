@@ -1,4 +1,3 @@
-# expect: bradford fail BRD-1
 from dataclasses import dataclass, field
 
 metadata = {"protocolName": "BCA assay", "apiLevel": "2.15"}

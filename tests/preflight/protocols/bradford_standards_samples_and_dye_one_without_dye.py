@@ -1,4 +1,3 @@
-# expect: bradford fail BRD-3
 """Plate for the reader, written for the new student."""
 
 metadata = {"protocolName": "Protein plate", "apiLevel": "2.13"}

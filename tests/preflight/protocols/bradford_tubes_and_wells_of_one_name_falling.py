@@ -1,4 +1,3 @@
-# expect: bradford fail BRD-1
 """Protein of krill extracts; a tube and its well have one name."""
 
 metadata = {"protocolName": "Bradford of krill", "apiLevel": "2.13"}

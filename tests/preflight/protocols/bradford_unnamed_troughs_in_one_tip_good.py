@@ -1,4 +1,3 @@
-# expect: bradford pass
 
 metadata = {"protocolName": "Bradford", "apiLevel": "2.13"}
 

@@ -1,4 +1,3 @@
-# expect: cell_treatment fail CELL-3
 from dataclasses import dataclass
 from enum import Enum, auto
 

@@ -1,4 +1,3 @@
-# expect: cell_treatment fail CELL-1
 """Etoposide in three doses by a typed map of wells, every well with a fresh tip."""
 
 metadata = {"apiLevel": "2.13", "protocolName": "Etoposide on HCT116"}

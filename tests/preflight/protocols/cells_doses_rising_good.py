@@ -1,4 +1,3 @@
-# expect: cell_treatment pass
 metadata = {"apiLevel": "2.16", "protocolName": "Kinase inhibitor dose response, MCF7"}
 
 

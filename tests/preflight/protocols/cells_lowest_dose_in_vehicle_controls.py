@@ -1,4 +1,3 @@
-# expect: cell_treatment fail CELL-1 CELL-2?
 metadata = {"apiLevel": "2.14", "protocolName": "Cisplatin dose response, A549"}
 DOSES_UM = [0.3, 1, 3, 10]
 

@@ -1,4 +1,3 @@
-# expect: cell_treatment fail CELL-3
 """Dose response; all wells mixed in the end."""
 
 metadata = {"apiLevel": "2.15", "protocolName": "Dose response"}

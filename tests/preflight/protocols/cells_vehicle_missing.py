@@ -1,4 +1,3 @@
-# expect: cell_treatment fail CELL-2
 metadata = {"protocolName": "HeLa dosing", "apiLevel": "2.14"}
 LAYOUT = {
     "untreated": ["A1", "B1", "C1"],

@@ -1,4 +1,3 @@
-# expect: generic pass
 metadata = {"protocolName": "AMPure bead cleanup", "apiLevel": "2.15"}
 
 

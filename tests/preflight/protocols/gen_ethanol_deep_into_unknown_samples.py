@@ -1,4 +1,3 @@
-# expect: generic fail GEN-1? GEN-2
 """Bead clean-up: what the sample wells hold is not declared, the ethanol goes in deep."""
 
 metadata = {"protocolName": "Bead cleanup", "apiLevel": "2.14"}

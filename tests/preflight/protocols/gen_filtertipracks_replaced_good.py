@@ -1,4 +1,3 @@
-# expect: generic pass
 """Trial run: tips are put back; when the rack runs out, someone puts a new one there."""
 
 metadata = {"apiLevel": "2.13", "protocolName": "Amplicon plate copies"}

@@ -1,4 +1,3 @@
-# expect: generic fail GEN-3
 """What stands where is declared after the last command, and it is too little."""
 
 metadata = {"apiLevel": "2.20", "protocolName": "Enzyme addition"}

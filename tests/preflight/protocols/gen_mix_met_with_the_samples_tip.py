@@ -1,4 +1,3 @@
-# expect: generic fail GEN-1 GEN-2?
 metadata = {"protocolName": "Normalization and a labelling mix", "apiLevel": "2.13"}
 
 

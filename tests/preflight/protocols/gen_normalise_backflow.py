@@ -1,4 +1,3 @@
-# expect: generic fail GEN-2 GEN-1?
 """Normalise DNA to one concentration: water first, then DNA."""
 
 import csv, io

@@ -1,4 +1,3 @@
-# expect: generic pass
 """Normalise DNA to one concentration: water first, then DNA."""
 
 import csv, io

@@ -1,4 +1,3 @@
-# expect: generic fail GEN-3
 metadata = {"protocolName": "Reagent aliquoting", "apiLevel": "2.13"}
 
 

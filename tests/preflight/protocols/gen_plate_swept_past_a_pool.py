@@ -1,4 +1,3 @@
-# expect: generic fail GEN-1
 """Wells of a plate are rinsed one into the next; a part of each, but not the rest, goes into a pool."""
 
 metadata = {"apiLevel": "2.13", "protocolName": "Sample pooling"}

@@ -1,4 +1,3 @@
-# expect: generic pass
 metadata = {"protocolName": "Reagent plates, two rounds", "apiLevel": "2.13"}
 
 

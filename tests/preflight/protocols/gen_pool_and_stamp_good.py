@@ -1,4 +1,3 @@
-# expect: generic pass
 metadata = {"protocolName": "Pool libraries, then aliquot the pool", "apiLevel": "2.15"}
 
 

@@ -1,4 +1,3 @@
-# expect: generic fail GEN-1 GEN-2
 """Dried eluates are redissolved with the tip in them; how much is left in the wells nobody says."""
 
 metadata = {"protocolName": "Mass spec sample prep", "apiLevel": "2.13"}

@@ -1,4 +1,3 @@
-# expect: generic pass
 """Dried eluates are redissolved from above; how much is left in the wells nobody says."""
 
 metadata = {"protocolName": "Mass spec sample prep", "apiLevel": "2.13"}

@@ -1,4 +1,3 @@
-# expect: generic fail GEN-1
 """Trial run: tips are put back; when the rack runs out, the old ones are taken again."""
 
 metadata = {"apiLevel": "2.13", "protocolName": "Amplicon plate copies"}

@@ -1,4 +1,3 @@
-# expect: generic fail GEN-1
 """Parked tips are taken up for another source."""
 
 metadata = {"apiLevel": "2.13", "protocolName": "Cherrypicking with parked tips"}

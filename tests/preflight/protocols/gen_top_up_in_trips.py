@@ -1,4 +1,3 @@
-# expect: generic fail GEN-2
 metadata = {"apiLevel": "2.14", "protocolName": "Bring to 900 uL"}
 
 

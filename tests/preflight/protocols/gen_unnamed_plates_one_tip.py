@@ -1,4 +1,3 @@
-# expect: generic fail GEN-1
 metadata = {"apiLevel": "2.13", "protocolName": "Plate to plate plate_2"}
 
 

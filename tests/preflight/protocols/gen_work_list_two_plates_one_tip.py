@@ -1,4 +1,3 @@
-# expect: generic fail GEN-1
 """Hit picking: each hit goes into two wells, with one tip for both."""
 
 metadata = {"protocolName": "hit picking", "apiLevel": "2.15"}

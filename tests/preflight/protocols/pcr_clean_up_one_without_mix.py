@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-1
 """Library prep: PCR, bead clean-up, and one template more than there is master mix for."""
 
 metadata = {"apiLevel": "2.13", "protocolName": "PCR and clean-up"}

@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-2 PCR-5
 """End-point PCR of colonies; the last colony's tip goes on to the water and the blank."""
 
 metadata = {"protocolName": "Colony PCR", "apiLevel": "2.13"}

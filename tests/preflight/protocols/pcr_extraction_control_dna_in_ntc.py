@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-4
 """Parasites in stool, real-time PCR set-up the last eluate is that of no stool."""
 
 metadata = {"apiLevel": "2.15"}

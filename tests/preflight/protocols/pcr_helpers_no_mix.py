@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-1
 # RT-qPCR, triplicates of each patient sample share a tip
 from dataclasses import dataclass
 

@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-2 PCR-3 PCR-5
 from enum import Enum
 from types import SimpleNamespace
 from typing import NamedTuple

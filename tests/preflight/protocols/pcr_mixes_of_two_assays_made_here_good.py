@@ -1,4 +1,3 @@
-# expect: pcr pass
 """Two assays of different reaction volumes, the mixes of which the run makes."""
 
 metadata = {"protocolName": "qPCR, gene and reference", "apiLevel": "2.15"}

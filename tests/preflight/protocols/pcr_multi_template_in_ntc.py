@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-4
 metadata = {"apiLevel": "2.15", "protocolName": "End-point PCR, 8-channel"}
 
 

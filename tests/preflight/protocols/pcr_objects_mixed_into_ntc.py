@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-2
 metadata = {"protocolName": "qPCR class based", "apiLevel": "2.13"}
 
 

@@ -1,4 +1,3 @@
-# expect: pcr warn PCR-6
 """One target in two columns, by mistake with two volumes."""
 
 from collections import namedtuple

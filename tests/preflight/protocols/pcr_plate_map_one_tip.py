@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-2 PCR-3 PCR-5?
 """qPCR plate set-up driven by a plate map.
 
 Column 1: samples, H12 no-template control.

@@ -1,4 +1,3 @@
-# expect: pcr pass PCR-1! PCR-6!
 """PCR of amplicons; products into one well."""
 
 metadata = {"apiLevel": "2.15", "protocolName": "Amplicon PCR"}

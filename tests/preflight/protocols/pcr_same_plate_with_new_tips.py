@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-5 PCR-3? PCR-6? GEN-3?
 """Several plates one after the other; the plate stays where it is."""
 
 metadata = {"apiLevel": "2.13", "protocolName": "PCR prep"}

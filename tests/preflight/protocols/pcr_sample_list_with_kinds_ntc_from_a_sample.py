@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-4
 """Meat species PCR of order 118, from the sample list of the LIMS."""
 import csv
 

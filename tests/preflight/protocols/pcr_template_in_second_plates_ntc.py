@@ -1,4 +1,3 @@
-# expect: pcr fail PCR-4
 metadata = {"apiLevel": "2.13", "protocolName": "two genotyping PCR assays on eight lysates"}
 NTC = ("A2", "B2")
 

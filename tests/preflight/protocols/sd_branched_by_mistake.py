@@ -1,4 +1,3 @@
-# expect: serial_dilution fail SD-2
 """1:10 in every step; two of them draw from the well before the last"""
 
 metadata = {"apiLevel": "2.13", "protocolName": "ELISA sample dilution"}

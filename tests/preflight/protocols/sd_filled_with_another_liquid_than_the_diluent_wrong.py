@@ -1,4 +1,3 @@
-# expect: serial_dilution fail SD-4
 """Two-fold series of peroxide for a calibration curve."""
 
 metadata = {"apiLevel": "2.13"}

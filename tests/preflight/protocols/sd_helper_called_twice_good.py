@@ -1,4 +1,3 @@
-# expect: serial_dilution pass
 """Two peptides, one plate each.
 
 Trough:

@@ -1,4 +1,3 @@
-# expect: serial_dilution pass
 metadata = {"apiLevel": "2.15", "protocolName": "Vancomycin twofold"}
 
 

@@ -1,4 +1,3 @@
-# expect: serial_dilution fail SD-3
 metadata = {"protocolName": "antibody titration serial dilution", "apiLevel": "2.13"}
 
 

@@ -1,4 +1,3 @@
-# expect: serial_dilution fail SD-2
 metadata = {"protocolName": "1:2 dilution of antibody across a plate", "apiLevel": "2.15"}
 
 

@@ -1,4 +1,3 @@
-# expect: serial_dilution fail SD-1
 """Ten-fold dilutions of phage lysate in tubes; each tube is mixed before the next step."""
 
 metadata = {"apiLevel": "2.9"}

@@ -1,4 +1,3 @@
-# expect: serial_dilution fail SD-5
 metadata = {
     "protocolName": "Serial Dilution Tutorial",
     "apiLevel": "2.12",

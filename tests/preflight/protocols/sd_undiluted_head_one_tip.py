@@ -1,4 +1,3 @@
-# expect: serial_dilution fail SD-5
 """Eosin standard curve: the first well of the row holds the undiluted stock, one tip for all steps."""
 
 metadata = {"apiLevel": "2.13", "protocolName": "Eosin linearity"}

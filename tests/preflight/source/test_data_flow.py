@@ -10,7 +10,7 @@ from aegis_ot.preflight.source.data_flow import read_flow
 
 
 def indexed(text: str, name: str) -> set[str]:
-    return {use.held for use in read_flow(ast.parse(text)).indexed_with(name)}
+    return {use.held for use in read_flow(list(ast.walk(ast.parse(text)))).indexed_with(name)}
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,213 @@
+"""What a run asks of a person at this moment, and what its robot does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..vocabulary import KeyframeKind
+
+_HOLD_SHOWN_S = 1.0
+"""A hold shorter than this is the usual wait for a verdict."""
+
+_SILENT_S = 600.0
+"""A robot that said nothing for so long may be off; a long incubation is the other reason."""
+
+_DOES = {
+    KeyframeKind.ASPIRATE: "drawing",
+    KeyframeKind.TRANSIT: "carrying",
+    KeyframeKind.DISPENSE: "dispensing",
+    KeyframeKind.POST_DISPENSE: "has delivered",
+}
+
+
+@dataclass(frozen=True)
+class Situation:
+    """Something that a person should see at once.
+
+    Attributes:
+        kind: ``"paused"``, ``"question"``, ``"holding"``, ``"camera"``, ``"store"``,
+            ``"notification"`` or ``"silent"``.
+        title: In a few words.
+        text: What was seen.
+        trajectory: The delivery that it is about; ``None`` for trouble.
+        well: Of that delivery.
+        left_s: Time until the robot acts by itself, s; ``None`` if it waits for ever.
+        then: What it does then.
+        judged: Whether there is a verdict, so that it can be confirmed or corrected.
+    """
+
+    kind: str
+    title: str
+    text: str
+    trajectory: int | None = None
+    well: str = ""
+    left_s: float | None = None
+    then: str = ""
+    judged: bool = False
+
+    @property
+    def asks(self) -> bool:
+        """Whether a person has to answer."""
+        return self.kind in ("paused", "question")
+
+
+def situations(overview: Mapping[str, Any], now: float) -> list[Situation]:
+    """What a person should see of a run, the most pressing first; nothing once it has ended.
+
+    Args:
+        overview: Answer of ``GET /v1/runs/{run}``.
+        now: Seconds since the epoch.
+    """
+    if overview.get("finished"):
+        return []
+    trajectories = overview["trajectories"]
+    found = [*_paused(overview), *_questions(overview, trajectories)]
+    found += _holding(overview, trajectories)
+    for incident in overview.get("incidents") or ():
+        if incident["ended"] is None:
+            found.append(_trouble(incident))
+    silent = now - last_word(overview)
+    if not found and silent > _SILENT_S:
+        found.append(
+            Situation(
+                "silent",
+                f"The robot has said nothing for {silent / 60:.0f} min",
+                "It may wait or incubate as its protocol says; else see whether it is on.",
+            )
+        )
+    return found
+
+
+def doing(overview: Mapping[str, Any]) -> str:
+    """What the robot did last, in one line: ``"dispensing 100 µL into B3 of plate in slot 4"``."""
+    last = _last_keyframe(overview)
+    if last is None:
+        return "No delivery has been seen yet."
+    kind = KeyframeKind(last["kind"])
+    wells = last["sources"] if kind is KeyframeKind.ASPIRATE else last["destinations"]
+    wells = wells or last["sources"] or last["destinations"]
+    where = {KeyframeKind.ASPIRATE: "from", KeyframeKind.TRANSIT: "to"}.get(kind, "into")
+    liquid = f" of {last['reagent']}" if last.get("reagent") else ""
+    text = f"{_DOES[kind]} {float(last['commanded_ul']):g} µL{liquid}"
+    if wells:
+        more = f" and {len(wells) - 1} more" if len(wells) > 1 else ""
+        text += f" {where} {place(wells[0])}{more}"
+    line = f", line {last['line']}" if last.get("line") else ""
+    return f"{text}{line} ({last['mount']} {last['pipette']})"
+
+
+def last_word(overview: Mapping[str, Any]) -> float:
+    """When the robot was last heard of, seconds since the epoch."""
+    moments = [float(overview.get("registered") or 0.0)]
+    moments += [k["captured"] for t in overview["trajectories"] for k in t["keyframes"]]
+    moments += [t["hold"]["at"] for t in overview["trajectories"] if t["hold"]]
+    return max(moments)
+
+
+def place(well: Mapping[str, Any]) -> str:
+    """``"B3 of plate in slot 4"``."""
+    labware = well["label"] or well["labware"]
+    slot = f" in slot {well['slot']}" if well["slot"] else ""
+    return f"{well['name']} of {labware}{slot}"
+
+
+def _last_keyframe(overview: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    keyframes = [k for t in overview["trajectories"] for k in t["keyframes"]]
+    return max(keyframes, key=lambda k: k["sequence"], default=None)
+
+
+def _paused(overview: Mapping[str, Any]) -> Iterator[Situation]:
+    """The robot told of a hold that ends in a pause, and has gone on with nothing since."""
+    keyframes = [k for t in overview["trajectories"] for k in t["keyframes"]]
+    moved = max((float(k["captured"]) for k in keyframes), default=0.0)
+    for trajectory in overview["trajectories"]:
+        hold = trajectory["hold"]
+        if not hold or hold["policy"] != "pause" or hold["paused_s"] is not None:
+            continue
+        if hold["at"] < moved:
+            continue
+        verdict = trajectory["verdict"] or {}
+        failure = str(verdict.get("failure") or "").replace("_", " ")
+        outcome = str(verdict.get("outcome") or "no verdict")
+        what = failure or {"pass": "passed", "fail": "failed"}.get(outcome, outcome)
+        told = _told(overview, trajectory)
+        reason = verdict.get("reason") or f"No verdict: {hold['resolution']}."
+        yield Situation(
+            "paused",
+            f"The robot is paused: {what}",
+            f"{reason}{told}",
+            trajectory["trajectory"],
+            trajectory["well"],
+            judged=bool(verdict),
+        )
+
+
+def _told(overview: Mapping[str, Any], trajectory: Mapping[str, Any]) -> str:
+    """What a person has told the robot already."""
+    for action in reversed(overview.get("actions") or ()):
+        if action["trajectory"] == trajectory["trajectory"]:
+            word = {"resume": "go on", "stop": "end the run"}[action["action"]]
+            return f" {action['by']} told the robot to {word}; it has not answered yet."
+    return ""
+
+
+def _questions(
+    overview: Mapping[str, Any], trajectories: Sequence[Mapping[str, Any]]
+) -> Iterator[Situation]:
+    policy = (overview.get("guard") or {}).get("on_undecided") or ""
+    for trajectory in trajectories:
+        if trajectory.get("awaiting") != "operator":
+            continue
+        verdict = trajectory["judged"] or {}
+        yield Situation(
+            "question",
+            "Your decision is needed",
+            str(verdict.get("reason") or "No gate could settle this well."),
+            trajectory["trajectory"],
+            trajectory["well"],
+            trajectory.get("awaiting_s"),
+            _policy_words(policy) or "the robot is told that it is undecided",
+            judged=True,
+        )
+
+
+def _holding(
+    overview: Mapping[str, Any], trajectories: Sequence[Mapping[str, Any]]
+) -> Iterator[Situation]:
+    guard = overview.get("guard") or {}
+    for trajectory in trajectories:
+        held = trajectory.get("held_for_s")
+        if held is None or held < _HOLD_SHOWN_S or trajectory["verdict"]:
+            continue
+        if trajectory.get("awaiting") == "operator":
+            continue
+        most = guard.get("verdict_timeout_s")
+        yield Situation(
+            "holding",
+            "The robot holds for a verdict",
+            "It touches no further well until this one is judged.",
+            trajectory["trajectory"],
+            trajectory["well"],
+            None if most is None else max(0.0, most - held),
+            _policy_words(guard.get("on_link_loss") or ""),
+        )
+
+
+def _trouble(incident: Mapping[str, Any]) -> Situation:
+    titles = {
+        "camera": "The camera is in trouble",
+        "store": "The store is in trouble",
+        "hold": "A hold ended without a verdict",
+    }
+    title = titles.get(incident["kind"], f"Trouble: {incident['kind']}")
+    return Situation(incident["kind"], title, incident["text"])
+
+
+def _policy_words(policy: str) -> str:
+    return {
+        "pause": "the robot pauses",
+        "abort": "the robot ends the run",
+        "continue": "the robot goes on",
+    }.get(policy, "")

@@ -1,0 +1,217 @@
+"""``aegis-ot run`` and ``aegis-ot watch``: a protocol on a robot, seen from the terminal."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.text import Text
+
+from ..errors import ConfigurationError, LinkError, RobotError
+from .app import BROKEN, CLEAN, FINDINGS, INTERRUPTED, app
+
+if TYPE_CHECKING:
+    from ..robot import Analysis
+    from ..robot.running import RobotRun
+    from ..robot.verdicts import VerdictReader
+
+console = Console(highlight=False)
+
+Robot = Annotated[
+    str, typer.Option("--robot", help="The robot's address, as the Opentrons App shows it.")
+]
+SidecarUrl = Annotated[
+    str | None, typer.Option("--sidecar", help="Sidecar; else the guard's own settings.")
+]
+Token = Annotated[
+    str | None, typer.Option("--token", help="Its token; better given as AEGIS_OT_TOKEN.")
+]
+
+
+@app.command()
+def run(
+    protocol: Annotated[Path, typer.Argument(help="A Python protocol.")],
+    robot: Robot,
+    yes: Annotated[bool, typer.Option("--yes", "-y", help="Start without asking.")] = False,
+    analyse_only: Annotated[
+        bool, typer.Option("--analyse-only", help="Stop after the robot's analysis.")
+    ] = False,
+    sidecar: SidecarUrl = None,
+    token: Token = None,
+    analysis_timeout: Annotated[
+        float, typer.Option(help="How long the robot may analyse, s.")
+    ] = 900.0,
+    report: Annotated[Path | None, typer.Option(help="Write a JSON report here.")] = None,
+) -> None:
+    """Run a protocol on a robot: upload, analysis, Layer 1, start, verdicts, report."""
+    from ..robot import RobotClient
+    from ..robot.running import RobotRun, analyse, run_analysed
+    from .robot_screen import TerminalScreen, show_end
+
+    if not protocol.is_file():
+        raise ConfigurationError(f"There is no protocol {protocol}.")
+    with RobotClient(robot) as client:
+        health = client.health()
+        name = str(health.get("name") or client.url)
+        _say(f"{name} ({health.get('robot_model', 'robot')}, {health.get('api_version', '?')})")
+        with TerminalScreen(console) as screen:
+            identifier, analysis = analyse(client, protocol, screen, analysis_timeout)
+        refused = _show_analysis(protocol, analysis)
+        if refused or analyse_only:
+            raise typer.Exit(FINDINGS if refused else CLEAN)
+        _ask_to_start(name, yes)
+        verdicts = _verdicts(sidecar, token, protocol)
+        result = RobotRun(protocol.name, name, client.url, "", analysis)
+        try:
+            with TerminalScreen(console) as screen:
+                run_analysed(client, identifier, result, screen, verdicts)
+        except KeyboardInterrupt:
+            _say(f"Left to the App: run {result.id} on {name} is {client.run(result.id).status}.")
+            raise typer.Exit(INTERRUPTED) from None
+        except RobotError:
+            _say(f"Run {result.id} was left as it stood; look at the robot.", "bold red")
+            raise
+        finally:
+            if result.id and report is not None:
+                _write_report(report, result)
+    show_end(console, result)
+    raise typer.Exit(_code(result))
+
+
+@app.command()
+def watch(
+    robot: Robot,
+    sidecar: SidecarUrl = None,
+    token: Token = None,
+    on_fail: Annotated[
+        str, typer.Option(help="When a delivery fails: pause or continue.")
+    ] = "pause",
+    on_undecided: Annotated[
+        str, typer.Option(help="When one cannot be judged: pause or continue.")
+    ] = "pause",
+    on_link_loss: Annotated[
+        str, typer.Option(help="When the sidecar is lost: pause or continue.")
+    ] = "pause",
+    report: Annotated[Path | None, typer.Option(help="Write a JSON report here.")] = None,
+) -> None:
+    """Watch the run on a robot whose protocol carries no guard; waits until one begins."""
+    from ..robot import Analysis, RobotClient
+    from ..robot.moments import PastLink
+    from ..robot.running import RobotRun
+    from ..robot.verdicts import VerdictReader
+    from ..robot.watching import WatchPolicies, await_run, name_of_watch, watch_run
+    from .judging import one_of
+    from .robot_screen import TerminalScreen, show_end
+
+    choices = ("pause", "continue")
+    policies = WatchPolicies(
+        one_of("--on-fail", on_fail, choices),
+        one_of("--on-undecided", on_undecided, choices),
+        one_of("--on-link-loss", on_link_loss, choices),
+    )
+    url, secret = _sidecar_of(sidecar, token)
+    if url is None:
+        raise ConfigurationError("Watching needs a sidecar: --sidecar http://127.0.0.1:7645.")
+    with RobotClient(robot) as client:
+        name = str(client.health().get("name") or client.url)
+        link = PastLink(url, secret)
+        link.health(policies.capture_timeout_s)
+        _say(f"Waiting for a run on {name}")
+        identifier = await_run(client)
+        analysis = Analysis("", done=False)
+        result = RobotRun(client.protocol_name(identifier), name, client.url, identifier, analysis)
+        with TerminalScreen(console) as screen:
+            screen.began(None)
+            watch_run(client, result, link, screen, policies)
+    show_end(console, result)
+    if report is not None:
+        reader = VerdictReader(url, secret, run=name_of_watch(identifier))
+        with contextlib.suppress(LinkError):  # the robot's own side is worth a report too
+            result.overview = reader.overview()
+        reader.close()
+        _write_report(report, result)
+    raise typer.Exit(_code(result))
+
+
+def _show_analysis(protocol: Path, analysis: Analysis) -> bool:
+    """Say what the analysis found; whether the protocol must not start."""
+    if not analysis.ok:
+        for error in analysis.errors:
+            _say(error, "red")
+        _say(f"{protocol.name}: the robot's analysis failed; nothing has moved.", "bold red")
+        return True
+    if analysis.guard_words:
+        _say(analysis.guard_words[-1])
+        return False
+    _say("This protocol carries no guard; Layer 1 checks it here, and nobody watches its tips.")
+    return _fails_here(protocol)
+
+
+def _fails_here(protocol: Path) -> bool:
+    from ..dryrun import read_script
+    from ..errors import RehearsalError
+    from ..preflight.checking import check_script, is_rejected, rejection, summary
+
+    try:
+        found = check_script(read_script(protocol))
+    except RehearsalError as error:
+        _say(f"Layer 1 could not rehearse it here: {error}", "yellow")
+        return False
+    _say(rejection(found) if is_rejected(found) else summary(found))
+    return is_rejected(found)
+
+
+def _ask_to_start(name: str, yes: bool) -> None:
+    if yes:
+        return
+    if not sys.stdin.isatty():
+        raise ConfigurationError("Nobody can be asked whether to start. Add --yes.")
+    if not typer.confirm(f"Start on {name}? Deck, tips and liquids are in place"):
+        raise typer.Exit(CLEAN)
+
+
+def _verdicts(sidecar: str | None, token: str | None, protocol: Path) -> VerdictReader | None:
+    from ..robot.verdicts import VerdictReader
+
+    url, secret = _sidecar_of(sidecar, token)
+    if url is None:
+        return None
+    reader = VerdictReader(url, secret, protocol.name)
+    reader.check()
+    return reader
+
+
+def _sidecar_of(sidecar: str | None, token: str | None) -> tuple[str | None, str | None]:
+    """Its address and token: given here, or the guard's own settings on this machine."""
+    from ..settings import load_settings
+
+    given = {"sidecar": sidecar, "token": token}
+    settings = load_settings(**{name: value for name, value in given.items() if value})
+    return settings.sidecar, settings.token
+
+
+def _write_report(path: Path, result: RobotRun) -> None:
+    from ..robot.run_report import run_report
+
+    path.parent.mkdir(parents=True, exist_ok=True)
+    text = json.dumps(run_report(result), indent=2, ensure_ascii=False)
+    path.write_text(text + "\n", encoding="utf-8")
+    _say(f"Report: {path}")
+
+
+def _code(result: RobotRun) -> int:
+    from ..vocabulary import Outcome
+
+    if result.status == "failed":
+        return BROKEN
+    flagged = any(known.verdict.outcome is not Outcome.PASS for known in result.verdicts.values())
+    return FINDINGS if flagged or result.status != "succeeded" else CLEAN
+
+
+def _say(text: str, style: str = "") -> None:
+    console.print(Text(text, style=style), soft_wrap=True)

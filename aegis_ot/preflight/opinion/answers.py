@@ -1,0 +1,183 @@
+"""Holds what a model says to what exists: the wells, lines and rules of this run.
+
+A schema cannot carry these bounds. What does not fit is left out, and told.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from ...vocabulary import Finding, Severity, Site, WellRef, one_line
+from ..judging import MODEL
+from ..trace import row_column
+from .dossier import DeckItem, Dossier
+from .opinion import ANSWERED, Citation, Opinion, RoleProposal, RuleAnswer
+
+LONGEST_TEXT = 400
+LONGEST_NAME = 60
+MOST_FINDINGS = 12
+MOST_PROPOSALS = 24
+
+
+def read_opinion(
+    value: Mapping[str, Any], dossier: Dossier, model: str, blind: bool = False
+) -> Opinion:
+    """Hold an answer that fits the schema to what exists: wells, lines, rules.
+
+    Args:
+        value: The model's answer, see ``aegis_ot.reasoning.answer``.
+        dossier: What it was asked about.
+        model: Who answered.
+        blind: The model saw no trace, and no check stands beside it: any well on the deck and any
+            source line will do.
+    """
+    bounds = _Bounds(dossier, blind)
+    findings, left_out = _findings(value.get("findings", ()), bounds)
+    asked = {question.rule for question in dossier.questions}
+    answers = []
+    for given in value.get("answers", ()):
+        if given["rule"] not in bounds.severity:
+            told = f"an answer about {_name(given['rule'])!r} (there is no such rule in force)"
+            left_out.append(told)
+        if given["rule"] in asked:
+            answers.append(RuleAnswer(given["rule"], given["answer"], _text(given["reason"])))
+    violated = [
+        {"rule": given["rule"], "message": given["reason"] or "The model reads that it is broken.",
+         "wells": given["wells"], "lines": given["lines"]}
+        for given in value.get("answers", ())
+        if given["rule"] in asked and given["answer"] == "violated"
+    ]  # fmt: skip
+    more, problems = _findings(violated, bounds)
+    findings += [one for one in more if not is_known(one, findings)]
+    return Opinion(
+        ANSWERED,
+        model,
+        family=_name(value.get("family")),
+        proposals=tuple(map(_proposal, list(value.get("roles", ()))[:MOST_PROPOSALS])),
+        answers=tuple(answers),
+        findings=tuple(findings),
+        left_out=(*left_out, *problems),
+        summary=_text(value.get("summary")),
+    )
+
+
+def is_known(finding: Finding, others: Sequence[Finding]) -> bool:
+    """Whether one of the others is of the same rule, and of some of the same wells."""
+    return any(
+        other.rule == finding.rule and not set(other.wells).isdisjoint(finding.wells)
+        for other in others
+    )
+
+
+class _Bounds:
+    """Which wells, lines and rules an answer may name."""
+
+    def __init__(self, dossier: Dossier, blind: bool) -> None:
+        self._dossier = dossier
+        self._blind = blind
+        self._known: dict[tuple[str, str], list[WellRef]] = {}
+        for ref in dossier.wells:
+            for name in (ref.slot, ref.label, ref.labware):
+                self._known.setdefault((name.lower(), ref.name), []).append(ref)
+        count = len(dossier.source_lines)
+        self.lines = set(range(1, count + 1)) if blind else set(dossier.lines)
+        self.severity = {brief.id: brief.severity for brief in dossier.rules}
+
+    def wells(self, given: Iterable[str]) -> Iterable[WellRef]:
+        """The wells that are meant and exist: ``"4:H12"``, ``"4:A1-H1"``, ``"PCR plate:A1"``."""
+        found: dict[WellRef, None] = {}
+        for place in given:
+            labware, _, spec = place.strip().rpartition(":")
+            labware = labware.strip().removeprefix("slot ").lower()
+            for first, last in _WELLS.findall(spec):
+                for ref in self._range(labware, first.upper(), (last or first).upper()):
+                    found[ref] = None
+        return found
+
+    def _range(self, labware: str, first: str, last: str) -> Iterable[WellRef]:
+        (row1, column1), (row2, column2) = row_column(first), row_column(last)
+        rows, columns = sorted((row1, row2)), sorted((column1, column2))
+        if self._blind:
+            yield from self._on_deck(labware, rows, columns)
+            return
+        for (name, well), refs in self._known.items():
+            row, column = row_column(well)
+            inside = rows[0] <= row <= rows[1] and columns[0] <= column <= columns[1]
+            if name == labware and inside:
+                yield from refs
+
+    def _on_deck(self, labware: str, rows: list[int], columns: list[int]) -> Iterable[WellRef]:
+        for item in self._dossier.deck:
+            if labware not in (item.slot.lower(), item.label.lower(), item.load_name.lower()):
+                continue
+            for column in range(columns[0], min(columns[1], item.columns - 1) + 1):
+                for row in range(rows[0], min(rows[1], item.rows - 1) + 1):
+                    yield _ref(item, row, column)
+
+
+_WELLS = re.compile(r"\b([A-Pa-p]\d{1,2})(?:\s*[-–]\s*([A-Pa-p]\d{1,2}))?\b")
+
+
+def _ref(item: DeckItem, row: int, column: int) -> WellRef:
+    return WellRef(item.key, f"{chr(ord('A') + row)}{column + 1}", item.label, item.slot)
+
+
+def _findings(
+    given: Sequence[Mapping[str, Any]], bounds: _Bounds
+) -> tuple[list[Finding], list[str]]:
+    """Findings in wells and lines that exist, and what is wrong with the others."""
+    findings, problems = [], []
+    for one in given[:MOST_FINDINGS]:
+        finding, problem = _finding(one, bounds)
+        if finding is None:
+            problems.append(problem)
+        else:
+            findings.append(finding)
+    return findings, problems
+
+
+def _finding(given: Mapping[str, Any], bounds: _Bounds) -> tuple[Finding | None, str]:
+    rule = _name(given["rule"])
+    said = f"{rule}: {_text(given['message'])}"
+    if rule != MODEL and rule not in bounds.severity:
+        return None, f"{said} (there is no such rule in force)"
+    wells = list(bounds.wells(given["wells"]))
+    lines = [line for line in dict.fromkeys(given["lines"]) if line in bounds.lines]
+    if not wells or not lines:
+        missing = "well" if not wells else "line"
+        return None, f"{said} (it names no {missing} that the run knows)"
+    # One well stands beside each line, so that both ends can be shown; the rest follow.
+    sites = [Site(lines[min(number, len(lines) - 1)], ref) for number, ref in enumerate(wells)] + [
+        Site(line) for line in lines[len(wells) :]
+    ]
+    severity = bounds.severity.get(rule, Severity.WARNING)
+    return Finding(
+        rule,
+        severity,
+        _text(given["message"]),
+        tuple(sites),
+        why=_text(given.get("why")),
+        fix=_text(given.get("fix")),
+        source="model",
+    ), ""
+
+
+def _proposal(given: Mapping[str, Any]) -> RoleProposal:
+    return RoleProposal(
+        _name(given["role"]),
+        tuple(_name(place) for place in given["wells"]),
+        tuple(_name(level) for level in given["levels"]),
+        tuple(Citation(said["line"], _text(said["quote"])) for said in given["citations"]),
+    )
+
+
+def _text(value: object) -> str:
+    """A model's words."""
+    return one_line(value, LONGEST_TEXT)
+
+
+def _name(value: object) -> str:
+    """What should be a name that this package knows, and may be anything."""
+    return one_line(value, LONGEST_NAME)

@@ -1,0 +1,163 @@
+"""Puts a dossier together from a reading and what the checks made of it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+
+from ...instrumentation import Event
+from ...vocabulary import Severity, WellRef
+from ..database import load_database, shipped_rules
+from ..judging import (
+    Options,
+    Reading,
+    Report,
+    RoleEvidence,
+    judge_reading,
+    missing_needs,
+    read_recording,
+)
+from ..rehearsal import Recording, Script, record
+from ..rules import Database, RuleSpec
+from ..trace import Trace, places, row_column, trace_table
+from .dossier import DeckItem, Dossier, RoleLine, RuleBrief
+
+LONGEST_SOURCE = 40_000
+"""Characters of source that are shown; what is cut is said."""
+
+MOST_ROLES = 40
+"""Lines of roles that are shown."""
+
+
+def make_dossier(reading: Reading, report: Report) -> Dossier:
+    """Put together what there is to know.
+
+    Args:
+        reading: Of the protocol.
+        report: What the checks made of it.
+    """
+    recording, trace = reading.recording, reading.trace
+    wells = [well.ref for well in trace.wells.values()]
+    wells += [role.well for role in report.roles]
+    return Dossier(
+        file=recording.file,
+        source=_shortened(recording.text),
+        parameters=json.dumps(dict(recording.parameters), sort_keys=True),
+        family=report.family,
+        family_known=reading.family_known,
+        table=trace_table(trace),
+        deck=_deck(trace),
+        wells=tuple(dict.fromkeys(wells)),
+        lines=_lines(recording),
+        roles=_roles(report),
+        rules=tuple(_rules(reading, report)),
+        questions=report.undecided,
+        wanted=tuple(_wanted(reading, report)),
+        findings=(*report.findings, *(waived.finding for waived in report.waived)),
+    )
+
+
+def check_with_dossier(
+    script: Script,
+    database: Database | None = None,
+    options: Options | None = None,
+    timeout_s: float = 120.0,
+) -> tuple[Report, Dossier, Reading]:
+    """Rehearse a protocol, judge it, and put its dossier together.
+
+    Raises:
+        RehearsalError: It cannot be rehearsed.
+        RuleError: A rule file cannot be used.
+    """
+    recording = record(script, timeout_s)
+    reading = read_recording(recording, database or load_database(), options or Options())
+    report = judge_reading(reading)
+    return report, make_dossier(reading, report), reading
+
+
+def _deck(trace: Trace) -> tuple[DeckItem, ...]:
+    items = []
+    for info in trace.labware.values():
+        if info.is_tip_rack or info.is_trash or not info.wells:
+            continue
+        places_ = [row_column(name) for name in info.wells]
+        rows, columns = max(p[0] for p in places_) + 1, max(p[1] for p in places_) + 1
+        label = info.label or info.display_name
+        items.append(DeckItem(info.key, info.slot, label, info.load_name, rows, columns))
+    return tuple(items)
+
+
+def _lines(recording: Recording) -> tuple[int, ...]:
+    found: set[int] = set()
+    for heard in recording.log:
+        if heard.line is not None:
+            found.add(heard.line)
+        if not isinstance(heard, Event):
+            found.update(heard.lines)
+    return tuple(sorted(found))
+
+
+def _roles(report: Report) -> tuple[RoleLine, ...]:
+    groups: dict[tuple[str, str], list[RoleEvidence]] = {}
+    told: set[tuple[WellRef, str]] = set()
+    for item in report.roles:
+        if (item.well, item.role) in told:
+            continue
+        told.add((item.well, item.role))
+        said = item.evidence[0] if item.evidence else ""
+        if item.conflict:
+            said = f"CONFLICT: {item.conflict}"
+        groups.setdefault((item.role, said), []).append(item)
+    lines = [
+        RoleLine(role + _levels(items), places([item.well for item in items]), said)
+        for (role, said), items in groups.items()
+    ]
+    if len(lines) > MOST_ROLES:
+        left = len(lines) - MOST_ROLES
+        lines[MOST_ROLES:] = [RoleLine("...", f"{left} more lines", "not shown")]
+    return tuple(lines)
+
+
+def _levels(items: Sequence[RoleEvidence]) -> str:
+    """Concentrations or doses, in the order of the wells."""
+    levels = list(dict.fromkeys(f"{i.level:g}" for i in items if i.level is not None))
+    if not levels:
+        return ""
+    shown = levels if len(levels) <= 10 else [*levels[:4], "...", *levels[-2:]]
+    return f" (level {', '.join(shown)})"
+
+
+def _rules(reading: Reading, report: Report) -> Iterable[RuleBrief]:
+    applying = {inference.family for inference in report.families if inference.applies}
+    open_rules = {undecided.rule for undecided in report.undecided}
+    shipped = str(shipped_rules())
+    for family in reading.database.families:
+        for rule in family.rules:
+            severity = reading.options.severity_of(rule)
+            if severity == "off":
+                continue
+            judged = rule.scope == "all" or family.family in applying
+            decided = judged and rule.id not in open_rules
+            text = "" if family.path.startswith(shipped) else rule_text(rule)
+            yield RuleBrief(rule.id, Severity(severity), decided, text)
+
+
+def _wanted(reading: Reading, report: Report) -> Iterable[str]:
+    """The roles that open rules need and no well has."""
+    open_rules = {undecided.rule for undecided in report.undecided}
+    for rule, case in reading.cases():
+        missing = missing_needs(rule, case.roles) if rule.id in open_rules else []
+        if missing:
+            yield f"{rule.id}: {', '.join(missing).replace('|', ' or ')}"
+
+
+def rule_text(rule: RuleSpec) -> str:
+    """One rule in a line: what must hold."""
+    return f"{rule.id} {rule.name} ({rule.severity}): {rule.statement}"
+
+
+def _shortened(text: str) -> str:
+    if len(text) <= LONGEST_SOURCE:
+        return text
+    kept = text[:LONGEST_SOURCE].rpartition("\n")[0]
+    return f"{kept}\n# ... {len(text) - len(kept)} more characters are not shown ..."

@@ -1,0 +1,163 @@
+"""Merges a model's opinion with what the checks decided. The robot does it as well.
+
+The merge can only add. Every finding of the checks stays, whatever the model says; a rule that
+the checks decided stays decided, and where the model disagrees a note says so; an open question
+stays listed, with the model's reading beside it, unless a violation is shown in wells and lines
+that the trace holds. Such a finding warns (and is an error where all warnings are). So no text
+in a protocol that talks a model round can change what the checks found.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from ...vocabulary import Finding, Severity, Undecided, VerdictWord, WellRef
+from ..evidence import Evidence
+from ..judging import (
+    Reading,
+    Report,
+    RoleEvidence,
+    Waived,
+    apply_waivers,
+    judge_reading,
+    read_waivers,
+    spelled,
+    verdict_of,
+)
+from .answers import is_known
+from .dossier import Dossier
+from .opinion import Opinion, no_answer
+from .proposals import verify_proposals
+
+
+def merge(report: Report, opinion: Opinion, dossier: Dossier, reading: Reading) -> Report:
+    """The checks' report with the model's opinion added; see the module for what that may do.
+
+    Args:
+        report: The checks' report.
+        opinion: The model's.
+        dossier: What the model was asked about.
+        reading: What the report judges; judged again with the roles that the model read.
+    """
+    if not opinion.answered:
+        return replace(report, undecided=(*report.undecided, no_answer(opinion)))
+    decided = {brief.id for brief in dossier.rules if brief.decided}
+    notes = [f"{opinion.model}: {opinion.summary}"] if opinion.summary else []
+    severity = Severity.ERROR if reading.options.strict else Severity.WARNING
+    accepted, rejected, second = _judged_again(reading, opinion)
+    # A check tells more exactly what happens than a model that saw the same.
+    candidates = [
+        replace(
+            finding,
+            message=f"{finding.message} ({opinion.model} read what the wells are for.)",
+            severity=severity,
+            source="model",
+        )
+        for finding in (second.findings if second else ())
+        if finding.rule not in decided
+    ]
+    for finding in opinion.findings:
+        if finding.rule in decided:
+            notes.append(
+                f"{opinion.model} disagrees with the check of {finding.rule}, which stands: "
+                f"{finding.message}"
+            )
+        elif not is_known(finding, candidates):
+            candidates.append(replace(finding, severity=severity))
+    notes += [f"{opinion.model}, role of {text}." for text in rejected]
+    notes += [f"{opinion.model}, left out: {text}" for text in opinion.left_out]
+    standing, waived = _without_waived(reading, candidates)
+    findings = sorted(
+        (*report.findings, *standing), key=lambda f: (min(f.lines, default=0), f.rule)
+    )
+    return replace(
+        report,
+        findings=tuple(findings),
+        verdict=report.verdict if report.verdict is VerdictWord.ERROR else verdict_of(findings),
+        undecided=tuple(_questions(report, opinion, standing, accepted, second)),
+        waived=(*report.waived, *waived),
+        notes=(*report.notes, *notes),
+        roles=(*report.roles, *_roles(report, accepted, second)),
+    )
+
+
+def _judged_again(
+    reading: Reading, opinion: Opinion
+) -> tuple[list[Evidence], list[str], Report | None]:
+    """The roles that stand, why others do not, and what the checks say with them."""
+    assay = _assay(reading, opinion)
+    if not assay and not opinion.proposals:
+        return [], [], None
+    seen = reading.with_evidence((), assay) if assay else reading
+    accepted, rejected = verify_proposals(opinion.proposals, seen, opinion.model)
+    if not assay and not accepted:
+        return accepted, rejected, None
+    return accepted, rejected, judge_reading(reading.with_evidence(accepted, assay))
+
+
+def _assay(reading: Reading, opinion: Opinion) -> tuple[str, ...]:
+    """The family that the model reads, where the checks only guess."""
+    if reading.family_known:
+        return ()
+    known = {family.family for family in reading.database.families if not family.default}
+    return (opinion.family,) if opinion.family in known else ()
+
+
+def _questions(
+    report: Report,
+    opinion: Opinion,
+    standing: Sequence[Finding],
+    accepted: Sequence[Evidence],
+    second: Report | None,
+) -> Iterable[Undecided]:
+    """What stays open, with the model's reading; and the roles to paste, if they are right."""
+    found = {finding.rule for finding in standing}
+    answers = {answer.rule: answer for answer in opinion.answers}
+    for question in report.undecided:
+        if question.rule in found:
+            continue
+        reason, paste = question.reason, question.paste
+        answer = answers.get(question.rule)
+        if answer is not None:
+            words = {"holds": "it holds", "violated": "it is violated"}
+            said = words.get(answer.answer, "it cannot tell")
+            reason += f"; {opinion.model} reads that {said}"
+            reason += f": {answer.reason}" if answer.reason else ""
+        if second is not None and question.rule in second.judged:
+            reason += "; with the roles that it reads, the check finds nothing"
+            paste = _pasted(accepted) or paste
+        yield replace(question, reason=reason, paste=paste)
+
+
+def _pasted(accepted: Sequence[Evidence]) -> str:
+    """The model's roles as a guard takes them."""
+    wells: dict[str, list[WellRef]] = {}
+    for one in accepted:
+        wells.setdefault(one.role, []).extend(one.wells)
+    listed = ", ".join(
+        f'"{role}": {json.dumps(spelled(refs))}'  # a list of texts, as Python writes it as well
+        for role, refs in wells.items()
+    )
+    return f"@guard(roles={{{listed}}})" if listed else ""
+
+
+def _without_waived(
+    reading: Reading, findings: Sequence[Finding]
+) -> tuple[list[Finding], list[Waived]]:
+    if not findings:
+        return [], []
+    return apply_waivers(findings, read_waivers(reading.recording.text, reading.facts))
+
+
+def _roles(
+    report: Report, accepted: Sequence[Evidence], second: Report | None
+) -> Iterable[RoleEvidence]:
+    """The roles that the model's evidence decided."""
+    citations = {one.citation for one in accepted}
+    known = {(item.family, item.well, item.role) for item in report.roles}
+    for item in second.roles if second else ():
+        new = (item.family, item.well, item.role) not in known
+        if new and not citations.isdisjoint(item.evidence):
+            yield item

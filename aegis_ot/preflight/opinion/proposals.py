@@ -1,0 +1,174 @@
+"""Verifies the roles that a model proposes, against source, deck and trace.
+
+A proposal that stands becomes evidence of the weakest kind; what is wrong with another is told.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from ...vocabulary import WellRef
+from ..evidence import Deck, Evidence, Kind
+from ..judging import Reading
+from ..roles import Roles
+from ..source import level_in, source_lines
+from ..trace import Sides
+from .opinion import Citation, RoleProposal
+
+
+class Rejected(Exception):
+    """Why a proposal is not accepted, in words that follow a colon."""
+
+
+def verify_proposals(
+    proposals: Sequence[RoleProposal], reading: Reading, model: str
+) -> tuple[list[Evidence], list[str]]:
+    """The proposals that stand, as evidence; and the others, each with the reason in a sentence.
+
+    Args:
+        proposals: What the model proposes.
+        reading: Of the protocol, in the eyes of the families that are to be judged.
+        model: Whose they are.
+    """
+    verifier = _Verifier(reading, model)
+    accepted: list[Evidence] = []
+    rejected: list[str] = []
+    for proposal in proposals:
+        try:
+            accepted.append(verifier.evidence(proposal))
+        except Rejected as reason:
+            wells = ", ".join(proposal.wells) or "no well"
+            rejected.append(f"{wells} as {proposal.role or 'nothing'}, not accepted: {reason}")
+    return accepted, rejected
+
+
+class _Verifier:
+    """Knows the protocol, and what it has accepted so far."""
+
+    def __init__(self, reading: Reading, model: str) -> None:
+        self._reading = reading
+        self._model = model
+        self._deck = Deck(reading.trace, reading.recording.names)
+        self._sides = Sides(reading.usage)
+        self._lines = source_lines(reading.recording.text)
+        self._taken: dict[WellRef, str] = {}
+
+    def evidence(self, proposal: RoleProposal) -> Evidence:
+        """What the proposal is worth.
+
+        Raises:
+            Rejected: Nothing.
+        """
+        families = [r for r in self._reading.roles if proposal.role in r.family.roles]
+        if not families:
+            names = ", ".join(roles.family.family for roles in self._reading.roles)
+            raise Rejected(f"{names or 'no family in force'} knows no such role")
+        wells = self._wells(proposal)
+        self._check_quotes(proposal.citations)
+        for roles in families:
+            for ref in wells:
+                self._check_side(roles, proposal.role, ref)
+                self._check_others(roles, proposal.role, ref)
+        levels = self._levels(proposal, len(wells))
+        self._taken.update(dict.fromkeys(wells, proposal.role))
+        said = proposal.citations[0]
+        return Evidence(
+            Kind.MODEL,
+            proposal.role,
+            wells,
+            f"read by {self._model} at line {said.line}: '{said.quote}'",
+            said.line,
+            role=proposal.role,
+            levels=levels,
+        )
+
+    def _wells(self, proposal: RoleProposal) -> tuple[WellRef, ...]:
+        """The wells that are meant, all of one labware that the run uses.
+
+        A well that the run forgets is one of them: a control that never gets its vehicle.
+        """
+        found: dict[WellRef, None] = {}
+        for place in proposal.wells:
+            labware, _, spec = place.rpartition(":")
+            labware = labware.strip()
+            if labware.lower().startswith("slot "):
+                labware = labware[len("slot ") :]
+            named = self._deck.at(f"{labware}:{spec}") if spec.strip() else ()
+            if not named:
+                raise Rejected(f"there is no well {place!r} on the deck")
+            found.update(dict.fromkeys(named))
+        used = {ref.labware for ref in found if self._deck.used_wells([ref.labware])}
+        if not used:
+            raise Rejected("the run does not use this labware" if found else "it names no well")
+        if len(used) > 1:
+            raise Rejected("these wells are in several labware")
+        return tuple(ref for ref in found if ref.labware in used)
+
+    def _check_quotes(self, citations: Sequence[Citation]) -> None:
+        if not citations:
+            raise Rejected("it cites nothing")
+        for said in citations:
+            quote = _plain(said.quote)
+            if not any(map(str.isalpha, quote)):
+                raise Rejected(f"{said.quote!r} says nothing")
+            inside = 1 <= said.line <= len(self._lines)
+            if not inside or quote not in _plain(self._lines[said.line - 1]):
+                raise Rejected(f"{said.quote!r} does not stand at line {said.line}")
+
+    def _check_side(self, roles: Roles, role: str, ref: WellRef) -> None:
+        spec = roles.family.roles[role]
+        side, passes_on = self._sides(ref)
+        if spec.side in ("any", side) or (passes_on and spec.side == "source"):
+            return
+        use = {"source": "drawn from", "destination": "filled"}
+        used = use.get(side, "neither drawn from nor filled")
+        raise Rejected(f"{ref.address} is {used} first, and a {spec.title} is {use[spec.side]}")
+
+    def _check_others(self, roles: Roles, role: str, ref: WellRef) -> None:
+        assigned = roles.by_well.get(ref)
+        if assigned is not None and _differ(roles, role, assigned.role):
+            said = assigned.evidence[0].citation
+            raise Rejected(f"{ref.address} is {assigned.role} by {said}")
+        taken = self._taken.get(ref)
+        if taken is not None and _differ(roles, role, taken):
+            raise Rejected(f"{ref.address} is proposed as {taken} as well")
+
+    def _levels(self, proposal: RoleProposal, count: int) -> tuple[float | None, ...]:
+        """The level of each well, where they are told."""
+        told = [level for level in proposal.levels if level.strip()]
+        if not told:
+            return (None,) * count
+        if len(told) not in (1, count):
+            raise Rejected(f"it tells {len(told)} levels for {count} wells")
+        words = self._reading.database.common.levels
+        levels = []
+        for text in told:
+            level = level_in(text, words)
+            if level is None and text.strip().isdecimal():
+                level = float(text)  # a single digit, which in a name would only count
+            if level is None:
+                raise Rejected(f"{text!r} is no concentration or dose")
+            if not any(_stands_in(said.quote, text) for said in proposal.citations):
+                raise Rejected(f"the level {text!r} stands in no quote")
+            levels.append(level)
+        return tuple(levels * count if len(levels) == 1 else levels)
+
+
+def _stands_in(quote: str, level: str) -> bool:
+    """Whether a level is in a quote as it is written: not the 125 of "A125" or "1250"."""
+    written = re.escape(_plain(level).casefold())
+    pattern = rf"(?<![a-z\d.]){written}(?!\d|\.\d)"
+    return re.search(pattern, _plain(quote).casefold()) is not None
+
+
+def _differ(roles: Roles, one: str, other: str) -> bool:
+    known = roles.family.roles
+    if one not in known or other not in known:
+        return one != other
+    return one not in roles.closure(other) and other not in roles.closure(one)
+
+
+def _plain(text: str) -> str:
+    """As the request shows it, but for blanks."""
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())

@@ -1,0 +1,168 @@
+"""What a run has loaded, by the identifiers that its commands use."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar
+
+from ..errors import RobotRefused, RobotUnreachable
+from ..instrumentation import Pipette
+from ..vocabulary import WellRef
+from .client import RobotClient
+from .following import PATIENCE_S
+from .shapes import Labware, RunView
+
+T = TypeVar("T")
+_AGAIN_S = 0.5
+_TRASH = re.compile(r"trash|waste", re.IGNORECASE)
+
+
+class Deck:
+    """Pipettes and labware of one run, asked for as its commands name them.
+
+    Args:
+        robot, run: Whose.
+    """
+
+    def __init__(self, robot: RobotClient, run: str) -> None:
+        self._robot = robot
+        self._run = run
+        self._view: RunView | None = None
+        self._definitions: dict[str, Mapping[str, Any]] = {}
+        self._moved: dict[str, str] = {}
+
+    def pipette(self, identifier: str) -> Pipette | None:
+        """The pipette of this identifier."""
+        view = self._known(lambda v: any(p.id == identifier for p in v.pipettes))
+        for pipette in view.pipettes:
+            if pipette.id == identifier:
+                name = pipette.name
+                return Pipette(
+                    pipette.mount, name, pipette.mount, channels_of(name), largest_volume(name)
+                )
+        return None
+
+    def well(self, labware: str, name: str) -> WellRef:
+        """One well; it need not be known to be named."""
+        found = self._labware(labware)
+        if found is None:
+            return WellRef(labware, name)
+        slot = self._moved.get(labware, found.slot)
+        return WellRef(labware, name, self._label(found), slot)
+
+    def wells(self, labware: str, name: str, channels: int) -> tuple[WellRef, ...]:
+        """The well under each of ``channels`` tips, the first of them over ``name``."""
+        columns: Sequence[Sequence[str]] = self._definition(labware).get("ordering") or ()
+        names = under(columns, name, channels)
+        return tuple(self.well(labware, known) for known in names)
+
+    def is_trash(self, labware: str) -> bool:
+        """Whether liquid and tips that go there are thrown away."""
+        found = self._labware(labware)
+        return bool(_TRASH.search(found.load_name if found is not None else labware))
+
+    def depth(self, labware: str, name: str) -> float | None:
+        """Of a well, mm; ``None`` if it is not known."""
+        depth = self._well(labware, name).get("depth")
+        return float(depth) if isinstance(depth, (int, float)) else None
+
+    def tip_volume(self, labware: str, name: str) -> float | None:
+        """What a tip of this rack holds, µL; ``None`` if it is not known."""
+        volume = self._well(labware, name).get("totalLiquidVolume")
+        return float(volume) if isinstance(volume, (int, float)) and volume > 0 else None
+
+    def liquid(self, identifier: str) -> str:
+        """Name of a declared liquid."""
+        view = self._known(lambda v: identifier in v.liquids)
+        return view.liquids.get(identifier, "")
+
+    def moved(self, labware: str, slot: str) -> None:
+        """A labware stands elsewhere now."""
+        self._moved[labware] = slot
+
+    def _labware(self, identifier: str) -> Labware | None:
+        view = self._known(lambda v: any(one.id == identifier for one in v.labware))
+        return next((one for one in view.labware if one.id == identifier), None)
+
+    def _label(self, labware: Labware) -> str:
+        if labware.label != labware.load_name:
+            return labware.label
+        metadata = self._definition(labware.id).get("metadata") or {}
+        return str(metadata.get("displayName") or labware.label)
+
+    def _definition(self, identifier: str) -> Mapping[str, Any]:
+        labware = self._labware(identifier)
+        if labware is None:
+            return {}
+        if labware.uri not in self._definitions:
+            with contextlib.suppress(RobotRefused):  # a server that does not tell them
+                self._definitions.update(
+                    patiently(lambda: self._robot.labware_definitions(self._run))
+                )
+            self._definitions.setdefault(labware.uri, {})
+        return self._definitions[labware.uri]
+
+    def _well(self, labware: str, name: str) -> Mapping[str, Any]:
+        wells: Mapping[str, Mapping[str, Any]] = self._definition(labware).get("wells") or {}
+        return wells.get(name) or {}
+
+    def _known(self, enough: Any) -> RunView:
+        if self._view is None or not enough(self._view):
+            self._view = patiently(lambda: self._robot.run(self._run))
+        return self._view
+
+
+def patiently(ask: Callable[[], T], patience_s: float = PATIENCE_S) -> T:
+    """Ask again while the robot does not answer; raises RobotUnreachable in the end."""
+    until = time.monotonic() + patience_s
+    while True:
+        try:
+            return ask()
+        except RobotUnreachable:
+            if time.monotonic() > until:
+                raise
+            time.sleep(_AGAIN_S)
+
+
+def channels_of(name: str) -> int:
+    """Of a pipette, from its Opentrons name."""
+    if "96" in name:
+        return 96
+    return 8 if "multi" in name or "8channel" in name else 1
+
+
+def largest_volume(name: str) -> float:
+    """Of a pipette, µL, from its Opentrons name: ``p300_single_gen2``, ``flex_1channel_50``."""
+    found = re.search(r"^p(\d+)_", name) or re.search(r"_(\d+)$", name)
+    return float(found.group(1)) if found else 1000.0
+
+
+def under(columns: Sequence[Sequence[str]], name: str, channels: int) -> tuple[str, ...]:
+    """Names of the wells under the tips, ``name`` under the first; tips are 9 mm apart.
+
+    Args:
+        columns: Well names of the labware, column by column.
+        name: The first tip's.
+        channels: 1, 8 or 96; others are taken for one well that they share.
+    """
+    place = next(
+        ((c, column.index(name)) for c, column in enumerate(columns) if name in column), None
+    )
+    if place is None or channels == 1:
+        return (name,)
+    first_column, first_row = place
+    rows = len(columns[first_column])
+    row_step = {8: 1, 16: 2}.get(rows)
+    column_step = {12: 1, 24: 2}.get(len(columns))
+    if channels not in (8, 96) or row_step is None or first_row + 7 * row_step >= rows:
+        return (name,) * (8 if channels == 8 else 1)
+    rows_hit = range(first_row, first_row + 8 * row_step, row_step)
+    if channels == 8:
+        return tuple(columns[first_column][row] for row in rows_hit)
+    if column_step is None or first_column + 11 * column_step >= len(columns):
+        return (name,)
+    columns_hit = range(first_column, first_column + 12 * column_step, column_step)
+    return tuple(columns[column][row] for column in columns_hit for row in rows_hit)

@@ -1,0 +1,154 @@
+"""From the commands of a run to the operations that the keyframes are made of.
+
+An unguarded run tells of nothing but its commands. They are read as the operations that a guard
+on the robot would have heard, so that both ways yield the same trajectories.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..instrumentation import Event, EventKind, Operation, OperationKind, Pipette
+from ..vocabulary import WellRef
+from .deck import Deck, channels_of
+from .shapes import Command
+
+_KINDS = {
+    "pickUpTip": OperationKind.PICK_UP_TIP,
+    "dropTip": OperationKind.DROP_TIP,
+    "dropTipInPlace": OperationKind.DROP_TIP,
+    "unsafe/dropTipInPlace": OperationKind.DROP_TIP,
+    "aspirate": OperationKind.ASPIRATE,
+    "aspirateInPlace": OperationKind.ASPIRATE,
+    "aspirateWhileTracking": OperationKind.ASPIRATE,
+    "dispense": OperationKind.DISPENSE,
+    "dispenseInPlace": OperationKind.DISPENSE,
+    "dispenseWhileTracking": OperationKind.DISPENSE,
+    "blowout": OperationKind.BLOW_OUT,
+    "blowOutInPlace": OperationKind.BLOW_OUT,
+    "airGapInPlace": OperationKind.AIR_GAP,
+    "touchTip": OperationKind.TOUCH_TIP,
+    "moveToWell": OperationKind.MOVE,
+    "moveToAddressableArea": OperationKind.MOVE,
+    "moveToAddressableAreaForDropTip": OperationKind.MOVE,
+    "moveToCoordinates": OperationKind.MOVE,
+    "liquidProbe": OperationKind.MOVE,
+    "tryLiquidProbe": OperationKind.MOVE,
+}
+_SINGLE_NOZZLES = {"SINGLE": 1, "COLUMN": 8, "ROW": 12}
+_INSIDE_MM = -1.0
+"""Height over the top of a well where a command says less than that it is inside it."""
+
+
+class OperationReader:
+    """Reads the commands of one run, in order.
+
+    Args:
+        deck: What the run has loaded.
+    """
+
+    def __init__(self, deck: Deck) -> None:
+        self._deck = deck
+        self._at_trash: dict[str, bool] = {}
+        self._nozzles: dict[str, int] = {}
+        self._racks: dict[str, tuple[str, str]] = {}
+
+    def operation(self, command: Command) -> Operation | None:
+        """What a pipette does by this command; ``None`` if it does nothing with tip or liquid."""
+        kind = _KINDS.get(command.kind)
+        if kind is None:
+            self._note(command)
+            return None
+        params = command.params
+        pipette = self._deck.pipette(str(params.get("pipetteId", "")))
+        if pipette is None:
+            return None
+        in_place = "InPlace" in command.kind
+        labware, well = str(params.get("labwareId", "")), str(params.get("wellName", ""))
+        disposal = self._disposal(pipette, command, labware, in_place)
+        channels = self._nozzles.get(pipette.key, pipette.channels)
+        wells: tuple[WellRef | None, ...] = (None,) * channels
+        if labware and well and not disposal:
+            wells = self._deck.wells(labware, well, channels)
+        if kind is OperationKind.PICK_UP_TIP:
+            self._racks[pipette.key] = (labware, well)
+        return Operation(
+            kind=kind,
+            pipette=pipette,
+            nozzles=tuple(str(n) for n in range(max(1, channels))),
+            wells=wells,
+            disposal=disposal,
+            volume=_number(params.get("volume")),
+            from_top=self._height(labware, well, params) if labware and well else None,
+            in_place=in_place,
+            call=command.kind,
+        )
+
+    def event(self, command: Command) -> Event | None:
+        """What else changes the meaning of wells."""
+        params = command.params
+        if command.kind == "waitForResume":
+            return Event(EventKind.PAUSED, text=command.message)
+        if command.kind == "moveLabware":
+            return Event(EventKind.LABWARE_MOVING, labware=str(params.get("labwareId", "")))
+        if command.kind == "loadLiquid":
+            labware = str(params.get("labwareId", ""))
+            wells = tuple(self._deck.well(labware, name) for name in params["volumeByWell"])
+            name = self._deck.liquid(str(params.get("liquidId", "")))
+            return Event(EventKind.LIQUID_LOADED, wells=wells, text=name)
+        return None
+
+    def capacity(self, operation: Operation) -> float | None:
+        """Working volume of the tip that is on now, µL."""
+        rack = self._racks.get(operation.pipette.key)
+        tip = self._deck.tip_volume(*rack) if rack is not None else None
+        return None if tip is None else min(tip, operation.pipette.max_volume)
+
+    def _note(self, command: Command) -> None:
+        params = command.params
+        if command.kind == "configureNozzleLayout":
+            pipette = self._deck.pipette(str(params.get("pipetteId", "")))
+            if pipette is not None:
+                self._nozzles[pipette.key] = _active(params, channels_of(pipette.name))
+        elif command.kind == "moveLabware":
+            place = params.get("newLocation")
+            slot = place.get("slotName", "") if isinstance(place, Mapping) else ""
+            self._deck.moved(str(params.get("labwareId", "")), str(slot))
+
+    def _disposal(self, pipette: Pipette, command: Command, labware: str, in_place: bool) -> bool:
+        if in_place:
+            return self._at_trash.get(pipette.key, False)
+        area = str(command.params.get("addressableAreaName", ""))
+        there = self._deck.is_trash(labware) if labware else "rash" in area or "aste" in area
+        self._at_trash[pipette.key] = there
+        return there
+
+    def _height(self, labware: str, well: str, params: Mapping[str, Any]) -> float:
+        """Of the tip end over the top of the well, mm."""
+        location: Mapping[str, Any] = params.get("wellLocation") or {}
+        z = _number((location.get("offset") or {}).get("z"))
+        origin = location.get("origin", "top")
+        if origin == "top":
+            return z
+        depth = self._deck.depth(labware, well)
+        if depth is None or origin == "meniscus":
+            return _INSIDE_MM
+        return z - (depth if origin == "bottom" else depth / 2)
+
+
+def _active(params: Mapping[str, Any], channels: int) -> int:
+    """How many nozzles a layout leaves at work."""
+    layout = params.get("configurationParams") or {}
+    style = str(layout.get("style", "ALL"))
+    if style == "QUADRANT":  # part of a column, or a rectangle
+        corners = [str(layout.get(name, "")) for name in ("primaryNozzle", "frontRightNozzle")]
+        if all(corners):
+            rows = abs(ord(corners[0][0]) - ord(corners[1][0])) + 1
+            columns = abs(int(corners[0][1:]) - int(corners[1][1:])) + 1
+            return rows * columns
+    return min(channels, _SINGLE_NOZZLES.get(style, channels))
+
+
+def _number(value: Any) -> float:
+    return float(value) if isinstance(value, (int, float)) else 0.0

@@ -1,0 +1,234 @@
+"""A protocol's way through the robot's server: upload, analysis, start, run, end."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol
+
+from ..errors import LinkError, RobotError
+from .client import RobotClient
+from .following import PATIENCE_S, POLL_S, Completed, Found, Lost, Started, StatusChanged, follow
+from .shapes import OWN_WORDS, PAUSED, Analysis, Command, RunView
+from .verdicts import VerdictReader, WellVerdict
+
+VERDICTS_EVERY_S = 0.5
+
+
+class Screen(Protocol):
+    """Where a run is shown, and where the person at the terminal says what to do."""
+
+    def analysing(self, seconds: float) -> None:
+        """The robot analyses the protocol."""
+
+    def began(self, commands: int | None) -> None:
+        """The run has started; its analysis has so many commands (``None``: not known)."""
+
+    def doing(self, command: Command) -> None:
+        """A command has begun."""
+
+    def done(self, command: Command) -> None:
+        """A command is over."""
+
+    def says(self, text: str) -> None:
+        """A comment of the guard, or trouble with the connection."""
+
+    def waits(self, text: str) -> None:
+        """The run waits for a person; ``""``: it goes on."""
+
+    def judged(self, verdict: WellVerdict) -> None:
+        """A verdict is in."""
+
+    def asked(self) -> str:
+        """``"play"``, ``"pause"``, ``"stop"`` as the person wants it now, or ``""``."""
+
+
+@dataclass
+class RobotRun:
+    """One run, as it went.
+
+    Attributes:
+        protocol: File name.
+        robot: The robot's name.
+        url: Of its server.
+        id: Of the run there.
+        analysis: The robot's.
+        status: How it ended, or how it stands where the following of it was left.
+        seconds: From the start to the end.
+        commands: How many were done.
+        pauses: What the run waited for, in order.
+        verdicts: By trajectory, as they stand.
+        errors: What ended it.
+        overview: What the sidecar knows of it, or ``None``.
+    """
+
+    protocol: str
+    robot: str
+    url: str
+    id: str
+    analysis: Analysis
+    status: str = "idle"
+    seconds: float = 0.0
+    commands: int = 0
+    pauses: list[str] = field(default_factory=list)
+    verdicts: dict[int, WellVerdict] = field(default_factory=dict)
+    errors: tuple[str, ...] = ()
+    overview: Any = None
+
+
+def analyse(
+    robot: RobotClient, protocol: Path, screen: Screen, timeout_s: float
+) -> tuple[str, Analysis]:
+    """Upload a protocol and have it analysed anew, as the robot is set now.
+
+    Returns:
+        Its identifier on the robot, and the analysis.
+
+    Raises:
+        RobotError: The robot cannot be reached, refuses the file, or takes too long.
+        OSError: The file cannot be read.
+    """
+    identifier, was_known = robot.upload(protocol)
+    if was_known:
+        robot.analyse_again(identifier)
+    return identifier, robot.analysis(identifier, timeout_s, screen.analysing)
+
+
+def run_analysed(
+    robot: RobotClient,
+    identifier: str,
+    run: RobotRun,
+    screen: Screen,
+    verdicts: VerdictReader | None = None,
+    *,
+    poll_s: float = POLL_S,
+    patience_s: float = PATIENCE_S,
+) -> RobotRun:
+    """Start an uploaded protocol and follow it to its end.
+
+    Args:
+        robot: Where.
+        identifier: Of the protocol there.
+        run: Filled in as it goes on.
+        screen: Shows it, and is asked what the person wants.
+        verdicts: Of the run's sidecar.
+        poll_s, patience_s: As for :func:`~.following.follow`.
+
+    Raises:
+        RobotError: The robot refuses the start, or is lost for too long. The run then goes on, or
+            waits, without this program.
+    """
+    run.id = robot.create_run(identifier)
+    driver = RunDriver(robot, run, screen, verdicts)
+    robot.act(run.id, "play")
+    screen.began(len(run.analysis.kinds))
+    began = time.monotonic()
+    try:
+        for step in follow(
+            robot, run.id, poll_s=poll_s, patience_s=patience_s, idle=driver.look_around
+        ):
+            driver.take(step)
+    finally:
+        run.seconds = time.monotonic() - began
+        driver.last_words()
+    return run
+
+
+class RunDriver:
+    """Shows a run, and does with it what the person at the terminal asks.
+
+    Args:
+        robot, run, screen, verdicts: As for :func:`run_analysed`.
+    """
+
+    def __init__(
+        self,
+        robot: RobotClient,
+        run: RobotRun,
+        screen: Screen,
+        verdicts: VerdictReader | None = None,
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._robot = robot
+        self._run = run
+        self._screen = screen
+        self._verdicts = verdicts
+        self._now = now
+        self._next_look = 0.0
+        self._trouble = ""
+        self._waiting_for = ""
+
+    def take(self, step: Any) -> None:
+        screen = self._screen
+        if isinstance(step, Started):
+            self._began(step.command)
+        elif isinstance(step, Completed):
+            self._run.commands += 1
+            screen.done(step.command)
+        elif isinstance(step, StatusChanged):
+            self._status(step.run)
+        elif isinstance(step, Lost):
+            screen.says(f"{step.reason} The run goes on there; trying again.")
+        elif isinstance(step, Found):
+            screen.says(f"The robot answers again, after {step.seconds:.0f} s.")
+
+    def look_around(self) -> None:
+        """Do what the person asks; see which verdicts are in."""
+        wanted = self._screen.asked()
+        if wanted:
+            try:
+                self._robot.act(self._run.id, wanted)
+            except RobotError as error:
+                self._screen.says(str(error))
+        if self._now() >= self._next_look:
+            self._next_look = self._now() + VERDICTS_EVERY_S
+            self._read_verdicts()
+
+    def last_words(self) -> None:
+        """The run is over: what the sidecar has to say at the end."""
+        self._read_verdicts()
+        if self._verdicts is not None:
+            try:
+                self._run.overview = self._verdicts.overview()
+            except LinkError as error:
+                self._screen.says(str(error))
+
+    def _began(self, command: Command) -> None:
+        if command.kind == "waitForResume":
+            self._waiting_for = command.message
+        elif command.is_guards:
+            self._screen.says(command.message[len(OWN_WORDS) :])
+        self._screen.doing(command)
+
+    def _status(self, view: RunView) -> None:
+        self._run.status, self._run.errors = view.status, view.errors
+        if view.status in PAUSED:
+            text = self._waiting_for or _PAUSE_WORDS.get(view.status, "The run is paused.")
+            self._run.pauses.append(text)
+            self._screen.waits(text)
+        else:
+            self._waiting_for = ""
+            self._screen.waits("")
+
+    def _read_verdicts(self) -> None:
+        if self._verdicts is None:
+            return
+        try:
+            for verdict in self._verdicts.news():
+                self._run.verdicts[verdict.verdict.trajectory] = verdict
+                self._screen.judged(verdict)
+        except LinkError as error:
+            if str(error) != self._trouble:
+                self._screen.says(f"{error} Verdicts are not shown until it is back.")
+            self._trouble = str(error)
+        else:
+            self._trouble = ""
+
+
+_PAUSE_WORDS = {
+    "paused": "Somebody paused the run.",
+    "blocked-by-open-door": "The robot's door is open.",
+    "awaiting-recovery": "A command failed; the robot waits for a person to recover from it.",
+}

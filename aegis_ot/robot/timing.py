@@ -1,0 +1,47 @@
+"""What the guard adds to the analysis of a protocol, measured on this machine."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+from ..errors import RehearsalError
+
+_TIMEOUT_S = 600.0
+_TIMED = """
+import io, logging, sys, time
+logging.disable(logging.CRITICAL)
+import opentrons.simulate as simulate
+text = open(sys.argv[1], encoding="utf-8").read()
+began = time.perf_counter()
+simulate.simulate(io.StringIO(text), sys.argv[2], log_level="none")
+print("SECONDS", time.perf_counter() - began)
+"""
+
+
+def simulation_s(protocol: Path, name: str) -> float:
+    """How long Opentrons' simulator takes for a protocol in a fresh process, itself imported, s.
+
+    Args:
+        protocol: The file.
+        name: Under which it is simulated.
+
+    Raises:
+        RehearsalError: It does not simulate; with the last line that was said.
+    """
+    try:
+        done = subprocess.run(
+            [sys.executable, "-c", _TIMED, str(protocol), name],
+            capture_output=True,
+            text=True,
+            timeout=_TIMEOUT_S,
+            check=False,
+        )
+    except subprocess.TimeoutExpired:
+        raise RehearsalError(f"{name} did not simulate within {_TIMEOUT_S:g} s.") from None
+    for line in done.stdout.splitlines():
+        if line.startswith("SECONDS "):
+            return float(line.split()[1])
+    said = [line for line in done.stderr.splitlines() if line.strip()]
+    raise RehearsalError(f"{name} does not simulate: {said[-1] if said else 'nothing was said'}")

@@ -1,0 +1,122 @@
+"""Verdicts of a guarded run, read from its sidecar while it goes on."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import httpx
+
+from ..errors import SidecarGarbled, SidecarRefused, SidecarUnreachable
+from ..vocabulary import Outcome, Verdict, from_json
+
+_TIMEOUT_S = 2.0
+_EARLY_S = 5.0
+"""The sidecar's clock against this machine's, and the time between two requests, s."""
+
+
+@dataclass(frozen=True)
+class WellVerdict:
+    """A verdict, with where the liquid went in plain words."""
+
+    well: str
+    verdict: Verdict
+
+
+class VerdictReader:
+    """Looks into one sidecar for the run that begins now.
+
+    Args:
+        url: The sidecar.
+        token: Its token, or ``None``.
+        protocol: File name of the protocol; of several runs it tells which is meant.
+        run: Identifier of the run there, where it is known.
+        transport: Instead of the network, for tests.
+
+    Attributes:
+        run: Identifier of the run there, ``""`` until it is known.
+    """
+
+    def __init__(
+        self,
+        url: str,
+        token: str | None,
+        protocol: str = "",
+        run: str = "",
+        transport: httpx.BaseTransport | None = None,
+    ) -> None:
+        self.url = url.rstrip("/")
+        self.run = run
+        self._protocol = protocol
+        self._since = time.time() - _EARLY_S
+        self._seen: dict[int, Outcome] = {}
+        headers = {"Authorization": f"Bearer {token}"} if token else {}
+        self._http = httpx.Client(
+            base_url=self.url,
+            headers=headers,
+            timeout=_TIMEOUT_S,
+            transport=transport,
+            trust_env=False,
+        )
+
+    def close(self) -> None:
+        """Drop the connection."""
+        self._http.close()
+
+    def check(self) -> None:
+        """Whether it is there and lets us in.
+
+        Raises:
+            LinkError: It is not.
+        """
+        self._ask("/v1/runs")
+
+    def news(self) -> list[WellVerdict]:
+        """Verdicts that are new, or that a person changed, since the last call.
+
+        Raises:
+            LinkError: The sidecar does not answer, or refuses.
+        """
+        if not self._find():
+            return []
+        found: list[WellVerdict] = []
+        for trajectory in self._ask(f"/v1/runs/{self.run}")["trajectories"]:
+            if trajectory.get("verdict") is None:
+                continue
+            verdict = from_json(Verdict, trajectory["verdict"])
+            if self._seen.get(verdict.trajectory) is not verdict.outcome:
+                self._seen[verdict.trajectory] = verdict.outcome
+                found.append(WellVerdict(str(trajectory.get("well", "")), verdict))
+        return found
+
+    def overview(self) -> Mapping[str, Any] | None:
+        """All that the sidecar knows of the run, ``None`` if it never came there."""
+        return self._ask(f"/v1/runs/{self.run}") if self._find() else None
+
+    def _find(self) -> bool:
+        if not self.run:
+            for row in self._ask("/v1/runs")["runs"]:
+                if row.get("protocol") == self._protocol and row["registered"] >= self._since:
+                    self.run = str(row["run"])
+                    break
+        return bool(self.run)
+
+    def _ask(self, path: str) -> Any:
+        try:
+            answer = self._http.get(path)
+        except httpx.HTTPError as error:
+            raise SidecarUnreachable(
+                f"The sidecar at {self.url} cannot be reached ({error}). Check that it runs and "
+                "that the address is right."
+            ) from None
+        if answer.status_code in (401, 403):
+            raise SidecarRefused(f"The sidecar at {self.url} refused the token.")
+        try:
+            value = answer.json()
+        except ValueError:
+            value = None
+        if answer.is_error or not isinstance(value, dict):
+            raise SidecarGarbled(f"What answers at {self.url} is no aegis-ot sidecar.")
+        return value

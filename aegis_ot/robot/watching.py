@@ -1,0 +1,318 @@
+"""Watch mode: Layer 2 for a run that carries no guard, over the robot's HTTP API."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from .._version import __version__
+from ..errors import LinkError, RobotError, RobotRefused
+from ..instrumentation import Operation
+from ..runtime import Tracker
+from ..runtime.courier import Courier
+from ..runtime.steps import Abandon, Capture, Step
+from ..vocabulary import Keyframe, KeyframeKind, Outcome
+from .client import RobotClient
+from .clocks import RobotClock
+from .deck import Deck
+from .following import POLL_S, Completed, Found, Lost, Started, StatusChanged, follow
+from .moments import PastLink, moment_before, moment_of_transit
+from .operations import OperationReader
+from .running import RobotRun, RunDriver, Screen
+from .shapes import Command
+from .verdicts import WellVerdict
+
+LOSSES = (
+    "The robot is not held between deliveries: when a delivery fails, the robot has gone on for "
+    "some seconds before it is paused. Frames are chosen by the times of its commands and may be "
+    "one camera frame off."
+)
+_CLOCK_EVERY_S = 5.0
+_SLACK_S = 0.75
+"""How far the end of a command may lie outside the two looks between which it was seen, s."""
+_UNKNOWN = 0.0
+"""The moment of a keyframe whose time makes no sense: so long ago that it goes as late."""
+_LAST_VERDICTS_S = 20.0
+
+
+@dataclass(frozen=True)
+class WatchPolicies:
+    """What to do, each ``"pause"`` or ``"continue"``; and for how long a frame is asked for, s."""
+
+    on_fail: str = "pause"
+    on_undecided: str = "pause"
+    on_link_loss: str = "pause"
+    capture_timeout_s: float = 3.0
+
+
+def await_run(robot: RobotClient, rest: Callable[[float], None] = time.sleep) -> str:
+    """Wait until a run has begun on the robot; its identifier."""
+    while True:
+        current = robot.current_run()
+        if current is not None:
+            view = robot.run(current)
+            if view.status != "idle" and not view.ended:
+                return current
+        rest(0.5)
+
+
+def watch_run(
+    robot: RobotClient,
+    run: RobotRun,
+    sidecar: PastLink,
+    screen: Screen,
+    policies: WatchPolicies | None = None,
+    *,
+    poll_s: float = POLL_S,
+) -> RobotRun:
+    """Watch a run that has begun, to its end.
+
+    Args:
+        robot: Where.
+        run: Its ``id`` says which; the rest is filled in.
+        sidecar: Scores its deliveries.
+        screen: Shows it.
+        policies: What to do when a delivery fails, or cannot be watched.
+        poll_s: Pause between two looks at the robot.
+
+    Raises:
+        RobotError: The robot is lost for too long. The run goes on unwatched.
+        LinkError: The sidecar is not there at the beginning.
+    """
+    watch = _Watch(robot, run, sidecar, screen, policies or WatchPolicies())
+    driver = RunDriver(robot, run, screen)
+    watch.begin()
+    screen.says(LOSSES)
+    began = time.monotonic()
+
+    def idle() -> None:
+        driver.look_around()
+        watch.look_around()
+
+    try:
+        for step in follow(robot, run.id, poll_s=poll_s, idle=idle):
+            driver.take(step)
+            watch.take(step)
+    finally:
+        run.seconds = time.monotonic() - began
+        watch.end()
+    return run
+
+
+def name_of_watch(run: str) -> str:
+    """What a watched run is called at its sidecar."""
+    return f"watch-{run}"
+
+
+class _Watch:
+    def __init__(
+        self,
+        robot: RobotClient,
+        run: RobotRun,
+        sidecar: PastLink,
+        screen: Screen,
+        policies: WatchPolicies,
+    ) -> None:
+        self._robot = robot
+        self._run = run
+        self._link = sidecar
+        self._screen = screen
+        self._policies = policies
+        self.name = name_of_watch(run.id)
+        self._courier = Courier(sidecar, self.name, self._about(), time.sleep)
+        self._clock = RobotClock(robot.clock)
+        self._reader = OperationReader(Deck(robot, run.id))
+        self._tracker = Tracker(self.name, "off", lift=False, capacity=self._reader.capacity)
+        self._operation: Operation | None = None
+        self._last: float | None = None
+        self._queue: deque[tuple[Keyframe, float | None]] = deque()
+        self._places: dict[int, str] = {}
+        self._awaited: list[int] = []
+        self._next_clock = 0.0
+        self._guarded = False
+        self._followed_since: float | None = None
+        self._lost = False
+
+    def begin(self) -> None:
+        self._courier.register(self._policies.capture_timeout_s)
+        self._look_at_clock()
+
+    def take(self, step: Any) -> None:
+        if isinstance(step, Started):
+            self._started(step.command)
+        elif isinstance(step, Completed):
+            self._completed(step.command)
+        elif isinstance(step, Lost):
+            self._lost = True
+        elif isinstance(step, Found):
+            self._lost = False
+            self._look_at_clock()
+        elif isinstance(step, StatusChanged) and step.run.status == "succeeded":
+            self._perform(self._tracker.finish(), None)
+
+    def look_around(self) -> None:
+        """Between two looks at the run: the clocks, and the verdict that is due first."""
+        if time.monotonic() >= self._next_clock:
+            self._look_at_clock()
+        if not self._lost:
+            self._followed_since = time.monotonic()
+        if not self._awaited or self._courier.away:
+            return
+        number = self._awaited[0]
+        try:
+            verdict = self._courier.verdict(number)
+        except LinkError as error:
+            self._lose(error)
+            return
+        if verdict is None:
+            return
+        self._awaited.pop(0)
+        known = WellVerdict(self._places.get(number, ""), verdict)
+        self._run.verdicts[number] = known
+        self._screen.judged(known)
+        if verdict.outcome is Outcome.FAIL:
+            self._apply(self._policies.on_fail, f"{known.well} failed")
+        elif verdict.outcome is Outcome.UNDECIDED:
+            self._apply(self._policies.on_undecided, f"{known.well} could not be judged")
+
+    def end(self) -> None:
+        """The run is over, or is followed no longer: the last verdicts, and goodbye."""
+        until = time.monotonic() + _LAST_VERDICTS_S
+        while self._awaited and not self._courier.away and time.monotonic() < until:
+            self.look_around()
+        status = self._run.status
+        outcome = status if status in ("succeeded", "failed", "stopped") else "failed"
+        detail = "" if outcome == status else "The run was followed no longer."
+        left = self._tracker.break_off(f"the run {outcome}")
+        given_up = {step.trajectory: step.reason for step in left if isinstance(step, Abandon)}
+        try:
+            self._courier.finish(outcome, detail, given_up, self._policies.capture_timeout_s)
+        except LinkError as error:
+            self._screen.says(str(error))
+        finally:
+            self._courier.close()
+
+    # Commands
+
+    def _started(self, command: Command) -> None:
+        if command.is_guards and not self._guarded:
+            self._guarded = True
+            self._screen.says("This run carries a guard of its own; it need not be watched too.")
+        event = self._reader.event(command)
+        if event is not None:
+            self._perform(self._tracker.event(event), command)
+        self._operation = self._reader.operation(command)
+        if self._operation is not None:
+            self._perform(self._tracker.before(self._operation), command)
+
+    def _completed(self, command: Command) -> None:
+        transit = moment_of_transit(command)
+        if command.completed is not None:
+            self._last = command.completed
+            if not self._is_plausible(command.completed):
+                self._last = transit = _UNKNOWN
+        self._queue = deque(
+            (keyframe, transit if moment is None else moment) for keyframe, moment in self._queue
+        )
+        operation, self._operation = self._operation, None
+        if operation is not None and command.status == "succeeded":
+            self._perform(self._tracker.after(operation), command)
+        self._send_due()
+
+    def _perform(self, steps: list[Step], command: Command | None) -> None:
+        for step in steps:
+            if isinstance(step, Abandon):
+                self._courier.abandon(step.trajectory, step.reason)
+            elif isinstance(step, Capture):
+                self._note(step.keyframe, command)
+        self._send_due()
+
+    def _note(self, keyframe: Keyframe, command: Command | None) -> None:
+        if keyframe.destinations:
+            self._places[keyframe.trajectory] = str(keyframe.destinations[0])
+        moment: float | None = None
+        if keyframe.kind is not KeyframeKind.TRANSIT or command is None:
+            moment = moment_before(keyframe.kind, self._last or 0.0)
+        self._queue.append((keyframe, moment))
+
+    # The sidecar
+
+    def _send_due(self) -> None:
+        while self._queue and self._queue[0][1] is not None:
+            keyframe, moment = self._queue.popleft()
+            assert moment is not None
+            self._send(keyframe, moment)
+
+    def _send(self, keyframe: Keyframe, moment: float) -> None:
+        courier = self._courier
+        self._link.moments[keyframe.sequence] = self._clock.local(moment)
+        courier.offer(keyframe)
+        if keyframe.kind is KeyframeKind.POST_DISPENSE:
+            self._awaited.append(keyframe.trajectory)
+        if courier.away and not courier.look(self._policies.capture_timeout_s):
+            courier.move_on()
+            return
+        try:
+            courier.deliver(self._policies.capture_timeout_s)
+        except LinkError as error:
+            self._lose(error)
+
+    def _lose(self, error: LinkError) -> None:
+        self._screen.says(f"{error} Deliveries are not watched until it is back.")
+        self._courier.give_up()
+        self._apply(self._policies.on_link_loss, "the sidecar is away")
+
+    def _apply(self, policy: str, why: str) -> None:
+        if policy != "pause":
+            return
+        try:
+            self._robot.act(self._run.id, "pause")
+        except RobotRefused:
+            self._screen.says(f"Not paused: {why}, but the run is not running.")
+        except RobotError as error:
+            self._screen.says(f"NOT PAUSED, though {why}: {error}")
+        else:
+            self._screen.says(f"Paused by the watch: {why}. Motion ends with the current move.")
+
+    def _is_plausible(self, completed: float) -> bool:
+        """Whether a command ended between the last look and now: else a clock was set meanwhile."""
+        since = self._followed_since
+        if since is None:
+            return True
+        for again in (True, False):
+            local = self._clock.local(completed)
+            if since - _SLACK_S <= local <= time.monotonic() + _SLACK_S:
+                return True
+            if again:
+                self._look_at_clock()
+        return False
+
+    def _look_at_clock(self) -> None:
+        self._next_clock = time.monotonic() + _CLOCK_EVERY_S
+        jumps = self._clock.jumps
+        with contextlib.suppress(RobotError):  # the follower tells of a lost connection
+            self._clock.look()
+        if self._clock.jumps > jumps:
+            self._screen.says("The robot's clock was set; a delivery may have lost its frames.")
+
+    def _about(self) -> dict[str, Any]:
+        return {
+            "run": self.name,
+            "protocol": self._run.protocol,
+            "robot": "",
+            "robot_name": self._run.robot[:200],
+            "simulated": False,
+            "started": time.time(),
+            "package": __version__,
+            "mode": "watch",
+            "guard": {
+                "hold": "off",
+                "on_fail": self._policies.on_fail,
+                "on_undecided": self._policies.on_undecided,
+                "on_link_loss": self._policies.on_link_loss,
+            },
+        }

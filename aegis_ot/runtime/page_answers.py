@@ -1,0 +1,113 @@
+"""What a person answers on the sidecar's page while the robot is paused, and having it done.
+
+A paused protocol can only be resumed or stopped from outside: by the robot's own server, as its
+screen and the App do it. The sidecar cannot always reach that server; this process can.
+"""
+
+from __future__ import annotations
+
+import http.client
+import json
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from ..errors import LinkError
+from ..http_client import CheckStop
+from .link import SidecarLink
+
+ROBOT_SERVER = ("127.0.0.1", 31950)
+_HEADERS = {"Opentrons-Version": "*", "Content-Type": "application/json"}
+_TIMEOUT_S = 5.0
+_EVERY_S = 0.5
+_ASK_S = 2.0
+
+_DOES = {"resume": "play", "stop": "stop"}
+
+
+class _Answered(Exception):
+    """The pause is over; whatever is asked now is of no interest."""
+
+
+class PageAnswers:
+    """Asks about one trajectory in a thread, for as long as the block lasts.
+
+    Args:
+        link: Makes a connection of the thread's own.
+        run: Identifier of the run.
+        number: Of the trajectory that the robot is paused at.
+        paused: Whether the robot is paused; an answer given before that would be lost.
+
+    Attributes:
+        given: Whether an answer was carried out.
+    """
+
+    def __init__(
+        self,
+        link: Callable[[CheckStop], SidecarLink],
+        run: str,
+        number: int,
+        paused: Callable[[], bool],
+    ) -> None:
+        self.given = False
+        self._run = run
+        self._number = number
+        self._paused = paused
+        self._over = threading.Event()
+        self._link = link(self._check)
+        self._thread = threading.Thread(target=self._work, name="page-answers", daemon=True)
+
+    def __enter__(self) -> PageAnswers:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        # Not joined: a stop must not wait for a robot server that answers slowly.
+        self._over.set()
+
+    def _check(self) -> None:
+        if self._over.is_set():
+            raise _Answered
+
+    def _work(self) -> None:
+        try:
+            while not self._over.wait(_EVERY_S):
+                try:
+                    action = self._link.action(self._run, self._number, _ASK_S)
+                except LinkError:
+                    continue
+                if action in _DOES and self._paused() and not self._over.is_set():
+                    self.given = True
+                    self.given = act_on_current_run(_DOES[action])
+        except _Answered:
+            pass
+        finally:
+            self._link.close()
+
+
+def act_on_current_run(action: str) -> bool:
+    """Have the robot's server ``"play"``, ``"pause"`` or ``"stop"`` its current run.
+
+    Returns:
+        Whether it took the order.
+    """
+    connection = http.client.HTTPConnection(*ROBOT_SERVER, timeout=_TIMEOUT_S)
+    try:
+        current = _ask(connection, "GET", "/runs?pageLength=1")
+        href = current["links"]["current"]["href"]
+        _ask(connection, "POST", f"{href}/actions", {"data": {"actionType": action}})
+    except (OSError, http.client.HTTPException, ValueError, KeyError, TypeError):
+        return False
+    finally:
+        connection.close()
+    return True
+
+
+def _ask(connection: http.client.HTTPConnection, method: str, path: str, body: Any = None) -> Any:
+    payload = None if body is None else json.dumps(body)
+    connection.request(method, path, payload, _HEADERS)
+    answer = connection.getresponse()
+    data = answer.read(1_000_000)
+    if answer.status not in (200, 201):
+        raise ValueError(f"status {answer.status}")
+    return json.loads(data)

@@ -1,0 +1,223 @@
+"""``aegis-ot doctor``: is everything in place for a run? One line each, with what to do."""
+
+from __future__ import annotations
+
+import json
+import platform
+import shutil
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from dataclasses import dataclass
+from email.utils import parsedate_to_datetime
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from .._version import __version__
+from ..errors import AegisError, CameraError, StoreError
+from ..reasoning import make_backend
+from ..reasoning.backends.service import ServiceBackend
+from .aiming import Aim
+from .cameras import FreeRunning, open_camera
+from .config import SidecarConfig, is_loopback
+from .notifications import Notifier
+from .store import DATABASE, Store
+
+_LEAST_FREE_GB = 2.0
+_FIRST_FRAME_S = 8.0
+_CLOCK_S = 5.0
+"""A robot's clock that is off by more makes its run log hard to read beside the frames, s."""
+_PACKAGES = ("opentrons", "onnxruntime", "opencv-python-headless", "fastapi")
+_DIRECT = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+
+
+@dataclass(frozen=True)
+class Check:
+    """One thing that was looked at.
+
+    Attributes:
+        name: What.
+        state: ``"ok"``, ``"warning"`` (a run is possible) or ``"bad"``.
+        said: What was found.
+        todo: What to do; empty if nothing.
+    """
+
+    name: str
+    state: str
+    said: str
+    todo: str = ""
+
+
+def examine(config: SidecarConfig, robot: str | None = None) -> Iterator[Check]:
+    """Look at everything, one after the other; nothing is changed.
+
+    Args:
+        config: The sidecar's settings.
+        robot: Address of a robot, ``http://192.168.1.5``; ``None``: it is not looked for.
+    """
+    yield _versions()
+    yield _disk(config)
+    working = _sidecar(config)
+    yield _store(config, working is not None)
+    yield _token(config)
+    yield from _camera_checks(config, working)
+    yield _model(config)
+    yield _notifications(config)
+    yield _robot(robot) if robot else _clock()
+
+
+def _versions() -> Check:
+    told = [f"aegis_ot {__version__}", f"Python {platform.python_version()}"]
+    for name in _PACKAGES:
+        try:
+            told.append(f"{name} {version(name)}")
+        except PackageNotFoundError:
+            told.append(f"{name} none")
+    return Check("versions", "ok", ", ".join(told))
+
+
+def _disk(config: SidecarConfig) -> Check:
+    folder = next(p for p in (config.data, *config.data.parents) if p.exists())
+    free = shutil.disk_usage(folder).free / 1e9
+    said = f"{free:.1f} GB free for {config.data}"
+    if free >= _LEAST_FREE_GB:
+        return Check("disk", "ok", said)
+    return Check("disk", "bad", said, "Free some space, or set retention.gigabytes.")
+
+
+def _store(config: SidecarConfig, at_work: bool) -> Check:
+    if not (config.data / DATABASE).exists():
+        return Check("store", "ok", f"none yet in {config.data}; the sidecar makes it")
+    try:
+        store = Store(config.data, alone=True)
+        count = len(store.runs())
+        store.close()
+    except StoreError as error:
+        if at_work:
+            return Check("store", "ok", "in use by the sidecar that is at work")
+        return Check("store", "bad", str(error), "See above; until then no sidecar starts.")
+    return Check("store", "ok", f"whole, {count} runs")
+
+
+def _token(config: SidecarConfig) -> Check:
+    if is_loopback(config.host):
+        said = "not needed" if config.token is None else "set"
+        todo = "For a robot in the network, start with --host 0.0.0.0; a token is then made."
+        return Check("token", "ok", f"{said}: only this machine is answered", todo)
+    return Check("token", "ok", "set, and long enough")
+
+
+def _sidecar(config: SidecarConfig) -> dict[str, Any] | None:
+    """What a sidecar that is at work says of itself; ``None`` if there is none."""
+    host = "127.0.0.1" if config.host in ("", "0.0.0.0", "::", "localhost") else config.host
+    shown = f"[{host}]" if ":" in host else host
+    try:
+        with _DIRECT.open(f"http://{shown}:{config.port}/v1/health", timeout=2) as answer:
+            said = json.loads(answer.read(10_000))
+    except (OSError, ValueError):
+        return None
+    return said if isinstance(said, dict) and said.get("name") == "aegis-ot" else None
+
+
+def _camera_checks(config: SidecarConfig, working: dict[str, Any] | None) -> Iterator[Check]:
+    if working is not None:
+        camera = working.get("camera", {})
+        state = "ok" if camera.get("ok") else "bad"
+        said = f"{camera.get('kind')}, as the sidecar at work says: {camera.get('detail') or state}"
+        yield Check("camera", state, said, "" if state == "ok" else "See its page, Camera.")
+        return
+    try:
+        camera = open_camera(config.camera)
+    except AegisError as error:
+        yield Check("camera", "bad", str(error), "Name another camera (--camera).")
+        return
+    try:
+        yield from _look(config, camera)
+    finally:
+        camera.close()
+
+
+def _look(config: SidecarConfig, camera: Any) -> Iterator[Check]:
+    aim = Aim(config, camera, lambda: None)
+    until = time.monotonic() + (_FIRST_FRAME_S if isinstance(camera, FreeRunning) else 0)
+    while True:
+        try:
+            view = aim.look()
+            break
+        except CameraError as error:
+            if time.monotonic() >= until:
+                todo = "Look at its cable and power; close other programs that use it."
+                yield Check("camera", "bad", str(error), todo)
+                return
+        except AegisError as error:
+            yield Check("detector", "bad", str(error), "Leave cascade.detector out, or mend it.")
+            return
+    height, width = view.frame.image.shape[:2]
+    yield Check("camera", "ok", f"{config.camera.spec}, {width} x {height} px")
+    light = (
+        f"brightness {view.brightness:.0%}, too dark {view.dark:.0%}, blown out {view.blown:.0%}"
+    )
+    advice = [said for said in view.advice if said != "Good."]
+    about_tip = [said for said in advice if "tip" in said and "focus" not in said]
+    other = [said for said in advice if said not in about_tip]
+    state = "warning" if other else "ok"
+    yield Check(
+        "sharpness and light", state, f"sharpness {view.sharpness:.0f}, {light}", " ".join(other)
+    )
+    found = "no tip" if view.tip is None else f"a tip, {view.confidence:.0%} sure"
+    state = "warning" if about_tip else "ok"
+    yield Check("detector", state, f"on a live frame: {found}", " ".join(about_tip))
+
+
+def _model(config: SidecarConfig) -> Check:
+    if config.model.name is None:
+        return Check("model", "ok", "none is set: the volumetric gate and the operator decide")
+    try:
+        model = make_backend(config.model.name)
+    except AegisError as error:
+        return Check("model", "bad", str(error), "Mend model.name.")
+    problem = model.key_problem() if isinstance(model, ServiceBackend) else ""
+    if problem:
+        return Check("model", "bad", f"{config.model.name} cannot be asked", problem)
+    return Check("model", "ok", f"{config.model.name} can be asked (it was not)")
+
+
+def _notifications(config: SidecarConfig) -> Check:
+    urls = config.notifications.urls
+    if not urls:
+        todo = "Set notifications.urls to be told away from the bench."
+        return Check("notifications", "ok", "none are set", todo)
+    try:
+        Notifier(urls).close(0.1)
+    except AegisError as error:
+        return Check("notifications", "bad", str(error), "Mend the address.")
+    return Check("notifications", "ok", f"{len(urls)} addresses are understood (none was used)")
+
+
+def _robot(address: str) -> Check:
+    url = address.rstrip("/") if "://" in address else f"http://{address}"
+    if url.count(":") < 2:
+        url += ":31950"
+    request = urllib.request.Request(f"{url}/health", headers={"Opentrons-Version": "*"})
+    asked = time.time()
+    try:
+        with _DIRECT.open(request, timeout=5) as answer:
+            said, date = json.loads(answer.read(100_000)), answer.headers.get("Date")
+    except (OSError, ValueError) as error:
+        todo = "See whether it is on, in this network, and whether the address is right."
+        return Check("robot", "bad", f"{url} does not answer: {error}", todo)
+    told = (
+        f"{said.get('name', '?')}, {said.get('robot_model', '?')}, {said.get('api_version', '?')}"
+    )
+    off = parsedate_to_datetime(date).timestamp() - asked if date else 0.0
+    if abs(off) > _CLOCK_S:
+        todo = "Set the clocks of robot and workstation by the network (NTP)."
+        return Check("robot", "warning", f"{told}; its clock is off by {off:.0f} s", todo)
+    return Check("robot", "ok", f"{told}; its clock agrees within {_CLOCK_S:g} s")
+
+
+def _clock() -> Check:
+    now = time.strftime("%Y-%m-%d %H:%M:%S %Z")
+    todo = "Compare it with the robot's: aegis-ot doctor --robot ADDRESS."
+    return Check("clock", "ok", now, todo)

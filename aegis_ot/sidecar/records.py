@@ -1,0 +1,152 @@
+"""What is judged and decided within a run: verdicts, holds, decisions, actions, incidents."""
+
+from __future__ import annotations
+
+import json
+import time
+from typing import Any
+
+from ..vocabulary import Verdict, from_json, to_json
+from .database import Database
+from .wire import Action, Decision, Hold
+
+OF_A_RUN = (
+    "incidents", "actions", "decisions", "holds", "abandoned", "verdicts", "keyframes",
+)  # fmt: skip
+"""Tables whose rows go with their run."""
+
+
+class Records(Database):
+    """The tables that belong to a run. Every method raises StoreError where the disk fails."""
+
+    def add_verdict(self, verdict: Verdict, evidence: dict[str, Any]) -> None:
+        """Keep the analyser's verdict; the first one stays."""
+        self._write(
+            "INSERT INTO verdicts VALUES (?, ?, ?, ?, ?) ON CONFLICT DO NOTHING",
+            (
+                verdict.run,
+                verdict.trajectory,
+                json.dumps(to_json(verdict)),
+                json.dumps(evidence),
+                time.time(),
+            ),
+        )
+
+    def verdicts(self, run: str) -> list[tuple[Verdict, dict[str, Any], float]]:
+        """The analyser's verdicts in order: verdict, evidence, when (s since the epoch)."""
+        rows = self._read("SELECT * FROM verdicts WHERE run = ? ORDER BY trajectory", run)
+        return [
+            (
+                from_json(Verdict, json.loads(row["verdict"])),
+                json.loads(row["evidence"]),
+                row["judged"],
+            )
+            for row in rows
+        ]
+
+    def abandon(self, run: str, trajectory: int, reason: str) -> None:
+        """Keep that a trajectory was given up; the first reason stays."""
+        self._write(
+            "INSERT INTO abandoned VALUES (?, ?, ?, ?) ON CONFLICT DO NOTHING",
+            (run, trajectory, reason, time.time()),
+        )
+
+    def abandoned(self, run: str) -> dict[int, str]:
+        """Reasons by trajectory."""
+        rows = self._read("SELECT trajectory, reason FROM abandoned WHERE run = ?", run)
+        return {row["trajectory"]: row["reason"] for row in rows}
+
+    def outcomes(self, run: str) -> dict[str, int]:
+        """How many deliveries have which outcome, after the operator."""
+        rows = self._read(
+            "SELECT coalesce(d.outcome, json_extract(v.verdict, '$.outcome')) AS outcome, "
+            "count(*) AS n FROM verdicts v LEFT JOIN (SELECT trajectory, outcome, max(id) "
+            "FROM decisions WHERE run = ? GROUP BY trajectory) d ON d.trajectory = v.trajectory "
+            "WHERE v.run = ? AND NOT EXISTS (SELECT 1 FROM abandoned a WHERE a.run = v.run "
+            "AND a.trajectory = v.trajectory) GROUP BY 1",
+            run,
+            run,
+        )
+        return {row["outcome"]: row["n"] for row in rows}
+
+    def add_hold(self, run: str, hold: Hold) -> None:
+        """Keep how long the robot held for a trajectory; the last word counts."""
+        self._write(
+            "INSERT INTO holds (run, trajectory, seconds, resolution, policy, paused_s, answered, "
+            "at) VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT (run, trajectory) DO UPDATE "
+            "SET seconds = excluded.seconds, resolution = excluded.resolution, "
+            "policy = excluded.policy, paused_s = excluded.paused_s, "
+            "answered = excluded.answered, at = excluded.at",
+            (
+                run,
+                hold.trajectory,
+                hold.seconds,
+                hold.resolution,
+                hold.policy,
+                hold.paused_s,
+                hold.answered,
+                time.time(),
+            ),
+        )
+
+    def holds(self, run: str) -> dict[int, dict[str, Any]]:
+        """Holds by trajectory."""
+        names = ("trajectory", "seconds", "resolution", "policy", "paused_s", "answered", "at")
+        rows = self._read("SELECT * FROM holds WHERE run = ?", run)
+        return {row["trajectory"]: {name: row[name] for name in names} for row in rows}
+
+    def add_decision(self, run: str, trajectory: int, decision: Decision) -> None:
+        """Keep the operator's decision; every one is kept, the last one counts."""
+        self._write(
+            'INSERT INTO decisions (run, trajectory, outcome, "by", note, at) '
+            "VALUES (?, ?, ?, ?, ?, ?)",
+            (run, trajectory, decision.outcome.value, decision.by, decision.note, time.time()),
+        )
+
+    def decisions(self, run: str) -> dict[int, list[dict[str, Any]]]:
+        """Decisions by trajectory, oldest first."""
+        found: dict[int, list[dict[str, Any]]] = {}
+        for row in self._read("SELECT * FROM decisions WHERE run = ? ORDER BY id", run):
+            found.setdefault(row["trajectory"], []).append(
+                {key: row[key] for key in ("outcome", "by", "note", "at")}
+            )
+        return found
+
+    def add_action(self, run: str, trajectory: int, action: Action) -> None:
+        """Keep what a person told the robot to do."""
+        self._write(
+            'INSERT INTO actions (run, trajectory, action, "by", note, at) '
+            "VALUES (?, ?, ?, ?, ?, ?)",
+            (run, trajectory, action.action, action.by, action.note, time.time()),
+        )
+
+    def actions(self, run: str) -> list[dict[str, Any]]:
+        """Actions, oldest first."""
+        names = ("trajectory", "action", "by", "note", "at")
+        rows = self._read("SELECT * FROM actions WHERE run = ? ORDER BY id", run)
+        return [{name: row[name] for name in names} for row in rows]
+
+    def begin_incident(self, run: str, kind: str, text: str) -> bool:
+        """Keep that trouble began; whether it is new, and not the one that goes on."""
+        return bool(
+            self._write(
+                "INSERT INTO incidents (run, kind, text, at) SELECT ?, ?, ?, ? WHERE NOT EXISTS "
+                "(SELECT 1 FROM incidents WHERE run = ? AND kind = ? AND ended IS NULL)",
+                (run, kind, text, time.time(), run, kind),
+            )
+        )
+
+    def end_incidents(self, run: str, kind: str) -> bool:
+        """Keep that trouble is over; whether there was any."""
+        return bool(
+            self._write(
+                "UPDATE incidents SET ended = ? WHERE run = ? AND kind = ? AND ended IS NULL",
+                (time.time(), run, kind),
+            )
+        )
+
+    def incidents(self, run: str) -> list[dict[str, Any]]:
+        """Incidents, oldest first; ``ended`` is ``None`` while the trouble lasts."""
+        names = ("kind", "text", "at", "ended")
+        rows = self._read("SELECT * FROM incidents WHERE run = ? ORDER BY id", run)
+        return [{name: row[name] for name in names} for row in rows]

@@ -1,0 +1,201 @@
+"""What one trajectory shows of its own delivery, in absolute terms.
+
+TRANSIT and POST_DISPENSE show the same tip above the same well, loaded and emptied. A liquid that
+shows and leaves the tip changes every row that it filled, from its top down to the orifice, in
+proportion to the bore's width there. No normal well, no template and no name of the reagent is
+needed for that, so it holds for the first well of a run, and for all wells of a run that go wrong
+in the same way, or ever more so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..vocabulary import KeyframeKind
+from .column import ceiling
+from .column.contrast import NOISE, signals
+from .column_reader import Look
+from .tip_scale import TipScale
+from .usual import alike
+
+_LONGEST_END = 0.94
+"""Rows nearer to the orifice show its rim's glints, u."""
+
+_ROWS_LEAST = 12
+_BORE_LEAST_PX, _ROW_LEAST_PX = 4.0, 3.0
+"""In a narrower bore, on the average of the upper rows and in each row, a frame laid a pixel beside
+the other one changes as much as a dye does."""
+
+_UNSEEN_MOST = 0.4
+"""Share of the delivery that may stand in rows too narrow to tell, for the others to prove it."""
+
+_LEFT_LEAST = 0.2
+"""Share of the delivery that must have stayed to be called so."""
+
+_PLAIN = 4.0
+"""Change of the upper rows from which the liquid is plain to see, in a row's usual noise. Two
+frames of the same tip differ by up to 2.5 where nothing left it, on simulated frames of many
+cameras."""
+
+_SURE = 6.0
+"""Change from which the rows below must show it too."""
+
+_ELSEWHERE = 0.35
+"""Change where no liquid stood, as a share of that where it did, from which something else changed:
+the light, or what is behind the tip."""
+
+_EMPTIED, _LEFT = 0.5, 0.3
+"""Change of the lower half, as a share of what the upper rows let expect: at least the first where
+the liquid left, at most the second where it stayed."""
+
+_SECTIONS = 12
+
+_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 11.0, 9.0, 6.0
+"""Change of the upper rows from which a gap would show, and from which it would in a bore at least
+so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
+
+_GAP_CHANGE = 0.33
+"""Share of what the column's rows change that those of a gap change at most. Columns without one
+show 0.5 at least, with one of 8 % of their volume 0.25 at most, on simulated frames."""
+
+_GAP_LENGTH, _GAP_WITHIN = 0.05, 0.8
+"""Shortest gap, and the part of the column above the narrow end in which it is looked for, as
+shares of the column."""
+
+
+class Shown(str, Enum):
+    """What the two frames show."""
+
+    EMPTIED = "emptied"
+    """Liquid stood where it should, and left."""
+    GAP = "gap"
+    """It left, but for a stretch within the column in which there was none."""
+    LEFT = "left"
+    """Its upper part left, and its lower part stayed."""
+    NOTHING = "nothing"
+    """No liquid is seen to leave: none did, or it cannot be seen."""
+    UNKNOWN = "unknown"
+    """The frames cannot be compared."""
+
+
+@dataclass(frozen=True)
+class Delivery:
+    """What a trajectory shows of its delivery.
+
+    Attributes:
+        shown: See :class:`Shown`.
+        strength: How plainly the liquid shows, by the width of its bore, 1/mm; of wells of one
+            liquid about the same.
+        left_ul: What stayed in the tip, µL, where some did.
+        gap_ul: Air within the column, µL, where there was some.
+        spoiled: Whether it is unknown because light or background changed between the two frames:
+            the next well may well tell.
+    """
+
+    shown: Shown
+    strength: float = 0.0
+    left_ul: float | None = None
+    spoiled: bool = False
+    gap_ul: float | None = None
+
+
+def delivery_of(
+    looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
+) -> Delivery:
+    """Compare TRANSIT with POST_DISPENSE.
+
+    Args:
+        looks: Of the column reader.
+        expected: Liquid that should be in the tip, µL.
+    """
+    before, after = looks.get(KeyframeKind.TRANSIT), looks.get(KeyframeKind.POST_DISPENSE)
+    drawn = expected.get(KeyframeKind.TRANSIT, 0.0)
+    kept = expected.get(KeyframeKind.POST_DISPENSE, 0.0)
+    unknown = Delivery(Shown.UNKNOWN)
+    if not isinstance(before, Look) or not isinstance(after, Look) or drawn <= kept:
+        return unknown
+    if not alike(before.light, after.light):
+        return replace(unknown, spoiled=True)
+    if len(before.profile.u) != len(after.profile.u):
+        return unknown
+    scale = TipScale()
+    top = max(scale.place(before.tip, drawn), ceiling(before.tip)) + 0.02
+    end = min(_LONGEST_END, scale.place(before.tip, kept) - 0.02)
+    u = before.profile.u.astype(np.float64)
+    inside = (u > top) & (u < end)
+    inside &= _bores(before) >= _ROW_LEAST_PX
+    if int(inside.sum()) < _ROWS_LEAST or before.bore_px(top, (top + end) / 2) < _BORE_LEAST_PX:
+        return unknown
+    lowest = float(before.tip.volume_of((1.0 - u[inside].max()) * before.tip.length_mm))
+    if lowest - kept > _UNSEEN_MOST * (drawn - kept):
+        return unknown
+    found = _compared(before, after, inside, (u > 0.12) & (u < top - 0.07))
+    little = found.left_ul is not None and found.left_ul - kept < _LEFT_LEAST * (drawn - kept)
+    return replace(unknown, strength=found.strength) if little else found
+
+
+def _bores(look: Look) -> NDArray[np.float64]:
+    """Width of the bore in each row, px."""
+    heights = (1.0 - look.profile.u.astype(np.float64)) * look.tip.length_mm
+    px_per_mm = look.profile.length / look.tip.length_mm
+    return np.asarray(2.0 * look.tip.inner_radius(heights) * px_per_mm, dtype=np.float64)
+
+
+def _compared(
+    before: Look, after: Look, inside: NDArray[np.bool_], above: NDArray[np.bool_]
+) -> Delivery:
+    u, tip = before.profile.u.astype(np.float64), before.tip
+    change = (signals(before.profile) - signals(after.profile))[:, :-1] / (np.sqrt(2) * NOISE[:-1])
+    width = np.asarray(tip.inner_radius((1.0 - u) * tip.length_mm), dtype=np.float64)
+    rows = np.flatnonzero(inside)
+    upper = rows[: max(len(rows) // 3, 1)]
+    mean = change[upper].mean(axis=0)
+    strength = float(np.linalg.norm(mean))
+    if strength < _PLAIN:
+        return Delivery(Shown.NOTHING, strength / float(width[upper].mean()))
+    along = change @ (mean / strength)
+    if above.any() and abs(float(along[above].mean())) > _ELSEWHERE * strength:
+        return Delivery(Shown.UNKNOWN, spoiled=True)
+    per_width = strength / float(width[upper].mean())
+    share = along / (per_width * width)
+    lower = rows[len(rows) // 2 :]
+    emptied = float(np.average(share[lower], weights=width[lower]))
+    if emptied >= _EMPTIED:
+        gap = _gap(share[rows]) if strength >= _GAP_SURE_WIDE else None
+        wide = gap is not None and _bores(before)[rows[gap[1]]] >= _GAP_WIDE_PX
+        if gap is None or not (wide or strength >= _GAP_SURE):
+            return Delivery(Shown.EMPTIED, per_width)
+        upper_end, lower_end = ((1.0 - u[rows[end]]) * tip.length_mm for end in gap)
+        air = float(tip.volume_of(upper_end)) - float(tip.volume_of(lower_end))
+        return Delivery(Shown.GAP, per_width, gap_ul=air)
+    if emptied > _LEFT or strength < _SURE:
+        return Delivery(Shown.UNKNOWN, per_width)
+    sections = np.array_split(rows, _SECTIONS)
+    first = next(n for n in range(1, _SECTIONS) if share[sections[n]].mean() < 0.5)
+    # What is behind the tip may have changed instead: then these rows change, another way.
+    if np.median([abs(share[part].mean()) for part in sections[first:]]) > _ELSEWHERE:
+        return Delivery(Shown.UNKNOWN, per_width, spoiled=True)
+    left = float(tip.volume_of((1.0 - u[sections[first][0]]) * tip.length_mm))
+    return Delivery(Shown.LEFT, per_width, left)
+
+
+def _gap(share: NDArray[np.float64]) -> tuple[int, int] | None:
+    """First and last row of the longest stretch that does not change, if it is a gap."""
+    usual = float(np.median(share))
+    still = share[: int(_GAP_WITHIN * len(share))] < 0.5 * usual
+    ends = np.flatnonzero(np.diff(np.concatenate(([0], still.astype(np.int8), [0]))))
+    stretches = sorted(zip(ends[::2], ends[1::2], strict=True), key=lambda pair: pair[0] - pair[1])
+    if not stretches:
+        return None
+    first, past = stretches[0]
+    least = max(4, round(_GAP_LENGTH * len(share)))
+    if past - first < least or first == 0 or past >= len(still):
+        return None
+    middle = (first + past) // 2
+    core = share[max(middle - least // 2, 0) : middle + (least + 1) // 2]
+    return (int(first), int(past)) if float(core.mean()) < _GAP_CHANGE * usual else None

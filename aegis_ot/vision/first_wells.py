@@ -1,0 +1,90 @@
+"""A run's first wells, on which it calibrates, held against what is known without them.
+
+What a run learns it learns from wells that nobody has judged. If all of them go wrong in the same
+way they agree with each other, so agreement proves nothing. A first well counts as normal if its
+own frames show the liquid leave the tip, or if the operator says so.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..vocabulary import Keyframe
+from .delivery import Delivery, Shown
+from .gates import Case
+
+Liquid = tuple[str, float, str]
+"""Mount and pipette, working volume of the tip, µL, and reagent: wells that are compared."""
+
+_MISSING_SHARE = 0.3
+"""A liquid that shows this much less than in the wells before was not there, or did not leave."""
+
+_KNOWN = 12
+
+_SPOILED_MOST = 1
+"""First wells of a run that may pass unproven because one of their frames was spoiled."""
+
+
+class FirstWells:
+    """What a run's wells have proven of their liquids.
+
+    Args:
+        ask: Whether the operator is asked where the frames prove nothing; else the first wells
+            are taken for normal, as on simulated frames, where nobody is there to be asked.
+    """
+
+    def __init__(self, ask: bool = True) -> None:
+        self._ask = ask
+        self._strengths: dict[Liquid, list[float]] = {}
+        self._spoiled = 0
+        self.vouched = False
+        """Whether the operator said that wells in which no liquid is seen to leave are right."""
+
+    def question(self, liquid: Liquid, delivery: Delivery | None) -> str:
+        """What to ask the operator before a first well counts as normal; empty: nothing."""
+        shown = Shown.UNKNOWN if delivery is None else delivery.shown
+        if not self._ask or self.vouched or shown is Shown.EMPTIED:
+            return ""
+        if self.proven(liquid):
+            return ""  # it shows, and what did not here is for the gate
+        if delivery is not None and delivery.spoiled and self._spoiled < _SPOILED_MOST:
+            self._spoiled += 1
+            return ""  # a lamp or a hand: the next well tells
+        return (
+            "No liquid is seen to leave the tip: none was drawn or dispensed, or it is too clear "
+            "to be seen in this view. Please look at the tip and the well. If they are right, "
+            "resume: the wells after it are then compared with this one."
+        )
+
+    def proven(self, liquid: Liquid) -> bool:
+        """Whether wells of this run showed the liquid leave the tip."""
+        return bool(self._strengths.get(liquid))
+
+    def held_against(self, liquid: Liquid, delivery: Delivery) -> Delivery:
+        """``delivery`` in the light of earlier wells: where the liquid was seen to leave them,
+        nothing to be seen is a sign, and else it is none."""
+        known = self._strengths.get(liquid)
+        if delivery.shown is not Shown.NOTHING:
+            return delivery
+        if known and delivery.strength < _MISSING_SHARE * float(np.median(known)):
+            return delivery
+        return replace(delivery, shown=Shown.UNKNOWN)
+
+    def learn(self, liquid: Liquid, case: Case) -> None:
+        """A well was judged normal."""
+        if case.delivery is not None and case.delivery.shown is Shown.EMPTIED:
+            self.restore(liquid, case.delivery.strength)
+
+    def restore(self, liquid: Liquid, strength: float) -> None:
+        """A normal well of this liquid showed it so plainly."""
+        known = self._strengths.setdefault(liquid, [])
+        known.append(strength)
+        # The first ones stay: what drifts slowly must not take the measure with it.
+        del known[_KNOWN:]
+
+
+def liquid_of(keyframe: Keyframe) -> Liquid:
+    """What wells are compared with each other: one pipette and tip, one liquid."""
+    return f"{keyframe.mount} {keyframe.pipette}", keyframe.capacity_ul, keyframe.reagent or ""

@@ -1,0 +1,116 @@
+"""What a gate gets to see of a well, and what it says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from ...vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
+from ..delivery import Delivery
+from ..measuring import ColumnReading
+from ..types import TrajectorySample
+
+RUN_ALARM = 3e-4
+"""Of a hundred normal wells, three in a hundred runs have one that looks more unusual."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """What a gate gets to see of one well.
+
+    Attributes:
+        sample: Frames, detections and expected volumes.
+        route: Why it is asked.
+        score: Anomaly score; ``None`` if none could be computed.
+        readings: Liquid columns by keyframe; a keyframe that could not be read is left out.
+        missing: Keyframes in which no tip was found.
+        calibrated: Whether readings rest on this run's own normal wells.
+        p_value: How often a normal well of this run looks this unusual, if the scorer can tell.
+        alarm_p: A well that looks more unusual than this is not passed for want of proof: it is
+            left to the operator. In a run of a hundred wells it has to be small; on a plate of
+            few wells, of which one is known to be normal, the scorer's own threshold serves.
+        clearly_absent: Whether nothing like this run's tips is in the frames without one.
+        delivery: What the trajectory shows by itself of its delivery, in the light of the run's
+            earlier wells; ``None`` if it was not looked at.
+        signs: What the scorer found, by sign, nats; empty if it cannot say.
+        normal: A normal well of this run, to compare with.
+    """
+
+    sample: TrajectorySample
+    route: Route
+    score: float | None = None
+    readings: Mapping[KeyframeKind, ColumnReading] = field(default_factory=dict)
+    missing: tuple[KeyframeKind, ...] = ()
+    calibrated: bool = True
+    p_value: float | None = None
+    alarm_p: float = RUN_ALARM
+    clearly_absent: bool = True
+    delivery: Delivery | None = None
+    signs: Mapping[str, float] = field(default_factory=dict)
+    normal: TrajectorySample | None = None
+
+    @property
+    def alarming(self) -> bool:
+        """Whether the well looks too unusual to pass without proof."""
+        return self.p_value is not None and self.p_value < self.alarm_p
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What asking took.
+
+    Attributes:
+        model: Who was asked.
+        calls: How often.
+        tokens_in, tokens_out: Read and written.
+        amount: In ``currency``; ``None`` if the model has no price here.
+        currency: ``"USD"``.
+        seconds: From question to answer.
+    """
+
+    model: str
+    calls: int = 1
+    tokens_in: int = 0
+    tokens_out: int = 0
+    amount: float | None = None
+    currency: str = "USD"
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class GateDecision:
+    """What a gate says. ``UNDECIDED`` passes the case on to the next gate.
+
+    Attributes:
+        outcome: Its word.
+        gate: Which gate it was.
+        reason: One sentence for the operator.
+        failure: What went wrong, for a fail.
+        measured_ul, expected_ul: Left in the tip, µL, where it was measured.
+        costs: Of all that was asked, one entry for each model.
+    """
+
+    outcome: Outcome
+    gate: Gate
+    reason: str
+    failure: FailureType | None = None
+    measured_ul: float | None = None
+    expected_ul: float | None = None
+    costs: tuple[Cost, ...] = ()
+
+
+class ConfirmingGate(Protocol):
+    """Anything that can confirm or reject a flagged well: volumes, a VLM, a person.
+
+    Attributes:
+        gate: Its name.
+        screens: Whether it costs nothing and takes no time, so that it is asked about every well,
+            before anybody knows whether it is to be flagged.
+    """
+
+    gate: Gate
+    screens: bool
+
+    def examine(self, case: Case) -> GateDecision:
+        """Judge one case. Must not raise for a case that it cannot judge: ``UNDECIDED``."""

@@ -1,0 +1,61 @@
+"""Gates one after another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from ...vocabulary import Gate, Outcome
+from .case import Case, ConfirmingGate, GateDecision
+
+
+class Gates:
+    """The gates of a run, in the order in which they are asked.
+
+    Args:
+        gates: The last one should be the operator.
+    """
+
+    def __init__(self, gates: Sequence[ConfirmingGate]) -> None:
+        self._gates = tuple(gates)
+
+    @property
+    def model(self) -> ConfirmingGate | None:
+        """The vision model among them, if there is one."""
+        return next((gate for gate in self._gates if gate.gate is Gate.VLM), None)
+
+    def screen(self, case: Case) -> GateDecision:
+        """What the gates say that may be asked about every well; ``UNDECIDED`` if there is none."""
+        return _ask([gate for gate in self._gates if gate.screens], case)
+
+    def confirm(self, case: Case) -> GateDecision:
+        """Ask one after another until one decides.
+
+        If none does, the last one's answer stands, with the first one's reason and readings.
+        """
+        return _ask(self._gates, case)
+
+
+def _ask(gates: Sequence[ConfirmingGate], case: Case) -> GateDecision:
+    decisions: list[GateDecision] = []
+    for gate in gates:
+        decision = gate.examine(case)
+        decisions.append(decision)
+        if decision.outcome is not Outcome.UNDECIDED:
+            break
+    if not decisions:
+        return GateDecision(Outcome.UNDECIDED, Gate.NONE, "No gate is configured.")
+    costs = tuple(cost for decision in decisions for cost in decision.costs)
+    first, last = decisions[0], decisions[-1]
+    if last.outcome is not Outcome.UNDECIDED:
+        return replace(last, costs=costs)
+    reason = in_sentences(first.reason, last.reason)
+    return replace(first, gate=last.gate, reason=reason, failure=None, costs=costs)
+
+
+def in_sentences(*reasons: str) -> str:
+    """Reasons one after another; what a later one says again is said once."""
+    later = [" ".join(reasons[number + 1 :]) for number in range(len(reasons))]
+    return " ".join(
+        said for said, rest in zip(reasons, later, strict=True) if said and said not in rest
+    )

@@ -1,0 +1,104 @@
+"""Liquid that a reported failure left in a tip: known, and no failure of the next well.
+
+A tip that is used again still shows it, well after well. The operator has been told and let the
+run go on, so the expectation for the next well starts from it: only what comes on top is new.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..vocabulary import FailureType, Gate, Keyframe, KeyframeKind, Outcome
+from .delivery import Delivery, Shown
+from .gates import Case, GateDecision
+
+_STAYED = (FailureType.PARTIAL_DISPENSE, FailureType.NO_DISPENSE)
+_UNSURE = 0.25
+"""How well a volume that was left is known, as a fraction."""
+
+_EMPTY = 0.35
+"""A tip that holds less than this share of what was to be drawn drew nothing, whatever was left."""
+
+
+@dataclass(frozen=True)
+class Leftover:
+    """What stayed in a tip.
+
+    Attributes:
+        tip: Which one.
+        volume_ul: µL.
+        well: Where it was reported.
+    """
+
+    tip: str
+    volume_ul: float
+    well: str
+
+
+class Leftovers:
+    """What is known to be left in the tips of one run, by mount."""
+
+    def __init__(self) -> None:
+        self._of: dict[str, Leftover] = {}
+
+    def known(self, keyframe: Keyframe) -> Leftover | None:
+        """What the tip of this keyframe was reported to hold; another tip ends it."""
+        left = self._of.get(keyframe.mount)
+        if left is not None and left.tip != keyframe.tip:
+            del self._of[keyframe.mount]
+            return None
+        return left
+
+    def note(self, keyframe: Keyframe, case: Case, decision: GateDecision) -> None:
+        """A well was judged: if liquid stayed in the tip, it is known from now on."""
+        if decision.outcome is Outcome.PASS:
+            return
+        volume = None
+        if decision.measured_ul is not None and decision.expected_ul is not None:
+            volume = decision.measured_ul - decision.expected_ul
+        elif decision.failure in _STAYED:
+            volume = case.sample.volume_ul
+        if volume is not None and volume > 0:
+            self._of[keyframe.mount] = Leftover(keyframe.tip, volume, case.sample.well)
+
+    def restore(self, mount: str, left: Leftover) -> None:
+        """From what was kept of an earlier verdict."""
+        self._of[mount] = left
+
+
+def explains(left: Leftover, case: Case, delivery: Delivery) -> bool:
+    """Whether a well shows no more than the leftover.
+
+    Args:
+        left: What the tip held before.
+        case: The well, as it is judged without that.
+        delivery: What it shows of its delivery if the tip held that before and after.
+    """
+    if case.missing or delivery.shown is Shown.NOTHING:
+        return False
+    commanded = case.sample.volume_ul
+    for kind, base in ((KeyframeKind.TRANSIT, commanded), (KeyframeKind.POST_DISPENSE, 0.0)):
+        reading = case.readings.get(kind)
+        if reading is None or reading.vague:
+            continue
+        # The leftover itself was read with the same errors.
+        slack = max(2.0 * reading.sigma_ul, 0.15 * commanded)
+        most = case.sample.expected_ul.get(kind, base) + left.volume_ul * (1 + _UNSURE) + slack
+        if reading.volume_ul > most:
+            return False
+        if kind is KeyframeKind.TRANSIT and reading.volume_ul < _EMPTY * commanded:
+            return False
+    return delivery.shown is not Shown.LEFT
+
+
+def still_there(left: Leftover, decision: GateDecision) -> GateDecision:
+    """The verdict on a well that shows a leftover and nothing else."""
+    return GateDecision(
+        Outcome.PASS,
+        Gate.VOLUMETRIC,
+        f"About {left.volume_ul:.0f} µL were left in this tip at {left.well}, as reported there; "
+        "nothing more stayed behind here.",
+        None,
+        decision.measured_ul,
+        decision.expected_ul,
+    )

@@ -1,0 +1,134 @@
+"""What the rules of plain transfers accept and refuse; `aegis-ot rules test` runs each snippet.
+
+A heading says which rules a snippet is for; `deck` stands before all that follow it. Each is the
+body of `run`; plate, tubes, reservoir, strips, deepwell, p20, m20, p300 and m300 are on the deck.
+"""
+
+# deck
+sources = tubes.columns()[0][:3]
+destinations = plate.columns()[0][:3]
+water = reservoir["A1"]
+pool = tubes["D6"]
+
+# GEN-1, GEN-2 passes: water first, into empty wells, then a fresh tip for each source
+p300.transfer(50, water, destinations, new_tip="once")
+p300.transfer(50, sources, destinations, new_tip="always")
+
+# GEN-1 passes: pooling with one tip
+p300.consolidate(50, sources, pool)
+
+# GEN-1 passes: each source into two wells, with a tip of its own
+for source, row in zip(sources, plate.rows()):
+    p300.distribute(40, source, row[:2])
+
+# GEN-1 fails: one tip for all sources
+p300.transfer(50, sources, destinations, new_tip="once")
+
+# GEN-1 fails: the tip is dropped outside the loop
+p300.pick_up_tip()
+for source, destination in zip(sources, destinations):
+    p300.aspirate(50, source)
+    p300.dispense(50, destination)
+    p300.blow_out()
+p300.drop_tip()
+
+# GEN-1 fails: one tip mixes what stands in the destinations
+p300.transfer(50, sources, destinations, new_tip="always")
+p300.pick_up_tip()
+for destination in destinations:
+    p300.mix(2, 30, destination)
+p300.drop_tip()
+
+# GEN-2 passes: water behind the sources, from above
+p300.transfer(50, sources, destinations, new_tip="always")
+p300.transfer(50, water, [well.top() for well in destinations], new_tip="once")
+
+# GEN-2 passes: a fresh tip for each well that is topped up and mixed
+p300.transfer(50, sources, destinations, new_tip="always")
+p300.transfer(50, water, destinations, new_tip="always", mix_after=(2, 40))
+
+# GEN-2, GEN-1 fails: water is added to filled wells with one tip
+p300.transfer(50, sources, destinations, new_tip="always")
+p300.transfer(50, water, destinations, new_tip="once", mix_after=(2, 40))
+
+# GEN-2 fails: a second draw of water with the tip that stood in the well
+p300.transfer(20, sources, destinations, new_tip="always")
+for destination in destinations:
+    p300.pick_up_tip()
+    for _ in range(2):
+        p300.aspirate(40, water)
+        p300.dispense(40, destination.bottom(1))
+        p300.mix(1, 30, destination)
+    p300.drop_tip()
+
+# GEN-3 passes: exactly full
+p300.transfer(200, tubes["A1"], plate["A1"])
+
+# GEN-3 passes: all is taken out again, and a little air with it
+p300.transfer(100, sources[0], destinations[0])
+p300.transfer(100, destinations[0], pool)
+
+# GEN-3 fails: a 200 µL well gets 500 µL
+for _ in range(2):
+    p300.transfer(250, sources[0], destinations[0])
+
+# GEN-3 fails: more is drawn than was put in
+p300.transfer(60, sources[0], destinations[0])
+p300.transfer(80, destinations[0], plate["B1"])
+
+# GEN-3 fails: a loop fills the pool's tube over
+for _ in range(12):
+    p300.transfer(200, sources[0], pool)
+
+# deck
+donors = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 9, "source plate")
+copies = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 10, "destination plate")
+buffer = reservoir["A2"]
+
+# GEN-1, GEN-2 passes: a plate is copied column by column, with eight channels
+m300.transfer(100, buffer, copies.rows()[0][:3], new_tip="once")
+m300.transfer(50, donors.rows()[0][:3], copies.rows()[0][:3], new_tip="always")
+
+# GEN-1 fails: a plate is copied with one set of tips
+m300.transfer(50, donors.rows()[0][:3], copies.rows()[0][:3], new_tip="once")
+
+# GEN-2, GEN-1 fails: the tips that mixed the copies go back into the buffer
+m300.transfer(50, donors.rows()[0][:3], copies.rows()[0][:3], new_tip="always")
+m300.pick_up_tip()
+for column in copies.rows()[0][:3]:
+    m300.aspirate(100, buffer)
+    m300.dispense(100, column)
+    m300.mix(2, 80, column)
+m300.drop_tip()
+
+# deck
+elution = protocol.define_liquid("elution buffer", "", "#99ccff")
+extract = protocol.define_liquid("sample", "", "#cc9966")
+reservoir["A4"].load_liquid(elution, 400)
+for tube in tubes.rows()[2][:3]:
+    tube.load_liquid(extract, 120)
+samples = tubes.rows()[2][:3]
+targets = plate.rows()[3][:3]
+
+# GEN-2, GEN-3 passes: normalised by a table, as far as the loaded liquids go
+for sample, target, volume in zip(samples, targets, (20, 35, 50)):
+    p300.transfer(100 - volume, reservoir["A4"], target)
+    p300.transfer(volume, sample, target, mix_after=(2, 50))
+
+# GEN-2, GEN-1 fails: normalised by a table, buffer last and with one tip
+for sample, target, volume in zip(samples, targets, (20, 35, 50)):
+    p300.transfer(volume, sample, target)
+p300.pick_up_tip()
+for target, volume in zip(targets, (20, 35, 50)):
+    p300.aspirate(100 - volume, reservoir["A4"])
+    p300.dispense(100 - volume, target.bottom(0.5))
+    p300.mix(2, 40, target)
+p300.drop_tip()
+
+# GEN-3 passes: air gaps are no volume
+for sample, target in zip(samples, targets):
+    p300.transfer(120, sample, target, air_gap=20)
+
+# GEN-3 fails: the table asks for more than the tube holds
+for sample, target, volume in zip(samples, targets, (60, 110, 190)):
+    p300.transfer(volume, sample, target)

@@ -1,0 +1,55 @@
+"""Whole protocols, from text to all that is said of them: wells, lines, words and what is open.
+
+What comes out is compared with a snapshot; after a change read the difference well by well before
+you accept it with ``--snapshot-update``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from syrupy.assertion import SnapshotAssertion
+
+from aegis_ot.checking.run import options_for
+from aegis_ot.preflight import Options, Report, check_script
+from aegis_ot.preflight.rehearsal import Script
+from aegis_ot.vocabulary import Finding
+
+FILES = sorted((Path(__file__).parent / "protocols").glob("*.py"))
+SHOWN = 12
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_diagnostics(path: Path, snapshot: SnapshotAssertion) -> None:
+    text = path.read_text(encoding="utf-8")
+    report = check_script(Script(text, path.name), options=options_for(text, Options()))
+    assert "\n".join(diagnostics(report)) == snapshot
+    for finding in report.findings:
+        assert finding.lines
+        assert finding.wells
+        assert finding.why
+        assert finding.fix
+
+
+def diagnostics(report: Report) -> Iterator[str]:
+    """Everything that is said of a protocol, for people to compare."""
+    yield f"{report.verdict.value}, {report.family}"
+    for finding in report.findings:
+        yield f"{finding.rule} {finding.severity.value}: {finding.message}"
+        yield from _sites(finding, report)
+        yield f"    fix: {finding.fix}"
+    for undecided in report.undecided:
+        yield f"{undecided.rule} undecided: {undecided.reason}"
+    for remark in report.remarks:
+        yield f"remark, line {remark.line}: {remark.message}"
+
+
+def _sites(finding: Finding, report: Report) -> Iterator[str]:
+    addresses = [well.address for well in finding.wells]
+    if len(addresses) > SHOWN:
+        addresses = [*addresses[: SHOWN - 2], "...", addresses[-1], f"({len(addresses)} wells)"]
+    yield f"    wells: {' '.join(addresses)}"
+    for line in finding.lines:
+        yield f"    line {line}: {report.lines[line - 1].strip()}"

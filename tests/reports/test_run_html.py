@@ -1,0 +1,52 @@
+"""The report of a run is one page that holds everything."""
+
+from __future__ import annotations
+
+import re
+
+from aegis_ot.reports.run_html import report_run, run_report_html
+from tests.account.overviews import delivery, hold, overview
+from tests.sidecar.helpers import make_jpeg
+
+
+def page(run: dict) -> str:
+    return run_report_html([report_run(run, lambda _: make_jpeg())])
+
+
+def test_it_tells_all_that_the_account_holds() -> None:
+    run = overview(
+        delivery(0),
+        delivery(
+            1,
+            "fail",
+            hold=hold(1, paused_s=31.0, answered="page"),
+            decisions=[{"outcome": "fail", "by": "Ada", "note": "drop seen", "at": 5.0}],
+            evidence={"band": [0.0, 3.0], "boxes": {"transit": [10, 4, 8, 40]}},
+        ),
+        finished={"at": 130.0, "outcome": "stopped", "detail": "Stopped by hand."},
+        incidents=[{"kind": "camera", "text": "cable", "at": 101.0, "ended": 109.0}],
+        layer1={
+            "verdict": "warn",
+            "findings": [
+                {"rule": "PCR-2", "severity": "warning", "message": "Carry-over.", "why": "",
+                 "fix": "", "lines": [4], "wells": []}
+            ],
+            "more": 0,
+            "undecided": [],
+        },
+    )  # fmt: skip
+    text = page(run)
+    for said in (
+        "plate.py", "lab-3", "stopped", "simulated result", "Stopped by hand.", "PCR-2",
+        "A2: failed, partial dispense", "About 52 µL", "drop seen",
+        "paused 31 s, answered at the page",
+        "cable", "Over after 8 s", "last frame to verdict", "none: no model was asked",
+    ):  # fmt: skip
+        assert said in text, said
+    assert text.count("data:image/jpeg;base64,") == 1
+    assert not re.search(r"(src|href)=\"(?!#|data:)", text)
+
+
+def test_what_a_run_says_of_itself_is_no_markup() -> None:
+    text = page(overview(delivery(0), protocol="<script>alert(1)</script>.py"))
+    assert "<script" not in text

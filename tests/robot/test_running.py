@@ -1,0 +1,170 @@
+"""``aegis-ot run`` against Opentrons' engine, a guarded protocol and a real sidecar."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from aegis_ot.cli import robot_screen
+from aegis_ot.sidecar import SidecarConfig, running_sidecar
+
+from ..cli.commands import Command
+from ..sidecar.helpers import StubAnalyser, StubCamera
+from ..support.robot_server import RobotServer
+from .protocols import BAD, GOOD, PAUSES, WAITS
+
+
+@pytest.fixture
+def aegis(
+    capfdbinary: pytest.CaptureFixture[bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Command:
+    monkeypatch.chdir(tmp_path)
+    return Command(capfdbinary)
+
+
+@contextmanager
+def sidecar(folder: Path, *fails: int) -> Iterator[str]:
+    config = SidecarConfig(port=0, data=folder / "sidecar")
+    with running_sidecar(config, StubCamera(), StubAnalyser(fails)) as url:
+        yield url
+
+
+@pytest.fixture
+def pressing(monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
+    """Keys that the person presses once a text is shown, by that text."""
+    presses: dict[str, str] = {}
+    waiting: list[str] = []
+    shown = robot_screen.TerminalScreen._print
+
+    def print_and_press(screen: object, text: str, style: str = "") -> None:
+        shown(screen, text, style)  # type: ignore[arg-type]
+        for word in list(presses):
+            if word in text:
+                waiting.append(presses.pop(word))
+
+    monkeypatch.setattr(robot_screen.TerminalScreen, "_print", print_and_press)
+    monkeypatch.setattr(
+        robot_screen.Keys, "pressed", lambda self: waiting.pop(0) if waiting else ""
+    )
+    return presses
+
+
+def written(text: str, name: str = "protocol.py") -> Path:
+    path = Path(name)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def guarded(text: str, url: str) -> str:
+    head, _, rest = text.partition("def run")
+    return f"{head}from aegis_ot import guard\n@guard(sidecar={url!r})\ndef run{rest}"
+
+
+def test_a_good_protocol_runs_and_is_reported(
+    aegis: Command, robot: RobotServer, tmp_path: Path
+) -> None:
+    with sidecar(tmp_path) as url:
+        done = aegis(
+            "run", written(guarded(GOOD, url)), "--robot", robot.url, "--yes",
+            "--sidecar", url, "--report", "out/run.json",
+        )  # fmt: skip
+    assert done.code == 0, done.out + done.err
+    assert "Layer 1: pass" in done.out
+    assert "succeeded" in done.out
+    assert "2 deliveries: 2 pass" in done.out
+    report = json.loads(Path("out/run.json").read_text(encoding="utf-8"))
+    assert (report["status"], report["pauses"], report["errors"]) == ("succeeded", [], [])
+    assert [v["outcome"] for v in report["verdicts"]] == ["pass", "pass"]
+    assert report["sidecar"]["counts"]["wells"] == 2
+
+
+def test_a_failed_well_is_told_and_the_person_resumes(
+    aegis: Command, robot: RobotServer, tmp_path: Path, pressing: dict[str, str]
+) -> None:
+    pressing["Paused: "] = "r"
+    with sidecar(tmp_path, 0) as url:
+        done = aegis(
+            "run", written(guarded(GOOD, url)), "--robot", robot.url, "-y", "--sidecar", url
+        )
+    assert done.code == 1, done.out + done.err
+    assert "A2 of Corning 96 Well Plate 360 µL Flat (slot 2): fail (partial dispense)" in done.out
+    assert "Delivery into A2" in done.out.split("Paused: ")[1]
+    assert "succeeded" in done.out
+    assert "1 pause" in done.out
+
+
+def test_the_person_stops_the_run(
+    aegis: Command, robot: RobotServer, pressing: dict[str, str]
+) -> None:
+    pressing["Paused: Take the lid off."] = "s"
+    done = aegis("run", written(PAUSES), "--robot", robot.url, "--yes")
+    assert done.code == 1, done.out + done.err
+    assert "stopped" in done.out
+
+
+def test_the_person_pauses_and_resumes(
+    aegis: Command, robot: RobotServer, pressing: dict[str, str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pressing["hello"] = "p"
+    pressing["Somebody paused"] = "s"
+    shown = robot_screen.TerminalScreen.doing
+    monkeypatch.setattr(
+        robot_screen.TerminalScreen,
+        "doing",
+        lambda screen, command: (
+            shown(screen, command),
+            command.kind == "waitForDuration" and screen._print("hello"),
+        ),
+    )
+    done = aegis("run", written(WAITS), "--robot", robot.url, "--yes")
+    assert done.code == 1, done.out + done.err
+    assert "Paused: Somebody paused the run." in done.out
+    assert "stopped" in done.out
+
+
+def test_a_protocol_that_fails_its_analysis_does_not_start(
+    aegis: Command, robot: RobotServer
+) -> None:
+    done = aegis("run", written(BAD), "--robot", robot.url, "--yes")
+    assert done.code == 1
+    assert "ValueError [line 5]: no such thing" in done.out
+    assert robot.runs == {}
+
+
+def test_layer_1_refuses_a_guarded_protocol_in_the_robots_analysis(
+    aegis: Command, robot: RobotServer
+) -> None:
+    bad = Path(__file__).parents[2] / "examples" / "demo" / "pcr_setup_contaminated.py"
+    done = aegis("run", written(bad.read_text(encoding="utf-8")), "--robot", robot.url, "--yes")
+    assert done.code == 1, done.out
+    assert "Layer 1 found" in done.out
+    assert robot.runs == {}
+
+
+def test_without_a_person_to_ask_the_run_needs_a_yes(aegis: Command, robot: RobotServer) -> None:
+    done = aegis("run", written(GOOD), "--robot", robot.url)
+    assert done.code == 2
+    assert "Add --yes" in done.err
+    assert robot.runs == {}
+
+
+def test_a_robot_that_is_not_there_is_one_sentence(aegis: Command) -> None:
+    done = aegis("run", written(GOOD), "--robot", "127.0.0.1:9", "--yes")
+    assert done.code == 2
+    assert "cannot be reached" in done.err
+    assert "Traceback" not in done.err
+
+
+def test_a_sidecar_that_is_not_there_keeps_the_run_from_starting(
+    aegis: Command, robot: RobotServer
+) -> None:
+    done = aegis(
+        "run", written(GOOD), "--robot", robot.url, "-y", "--sidecar", "http://127.0.0.1:9"
+    )
+    assert done.code == 2
+    assert "sidecar" in done.err
+    assert robot.runs == {}

@@ -1,0 +1,260 @@
+"""Watch mode against Opentrons' engine and a real sidecar."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from aegis_ot.robot import Analysis, RobotClient
+from aegis_ot.robot.deck import channels_of, largest_volume, under
+from aegis_ot.robot.moments import PastLink, moment_of_transit
+from aegis_ot.robot.running import RobotRun
+from aegis_ot.robot.shapes import Command as RobotCommand
+from aegis_ot.robot.verdicts import WellVerdict
+from aegis_ot.robot.watching import LOSSES, WatchPolicies, await_run, watch_run
+from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.vocabulary import Outcome
+
+from ..cli.commands import Command
+from ..sidecar.helpers import Robot, StubAnalyser, StubCamera
+from ..support.robot_server import RobotServer
+
+SLOW = """
+metadata = {"apiLevel": "2.15"}
+
+def run(protocol):
+    tips = protocol.load_labware("opentrons_96_tiprack_300ul", "1")
+    plate = protocol.load_labware("corning_96_wellplate_360ul_flat", "2", "my plate")
+    pipette = protocol.load_instrument("p300_single_gen2", "left", [tips])
+    dye = protocol.define_liquid("dye", "red", "#ff0000")
+    plate["A1"].load_liquid(dye, 300)
+    for target in ("A2", "B2", "C2", "D2"):
+        pipette.transfer(50, plate["A1"], plate[target])
+        protocol.delay(0.5)
+"""
+
+
+class Shown:
+    """What a run shows, written down; ``wants`` is what the person asks, by what is shown."""
+
+    def __init__(self) -> None:
+        self.said: list[str] = []
+        self.verdicts: list[WellVerdict] = []
+        self.waited: list[str] = []
+        self.wants: dict[str, str] = {}
+
+    def analysing(self, seconds: float) -> None: ...
+
+    def began(self, commands: int | None) -> None: ...
+
+    def doing(self, command: RobotCommand) -> None: ...
+
+    def done(self, command: RobotCommand) -> None: ...
+
+    def says(self, text: str) -> None:
+        self.said.append(text)
+
+    def waits(self, text: str) -> None:
+        self.waited.append(text)
+
+    def judged(self, verdict: WellVerdict) -> None:
+        self.verdicts.append(verdict)
+
+    def asked(self) -> str:
+        for word, key in list(self.wants.items()):
+            if any(word in text for text in (*self.said, *self.waited)):
+                del self.wants[word]
+                return key
+        return ""
+
+
+@contextmanager
+def sidecar(folder: Path, *fails: int) -> Iterator[str]:
+    config = SidecarConfig(port=0, data=folder / "sidecar")
+    with running_sidecar(config, StubCamera(), StubAnalyser(fails)) as url:
+        yield url
+
+
+def begin(client: RobotClient, folder: Path, text: str = SLOW) -> RobotRun:
+    path = folder / "slow.py"
+    path.write_text(text, encoding="utf-8")
+    run = client.create_run(client.upload(path)[0])
+    client.act(run, "play")
+    assert await_run(client) == run
+    name = client.protocol_name(run)
+    return RobotRun(name, "test-robot", client.url, run, Analysis("", done=False))
+
+
+def test_an_unguarded_run_is_watched_to_its_end(client: RobotClient, tmp_path: Path) -> None:
+    shown = Shown()
+    with sidecar(tmp_path) as url:
+        run = watch_run(client, begin(client, tmp_path), PastLink(url, None), shown, poll_s=0.05)
+        with Robot(url, f"watch-{run.id}") as reader:
+            seen = reader.overview()
+    assert shown.said == [LOSSES]
+    assert (run.status, run.protocol, run.pauses) == ("succeeded", "slow.py", [])
+    assert [v.verdict.outcome for v in run.verdicts.values()] == [Outcome.PASS] * 4
+    assert seen["finished"]["outcome"] == "succeeded"
+    wells = [trajectory["well"] for trajectory in seen["trajectories"]]
+    assert wells == [f"{well} of my plate (slot 2)" for well in ("A2", "B2", "C2", "D2")]
+    frames = [k for t in seen["trajectories"] for k in t["keyframes"]]
+    assert [f["kind"] for f in frames] == ["aspirate", "transit", "dispense", "post_dispense"] * 4
+    assert {f["reagent"] for f in frames} == {"dye"}
+    assert [f["expected_ul"] for f in frames[:4]] == [50, 50, 0, 0]
+    assert {f["capacity_ul"] for f in frames} == {300}
+    assert not any(f["late"] for f in frames[4:])
+
+
+def test_a_failed_delivery_pauses_the_robot_by_its_api(client: RobotClient, tmp_path: Path) -> None:
+    shown = Shown()
+    shown.wants["Somebody paused"] = "play"
+    with sidecar(tmp_path, 1) as url:
+        run = watch_run(client, begin(client, tmp_path), PastLink(url, None), shown, poll_s=0.05)
+    assert run.status == "succeeded"
+    assert any("Paused by the watch: B2 of my plate (slot 2) failed" in said for said in shown.said)
+    assert len(run.pauses) == 1
+    assert run.verdicts[1].verdict.outcome is Outcome.FAIL
+
+
+def test_a_run_cancelled_by_somebody_else_ends_the_watch(
+    client: RobotClient, robot: RobotServer, tmp_path: Path
+) -> None:
+    shown = Shown()
+    with sidecar(tmp_path) as url:
+        run = begin(client, tmp_path)
+
+        def cancel() -> None:
+            with RobotClient(robot.url) as other:
+                while not shown.verdicts:
+                    time.sleep(0.05)
+                other.act(run.id, "stop")
+
+        somebody = threading.Thread(target=cancel)
+        somebody.start()
+        watch_run(client, run, PastLink(url, None), shown, poll_s=0.05)
+        somebody.join()
+        with Robot(url, f"watch-{run.id}") as reader:
+            assert reader.overview()["finished"]["outcome"] == "stopped"
+    assert run.status == "stopped"
+
+
+def test_a_robot_whose_clock_is_set_during_the_run_gives_no_wrong_frames(
+    client: RobotClient, robot: RobotServer, tmp_path: Path
+) -> None:
+    shown = Shown()
+    with sidecar(tmp_path) as url:
+        run = begin(client, tmp_path)
+
+        def jump() -> None:
+            while not shown.verdicts:
+                time.sleep(0.02)
+            robot.clock_offset_s = 4000.0
+
+        clockmaker = threading.Thread(target=jump)
+        clockmaker.start()
+        watch_run(client, run, PastLink(url, None), shown, poll_s=0.05)
+        clockmaker.join()
+        with Robot(url, f"watch-{run.id}") as reader:
+            seen = reader.overview()
+    assert any("clock was set" in said for said in shown.said)
+    last = seen["trajectories"][-1]["keyframes"]
+    assert not any(frame["late"] for frame in last)
+    assert all(frame["exposed_after_s"] < 1 for frame in last)
+
+
+def test_a_lost_sidecar_pauses_once_and_the_watch_goes_on(
+    client: RobotClient, tmp_path: Path
+) -> None:
+    shown = Shown()
+    shown.wants["Somebody paused"] = "play"
+    with sidecar(tmp_path) as url:
+        link = PastLink(url, None)
+        run = begin(client, tmp_path)
+        real = link.keyframe
+
+        def lose(keyframe, timeout_s, ago_s=0.0):  # type: ignore[no-untyped-def]
+            if keyframe.sequence == 6:
+                link._port = 9
+                link.close()
+            return real(keyframe, timeout_s, ago_s)
+
+        link.keyframe = lose  # type: ignore[method-assign]
+        watch_run(client, run, link, shown, WatchPolicies(capture_timeout_s=0.3), poll_s=0.05)
+    assert run.status == "succeeded"
+    assert sum("Paused by the watch: the sidecar is away" in said for said in shown.said) == 1
+
+
+def test_a_run_with_a_guard_is_told_so(client: RobotClient, tmp_path: Path) -> None:
+    shown = Shown()
+    text = SLOW.replace("tips =", 'protocol.comment("aegis_ot: hello")\n    tips =')
+    with sidecar(tmp_path) as url:
+        watch_run(client, begin(client, tmp_path, text), PastLink(url, None), shown, poll_s=0.05)
+    assert any("carries a guard of its own" in said for said in shown.said)
+
+
+def test_the_command_waits_for_a_run_and_reports_it(
+    client: RobotClient, robot: RobotServer, tmp_path: Path,
+    capfdbinary: pytest.CaptureFixture[bytes],
+) -> None:  # fmt: skip
+    report = tmp_path / "report.json"
+    with sidecar(tmp_path) as url:
+        later = threading.Timer(1.0, begin, (client, tmp_path))
+        later.start()
+        done = Command(capfdbinary)(
+            "watch", "--robot", robot.url, "--sidecar", url, "--report", report
+        )
+        later.join()
+    assert done.code == 0, done.out + done.err
+    assert "4 deliveries: 4 pass" in done.out
+    told = json.loads(report.read_text(encoding="utf-8"))
+    assert (told["protocol"], told["status"]) == ("slow.py", "succeeded")
+    assert told["sidecar"]["counts"]["wells"] == 4
+
+
+def test_without_a_sidecar_there_is_nothing_to_watch_with(
+    robot: RobotServer, capfdbinary: pytest.CaptureFixture[bytes]
+) -> None:
+    aegis = Command(capfdbinary)
+    assert "needs a sidecar" in aegis("watch", "--robot", robot.url).err
+    gone = aegis("watch", "--robot", robot.url, "--sidecar", "http://127.0.0.1:9")
+    assert (gone.code, "cannot be reached" in gone.err) == (2, True)
+
+
+def test_transit_lies_before_the_plunger_moves() -> None:
+    params = {"volume": 100.0, "flowRate": 50.0}
+    assert moment_of_transit(RobotCommand(0, "dispense", "succeeded", params, 10.0, 15.0)) == 12.8
+    # Within the command, however short it was.
+    assert moment_of_transit(RobotCommand(0, "dispense", "succeeded", params, 14.0, 15.0)) == 14.0
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "channels", "first", "wells"),
+    [
+        (8, 12, 1, "C3", ("C3",)),
+        (8, 12, 8, "A3", tuple(f"{row}3" for row in "ABCDEFGH")),
+        (16, 24, 8, "B5", tuple(f"{row}5" for row in "BDFHJLNP")),
+        (1, 12, 8, "A4", ("A4",) * 8),
+        (8, 12, 96, "A1", tuple(f"{row}{c}" for c in range(1, 13) for row in "ABCDEFGH")),
+    ],
+)
+def test_the_wells_under_a_head(
+    rows: int, columns: int, channels: int, first: str, wells: tuple[str, ...]
+) -> None:
+    letters = "ABCDEFGHIJKLMNOP"[:rows]
+    ordering = [[f"{row}{column}" for row in letters] for column in range(1, columns + 1)]
+    assert under(ordering, first, channels) == wells
+
+
+@pytest.mark.parametrize(
+    ("name", "channels", "volume"),
+    [("p300_multi_gen2", 8, 300), ("flex_1channel_50", 1, 50), ("p1000_96", 96, 1000),
+     ("flex_96channel_1000", 96, 1000), ("p20_single_gen2", 1, 20)],
+)  # fmt: skip
+def test_a_pipettes_name_says_its_size(name: str, channels: int, volume: float) -> None:
+    assert (channels_of(name), largest_volume(name)) == (channels, volume)

@@ -1,0 +1,122 @@
+"""The file of examples beside a rule file, and what is told of examples that break their word."""
+
+from __future__ import annotations
+
+import dataclasses
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from aegis_ot.errors import RuleError
+from aegis_ot.preflight import load_database
+from aegis_ot.preflight.database import load_family
+from aegis_ot.preflight.example_files import examples_of
+from aegis_ot.preflight.examples import protocol_text, run_examples
+from aegis_ot.preflight.rules import Database, Example
+
+ELISA = Path(__file__).parents[2] / "examples" / "rules" / "elisa.json"
+
+
+@pytest.fixture
+def beside(tmp_path: Path) -> Callable[[str], Database]:
+    """A database of one family with this text in the file of examples beside it."""
+
+    def write(text: str) -> Database:
+        shutil.copy(ELISA, tmp_path / "mine.json")
+        (tmp_path / "mine.examples.py").write_text(text, encoding="utf-8")
+        family = load_family(tmp_path / "mine.json")
+        return Database((family,), load_database().common)
+
+    return write
+
+
+def test_every_shipped_rule_has_four_of_each() -> None:
+    for family in load_database().families:
+        for rule, examples in examples_of(family).items():
+            assert len(examples.passing) >= 4, rule
+            assert len(examples.failing) >= 4, rule
+            titles = [example.title for example in (*examples.passing, *examples.failing)]
+            assert len(set(titles)) == len(titles), rule
+
+
+def test_a_deck_stands_before_what_follows_it_up_to_the_next(
+    beside: Callable[[str], Database],
+) -> None:
+    database = beside(
+        '"""What it is."""\n\n# deck\na = tubes["A1"]\n\n'
+        "# ELISA-1, ELISA-2 passes: one\np20.transfer(1, a, a)\n\n\n"
+        "# deck\nb = 1\n# ELISA-2, ELISA-1 warns: two\n\n# a comment\np20.home()\n"
+    )
+    inline = {rule.id: rule.examples for rule in database.families[0].rules}
+    examples = examples_of(database.families[0])
+    passing = examples["ELISA-1"].passing[-1]
+    assert passing == examples["ELISA-2"].passing[-1]
+    assert passing.code == ('a = tubes["A1"]', "p20.transfer(1, a, a)")
+    failing = examples["ELISA-2"].failing[-1]
+    assert failing == Example(
+        "two", ("b = 1", "# a comment", "p20.home()"), also=("ELISA-1",), severity="warning"
+    )
+    assert examples["ELISA-1"].failing == inline["ELISA-1"].failing
+    assert examples["ELISA-1"].passing[:-1] == inline["ELISA-1"].passing
+
+
+@pytest.mark.parametrize(
+    ("heading", "words"),
+    [
+        ("# PCR-1 passes: not of this family", "line 2: there is no rule PCR-1 there"),
+        ("# ELISA-1 succeeds: well", "line 2: a snippet passes, fails or warns"),
+    ],
+)
+def test_a_wrong_heading_is_told_with_its_line(
+    heading: str, words: str, beside: Callable[[str], Database]
+) -> None:
+    with pytest.raises(RuleError, match=f"mine.examples.py, {words}"):
+        examples_of(beside(f"\n{heading}\n").families[0])
+
+
+def test_only_what_a_snippet_uses_is_loaded() -> None:
+    text = protocol_text(Example("", ('plate = protocol.load_labware("x", 9)', "p20.home()")))
+    assert 'tips20 = protocol.load_labware("opentrons_96_tiprack_20ul"' in text
+    assert "p20_single_gen2" in text
+    assert text.count("plate = ") == 1
+    assert "p300" not in text
+    assert "m20" not in text
+
+
+OVERFULL = 'for _ in range(2):\n    p300.transfer(250, tubes["A1"], plate["A1"])\n'
+FULL = 'p300.transfer(200, tubes["A1"], plate["A1"])\n'
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        (f"# GEN-3 passes: a\n{FULL}# GEN-3 fails: b\n{OVERFULL}", ""),
+        (
+            f"# GEN-3 passes: a\n{FULL}# GEN-3 warns: b\n{OVERFULL}",
+            "is told as error, not as warning",
+        ),
+        (f"# GEN-3 passes: a\n{FULL}", "needs a passing and a failing one"),
+        (f"# GEN-3 passes: a\n{OVERFULL}# GEN-3 fails: b\n{OVERFULL}", "finds"),
+        (f"# GEN-3 passes: a\n{FULL}# GEN-3 fails: b\n{FULL}", "nothing"),
+        (f"# GEN-3 passes: a\n{FULL}# GEN-3 fails: b\n{OVERFULL}# GEN-3 fails: c\n1 / 0\n", "Zero"),
+    ],
+    ids=["sound", "severity", "none fails", "passing fires", "failing is silent", "raises"],
+)
+def test_an_example_that_breaks_its_word_is_told(text: str, problem: str, tmp_path: Path) -> None:
+    (tmp_path / "generic.examples.py").write_text(text, encoding="utf-8")
+    shipped = next(family for family in load_database().families if family.family == "generic")
+    generic = dataclasses.replace(
+        shipped,
+        path=str(tmp_path / "generic.json"),
+        rules=tuple(rule for rule in shipped.rules if rule.id == "GEN-3"),
+    )
+    database = Database((generic,), load_database().common)
+    bad = [result for result in run_examples(database) if not result.ok]
+    if not problem:
+        assert bad == []
+        return
+    (result,) = bad
+    told = result.problem or ("finds" if result.found else "nothing")
+    assert problem in told

@@ -1,0 +1,130 @@
+"""``aegis-ot doctor`` finds what is wrong, and says what to do."""
+
+from __future__ import annotations
+
+import json
+import threading
+from collections.abc import Iterator
+from email.utils import formatdate
+from http.server import BaseHTTPRequestHandler, HTTPServer
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.sidecar.aiming import measure
+from aegis_ot.sidecar.config import CameraSettings, ModelSettings
+from aegis_ot.sidecar.doctor import Check, examine
+from aegis_ot.sidecar.store import DATABASE
+from aegis_ot.simulation import SimulatedCamera
+from aegis_ot.vision.camera import Frame
+from aegis_ot.vision.detection import load_detector
+
+from .helpers import StubCamera, make_keyframe
+
+
+def found(config: SidecarConfig, robot: str | None = None) -> dict[str, Check]:
+    return {check.name: check for check in examine(config, robot)}
+
+
+@pytest.fixture
+def sound(tmp_path: Path, free_port: int) -> SidecarConfig:
+    return SidecarConfig(
+        port=free_port, data=tmp_path / "data", camera=CameraSettings(spec="pattern")
+    )
+
+
+@pytest.fixture
+def free_port() -> int:
+    server = HTTPServer(("127.0.0.1", 0), BaseHTTPRequestHandler)
+    server.server_close()
+    return server.server_port
+
+
+@pytest.fixture
+def robot() -> Iterator[tuple[str, list[float]]]:
+    behind = [0.0]
+
+    class Health(BaseHTTPRequestHandler):
+        def do_GET(self) -> None:
+            data = json.dumps({"name": "lab-3", "robot_model": "OT-2 Standard",
+                               "api_version": "8.8.2"}).encode()  # fmt: skip
+            self.send_response(200)
+            self.end_headers()
+            self.wfile.write(data)
+
+        def date_time_string(self, timestamp: float | None = None) -> str:
+            import time
+
+            return formatdate(time.time() - behind[0], usegmt=True)
+
+        def log_message(self, *_: object) -> None:
+            """Quiet."""
+
+    server = HTTPServer(("127.0.0.1", 0), Health)
+    threading.Thread(target=server.serve_forever, args=(0.02,), daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}", behind
+    server.shutdown()
+    server.server_close()
+
+
+def test_everything_is_looked_at(sound: SidecarConfig, robot: tuple[str, list[float]]) -> None:
+    checks = found(sound, robot[0])
+    assert list(checks) == [
+        "versions", "disk", "store", "token", "camera", "sharpness and light", "detector", "model",
+        "notifications", "robot",
+    ]  # fmt: skip
+    assert {name for name, check in checks.items() if check.state == "bad"} == set()
+    assert checks["detector"].state == "warning"  # a test pattern shows no tip
+    assert "put one on" in checks["detector"].todo
+    assert "640 x 480" in checks["camera"].said
+    assert "lab-3" in checks["robot"].said
+    robot[1][0] = 90.0
+    late = found(sound, robot[0])["robot"]
+    assert late.state == "warning"
+    assert "NTP" in late.todo
+
+
+def test_what_is_wrong_is_said(sound: SidecarConfig, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("ANTHROPIC_API_KEY",):
+        monkeypatch.delenv(name, raising=False)
+    sound.data.mkdir()
+    (sound.data / DATABASE).write_bytes(b"junk" * 2000)
+    wrong = sound.model_copy(
+        update={
+            "camera": CameraSettings(spec="folder:/nowhere"),
+            "model": ModelSettings(name="anthropic:some-model"),
+        }
+    )
+    checks = found(wrong, "http://127.0.0.1:9")
+    bad = {name for name, check in checks.items() if check.state == "bad"}
+    assert bad == {"store", "camera", "model", "robot"}
+    assert "ANTHROPIC_API_KEY" in checks["model"].todo
+    assert all(checks[name].todo for name in bad)
+
+
+def test_a_sidecar_at_work_is_asked_and_not_disturbed(sound: SidecarConfig) -> None:
+    with running_sidecar(sound, StubCamera()):
+        checks = found(sound)
+    assert "as the sidecar at work says" in checks["camera"].said
+    assert checks["store"].state == "ok"
+
+
+def test_advice_on_a_view() -> None:
+    camera = SimulatedCamera(1)
+    camera.announce(make_keyframe("run", 1))
+    sharp = camera.frame_after(0.0, 5.0)
+    detector = load_detector()
+    view = measure(sharp, detector)
+    assert view.tip is not None
+    assert not [said for said in view.advice if "dark" in said or "blown" in said]
+
+    def advice(image: np.ndarray) -> str:
+        return " ".join(measure(Frame(sharp.jpeg, image, 0.0), detector).advice)
+
+    assert "dark" in advice(np.zeros_like(sharp.image))
+    assert "blown out" in advice(np.full_like(sharp.image, 255))
+    import cv2
+
+    assert "soft" in advice(cv2.GaussianBlur(sharp.image, (0, 0), 6))

@@ -1,0 +1,437 @@
+"""A robot server for the tests: Opentrons' own engine behind the HTTP shapes of the real one.
+
+Shapes as observed on Opentrons' robot server 8.1 with simulated hardware. Protocols are analysed
+and run by the real engine on its hardware simulator; what is ours is the HTTP around it.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import hashlib
+import json
+import tempfile
+import threading
+import time
+import uuid
+from collections.abc import Callable
+from datetime import datetime, timedelta, timezone
+from email import message_from_bytes
+from email.utils import format_datetime
+from pathlib import Path
+from typing import Any
+
+import uvicorn
+from fastapi import FastAPI, Request
+from fastapi.responses import JSONResponse, Response
+from opentrons.hardware_control import API
+from opentrons.protocol_engine import Config, DeckType, error_recovery_policy
+from opentrons.protocol_engine.create_protocol_engine import create_protocol_engine
+from opentrons.protocol_reader import ProtocolFilesInvalidError, ProtocolReader
+from opentrons.protocol_runner import RunOrchestrator, create_protocol_runner
+from opentrons.protocol_runner.create_simulating_orchestrator import create_simulating_orchestrator
+from opentrons.protocol_runner.protocol_runner import LiveRunner
+from opentrons.protocol_runner.run_orchestrator import ParseMode
+from opentrons.protocols.api_support.deck_type import should_load_fixed_trash
+
+IDLE, ENDED = "idle", ("succeeded", "failed", "stopped")
+SUMMARY = (
+    "id", "key", "commandType", "createdAt", "startedAt", "completedAt", "status", "error",
+    "params", "intent", "notes", "failedCommandId",
+)  # fmt: skip
+Fault = Callable[[Request], "Response | None"]
+
+
+class RobotServer:
+    """Serves on loopback, in a thread of its own; a context manager.
+
+    Attributes:
+        clock_offset_s: How far this robot's clock is ahead of the machine's, s.
+        fault: Asked before each request; an answer of its own goes out instead.
+        protocols, runs: What was uploaded and made, by id.
+        requests: ``"METHOD /path"`` of every request.
+    """
+
+    def __init__(self, pipette: str = "p300_single_gen2", model: str = "p300_single_v2.1") -> None:
+        self.clock_offset_s = 0.0
+        self.fault: Fault | None = None
+        self.protocols: dict[str, dict[str, Any]] = {}
+        self.runs: dict[str, _Run] = {}
+        self.current: str | None = None
+        self.requests: list[str] = []
+        self.attached = {"model": model, "id": "left", "name": pipette}
+        self.folder = tempfile.TemporaryDirectory()
+        self._server = uvicorn.Server(
+            uvicorn.Config(_app(self), host="127.0.0.1", port=0, log_level="error", lifespan="off")
+        )
+        self._thread = threading.Thread(target=self._server.run, daemon=True)
+
+    def __enter__(self) -> RobotServer:
+        self._thread.start()
+        while not self._server.started:
+            assert self._thread.is_alive()
+            time.sleep(0.01)
+        port = self._server.servers[0].sockets[0].getsockname()[1]
+        self.url = f"http://127.0.0.1:{port}"
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for run in self.runs.values():
+            run.stop_soon()
+        self._server.should_exit = True
+        self._thread.join(10)
+        self.folder.cleanup()
+
+    def shifted(self, value: Any) -> Any:
+        """A JSON value with this robot's clock in its times."""
+        if isinstance(value, dict):
+            return {
+                key: self._later(item)
+                if key.endswith("At") and isinstance(item, str)
+                else self.shifted(item)
+                for key, item in value.items()
+            }
+        return [self.shifted(item) for item in value] if isinstance(value, list) else value
+
+    def now(self) -> datetime:
+        return datetime.now(timezone.utc) + timedelta(seconds=self.clock_offset_s)
+
+    def _later(self, text: str) -> str:
+        moment = datetime.fromisoformat(text.replace("Z", "+00:00"))
+        return (moment + timedelta(seconds=self.clock_offset_s)).isoformat()
+
+    async def analyse(self, protocol: dict[str, Any]) -> None:
+        analysis: dict[str, Any] = {"id": str(uuid.uuid4()), "status": "pending"}
+        protocol["analyses"].append(analysis)
+        source = protocol["source"]
+        orchestrator = await create_simulating_orchestrator(source.robot_type, source.config)
+        try:
+            await orchestrator.load(source, None, None, ParseMode.NORMAL)
+            result = await orchestrator.run(deck_configuration=[])
+        except Exception as error:
+            found = [{"errorType": type(error).__name__, "errorCode": "4000", "detail": str(error)}]
+            analysis.update(status="completed", result="not-ok", commands=[], errors=found)
+            return
+        summary = result.state_summary
+        analysis.update(
+            status="completed",
+            result="not-ok" if summary.errors else "ok",
+            robotType=source.robot_type,
+            runTimeParameters=[],
+            commands=[_plain(command) for command in result.commands],
+            errors=[_plain(error) for error in summary.errors],
+            pipettes=[_plain(pipette) for pipette in summary.pipettes],
+        )
+
+
+class _Run:
+    """One live run; all its methods run on the server's event loop."""
+
+    def __init__(self, server: RobotServer, protocol: dict[str, Any]) -> None:
+        self.id = str(uuid.uuid4())
+        self.protocol = protocol
+        self.created = datetime.now(timezone.utc)
+        self.actions: list[dict[str, Any]] = []
+        self._server = server
+        self._task: asyncio.Task[Any] | None = None
+
+    async def load(self) -> None:
+        source = self.protocol["source"]
+        self._loop = asyncio.get_running_loop()
+        hardware = await API.build_hardware_simulator(
+            attached_instruments={_left(): dict(self._server.attached)}
+        )
+        hardware._em_simulate = False  # wait and be cancelled as on a robot
+        engine = await create_protocol_engine(
+            hardware_api=hardware,
+            config=Config(
+                robot_type="OT-2 Standard",
+                deck_type=DeckType.OT2_STANDARD,
+                use_simulated_deck_config=True,
+            ),
+            error_recovery_policy=error_recovery_policy.never_recover,
+            load_fixed_trash=should_load_fixed_trash(source.config),
+        )
+        runner = create_protocol_runner(
+            protocol_config=source.config, protocol_engine=engine, hardware_api=hardware
+        )
+        others = [LiveRunner(protocol_engine=engine, hardware_api=hardware) for _ in range(3)]
+        self.orchestrator = RunOrchestrator(
+            hardware_api=hardware,
+            protocol_engine=engine,
+            json_or_python_protocol_runner=runner,
+            fixit_runner=others[0],
+            setup_runner=others[1],
+            protocol_live_runner=others[2],
+        )
+        self._hardware = hardware
+        await self.orchestrator.load(source, None, None, ParseMode.NORMAL)
+
+    @property
+    def status(self) -> str:
+        return str(self.orchestrator.get_run_status().value)
+
+    async def act(self, kind: str) -> dict[str, Any]:
+        if kind == "play":
+            if self._task is None:
+                self._task = asyncio.create_task(self._run())
+            else:
+                self.orchestrator.play()
+        elif kind == "pause":
+            self.orchestrator.pause()
+        else:
+            await self.orchestrator.stop()
+        created = datetime.now(timezone.utc).isoformat()
+        action = {"id": str(uuid.uuid4()), "createdAt": created, "actionType": kind}
+        self.actions.append(action)
+        return action
+
+    def stop_soon(self) -> None:
+        if self._task is not None and self.status not in ENDED:
+            with contextlib.suppress(Exception):
+                asyncio.run_coroutine_threadsafe(self.orchestrator.stop(), self._loop).result(5)
+
+    async def _run(self) -> None:
+        try:
+            await self.orchestrator.run(deck_configuration=[])
+        finally:
+            await self._hardware.clean_up()
+
+    def view(self) -> dict[str, Any]:
+        summary = self.orchestrator.get_state_summary()
+        return {
+            "id": self.id,
+            "ok": True,
+            "createdAt": self.created.isoformat(),
+            "status": self.status,
+            "current": self._server.current == self.id,
+            "actions": self.actions,
+            "errors": [_plain(error) for error in summary.errors],
+            "hasEverEnteredErrorRecovery": False,
+            "pipettes": [_plain(pipette) for pipette in summary.pipettes],
+            "modules": [],
+            "labware": [_plain(labware) for labware in summary.labware],
+            "liquids": [_plain(liquid) for liquid in summary.liquids],
+            "labwareOffsets": [],
+            "runTimeParameters": [],
+            "protocolId": self.protocol["id"],
+        }
+
+    def commands(self, cursor: int | None, length: int) -> dict[str, Any]:
+        found = self.orchestrator.get_command_slice(cursor, length, include_fixit_commands=True)
+        data = [
+            {k: v for k, v in _plain(command).items() if k in SUMMARY} for command in found.commands
+        ]
+        return {
+            "data": data,
+            "links": self._links(),
+            "meta": {"cursor": found.cursor, "totalLength": found.total_length},
+        }
+
+    def _links(self) -> dict[str, Any]:
+        current = self.orchestrator.get_current_command()
+        if current is None:
+            return {}
+        meta = {
+            "runId": self.id,
+            "commandId": current.command_id,
+            "index": current.index,
+            "key": current.command_key,
+            "createdAt": current.created_at.isoformat(),
+        }
+        href = f"/runs/{self.id}/commands/{current.command_id}"
+        return {"current": {"href": href, "meta": meta}}
+
+
+def _left() -> Any:
+    from opentrons.types import Mount
+
+    return Mount.LEFT
+
+
+def _plain(model: Any) -> dict[str, Any]:
+    value: dict[str, Any] = json.loads(model.model_dump_json(exclude_none=True))
+    return value
+
+
+def _error(status: int, kind: str, title: str, detail: str) -> JSONResponse:
+    error = {"id": kind, "title": title, "detail": detail, "errorCode": "4000"}
+    return JSONResponse({"errors": [error]}, status)
+
+
+def _app(robot: RobotServer) -> FastAPI:
+    app = FastAPI(openapi_url=None)
+
+    @app.middleware("http")
+    async def every(request: Request, call_next: Any) -> Any:
+        robot.requests.append(f"{request.method} {request.url.path}")
+        answer = robot.fault(request) if robot.fault is not None else None
+        if answer is None and not request.headers.get("opentrons-version"):
+            text = "header.opentrons-version: field required"
+            answer = JSONResponse({"message": text, "errorCode": "4000"}, 422)
+        if answer is None:
+            answer = await call_next(request)
+        answer.headers["Date"] = format_datetime(robot.now().replace(microsecond=0), usegmt=True)
+        return answer
+
+    def body(data: Any, status: int = 200) -> JSONResponse:
+        return JSONResponse(robot.shifted(data), status)
+
+    @app.get("/health")
+    async def health() -> Any:
+        return body(
+            {
+                "name": "test-robot",
+                "robot_model": "OT-2 Standard",
+                "api_version": "8.1.0",
+                "fw_version": "Virtual Smoothie",
+                "maximum_protocol_api_version": [2, 20],
+                "minimum_protocol_api_version": [2, 0],
+                "robot_serial": "simulator",
+            }
+        )
+
+    @app.get("/system/time")
+    async def system_time() -> Any:
+        return body({"data": {"systemTime": robot.now().isoformat(), "id": "time"}, "links": {}})
+
+    _protocol_routes(app, robot, body)
+    _run_routes(app, robot, body)
+    return app
+
+
+def _protocol_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
+    def view(protocol: dict[str, Any]) -> dict[str, Any]:
+        shown = {k: v for k, v in protocol.items() if k not in ("source", "analyses")}
+        summaries = [{"id": a["id"], "status": a["status"]} for a in protocol["analyses"]]
+        return {"data": {**shown, "analyses": [], "analysisSummaries": summaries}}
+
+    @app.post("/protocols")
+    async def upload(request: Request) -> Any:
+        head = f"Content-Type: {request.headers['content-type']}\r\n\r\n".encode()
+        part: Any = message_from_bytes(head + await request.body()).get_payload(0)  # multipart
+        name, text = part.get_filename(), part.get_payload(decode=True)
+        key = hashlib.sha256(name.encode() + text).hexdigest()
+        for known in robot.protocols.values():
+            if known["key"] == key:
+                return body(view(known), 200)
+        path = Path(robot.folder.name) / key[:8] / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(text)
+        try:
+            source = await ProtocolReader().read_saved([path], directory=None)
+        except ProtocolFilesInvalidError as error:
+            return _error(422, "ProtocolFilesInvalid", "Protocol File(s) Invalid", str(error))
+        protocol = {
+            "id": str(uuid.uuid4()),
+            "createdAt": datetime.now(timezone.utc).isoformat(),
+            "files": [{"name": name, "role": "main"}],
+            "protocolType": "python",
+            "robotType": source.robot_type,
+            "metadata": source.metadata,
+            "key": key,
+            "source": source,
+            "analyses": [],
+        }
+        robot.protocols[protocol["id"]] = protocol
+        _begin(robot.analyse(protocol))
+        await asyncio.sleep(0)
+        return body(view(protocol), 201)
+
+    @app.get("/protocols/{protocol}")
+    async def one(protocol: str) -> Any:
+        if protocol not in robot.protocols:
+            detail = f"Protocol {protocol} not found"
+            return _error(404, "ProtocolNotFound", "Protocol Not Found", detail)
+        return body(view(robot.protocols[protocol]))
+
+    @app.get("/protocols/{protocol}/analyses")
+    async def analyses(protocol: str) -> Any:
+        if protocol not in robot.protocols:
+            detail = f"Protocol {protocol} not found"
+            return _error(404, "ProtocolNotFound", "Protocol Not Found", detail)
+        return body({"data": robot.protocols[protocol]["analyses"], "meta": {}})
+
+    @app.get("/protocols/{protocol}/analyses/{analysis}")
+    async def analysis(protocol: str, analysis: str) -> Any:
+        for found in robot.protocols[protocol]["analyses"]:
+            if found["id"] == analysis:
+                return body({"data": found})
+        return _error(404, "AnalysisNotFound", "Protocol Analysis Not Found", analysis)
+
+    @app.post("/protocols/{protocol}/analyses")
+    async def analyse_again(protocol: str, request: Request) -> Any:
+        asked = (await request.json()).get("data", {})
+        found = robot.protocols[protocol]
+        if asked.get("forceReAnalyze"):
+            _begin(robot.analyse(found))
+            await asyncio.sleep(0)
+        summaries = [{"id": a["id"], "status": a["status"]} for a in found["analyses"]]
+        return body({"data": summaries, "meta": {"cursor": 0}}, 201)
+
+
+_TASKS: set[asyncio.Task[Any]] = set()
+
+
+def _begin(work: Any) -> None:
+    task = asyncio.create_task(work)
+    _TASKS.add(task)
+    task.add_done_callback(_TASKS.discard)
+
+
+def _run_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
+    def unknown(run: str) -> JSONResponse:
+        return _error(404, "RunNotFound", "Run Not Found", f"Run {run} was not found.")
+
+    @app.get("/runs")
+    async def runs(pageLength: int = 20) -> Any:
+        data = [run.view() for run in list(robot.runs.values())[-pageLength:]]
+        links = {"current": {"href": f"/runs/{robot.current}"}} if robot.current else {}
+        meta = {"cursor": 0, "totalLength": len(robot.runs)}
+        return body({"data": data, "links": links, "meta": meta})
+
+    @app.post("/runs")
+    async def create(request: Request) -> Any:
+        asked = (await request.json())["data"]["protocolId"]
+        if asked not in robot.protocols:
+            detail = f"'Protocol {asked} was not found.'"
+            return _error(404, "ProtocolNotFound", "Protocol Not Found", detail)
+        current = robot.runs.get(robot.current or "")
+        if current is not None and current.status not in (IDLE, *ENDED):
+            detail = "Current run is not idle or stopped."
+            return _error(409, "RunAlreadyActive", "Run Already Active", detail)
+        run = _Run(robot, robot.protocols[asked])
+        await run.load()
+        robot.runs[run.id] = run
+        robot.current = run.id
+        return body({"data": run.view()}, 201)
+
+    @app.get("/runs/{run}")
+    async def one(run: str) -> Any:
+        return body({"data": robot.runs[run].view()}) if run in robot.runs else unknown(run)
+
+    @app.get("/runs/{run}/loaded_labware_definitions")
+    async def definitions(run: str) -> Any:
+        found = robot.runs[run].orchestrator.get_loaded_labware_definitions()
+        return body({"data": [_plain(definition) for definition in found]})
+
+    @app.get("/runs/{run}/commands")
+    async def commands(run: str, cursor: int | None = None, pageLength: int = 20) -> Any:
+        if run not in robot.runs:
+            return unknown(run)
+        return body(robot.runs[run].commands(cursor, pageLength))
+
+    @app.post("/runs/{run}/actions")
+    async def act(run: str, request: Request) -> Any:
+        if run not in robot.runs:
+            return unknown(run)
+        kind = (await request.json())["data"]["actionType"]
+        found = robot.runs[run]
+        refusal = ""
+        if found.status in ENDED:
+            refusal = "The run has already stopped."
+        elif kind == "pause" and found.status != "running":
+            refusal = "Cannot pause a run that is not running."
+        if refusal:
+            return _error(409, "RunActionNotAllowed", "Run Action Not Allowed", refusal)
+        return body({"data": await found.act(kind)}, 201)

@@ -1,0 +1,55 @@
+"""First wells: what proves them, when the operator is asked, and what comes of the answer."""
+
+from __future__ import annotations
+
+import pytest
+
+from aegis_ot.vision.delivery import Delivery, Shown
+from aegis_ot.vision.first_wells import FirstWells
+from aegis_ot.vision.gates import Case
+from aegis_ot.vocabulary import Route
+
+from .samples import sample
+
+PLAIN, NOTHING = Delivery(Shown.EMPTIED, 10.0), Delivery(Shown.NOTHING, 0.5)
+UNKNOWN = Delivery(Shown.UNKNOWN)
+
+
+def well(delivery: Delivery) -> Case:
+    return Case(sample(), Route.CALIBRATION, delivery=delivery)
+
+
+@pytest.mark.parametrize("shown", [NOTHING, UNKNOWN, None])
+def test_a_first_well_that_proves_nothing_is_asked_about(shown: Delivery | None) -> None:
+    assert "look at the tip" in FirstWells().question("red", shown)
+    assert FirstWells(ask=False).question("red", shown) == ""
+
+
+def test_a_well_that_proves_its_delivery_vouches_for_its_liquid_alone() -> None:
+    first = FirstWells()
+    assert first.question("red", PLAIN) == ""
+    first.learn("red", well(PLAIN))
+    assert first.question("red", UNKNOWN) == ""
+    assert first.question("water", UNKNOWN) != ""
+
+
+def test_the_operators_word_holds_for_the_run() -> None:
+    first = FirstWells()
+    first.vouched = True
+    assert first.question("water", NOTHING) == ""
+
+
+def test_nothing_to_be_seen_is_a_sign_only_where_the_liquid_was_seen() -> None:
+    first = FirstWells()
+    assert first.held_against("red", NOTHING).shown is Shown.UNKNOWN
+    first.learn("red", well(PLAIN))
+    assert first.held_against("red", NOTHING).shown is Shown.NOTHING
+    weak = Delivery(Shown.NOTHING, 5.0)
+    assert first.held_against("red", weak).shown is Shown.UNKNOWN
+    assert first.held_against("water", NOTHING).shown is Shown.UNKNOWN
+
+
+def test_one_spoiled_frame_postpones_the_question_once() -> None:
+    first, spoiled = FirstWells(), Delivery(Shown.UNKNOWN, spoiled=True)
+    assert first.question("red", spoiled) == ""
+    assert first.question("red", spoiled) != ""

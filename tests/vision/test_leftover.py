@@ -1,0 +1,94 @@
+"""A leftover that was reported is known; what comes on top of it is new."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from aegis_ot.vision.delivery import Delivery, Shown
+from aegis_ot.vision.gates import Case, GateDecision
+from aegis_ot.vision.leftover import Leftover, Leftovers, explains
+from aegis_ot.vision.measuring import ColumnReading
+from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
+
+from .samples import sample
+from .test_monitor import keyframes
+
+TRANSIT, LAST = KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE
+KEYFRAME = next(iter(keyframes(1)))
+LEFT = Leftover("1:A1", 50.0, "A1")
+UNKNOWN = Delivery(Shown.UNKNOWN)
+
+
+def case(transit: float | None = None, last: float | None = None) -> Case:
+    """A well that should get 100 µL."""
+    found = {TRANSIT: transit, LAST: last}
+    readings = {kind: ColumnReading(v, 2.0) for kind, v in found.items() if v is not None}
+    return Case(sample(), Route.GREY_ZONE, readings=readings)
+
+
+def fail(measured: float | None, expected: float | None) -> GateDecision:
+    failure = FailureType.PARTIAL_DISPENSE
+    return GateDecision(Outcome.FAIL, Gate.VOLUMETRIC, "", failure, measured, expected)
+
+
+@pytest.mark.parametrize(
+    ("transit", "last", "explained"),
+    [
+        (150.0, 50.0, True),
+        (100.0, 0.0, True),
+        (None, None, True),
+        (150.0, 100.0, False),
+        (150.0, 150.0, False),
+        (20.0, 20.0, False),
+        (220.0, None, False),
+    ],
+)
+def test_only_what_was_left_is_explained(transit, last, explained) -> None:
+    assert explains(LEFT, case(transit, last), UNKNOWN) is explained
+
+
+def test_a_missing_tip_is_not_explained_by_a_leftover() -> None:
+    assert not explains(LEFT, replace(case(), missing=(LAST,)), UNKNOWN)
+
+
+@pytest.mark.parametrize(
+    ("shown", "explained"), [(Shown.EMPTIED, True), (Shown.NOTHING, False), (Shown.LEFT, False)]
+)
+def test_what_leaves_a_tip_that_held_the_leftover_all_along_is_what_counts(
+    shown: Shown, explained: bool
+) -> None:
+    assert explains(LEFT, case(), Delivery(shown)) is explained
+
+
+@pytest.mark.parametrize(
+    ("decision", "volume"),
+    [
+        (fail(50.0, 0.0), 50.0),
+        (fail(140.0, 100.0), 40.0),
+        (fail(None, None), 100.0),
+        (GateDecision(Outcome.UNDECIDED, Gate.OPERATOR, "", None, 30.0, 0.0), 30.0),
+    ],
+)
+def test_what_a_verdict_says_stayed_is_known_of_that_tip(decision, volume) -> None:
+    tips = Leftovers()
+    tips.note(KEYFRAME, case(), decision)
+    known = tips.known(KEYFRAME)
+    assert known is not None
+    assert known.volume_ul == pytest.approx(volume)
+    assert tips.known(replace(KEYFRAME, mount="right")) is None
+
+
+def test_another_tip_starts_clean() -> None:
+    tips = Leftovers()
+    tips.note(KEYFRAME, case(), fail(50.0, 0.0))
+    assert tips.known(replace(KEYFRAME, tip="1:B1")) is None
+    assert tips.known(KEYFRAME) is None
+
+
+@pytest.mark.parametrize("failure", [FailureType.NO_ASPIRATE, FailureType.NO_TIP, None])
+def test_failures_that_leave_nothing_are_forgotten(failure) -> None:
+    tips = Leftovers()
+    tips.note(KEYFRAME, case(), GateDecision(Outcome.FAIL, Gate.VLM, "", failure))
+    assert tips.known(KEYFRAME) is None
