@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
@@ -111,9 +110,7 @@ class Carry(Check):
                 return True
             first = brought.get(origin)
             return first is not None and (
-                _on_purpose(case, well, origin, visit)
-                or self._made_of(case, visit, origin)
-                or (self.pooled and self._is_put_together(case, visit))
+                _on_purpose(case, well, origin, visit) or self._made_of(case, visit, origin)
             )
         if self.meant and (
             origin in brought or any(case.same_liquid(origin, other) for other in brought)
@@ -162,27 +159,6 @@ class Carry(Check):
             for given in case.trace.deliveries(dest)
             for _, _, source, _ in delivered(given)
         )
-
-    def _is_put_together(self, case: Case, visit: Visit) -> bool:
-        """Whether an empty tube is being filled from several of these: a mix of components.
-
-        Nothing is drawn from it yet for another well.
-        """
-        well = visit.well
-        if well.prefilled:
-            return False
-        start = next(
-            (v.index for v in well.visits if v.kind is OperationKind.ASPIRATE and not v.mixing),
-            math.inf,
-        )
-        components = {
-            source
-            for given in case.trace.deliveries(well)
-            if given.index < start
-            for _, _, source, _ in delivered(given)
-            if case.has(source, frozenset(self.carried))
-        }
-        return visit.index < start and len(components) > 1
 
     def _violation(self, case: Case, visit: Visit, origin: Well, met: Met) -> Violation:
         well = visit.well
