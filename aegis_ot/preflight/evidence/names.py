@@ -31,7 +31,7 @@ def named_wells(
                 continue  # the list that it runs over says as much of all its wells
             passing = True
         line = facts.assigned.get(base.rpartition(".")[2], binding.line)
-        wells = binding.wells or deck.used_wells(binding.labware)
+        wells = deck.meant(binding.wells) or deck.used_wells(binding.labware)
         level = keyed.get(binding.name)
         text = binding.name
         levels: tuple[float | None, ...] = ()
