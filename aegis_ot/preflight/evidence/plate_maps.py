@@ -14,7 +14,7 @@ from ..rules import Common
 from ..source import Index, SourceFacts, level_in, lexicon_of
 from .deck import Deck
 from .evidence import Evidence, Kind
-from .names import levels_of_keys
+from .names import NUMBERED, levels_of_keys
 
 
 def plate_maps(
@@ -35,7 +35,11 @@ def plate_maps(
                 citation = f"plate map `{binding.name}` at line {line}"
                 level = keyed.get(binding.name)
                 levels = () if level is None else (level,) * len(wells)
-                yield Evidence(Kind.NAME, binding.name, wells, citation, line, levels=levels)
+                # A running number tells none of its wells from the others.
+                counted = level is None and NUMBERED.fullmatch(binding.name) is not None
+                yield Evidence(
+                    Kind.NAME, binding.name, wells, citation, line, whole=counted, levels=levels
+                )
         for row in binding.rows:
             wells = row.wells or _wells_of_row(deck, facts, row, uses)
             if wells and _are_plausible(deck, wells):
