@@ -78,7 +78,7 @@ def _wells_of_row(
         asked = [use for use in uses if column and column in use.fields]
         if len(row.spots) > 1 and not asked:
             return ()
-        found += deck.refs(_labware(deck, facts, asked or uses), (cell,))
+        found += _wells_of_list(deck, _labware(deck, facts, asked or uses), (cell,))
     return tuple(found)
 
 
