@@ -130,7 +130,10 @@ def _chosen(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | 
         roles.conflicts.setdefault(conflict, []).append(ref)
         agreed = [other for other in found if other.worth < best.worth]
         for one in (best, *rivals):
-            if any(not _differ(roles, one, other) for other in agreed):
+            # Of two lists that share a well by mistake, the one of controls says what it is: the
+            # other one says what is given to it.
+            declared = roles.is_declared(one.role)
+            if declared or any(not _differ(roles, one, other) for other in agreed):
                 best = one
                 break
         else:

@@ -62,10 +62,8 @@ def _unsay_by_use(roles: Roles, trace: Trace) -> None:
 
 
 def _is_control(roles: Roles, ref: WellRef) -> bool:
-    """Whether a well is named for something that does not follow from what it receives."""
     assigned = roles.by_well.get(ref)
-    spec = None if assigned is None else roles.family.roles[assigned.role]
-    return spec is not None and bool(spec.parents) and not spec.receives
+    return assigned is not None and roles.is_declared(assigned.role)
 
 
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
