@@ -209,8 +209,10 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
         return {"runs": await run_in_threadpool(sidecar.runs, search, most), "version": version}
 
     @app.get("/v1/camera/view")
-    async def view() -> dict[str, Any]:
-        return (await run_in_threadpool(sidecar.aim.look)).to_json()
+    async def view(number: Annotated[int, Query(ge=0, le=100)] = 0) -> dict[str, Any]:
+        if number >= len(sidecar.aim.names):
+            raise WireError(404, "no_such_camera", f"There is no camera number {number}.")
+        return (await run_in_threadpool(sidecar.aim.look, number)).to_json()
 
     @app.get("/v1/runs/{run}")
     async def overview(run: Run, after: After = None, wait: Wait = 0.0) -> dict[str, Any]:

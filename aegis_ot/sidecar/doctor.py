@@ -18,9 +18,10 @@ from .._version import __version__
 from ..errors import AegisError, CameraError, StoreError
 from ..reasoning import make_backend
 from ..reasoning.backends.service import ServiceBackend
+from ..vision.camera import Camera
 from .aiming import Aim
 from .cameras import FreeRunning, open_camera
-from .config import SidecarConfig, is_loopback
+from .config import CameraSettings, SidecarConfig, is_loopback
 from .notifications import Notifier
 from .store import DATABASE, Store
 
@@ -127,18 +128,19 @@ def _camera_checks(config: SidecarConfig, working: dict[str, Any] | None) -> Ite
         said = f"{camera.get('kind')}, as the sidecar at work says: {camera.get('detail') or state}"
         yield Check("camera", state, said, "" if state == "ok" else "See its page, Camera.")
         return
-    try:
-        camera = open_camera(config.camera)
-    except AegisError as error:
-        yield Check("camera", "bad", str(error), "Name another camera (--camera).")
-        return
-    try:
-        yield from _look(config, camera)
-    finally:
-        camera.close()
+    for settings in config.cameras or (config.camera,):
+        try:
+            camera = open_camera(settings)
+        except AegisError as error:
+            yield Check("camera", "bad", str(error), "Name another camera (--camera).")
+            continue
+        try:
+            yield from _look(config, settings, camera)
+        finally:
+            camera.close()
 
 
-def _look(config: SidecarConfig, camera: Any) -> Iterator[Check]:
+def _look(config: SidecarConfig, settings: CameraSettings, camera: Camera) -> Iterator[Check]:
     aim = Aim(config, camera, lambda: None)
     until = time.monotonic() + (_FIRST_FRAME_S if isinstance(camera, FreeRunning) else 0)
     while True:
@@ -148,13 +150,13 @@ def _look(config: SidecarConfig, camera: Any) -> Iterator[Check]:
         except CameraError as error:
             if time.monotonic() >= until:
                 todo = "Look at its cable and power; close other programs that use it."
-                yield Check("camera", "bad", str(error), todo)
+                yield Check("camera", "bad", f"{settings.spec}: {error}", todo)
                 return
         except AegisError as error:
             yield Check("detector", "bad", str(error), "Leave cascade.detector out, or mend it.")
             return
     height, width = view.frame.image.shape[:2]
-    yield Check("camera", "ok", f"{config.camera.spec}, {width} x {height} px")
+    yield Check("camera", "ok", f"{settings.spec}, {width} x {height} px")
     light = (
         f"brightness {view.brightness:.0%}, too dark {view.dark:.0%}, blown out {view.blown:.0%}"
     )
