@@ -21,7 +21,7 @@ from ..reasoning.backends.service import ServiceBackend
 from ..vision.camera import Camera
 from .aiming import Aim
 from .cameras import FreeRunning, open_camera
-from .config import CameraSettings, SidecarConfig, is_loopback
+from .config import TOKEN_FILE, CameraSettings, SidecarConfig, is_loopback
 from .notifications import Notifier
 from .store import DATABASE, Store
 
@@ -106,7 +106,10 @@ def _token(config: SidecarConfig) -> Check:
         said = "not needed" if config.token is None else "set"
         todo = "For a robot in the network, start with --host 0.0.0.0; a token is then made."
         return Check("token", "ok", f"{said}: only this machine is answered", todo)
-    return Check("token", "ok", "set, and long enough")
+    kept = (config.data / TOKEN_FILE).exists()
+    return Check(
+        "token", "ok", "kept in the data folder" if kept else "set, or made at first start"
+    )
 
 
 def _sidecar(config: SidecarConfig) -> dict[str, Any] | None:
