@@ -127,7 +127,6 @@ class Carry(Check):
             ]
             if any(held) if clean else held and all(held):
                 return True
-            return _ends_in(case, well, visit.index, met.well)
         return False
 
     @staticmethod
@@ -197,12 +196,6 @@ def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
         if further:
             open_ += later
     return found
-
-
-def _ends_in(case: Case, well: Well, index: int, pool: Well) -> bool:
-    """Whether all of ``well`` is poured, in the end, into this one: a plate swept into a pool."""
-    made = _made_after(case, well, index, further=True)
-    return {dest for dest in made if not _made_after(case, dest, index, further=False)} == {pool}
 
 
 def _is_called(case: Case, well: Well, roles: RoleSet) -> bool:

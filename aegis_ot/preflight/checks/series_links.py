@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 from ..trace import Trace, Transfer, Visit, Well
@@ -21,9 +21,7 @@ def along_series(trace: Trace, links: Sequence[Transfer]) -> tuple[list[Transfer
     aside = {
         well
         for well, given in feeds.items()
-        if well in fillers
-        or (well.prefilled and len({link.well for link in given}) >= _MANY)
-        or _dilutes_in_parallel(trace, given, feeds)
+        if well in fillers or (well.prefilled and len({link.well for link in given}) >= _MANY)
     }
     links = [link for link in links if link.source not in aside]
     return links, fillers
@@ -77,14 +75,6 @@ def _fills(trace: Trace, well: Well, given: Sequence[Transfer], links: Sequence[
     return len(filled - fed_else) <= 1 and all(
         first_from(trace, well, link.well).empty_before for link in given
     )
-
-
-def _dilutes_in_parallel(
-    trace: Trace, given: Sequence[Transfer], feeds: Mapping[Well, Sequence[Transfer]]
-) -> bool:
-    """Whether a well is diluted by several factors into others that go no further."""
-    ends = [link for link in given if link.well not in feeds]
-    return len(ends) == len(given) and _factors(trace, given) >= _MANY
 
 
 def _factors(trace: Trace, links: Sequence[Transfer]) -> int:
