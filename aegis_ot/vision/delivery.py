@@ -31,7 +31,7 @@ _BORE_LEAST_PX, _ROW_LEAST_PX = 4.0, 3.0
 """In a narrower bore, on the average of the upper rows and in each row, a frame laid a pixel beside
 the other one changes as much as a dye does."""
 
-_UNSEEN_MOST = 0.4
+_UNSEEN_MOST = 0.2
 """Share of the delivery that may stand in rows too narrow to tell, for the others to prove it."""
 
 _LEFT_LEAST = 0.2
