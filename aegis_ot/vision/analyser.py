@@ -17,6 +17,7 @@ from .first_wells import FirstWells, Liquid, liquid_of
 from .gates import Case, GateDecision, Gates, in_sentences
 from .leftover import Leftover, Leftovers, explains, still_there
 from .measuring import TipView
+from .second_opinion import SecondOpinion
 from .stream import OpenTrajectory, Stream
 from .tips import pipette_class, tip_for
 from .types import FREE, Detector, TipDetection, TrajectorySample, is_image
@@ -54,6 +55,7 @@ class RunAnalyser:
         make_stream: Makes a stream, given one of the same pipette and tip, if there is one.
         gates: Asked in turn.
         first: Holds the run's first wells against what is known without them.
+        second: Asked about wells that pass.
     """
 
     def __init__(
@@ -63,8 +65,10 @@ class RunAnalyser:
         make_stream: Callable[[Stream | None], Stream],
         gates: Gates,
         first: FirstWells,
+        second: SecondOpinion,
     ) -> None:
         self.run = run
+        self._second = second
         self._detector = detector
         self._make_stream = make_stream
         self._gates = gates
@@ -119,6 +123,10 @@ class RunAnalyser:
         triage = stream.cascade.triage(case.score, case.missing, against)
         case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
+        if not triage.to_gate:
+            band = stream.cascade.calibration.band
+            limit = None if band is None else band[1]
+            decision = self._second.on(case, decision, stream.learned + 1, limit)
         left = self._leftovers.known(last)
         if (
             left is not None
@@ -194,8 +202,9 @@ class RunAnalyser:
         p_value = stream.p_value(score)
         return Case(
             sample, Route.GREY_ZONE, score, readings, missing, stream.learned > 0, p_value,
-            clearly_absent=seen.clearly_absent,
+            alarm_p=stream.settings.alarm_p, clearly_absent=seen.clearly_absent,
             delivery=self._delivery(seen, last),
+            signs={} if score is None else stream.scorer.signs(sample), normal=stream.normal,
         )  # fmt: skip
 
     def _delivery(self, seen: OpenTrajectory, last: Keyframe, left_ul: float = 0.0) -> Delivery:
