@@ -139,7 +139,8 @@ class Sidecar:
         """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
         self.require(run)
         self.store.add_hold(run, hold)
-        self.session(run).held(hold.trajectory, hold.policy)
+        if (self.store.run(run) or {}).get("mode") != "watch":  # there keyframes come in a pause
+            self.session(run).held(hold.trajectory, hold.policy)
         self.bell.ring()
         event("hold", run=run, **hold.model_dump())
         if hold.resolution not in ("verdict", "stopped") and hold.paused_s is None:
@@ -223,6 +224,8 @@ class Sidecar:
         if run in self._met:
             return
         self._met.add(run)
+        for kind in ("camera", "store"):  # of an earlier process; what goes on begins anew
+            self.store.end_incidents(run, kind)
         row = self.store.run(run)
         if row is not None and not row["finished"] and self.store.next_sequence(run):
             said = "The sidecar was started anew within this run."

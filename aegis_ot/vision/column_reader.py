@@ -98,6 +98,10 @@ class MeasuredColumns:
         if isinstance(other, MeasuredColumns):
             self._scale = other._scale
 
+    def expect_heights(self, factors: Mapping[str, float]) -> None:
+        """How high columns stood in earlier runs, over what the geometry says, by tip."""
+        self._scale.expect(factors)
+
     def look(self, view: TipView) -> Look:
         self._contrast.prepare()
         # Shared with the scorers: each frame is straightened once.

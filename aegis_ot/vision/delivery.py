@@ -60,8 +60,8 @@ _GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 11.0, 9.0, 6.0
 so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
 
 _GAP_CHANGE = 0.33
-"""Share of what the column's rows change that those of a gap change at most. Columns without one show 0.5 at least, with one of 8 % of
-their volume 0.25 at most, on simulated frames."""
+"""Share of what the column's rows change that those of a gap change at most. Columns without one
+show 0.5 at least, with one of 8 % of their volume 0.25 at most, on simulated frames."""
 
 _GAP_LENGTH, _GAP_WITHIN = 0.05, 0.8
 """Shortest gap, and the part of the column above the narrow end in which it is looked for, as
@@ -176,8 +176,11 @@ def _compared(
     if emptied > _LEFT or strength < _SURE:
         return Delivery(Shown.UNKNOWN, per_width)
     sections = np.array_split(rows, _SECTIONS)
-    ends = next((part[0] for part in sections[1:] if share[part].mean() < 0.5), rows[-1])
-    left = float(tip.volume_of((1.0 - u[ends]) * tip.length_mm))
+    first = next(n for n in range(1, _SECTIONS) if share[sections[n]].mean() < 0.5)
+    # What is behind the tip may have changed instead: then these rows change, another way.
+    if np.median([abs(share[part].mean()) for part in sections[first:]]) > _ELSEWHERE:
+        return Delivery(Shown.UNKNOWN, per_width, spoiled=True)
+    left = float(tip.volume_of((1.0 - u[sections[first][0]]) * tip.length_mm))
     return Delivery(Shown.LEFT, per_width, left)
 
 

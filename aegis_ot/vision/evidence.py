@@ -71,5 +71,6 @@ def _readings(
                 "volume": round(reading.volume_ul, 2),
                 "uncertainty": round(reading.sigma_ul, 2),
                 "air": round(reading.gap_ul, 2),
+                "top": round(reading.top, 4),
             },
         )

@@ -12,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from aegis_ot.account import Situation, situations
 from aegis_ot.errors import SidecarUnreachable
 from aegis_ot.robot import Analysis, RobotClient
 from aegis_ot.robot.deck import channels_of, largest_volume, under
@@ -146,6 +147,36 @@ def test_a_failed_delivery_pauses_the_robot_by_its_api(client: RobotClient, tmp_
     assert any("Paused by the watch: B2 of my plate (slot 2) failed" in said for said in shown.said)
     assert len(run.pauses) == 1
     assert run.verdicts[1].verdict.outcome is Outcome.FAIL
+
+
+def test_a_pause_of_the_watch_is_answered_on_the_page(client: RobotClient, tmp_path: Path) -> None:
+    shown = Shown()
+    with sidecar(tmp_path, 1) as url:
+        run = begin(client, tmp_path)
+        with Robot(url, f"watch-{run.id}") as page:
+
+            def answer() -> None:
+                while not any("Paused by the watch" in said for said in shown.said):
+                    time.sleep(0.05)
+                until = time.monotonic() + 20
+                while time.monotonic() < until:
+                    found = situations(page.overview(), time.time())
+                    if [one.kind for one in found] == ["paused"]:
+                        break
+                    time.sleep(0.05)
+                asked.extend(found)
+                page.post("trajectories/1/action", {"action": "resume", "by": "Ada"})
+
+            asked: list[Situation] = []
+            somebody = threading.Thread(target=answer)
+            somebody.start()
+            watch_run(client, run, PastLink(url, None), shown, poll_s=0.05)
+            somebody.join()
+            hold = page.overview()["trajectories"][1]["hold"]
+    assert run.status == "succeeded"
+    assert [(one.kind, one.trajectory) for one in asked] == [("paused", 1)]
+    assert hold["answered"] == "page"
+    assert hold["paused_s"] > 0
 
 
 def test_a_run_cancelled_by_somebody_else_ends_the_watch(

@@ -94,7 +94,8 @@ def _fitting(
         fitting = [role for role in fitting if not specs[role].one_liquid]
     if passes_on and any(specs[role].side == "source" for role in named):
         # A plate of doses that is made here and given on is no plate of treated cells.
-        fitting = [role for role in fitting if not specs[role].implies_contents]
+        plates = {r for r in fitting if specs[r].implies_contents and specs[r].side == side}
+        fitting = [role for role in fitting if role not in plates]
         if not fitting:
             fitting = [role for role in named if specs[role].side == "source"]
     # The vehicle control in "vehicle (mock)": of a kind and its parent, the kind; and the vehicle

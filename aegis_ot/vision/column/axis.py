@@ -51,8 +51,7 @@ def rectify(
             shift = _nozzle_shift(image, collar, orifice, shape, _NARROW, 4.0)
     collar = collar + (orifice - collar) * (shift or 0.0)
     if length is not None:
-        along = orifice - collar
-        orifice = collar + along * (length / max(float(np.hypot(*along)), 1.0))
+        collar, orifice = _of_length(image, collar, orifice, shape, length)
         collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
     orifice = orifice + (orifice - collar) * _orifice_shift(image, collar, orifice, shape)
     pixels, u, v = resample(image, collar, orifice, shape.rows, shape.half_width)
@@ -64,6 +63,22 @@ def rectify(
         (float(orifice[0]), float(orifice[1])),
         clarity,
     )
+
+
+def _of_length(
+    image: Image, collar: Point, orifice: Point, shape: TipShape, length: float
+) -> tuple[Point, Point]:
+    """The same axis made ``length`` px long: of its two ends, the one is kept that fits better.
+
+    The nozzle shows in every frame, so it says which.
+    """
+    along = orifice - collar
+    along = along * (length / max(float(np.hypot(*along)), 1.0))
+    choices = ((collar, collar + along), (orifice - along, orifice))
+    shift = [_nozzle_shift(image, top, end, shape, _NARROW, 4.0) for top, end in choices]
+    best = 1 if shift[0] is None and shift[1] is not None else 0
+    step = along * (shift[best] or 0.0)
+    return choices[best][0] + step, choices[best][1] + step
 
 
 def _onto_outline(
