@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from opentrons_shared_data.labware import load_definition
 
 from aegis_ot.cli import robot_screen
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
@@ -15,7 +16,7 @@ from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from ..cli.commands import Command
 from ..sidecar.helpers import StubAnalyser, StubCamera
 from ..support.robot_server import RobotServer
-from .protocols import BAD, GOOD, PAUSES, WAITS
+from .protocols import BAD, GOOD, PAUSES, WAITS, WITH_INPUTS
 
 
 @pytest.fixture
@@ -143,6 +144,22 @@ def test_layer_1_refuses_a_guarded_protocol_in_the_robots_analysis(
     assert done.code == 1, done.out
     assert "Layer 1 found" in done.out
     assert robot.runs == {}
+
+
+def test_labware_and_parameters_of_its_own_go_with_it(aegis: Command, robot: RobotServer) -> None:
+    definition = load_definition("corning_96_wellplate_360ul_flat", 2)
+    definition["parameters"]["loadName"] = "my_plate"
+    definition["namespace"] = "my_lab"
+    Path("labware").mkdir()
+    Path("labware/my_plate.json").write_text(json.dumps(definition), encoding="utf-8")
+    done = aegis(
+        "run", written(WITH_INPUTS), "--robot", robot.url, "--yes",
+        "--labware", "labware", "--parameter", "wells=3",
+    )  # fmt: skip
+    assert done.code == 0, done.out + done.err
+    (run,) = robot.runs.values()
+    kinds = [command["commandType"] for command in run.commands(0, 100)["data"]]
+    assert kinds.count("aspirate") == 3
 
 
 def test_without_a_person_to_ask_the_run_needs_a_yes(aegis: Command, robot: RobotServer) -> None:
