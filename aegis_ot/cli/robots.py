@@ -84,7 +84,8 @@ def run(
             _say(f"Left to the App: run {result.id} on {name} is {client.run(result.id).status}.")
             raise typer.Exit(INTERRUPTED) from None
         except RobotError:
-            _say(f"Run {result.id} was left as it stood; look at the robot.", "bold red")
+            if result.id:
+                _say(f"Run {result.id} was left as it stood; look at the robot.", "bold red")
             raise
         finally:
             if result.id and report is not None:

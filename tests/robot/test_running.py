@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 from opentrons_shared_data.labware import load_definition
 
 from aegis_ot.cli import robot_screen
+from aegis_ot.robot import Command as RobotCommand
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 
 from ..cli.commands import Command
@@ -125,6 +127,31 @@ def test_the_person_pauses_and_resumes(
     assert done.code == 1, done.out + done.err
     assert "Paused: Somebody paused the run." in done.out
     assert "stopped" in done.out
+
+
+def test_ctrl_c_pauses_and_a_second_one_leaves_the_run_paused(
+    aegis: Command, robot: RobotServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = robot_screen.TerminalScreen.doing
+    waited = robot_screen.TerminalScreen.waits
+
+    def doing(screen: robot_screen.TerminalScreen, command: RobotCommand) -> None:
+        shown(screen, command)
+        if command.kind == "waitForDuration" and not screen._interrupted:
+            signal.raise_signal(signal.SIGINT)
+
+    def waits(screen: robot_screen.TerminalScreen, text: str) -> None:
+        waited(screen, text)
+        if text:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(robot_screen.TerminalScreen, "doing", doing)
+    monkeypatch.setattr(robot_screen.TerminalScreen, "waits", waits)
+    done = aegis("run", written(WAITS), "--robot", robot.url, "--yes")
+    assert done.code == 130, done.out + done.err
+    assert "Left to the App" in done.out
+    (run,) = robot.runs.values()
+    assert run.status == "paused"
 
 
 def test_a_protocol_that_fails_its_analysis_does_not_start(
