@@ -61,7 +61,9 @@ class SecondOpinion:
         said = self._model.examine(case)
         if said.outcome is not Outcome.FAIL:
             return passed
-        reason = in_sentences("Nothing flagged this well, but a vision model fails it.", said.reason)
+        reason = in_sentences(
+            "Nothing flagged this well, but a vision model fails it.", said.reason
+        )
         return replace(said, outcome=Outcome.UNDECIDED, reason=reason)
 
     def _wanted(self, case: Case, first_wells: int, limit: float | None) -> bool:

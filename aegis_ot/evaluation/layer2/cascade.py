@@ -153,8 +153,9 @@ class _Replayed:
 
     def __init__(self, detector: Detector | None) -> None:
         self._found: TipDetection | None = None
-        if hasattr(detector, "best_guess"):
-            self.best_guess = detector.best_guess
+        guess = getattr(detector, "best_guess", None)
+        if guess is not None:
+            self.best_guess = guess
 
     def show(self, sample: TrajectorySample, kind: KeyframeKind) -> Image:
         """The frame that comes next."""

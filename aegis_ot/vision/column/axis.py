@@ -75,7 +75,7 @@ def _of_length(
     along = orifice - collar
     along = along * (length / max(float(np.hypot(*along)), 1.0))
     choices = ((collar, collar + along), (orifice - along, orifice))
-    shift = [_nozzle_shift(image, *ends, shape, _NARROW, 4.0) for ends in choices]
+    shift = [_nozzle_shift(image, upper, lower, shape, _NARROW, 4.0) for upper, lower in choices]
     best = 1 if shift[0] is None and shift[1] is not None else 0
     step = along * (shift[best] or 0.0)
     return choices[best][0] + step, choices[best][1] + step

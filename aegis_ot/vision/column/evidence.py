@@ -88,7 +88,7 @@ towards it."""
 
 _FEWEST_ROWS = 5
 _ROW_NOISE = 2e-3
-"""Least noise of a row: JPEG rounds faint colours to none, which is no proof that there are none."""
+"""Least noise of a row: JPEG rounds faint colours to none, which proves nothing."""
 
 
 def taper(u: Array) -> NDArray[np.float64]:

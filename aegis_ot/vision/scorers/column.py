@@ -25,7 +25,7 @@ _MOST_MISFILL = 7.0
 edge."""
 
 _SHARED = 0.7
-"""Share of what many of a run's own normals show that is put down to the run: the rest was chance."""
+"""Share of what many of a run's own normals show that is put down to the run, not to chance."""
 
 PRIORS: Mapping[str, Tail] = {
     "retained": Tail(3.0, 1.0),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from aegis_ot.vision.column import Dye, EmptyColour, combine, look_at_tip, mean_dye
-from aegis_ot.vision.column.evidence import colour_evidence, long_step
+from aegis_ot.vision.column.evidence import colour_evidence, long_step, taper
 
 from .drawn import RED, WATER, detection, draw_tip
 
