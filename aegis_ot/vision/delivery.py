@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..vocabulary import KeyframeKind
 from .column import ceiling
-from .column.contrast import NOISE, signals
+from .column.contrast import change_between
 from .column_reader import Look
 from .tip_scale import TipScale
 from .usual import alike
@@ -150,7 +150,7 @@ def _compared(
     before: Look, after: Look, inside: NDArray[np.bool_], above: NDArray[np.bool_]
 ) -> Delivery:
     u, tip = before.profile.u.astype(np.float64), before.tip
-    change = (signals(before.profile) - signals(after.profile))[:, :-1] / (np.sqrt(2) * NOISE[:-1])
+    change = change_between(before.profile, after.profile)
     width = np.asarray(tip.inner_radius((1.0 - u) * tip.length_mm), dtype=np.float64)
     rows = np.flatnonzero(inside)
     upper = rows[: max(len(rows) // 3, 1)]

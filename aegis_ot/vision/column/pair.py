@@ -11,9 +11,8 @@ import cv2
 import numpy as np
 
 from ..tips import TipGeometry
-from .contrast import NOISE, signals
+from .contrast import change_between
 from .profile import TipProfile
-from .strip import Array
 
 _PLAIN = 8.0
 """Squared change of a row, in variances of a usual one, from which the dye is plain to see."""
@@ -23,9 +22,6 @@ _UNCHANGED = 0.15
 
 _EXPECTED_LEAST = 3.0
 """Rows of which less change is to be expected tell nothing: the bore is too narrow there."""
-
-_LAG = 4
-"""Rows from one to the next that is independent of it."""
 
 _ROWS_LEAST = 12
 _LENGTH_LEAST = 120.0
@@ -47,8 +43,7 @@ def column_left(
     u = before.u
     if len(after.u) != len(u) or min(before.length, after.length) < _LENGTH_LEAST:
         return None
-    change = (signals(before) - signals(after))[:, :-1]
-    change = change / np.maximum(np.sqrt(2) * NOISE[:-1], _row_noise(change))
+    change = change_between(before, after)
     seen = cv2.blur((change**2).mean(axis=1).astype(np.float32)[:, None], (1, 7))[:, 0]
     inside = (u > max(top, ceiling)) & (u < 0.94)
     if int(inside.sum()) < 2 * _ROWS_LEAST:
@@ -70,9 +65,3 @@ def column_left(
     if tail < max(_ROWS_LEAST, len(rows) // 5) or tail > len(rows) - 4:
         return None
     return float(u[rows[len(rows) - tail]])
-
-
-def _row_noise(change: Array) -> Array:
-    """Standard deviation of the rows' own noise, from how much near rows differ."""
-    near = np.diff(change[::_LAG], axis=0)
-    return np.asarray(1.48 * np.median(np.abs(near), axis=0) / np.sqrt(2), dtype=np.float32)
