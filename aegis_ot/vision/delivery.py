@@ -31,7 +31,7 @@ _BORE_LEAST_PX, _ROW_LEAST_PX = 4.0, 3.0
 """In a narrower bore, on the average of the upper rows and in each row, a frame laid a pixel beside
 the other one changes as much as a dye does."""
 
-_UNSEEN_MOST = 0.4
+_UNSEEN_MOST = 0.2
 """Share of the delivery that may stand in rows too narrow to tell, for the others to prove it."""
 
 _LEFT_LEAST = 0.2
@@ -176,10 +176,11 @@ def _compared(
     if emptied > _LEFT or strength < _SURE:
         return Delivery(Shown.UNKNOWN, per_width)
     sections = np.array_split(rows, _SECTIONS)
-    first = next(n for n in range(1, _SECTIONS) if share[sections[n]].mean() < 0.5)
+    means = np.array([share[part].mean() for part in sections])
+    first = int(np.flatnonzero(means[1:] < 0.5)[0]) + 1
     # What is behind the tip may have changed instead: then these rows change, another way.
-    if np.median([abs(share[part].mean()) for part in sections[first:]]) > _ELSEWHERE:
-        return Delivery(Shown.UNKNOWN, per_width, spoiled=True)
+    if float(np.median(np.abs(means[first:]))) > _ELSEWHERE * float(means.max()):
+        return Delivery(Shown.UNKNOWN, per_width)
     left = float(tip.volume_of((1.0 - u[sections[first][0]]) * tip.length_mm))
     return Delivery(Shown.LEFT, per_width, left)
 

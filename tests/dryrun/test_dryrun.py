@@ -77,3 +77,16 @@ def test_a_fault_that_makes_no_sense_is_explained():
 def test_a_fault_in_a_well_that_gets_nothing_is_refused():
     with pytest.raises(ConfigurationError, match="9:H9"):
         dry_run(SCRIPT, DryRunSettings(faults=("partial:50@9:H9",)), make_analyser())
+
+
+@pytest.mark.parametrize("fault", ["partial:50", "no_dispense"])
+def test_one_fault_on_a_tip_that_is_used_again_flags_one_well(fault):
+    again = TEXT.replace(
+        'for well in plate.wells()[:10]:\n        p300.transfer(150, reservoir["A1"], well)',
+        'p300.transfer(120, reservoir["A1"], plate.wells()[:7], new_tip="once")',
+    )
+    assert "once" in again
+    settings = DryRunSettings(faults=(f"{fault}@1:D1",))
+    result = dry_run(Script(again, "one_tip.py"), settings, make_analyser())
+    assert [row.address for row in result.flagged] == ["1:D1"]
+    assert "as reported there" in result.wells[4].reason

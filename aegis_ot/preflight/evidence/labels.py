@@ -5,9 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from ...vocabulary import WellRef
+from ..source import tokens
 from .deck import Deck
 from .evidence import Evidence, Kind, shortened
 from .written_wells import entries_of
+
+_SHORT = 4
+"""Words of a description that is a name; a longer one is prose."""
 
 
 def given_roles(deck: Deck, given: Mapping[str, Sequence[str]]) -> Iterator[Evidence]:
@@ -26,7 +30,7 @@ def loaded_liquids(deck: Deck) -> Iterator[Evidence]:
     for liquid, wells in by_name.items():
         yield Evidence(Kind.LIQUID, liquid, tuple(wells), f"liquid '{liquid}'")
         description = deck.trace.descriptions.get(liquid)
-        if description:
+        if description and len(tokens(description)) <= _SHORT:
             said = f"liquid '{liquid}', described as '{shortened(description)}'"
             yield Evidence(Kind.DESCRIPTION, description, tuple(wells), said)
 

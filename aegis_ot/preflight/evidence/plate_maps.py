@@ -14,7 +14,7 @@ from ..rules import Common
 from ..source import Index, SourceFacts, level_in, lexicon_of
 from .deck import Deck
 from .evidence import Evidence, Kind
-from .names import levels_of_keys
+from .names import NUMBERED, levels_of_keys
 
 
 def plate_maps(
@@ -30,12 +30,16 @@ def plate_maps(
         line = facts.assigned.get(base.rpartition(".")[2], binding.line)
         uses = facts.flow.indexed_with(base.rpartition(".")[2])
         if binding.spots and uses:
-            wells = deck.refs(_labware(deck, facts, uses), binding.spots)
+            wells = _wells_of_list(deck, _labware(deck, facts, uses), binding.spots)
             if _are_plausible(deck, wells):
                 citation = f"plate map `{binding.name}` at line {line}"
                 level = keyed.get(binding.name)
                 levels = () if level is None else (level,) * len(wells)
-                yield Evidence(Kind.NAME, binding.name, wells, citation, line, levels=levels)
+                # A running number tells none of its wells from the others.
+                counted = level is None and NUMBERED.fullmatch(binding.name) is not None
+                yield Evidence(
+                    Kind.NAME, binding.name, wells, citation, line, whole=counted, levels=levels
+                )
         for row in binding.rows:
             wells = row.wells or _wells_of_row(deck, facts, row, uses)
             if wells and _are_plausible(deck, wells):
@@ -50,6 +54,17 @@ def _labware(deck: Deck, facts: SourceFacts, uses: Iterable[Index]) -> tuple[str
         for origin in (use.held, *facts.flow.comes_from.get(use.held, ())):
             found |= deck.by_name.get(origin, set())
     return tuple(key for key in deck.trace.labware if key in found)
+
+
+def _wells_of_list(deck: Deck, labware: Sequence[str], spots: Sequence[str]) -> tuple[WellRef, ...]:
+    """The wells of a list of names. Where several labware are indexed with them, those in which
+    all are used: ``("D6", "H12")`` may be a tube and a well.
+    """
+    in_each = [deck.refs((key,), spots) for key in labware]
+    if len(in_each) > 1:
+        whole = [wells for wells in in_each if len(wells) == len(spots)]
+        in_each = [wells for wells in whole if all(map(deck.is_used, wells))]
+    return tuple(ref for wells in in_each for ref in wells)
 
 
 def _wells_of_row(

@@ -55,7 +55,7 @@ def assign_roles(
             role = _fitting(named, roles, sides(ref), one)
             if role is not None and not (family.roles[role].dosed and level == 0):
                 placed = True
-                worth = (float(one.kind), 0.0 if one.whole else 1.0, -float(len(one.wells)))
+                worth = _worth(one, names)
                 candidates.setdefault(ref, []).append(Candidate(worth, role, one, level))
         if not placed:
             roles.unread.append(one)
@@ -68,6 +68,13 @@ def assign_roles(
     _add_dosed(roles, sides, common)
     _spread_over_channels(roles, trace)
     return roles
+
+
+def _worth(one: Evidence, names: RoleNames) -> tuple[float, ...]:
+    kind = float(one.kind)
+    if one.kind is Kind.DESCRIPTION and names.is_outright(one.text):
+        kind = Kind.LIQUID + 0.5  # "steroid-free serum", described as "diluent"
+    return (kind, 0.0 if one.whole else 1.0, -float(len(one.wells)))
 
 
 def _levels(evidence: Evidence, common: Common) -> tuple[float | None, ...]:
@@ -96,7 +103,7 @@ def _fitting(
         # A plate of doses that is made here and given on is no plate of treated cells.
         plates = {r for r in fitting if specs[r].implies_contents and specs[r].side == side}
         fitting = [role for role in fitting if role not in plates]
-        if not fitting:
+        if not fitting and not evidence.whole:
             fitting = [role for role in named if specs[role].side == "source"]
     # The vehicle control in "vehicle (mock)": of a kind and its parent, the kind; and the vehicle
     # in "PBS (vehicle)": what a medium is used as, where both are said.
