@@ -10,7 +10,6 @@ import re
 import sys
 import textwrap
 import time
-from pathlib import Path
 
 import pytest
 from opentrons import simulate
