@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..vocabulary import KeyframeKind
 from .column import ceiling
-from .column.contrast import NOISE, signals
+from .column.contrast import change_between
 from .column_reader import Look
 from .tip_scale import TipScale
 from .usual import alike
@@ -31,7 +31,7 @@ _BORE_LEAST_PX, _ROW_LEAST_PX = 4.0, 3.0
 """In a narrower bore, on the average of the upper rows and in each row, a frame laid a pixel beside
 the other one changes as much as a dye does."""
 
-_UNSEEN_MOST = 0.4
+_UNSEEN_MOST = 0.2
 """Share of the delivery that may stand in rows too narrow to tell, for the others to prove it."""
 
 _LEFT_LEAST = 0.2
@@ -39,10 +39,10 @@ _LEFT_LEAST = 0.2
 
 _PLAIN = 4.0
 """Change of the upper rows from which the liquid is plain to see, in a row's usual noise. Two
-frames of the same tip differ by up to 2.5 where nothing left it, on simulated frames of many
-cameras."""
+frames of the same tip differ by up to 2.5 where nothing left it, and by 5.5 at least where a dye
+did, on simulated frames of many cameras."""
 
-_SURE = 6.0
+_SURE = 5.0
 """Change from which the rows below must show it too."""
 
 _ELSEWHERE = 0.35
@@ -55,7 +55,7 @@ the liquid left, at most the second where it stayed."""
 
 _SECTIONS = 12
 
-_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 11.0, 9.0, 6.0
+_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 9.0, 8.0, 6.0
 """Change of the upper rows from which a gap would show, and from which it would in a bore at least
 so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
 
@@ -150,7 +150,7 @@ def _compared(
     before: Look, after: Look, inside: NDArray[np.bool_], above: NDArray[np.bool_]
 ) -> Delivery:
     u, tip = before.profile.u.astype(np.float64), before.tip
-    change = (signals(before.profile) - signals(after.profile))[:, :-1] / (np.sqrt(2) * NOISE[:-1])
+    change = change_between(before.profile, after.profile)
     width = np.asarray(tip.inner_radius((1.0 - u) * tip.length_mm), dtype=np.float64)
     rows = np.flatnonzero(inside)
     upper = rows[: max(len(rows) // 3, 1)]
@@ -176,10 +176,11 @@ def _compared(
     if emptied > _LEFT or strength < _SURE:
         return Delivery(Shown.UNKNOWN, per_width)
     sections = np.array_split(rows, _SECTIONS)
-    first = next(n for n in range(1, _SECTIONS) if share[sections[n]].mean() < 0.5)
+    means = np.array([share[part].mean() for part in sections])
+    first = int(np.flatnonzero(means[1:] < 0.5)[0]) + 1
     # What is behind the tip may have changed instead: then these rows change, another way.
-    if np.median([abs(share[part].mean()) for part in sections[first:]]) > _ELSEWHERE:
-        return Delivery(Shown.UNKNOWN, per_width, spoiled=True)
+    if float(np.median(np.abs(means[first:]))) > _ELSEWHERE * float(means.max()):
+        return Delivery(Shown.UNKNOWN, per_width)
     left = float(tip.volume_of((1.0 - u[sections[first][0]]) * tip.length_mm))
     return Delivery(Shown.LEFT, per_width, left)
 

@@ -53,11 +53,15 @@ class Leftovers:
         """A well was judged: if liquid stayed in the tip, it is known from now on."""
         if decision.outcome is Outcome.PASS:
             return
+        before = self.known(keyframe)
         volume = None
         if decision.measured_ul is not None and decision.expected_ul is not None:
             volume = decision.measured_ul - decision.expected_ul
         elif decision.failure in _STAYED:
             volume = case.sample.volume_ul
+        if decision.failure is FailureType.NO_DISPENSE and before is not None:
+            # A column that reaches higher than it was ever drawn is read too short.
+            volume = before.volume_ul + case.sample.volume_ul
         if volume is not None and volume > 0:
             self._of[keyframe.mount] = Leftover(keyframe.tip, volume, case.sample.well)
 

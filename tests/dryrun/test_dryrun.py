@@ -91,3 +91,16 @@ def test_a_run_is_kept_where_that_is_asked_for(tmp_path):
     assert row["layer1"]["verdict"] == result.report.verdict.value
     assert store.frame(row["run"], 0)
     store.close()
+
+
+@pytest.mark.parametrize("fault", ["partial:50", "no_dispense"])
+def test_one_fault_on_a_tip_that_is_used_again_flags_one_well(fault):
+    again = TEXT.replace(
+        'for well in plate.wells()[:10]:\n        p300.transfer(150, reservoir["A1"], well)',
+        'p300.transfer(120, reservoir["A1"], plate.wells()[:7], new_tip="once")',
+    )
+    assert "once" in again
+    settings = DryRunSettings(faults=(f"{fault}@1:D1",))
+    result = dry_run(Script(again, "one_tip.py"), settings, make_analyser())
+    assert [row.address for row in result.flagged] == ["1:D1"]
+    assert "as reported there" in result.wells[4].reason

@@ -80,6 +80,16 @@ def test_what_a_verdict_says_stayed_is_known_of_that_tip(decision, volume) -> No
     assert tips.known(replace(KEYFRAME, mount="right")) is None
 
 
+def test_what_was_not_dispensed_comes_on_top_of_what_was_left() -> None:
+    tips = Leftovers()
+    tips.note(KEYFRAME, case(), fail(45.0, 0.0))
+    nothing = GateDecision(Outcome.FAIL, Gate.VOLUMETRIC, "", FailureType.NO_DISPENSE, 100.0, 0.0)
+    tips.note(KEYFRAME, case(), nothing)
+    known = tips.known(KEYFRAME)
+    assert known is not None
+    assert known.volume_ul == pytest.approx(145.0)
+
+
 def test_another_tip_starts_clean() -> None:
     tips = Leftovers()
     tips.note(KEYFRAME, case(), fail(50.0, 0.0))
