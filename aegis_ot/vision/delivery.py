@@ -37,12 +37,16 @@ _UNSEEN_MOST = 0.2
 _LEFT_LEAST = 0.2
 """Share of the delivery that must have stayed to be called so."""
 
-_PLAIN = 4.0
+_BRIGHTNESS = 7
+"""Of a row's signals those across the tip: a dye takes light out of all colours' sum too, and a
+logarithm of brightness does not mind how the two frames were exposed."""
+
+_PLAIN = 3.0
 """Change of the upper rows from which the liquid is plain to see, in a row's usual noise. Two
-frames of the same tip differ by up to 2.5 where nothing left it, on simulated frames of many
+frames of the same tip differ by up to 1.8 where nothing left it, on simulated frames of many
 cameras."""
 
-_SURE = 6.0
+_SURE = 4.0
 """Change from which the rows below must show it too."""
 
 _ELSEWHERE = 0.35
@@ -55,7 +59,7 @@ the liquid left, at most the second where it stayed."""
 
 _SECTIONS = 12
 
-_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 11.0, 9.0, 6.0
+_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 8.0, 6.0, 6.0
 """Change of the upper rows from which a gap would show, and from which it would in a bore at least
 so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
 
@@ -150,7 +154,8 @@ def _compared(
     before: Look, after: Look, inside: NDArray[np.bool_], above: NDArray[np.bool_]
 ) -> Delivery:
     u, tip = before.profile.u.astype(np.float64), before.tip
-    change = (signals(before.profile) - signals(after.profile))[:, :-1] / (np.sqrt(2) * NOISE[:-1])
+    change = (signals(before.profile) - signals(after.profile))[:, :_BRIGHTNESS]
+    change = change / (np.sqrt(2) * NOISE[:_BRIGHTNESS])
     width = np.asarray(tip.inner_radius((1.0 - u) * tip.length_mm), dtype=np.float64)
     rows = np.flatnonzero(inside)
     upper = rows[: max(len(rows) // 3, 1)]
