@@ -320,6 +320,11 @@ def kept_token(data: Path) -> str:
     return token
 
 
+def known_token(data: Path) -> str:
+    """The token that is kept in a data folder, or one for nothing: for who does not listen."""
+    return kept_token(data) if (data / TOKEN_FILE).exists() else secrets.token_urlsafe(24)
+
+
 def is_loopback(host: str) -> bool:
     """Whether only this machine can reach ``host``. Names other than localhost are not trusted."""
     if host == "localhost":

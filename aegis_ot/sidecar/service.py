@@ -79,7 +79,7 @@ class Sidecar:
         self._camera_trouble = ""
         self._in_trouble: set[str] = set()
         self._last_frame: Frame | None = None
-        self.aim = Aim(config, camera, self._frame_to_show)
+        self.aim = Aim(config, camera, lambda: self._last_frame)
         # A camera that is told what to show must not hear of another keyframe in between.
         # One that runs by itself serves everyone at once.
         self._camera_lock: contextlib.AbstractContextManager[Any] = (
@@ -232,10 +232,6 @@ class Sidecar:
             self.store.begin_incident(run, "restart", said)
             self.store.end_incidents(run, "restart")
             event("incident", run=run, kind="restart", seen=said)
-
-    def _frame_to_show(self) -> Frame | None:
-        """Of a camera that shows what runs announce, the last frame; others give a fresh one."""
-        return None if isinstance(self.camera, FreeRunning) else self._last_frame
 
     def _tidied(self, done: Tidied) -> None:
         for run in done.removed:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..vocabulary import KeyframeKind
 from .column import ceiling
-from .column.contrast import NOISE, signals
+from .column.contrast import change_between
 from .column_reader import Look
 from .tip_scale import TipScale
 from .usual import alike
@@ -37,16 +37,12 @@ _UNSEEN_MOST = 0.2
 _LEFT_LEAST = 0.2
 """Share of the delivery that must have stayed to be called so."""
 
-_BRIGHTNESS = 7
-"""Of a row's signals those across the tip: a dye takes light out of all colours' sum too, and a
-logarithm of brightness does not mind how the two frames were exposed."""
-
-_PLAIN = 3.0
+_PLAIN = 4.0
 """Change of the upper rows from which the liquid is plain to see, in a row's usual noise. Two
-frames of the same tip differ by up to 1.8 where nothing left it, on simulated frames of many
-cameras."""
+frames of the same tip differ by up to 2.5 where nothing left it, and by 5.5 at least where a dye
+did, on simulated frames of many cameras."""
 
-_SURE = 4.0
+_SURE = 5.0
 """Change from which the rows below must show it too."""
 
 _ELSEWHERE = 0.35
@@ -59,7 +55,7 @@ the liquid left, at most the second where it stayed."""
 
 _SECTIONS = 12
 
-_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 8.0, 6.0, 6.0
+_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 9.0, 8.0, 6.0
 """Change of the upper rows from which a gap would show, and from which it would in a bore at least
 so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
 
@@ -154,8 +150,7 @@ def _compared(
     before: Look, after: Look, inside: NDArray[np.bool_], above: NDArray[np.bool_]
 ) -> Delivery:
     u, tip = before.profile.u.astype(np.float64), before.tip
-    change = (signals(before.profile) - signals(after.profile))[:, :_BRIGHTNESS]
-    change = change / (np.sqrt(2) * NOISE[:_BRIGHTNESS])
+    change = change_between(before.profile, after.profile)
     width = np.asarray(tip.inner_radius((1.0 - u) * tip.length_mm), dtype=np.float64)
     rows = np.flatnonzero(inside)
     upper = rows[: max(len(rows) // 3, 1)]

@@ -30,6 +30,7 @@ def named_wells(
             if _is_one_of_many(binding, names):
                 continue  # the list that it runs over says as much of all its wells
             passing = True
+        passing = passing or (binding.function, base) in facts.rebound
         line = facts.assigned.get(base.rpartition(".")[2], binding.line)
         wells = deck.meant(binding.wells) or deck.used_wells(binding.labware)
         level = keyed.get(binding.name)

@@ -62,7 +62,7 @@ def assign_roles(
             if one.kind is Kind.LIQUID:
                 roles.unnamed.update(one.wells)
     for ref, found in candidates.items():
-        assigned = _chosen(roles, ref, found)
+        assigned = _chosen(roles, ref, found, is_filled=sides(ref)[0] == "destination")
         if assigned is not None:
             roles.by_well[ref] = assigned
     _add_dosed(roles, sides, common)
@@ -113,7 +113,9 @@ def _fitting(
     return fitting[0] if fitting else None
 
 
-def _chosen(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
+def _chosen(
+    roles: Roles, ref: WellRef, found: list[Candidate], is_filled: bool
+) -> Assignment | None:
     """What a well is for; ``None`` where weak evidence says two things that nothing settles."""
     found.sort(key=lambda candidate: candidate.worth, reverse=True)
     best = found[0]
@@ -129,8 +131,11 @@ def _chosen(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | 
         conflict = f"{best.evidence.citation} against {rivals[0].evidence.citation}"
         roles.conflicts.setdefault(conflict, []).append(ref)
         agreed = [other for other in found if other.worth < best.worth]
-        for one in (best, *rivals):
-            if any(not _differ(roles, one, other) for other in agreed):
+        # Of two lists that share a well by mistake, the one of controls says what it is: the other
+        # one says what is given to it.
+        declared = [one for one in (best, *rivals) if is_filled and roles.is_declared(one.role)]
+        for one in declared or (best, *rivals):
+            if declared or any(not _differ(roles, one, other) for other in agreed):
                 best = one
                 break
         else:

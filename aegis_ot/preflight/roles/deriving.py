@@ -11,6 +11,8 @@ from .roles import Roles
 
 _FEWEST_PAIRS = 3
 _SMALLEST_PLATE = 24
+_MOST_TUBES = 24
+"""Labware of no more wells is a rack or a reservoir, in which various things stand."""
 _SHARED = 3
 """A liquid that serves as many wells is a reagent for all rather than something of its own."""
 
@@ -51,16 +53,17 @@ def _unsay_by_use(roles: Roles, trace: Trace) -> None:
     controls = {well for well in fed if _is_control(roles, well)}
     for ref in named:
         into = served[ref]
-        alone, for_all = into <= controls, 2 * len(into - controls) > len(fed - controls)
+        # Of a plate that is stamped, each well serves one: that says nothing.
+        various = len(trace.labware[ref.labware].wells) <= _MOST_TUBES
+        alone = various and into <= controls
+        for_all = 2 * len(into - controls) > len(fed - controls)
         if not controls.isdisjoint(into) and (alone or for_all):
             del roles.by_well[ref]
 
 
 def _is_control(roles: Roles, ref: WellRef) -> bool:
-    """Whether a well is named for something that does not follow from what it receives."""
     assigned = roles.by_well.get(ref)
-    spec = None if assigned is None else roles.family.roles[assigned.role]
-    return spec is not None and bool(spec.parents) and not spec.receives
+    return assigned is not None and roles.is_declared(assigned.role)
 
 
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:

@@ -23,6 +23,7 @@ from .evidence import (
     combine,
     edge_evidence,
     mean_dye,
+    taper,
 )
 from .measure import (
     Reference,
@@ -201,9 +202,11 @@ def _spent_dye(
     rows = (full.u > place(before, volume, tip, model, run) + 0.02) & (full.u < 0.92)
     if int(rows.sum()) < 8:
         return None
-    red, blue = np.median(full.colour[rows] - spent.colour[rows], axis=0)
-    sd = 1.5 * float(np.hypot(model.empty.red_sd, model.empty.blue_sd))
-    return Dye(float(red), float(blue), sd)
+    left = (full.colour[rows] - spent.colour[rows]).astype(np.float64)
+    weight = taper(full.u[rows])[:, None]
+    red, blue = (weight * left).sum(axis=0) / (weight**2).sum()
+    # Lamp and background are the same in both, the places of the two tips are not.
+    return Dye(float(red), float(blue), max(model.empty.red_sd, model.empty.blue_sd))
 
 
 def _retained(
