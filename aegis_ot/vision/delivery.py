@@ -42,6 +42,11 @@ _PLAIN = 4.0
 frames of the same tip differ by up to 2.5 where nothing left it, and by 5.5 at least where a dye
 did, on simulated frames of many cameras."""
 
+_ACROSS, _DARKENS = 7, 1.0
+"""Signals across the tip, and how much darker the loaded tip must be in them, on the mean, in a
+row's usual noise: a dye takes light away, by 1.4 at least on simulated frames, and two frames that
+were laid a pixel beside each other do not, by 0.7 at most."""
+
 _SURE = 5.0
 """Change from which the rows below must show it too."""
 
@@ -158,6 +163,8 @@ def _compared(
     strength = float(np.linalg.norm(mean))
     if strength < _PLAIN:
         return Delivery(Shown.NOTHING, strength / float(width[upper].mean()))
+    if float(mean[:_ACROSS].mean()) > -_DARKENS:
+        return Delivery(Shown.UNKNOWN, strength / float(width[upper].mean()))
     along = change @ (mean / strength)
     if above.any() and abs(float(along[above].mean())) > _ELSEWHERE * strength:
         return Delivery(Shown.UNKNOWN, spoiled=True)
