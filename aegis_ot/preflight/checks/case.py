@@ -19,9 +19,6 @@ RoleSet = frozenset[str]
 FirstOrLast = Mapping[Well, Mapping[Well, int]]
 """For each well other wells, each with an index of the run."""
 
-_NEARLY_ALL = 0.8
-"""One of five wells may have been forgotten."""
-
 
 @dataclass
 class Case:
@@ -116,26 +113,6 @@ class Case:
             for part in visit.parts
             if part[0] is not None and part[0] is not well
         }
-
-    @cached_property
-    def unnamed_source(self) -> Well | None:
-        """A source of which nothing says what it holds, and that some of the family's wells get.
-
-        What nearly all of them get alike is a reagent for all, and decides between none of them.
-        """
-        named = [well for well in self.trace.wells.values() if self.of(well) and self._is_fed(well)]
-        for source, into in self.destinations.items():
-            used = self.usage.get(source.ref)
-            if used is None or not used.first_drawn or self.of(source):
-                continue
-            fed = [well for well in named if well in into]
-            if fed and len(fed) < _NEARLY_ALL * len(named):
-                return source
-        return None
-
-    def _is_fed(self, well: Well) -> bool:
-        used = self.usage.get(well.ref)
-        return used is not None and used.received
 
     @cached_property
     def series(self) -> Sequence[Series]:

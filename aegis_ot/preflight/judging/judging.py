@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ...vocabulary import Remark, Severity, Undecided
-from ..checks import Case, Doubt, Violation, make_check, place
+from ..checks import Case, Doubt, Violation, make_check
 from ..evidence import Kind
 from ..rehearsal import Recording
 from ..roles import Roles
@@ -80,9 +80,6 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
                 violations.append(replace(result, cause=cause, warning=warning))
     if not sure and not violations:
         doubts.append(_UNKNOWN_ASSAY)
-    unnamed = case.unnamed_source if rule.needs and not case.family.default else None
-    if unnamed is not None:
-        doubts.append(f"nothing says what {place(unnamed)} holds, which some of its wells get")
     return violations, doubts[0] if doubts and not violations else ""
 
 
