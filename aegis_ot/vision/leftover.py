@@ -63,13 +63,9 @@ class Leftovers:
             volume = decision.measured_ul - decision.expected_ul
         elif decision.failure in _STAYED:
             volume = case.sample.volume_ul
-        nothing = case.delivery is not None and case.delivery.shown is Shown.NOTHING
         if decision.failure is FailureType.NO_DISPENSE and before is not None:
             # A column that reaches higher than it was ever drawn is read too short.
             volume = before.volume_ul + case.sample.volume_ul
-        elif decision.failure is FailureType.OTHER and nothing:
-            # Not drawn, and then the next well looks as usual; or not dispensed.
-            volume = case.sample.volume_ul + (0.0 if before is None else before.volume_ul)
         if volume is not None and volume > 0:
             self._of[keyframe.mount] = Leftover(keyframe.tip, volume, case.sample.well)
         elif before is not None and case.delivery is not None:
@@ -125,10 +121,7 @@ def explains(left: Leftover, case: Case, delivery: Delivery) -> bool:
             return False
         if kind is KeyframeKind.TRANSIT and reading.volume_ul < _EMPTY * commanded:
             return False
-    if delivery.shown is not Shown.LEFT or delivery.left_ul is None:
-        return True
-    # How much was left is known roughly: only what is clearly more is new.
-    return delivery.left_ul <= left.volume_ul * (1 + _UNSURE) + 0.2 * commanded
+    return delivery.shown is not Shown.LEFT
 
 
 def still_there(left: Leftover, decision: GateDecision) -> GateDecision:
