@@ -44,7 +44,9 @@ def make_exchange(address: str) -> Any:
         return RedisExchangeFactory(url.hostname, port or 6379, **options)
     if url.scheme in ("http", "https") and url.hostname:
         if url.hostname == urlsplit(DEFAULT_EXCHANGE_URL).hostname:
-            raise ConfigurationError("The hosted exchange is not used; run one: aegis-ot fleet exchange.")
+            raise ConfigurationError(
+                "The hosted exchange is not used; run one: aegis-ot fleet exchange."
+            )
         return HttpExchangeFactory(address.rstrip("/"))
     raise ConfigurationError(
         f"The exchange {address!r} is none of: local, redis://HOST:PORT, http://HOST:PORT."
@@ -72,4 +74,6 @@ def serve_exchange(host: str, port: int) -> None:
     from academy.exchange.cloud.config import ExchangeServingConfig
     from aiohttp.web import run_app
 
-    run_app(create_app(ExchangeServingConfig(host=host, port=port)), host=host, port=port, print=None)
+    run_app(
+        create_app(ExchangeServingConfig(host=host, port=port)), host=host, port=port, print=None
+    )

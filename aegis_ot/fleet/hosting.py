@@ -33,10 +33,10 @@ async def agents_of(
         ConfigurationError: The exchange cannot be used.
         AgentLost: A remote agent does not appear within :data:`FIND_S`.
     """
-    async with _hosted(config, [r for r in config.robot if not r.remote], make_agent) as manager:
-        handles = {robot: handle for robot, handle in manager.launched}
+    async with _hosted(config, [r for r in config.robot if not r.remote], make_agent) as hosted:
+        handles = dict(hosted.launched)
         remote = {robot.name for robot in config.robot if robot.remote}
-        handles |= await _find(manager.client, remote)
+        handles |= await _find(hosted.client, remote)
         yield {
             robot.name: RemoteAgent(robot.name, handles[robot.name], config.dead_after_s)
             for robot in config.robot

@@ -17,7 +17,9 @@ def fitting(jobs: Iterable[Job], robots: Sequence[RobotConfig]) -> dict[str, fro
     }
 
 
-def next_job(robot: str, waiting: Collection[Job], fits: Mapping[str, Collection[str]]) -> Job | None:
+def next_job(
+    robot: str, waiting: Collection[Job], fits: Mapping[str, Collection[str]]
+) -> Job | None:
     """The longest of the waiting jobs that ``robot`` can run.
 
     Of equally long ones the one that fewest robots can run.
