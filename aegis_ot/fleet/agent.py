@@ -10,21 +10,33 @@ from typing import Any
 
 from academy.agent import Agent, action
 
+from ..checking.guard_arguments import guard_arguments
 from ..errors import ConfigurationError, RunAborted
-from ..preflight.checking import check_script, is_rejected, rejection
+from ..preflight.checking import check_recording, is_rejected, rejection
 from ..preflight.judging import Report
-from ..preflight.rehearsal import Script
+from ..preflight.rehearsal import Script, record
 from ..runtime.words import about_layer1
+from ..settings import load_settings
 from .config import RobotConfig
 from .jobs import Job
 from .remote import STATUS_WAIT_S, pack_error
 from .sessions import Session, open_session
 
+_LEAVE_S = 60.0
+"""How long a robot waits for leave to move liquid; then its coordinator is thought dead."""
+
 Validator = Callable[[Script], Report]
 """Layer 1: judges a protocol, or raises a :class:`~aegis_ot.errors.RehearsalError`."""
 
-_LEAVE_S = 60.0
-"""How long a robot waits for leave to move liquid; then its coordinator is thought dead."""
+
+def validate(script: Script) -> Report:
+    """Judge a protocol as its own guard would; without a guard as a bare one would.
+
+    Raises:
+        RehearsalError: It cannot be rehearsed.
+        ConfigurationError, RuleError: Its guard, or a rule file, cannot be used.
+    """
+    return check_recording(record(script), load_settings(**guard_arguments(script.text)))
 
 
 class AegisAgent(Agent):
@@ -39,7 +51,7 @@ class AegisAgent(Agent):
     def __init__(
         self,
         robot: RobotConfig,
-        validator: Validator = check_script,
+        validator: Validator = validate,
         session: Session | None = None,
     ) -> None:
         super().__init__()
@@ -96,7 +108,8 @@ class AegisAgent(Agent):
         self._tell(state="checking", job=job.name, wells=None, judged=0, flagged=0)
         report = await self.agent_run_sync(self._validator, job.script)
         layer1 = about_layer1(report)
-        if is_rejected(report):
+        refuses = guard_arguments(job.script.text).get("rules", "on") == "on"
+        if refuses and is_rejected(report):
             return {"outcome": "rejected", "detail": rejection(report), "layer1": layer1}
         self._tell(state="preparing")
         found = await self.agent_run_sync(self._session.run, job, self._control)
