@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import logging
-from collections.abc import Mapping, Sequence
+import signal
+import sys
+from collections.abc import Coroutine, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -36,7 +39,8 @@ def run(
     protocols: Annotated[list[Path], typer.Argument(help="Python protocols.")],
     robots: Robots,
     yes: Annotated[
-        bool, typer.Option("--yes", "-y", help="Start real robots without asking.")
+        bool,
+        typer.Option("--yes", "-y", help="Every real robot is ready for whatever it is given."),
     ] = False,
     labware: Annotated[
         list[Path] | None, typer.Option(help="Folder or file with custom labware definitions.")
@@ -52,12 +56,11 @@ def run(
     from ..fleet import run_fleet
 
     config = _load(robots)
+    if not yes and not sys.stdin.isatty() and any(not robot.simulated for robot in config.robot):
+        raise ConfigurationError("Nobody can be asked whether decks are in place. Add --yes.")
     jobs = _read(protocols, labware or (), parameter or ())
-    real = [robot.name for robot in config.robot if not robot.simulated]
-    if real and not yes and not typer.confirm(f"Start on {', '.join(real)}? Decks are in place"):
-        raise typer.Exit(CLEAN)
-    with _Shown([robot.name for robot in config.robot]) as screen:
-        result = asyncio.run(run_fleet(config, jobs, screen))
+    with _Shown([robot.name for robot in config.robot], yes) as screen:
+        result = asyncio.run(_interruptible(run_fleet(config, jobs, screen)))
     if report is not None:
         _write(report, result)
     raise typer.Exit(_conclude(result))
@@ -128,10 +131,26 @@ def _read(
     return jobs
 
 
+async def _interruptible(run: Coroutine[Any, Any, FleetReport]) -> FleetReport:
+    """Ctrl-C breaks the run off, which still reports; a second one ends the program."""
+    loop, task = asyncio.get_running_loop(), asyncio.ensure_future(run)
+
+    def interrupt() -> None:
+        loop.remove_signal_handler(signal.SIGINT)
+        _say("Breaking off; the robots are stopped or paused.", "bold yellow")
+        task.cancel()
+
+    with contextlib.suppress(NotImplementedError):  # Windows
+        loop.add_signal_handler(signal.SIGINT, interrupt)
+    return await task
+
+
 class _Shown:
     """A :class:`aegis_ot.fleet.FleetScreen`: a line a robot, rewritten, and what is over above."""
 
-    def __init__(self, names: Sequence[str]) -> None:
+    def __init__(self, names: Sequence[str], yes: bool) -> None:
+        self._yes = yes
+        self._asking = asyncio.Lock()
         self._rows: dict[str, Mapping[str, Any]] = {name: {} for name in names}
         self._live = Live(console=console, transient=True, refresh_per_second=4)
 
@@ -141,6 +160,18 @@ class _Shown:
 
     def __exit__(self, *_: object) -> None:
         self._live.stop()
+
+    async def is_ready(self, robot: str, job: Job) -> bool:
+        """Ask, one robot at a time, while the others go on."""
+        if self._yes:
+            return True
+        question = f"{job.name} goes to {robot}. Deck, tips and liquids are in place?"
+        async with self._asking:
+            self._live.stop()
+            try:
+                return await asyncio.to_thread(typer.confirm, question)
+            finally:
+                self._live.start()
 
     def stands(self, robot: str, status: Mapping[str, Any]) -> None:
         self._rows[robot] = status

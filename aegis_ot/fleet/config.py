@@ -91,7 +91,7 @@ class FleetConfig(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     exchange: str = "local"
-    dead_after_s: float = Field(30.0, gt=0)
+    dead_after_s: float = Field(default=30.0, gt=0)
     robot: tuple[RobotConfig, ...] = Field(min_length=1)
 
     @model_validator(mode="after")

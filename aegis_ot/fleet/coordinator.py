@@ -12,7 +12,7 @@ from ..errors import AegisError, FleetError, LinkError, RobotError
 from .config import RobotConfig
 from .jobs import Job, numbered
 from .remote import RemoteAgent
-from .report import BROKEN_OFF, LOST, Entry, FleetReport
+from .report import BROKEN_OFF, LOST, NOT_RUN, Entry, FleetReport
 from .schedule import fitting, next_job
 
 _OUT = (FleetError, RobotError, LinkError)
@@ -20,7 +20,11 @@ _OUT = (FleetError, RobotError, LinkError)
 
 
 class FleetScreen:
-    """Told how a fleet is doing. This one says nothing."""
+    """Told how a fleet is doing. This one says nothing, and holds no real robot ready."""
+
+    async def is_ready(self, robot: str, job: Job) -> bool:
+        """Whether deck, tips and liquids of a real robot are in place for this very protocol."""
+        return False
 
     def stands(self, robot: str, status: Mapping[str, Any]) -> None:
         """A robot's status is new; see :meth:`~.agent.AegisAgent.status`."""
@@ -54,6 +58,7 @@ class Coordinator:
         self._screen = screen
         self._fits = fitting(jobs, robots)
         self._entries = {job.name: Entry(job) for job in jobs}
+        self._real = {robot.name for robot in robots if not robot.simulated}
         self._waiting = list(jobs)
         self._running: list[Job] = []
         self._allowed: set[str] = set()
@@ -86,6 +91,9 @@ class Coordinator:
         """Give one robot protocols as long as there are any for it."""
         while (job := await self._take(robot)) is not None:
             entry = self._entries[job.name]
+            if robot in self._real and not await self._screen.is_ready(robot, job):
+                await self._settle(job, NOT_RUN, f"Nobody said that {robot} is ready for it.")
+                continue
             entry.robot, entry.began_s = robot, self._now()
             try:
                 entry.result = await self._give(self._agents[robot], job)
@@ -159,7 +167,8 @@ class Coordinator:
 
     def _end(self, job: Job, outcome: str, detail: str) -> None:
         entry = self._entries[job.name]
-        entry.outcome, entry.detail, entry.ended_s = outcome, detail, self._now()
+        entry.outcome, entry.detail = outcome, detail
+        entry.ended_s = None if entry.began_s is None else self._now()
         self._screen.ended(entry)
 
     def _now(self) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 
-from aegis_ot.fleet import FleetConfig, read_job, run_fleet
+from aegis_ot.fleet import FleetConfig, FleetScreen, read_job, run_fleet
 
 from ..robot.protocols import BAD, GOOD, WAITS
 from ..support.robot_server import RobotServer
@@ -44,8 +44,13 @@ def written(folder, name, text, **more):
     return read_job(path, **more)
 
 
+class Ready(FleetScreen):
+    async def is_ready(self, robot, job):
+        return True
+
+
 def go(config: FleetConfig, *jobs, screen=None):
-    return asyncio.run(asyncio.wait_for(run_fleet(config, jobs, screen), 100))
+    return asyncio.run(asyncio.wait_for(run_fleet(config, jobs, screen or Ready()), 100))
 
 
 def test_a_simulated_robot_runs_both_layers(tmp_path):
@@ -78,13 +83,22 @@ def test_a_real_robot_is_driven_through_its_api(tmp_path):
         assert len(robot.runs) == 1  # what Layer 1 could not rehearse was never sent
 
 
+def test_a_real_robot_that_nobody_made_ready_is_left_alone(tmp_path):
+    with RobotServer() as robot:
+        config = fleet({"name": "bench", "address": robot.url, "pipettes": P300})
+        report = go(config, written(tmp_path, "good.py", GOOD), screen=FleetScreen())
+        assert [entry.outcome for entry in report.entries] == ["not run"]
+        assert "Nobody said that bench is ready" in report.entries[0].detail
+        assert not robot.protocols
+
+
 def test_a_real_robot_is_paused_when_the_fleet_is_broken_off(tmp_path):
     with RobotServer() as robot:
         config = fleet({"name": "bench", "address": robot.url, "pipettes": P300})
         waits = written(tmp_path, "waits.py", WAITS)
 
         async def break_off():
-            task = asyncio.ensure_future(run_fleet(config, [waits]))
+            task = asyncio.ensure_future(run_fleet(config, [waits], Ready()))
             while not any(r["status"] == "running" for r in await statuses(robot)):
                 await asyncio.sleep(0.05)
             task.cancel()
