@@ -11,9 +11,10 @@ from aegis_ot.errors import ConfigurationError, RehearsalError, RobotUnreachable
 from aegis_ot.fleet import run_fleet
 from aegis_ot.fleet.agent import AegisAgent
 from aegis_ot.fleet.exchange import make_exchange
+from aegis_ot.fleet.hosting import agents_of
 from aegis_ot.fleet.remote import pack_error, unpack_error
 
-from .support import PIPETTES, Heard, Robot, fleet, job, passed, run
+from .support import PIPETTES, RESULT, Heard, Robot, fleet, job, passed, run
 
 LIMIT_S = 20.0
 
@@ -151,6 +152,32 @@ def test_a_held_robot_moves_again_only_when_it_may():
     report = run(fleet({"name": "a"}), [job("x")], {"a": Robot(hold)}, agents=agents)
     assert seen == ["released", "moved"]
     assert outcomes(report) == {"x": "succeeded"}
+
+
+def test_an_agent_is_asked_held_and_reports_through_its_exchange():
+    class Plain:
+        def run(self, job, watch):
+            return dict(RESULT)
+
+    async def talk():
+        def make(robot):
+            return AegisAgent(robot, lambda script: passed(), Plain())
+
+        async with agents_of(fleet({"name": "a"}), make) as agents:
+            agent = agents["a"]
+            await agent.process(job("x").to_wire())
+            await agent.pause(True)
+            status = await agent.status()
+            with pytest.raises(ConfigurationError, match="a lacks p300_single_gen2 on the left"):
+                await agent.process(job("y", pipettes=PIPETTES).to_wire())
+            return status, await agent.report()
+
+    status, report = asyncio.run(asyncio.wait_for(talk(), LIMIT_S))
+    assert (status["robot"], status["state"], status["held"]) == ("a", "idle", True)
+    assert [(one["job"], one.get("outcome"), one.get("error")) for one in report] == [
+        ("x", "succeeded", None),
+        ("y", None, "ConfigurationError"),
+    ]
 
 
 def test_a_fleet_that_is_broken_off_stops_its_robots_and_reports():
