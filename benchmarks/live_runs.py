@@ -1,7 +1,7 @@
 """Whole live runs on simulated frames: normal wells, and the same wells with a fault planted.
 
 ``python -m benchmarks.live_runs [--seeds FIRST COUNT] [--wells N] [--no-faults] [--json OUT]
-[--only planted|silent]``
+[--only planted|silent|camera]``
 
 Every run is judged as the sidecar judges it, with an operator who finds sound wells right where
 the frames prove nothing. At four of its wells (the second, the fifth, and two
@@ -236,19 +236,21 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--seeds", nargs=2, type=int, default=(REPORT_SEED, 30))
     parser.add_argument("--wells", type=int, default=16, help="of each run")
     parser.add_argument("--no-faults", action="store_true", help="normal wells only")
-    parser.add_argument("--only", choices=("planted", "silent"))
+    parser.add_argument("--only", choices=("planted", "silent", "camera"))
     parser.add_argument("--json", type=Path)
     given = parser.parse_args(arguments)
     planted = () if given.no_faults else FAULTS
     first, count = given.seeds
     found: dict[str, Any] = {}
-    if given.only != "silent":
+    if given.only in (None, "planted"):
         found = measure(first, count, progress=True, wells=given.wells, planted=planted)
         sys.stdout.write(show(found))
     if given.only != "planted" and not given.no_faults:
         from . import silent_passes
 
-        found["silent"] = silent_passes.measure(list(runs(first, count)), progress=True)
+        found["silent"] = silent_passes.measure(
+            list(runs(first, count)), progress=True, faults=given.only != "camera"
+        )
         sys.stdout.write(silent_passes.show(found["silent"]))
     if given.json is not None:
         given.json.write_text(json.dumps(found, indent=1), encoding="utf-8")

@@ -66,7 +66,7 @@ def main(folder: str, scorer: str) -> None:
     dataset = load_dataset(folder)
     with tempfile.TemporaryDirectory() as place:
         path = Path(place) / "model.npz"
-        model = fit_model([dataset], path, scorer)
+        model = fit_model([dataset], path, scorer, measure=False)
         size_mb = path.stat().st_size / 1e6
         analyser = make_analyser(CascadeSettings(model=path))
     samples = dataset.samples(dataset.true_boxes())

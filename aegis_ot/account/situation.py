@@ -126,8 +126,8 @@ def _paused(overview: Mapping[str, Any]) -> Iterator[Situation]:
         hold = trajectory["hold"]
         if not hold or hold["policy"] != "pause" or hold["paused_s"] is not None:
             continue
-        if hold["at"] < moved:
-            continue
+        if hold["at"] < moved and overview.get("mode") != "watch":
+            continue  # it moves; a watched robot ends its move first, and says when it goes on
         verdict = trajectory["verdict"] or {}
         failure = str(verdict.get("failure") or "").replace("_", " ")
         outcome = str(verdict.get("outcome") or "no verdict")

@@ -124,20 +124,31 @@ def read_labware(places: Sequence[Path]) -> dict[str, Mapping[str, Any]]:
         ConfigurationError: There is none, or one is no labware definition.
     """
     found: dict[str, Mapping[str, Any]] = {}
+    for file in labware_files(places):
+        try:
+            definition = json.loads(file.read_text(encoding="utf-8"))
+            name = definition["parameters"]["loadName"]
+            uri = f"{definition['namespace']}/{name}/{definition['version']}"
+        except OSError as error:
+            raise ConfigurationError(f"--labware {file}: {error.strerror}.") from None
+        except (ValueError, KeyError, TypeError):
+            raise ConfigurationError(
+                f"--labware {file}: this is no Opentrons labware definition."
+            ) from None
+        found[uri] = definition
+    return found
+
+
+def labware_files(places: Sequence[Path]) -> list[Path]:
+    """The files of custom labware in ``places``: files, or folders searched for ``*.json``.
+
+    Raises:
+        ConfigurationError: A folder holds none.
+    """
+    found: list[Path] = []
     for place in places:
         files = sorted(place.rglob("*.json")) if place.is_dir() else [place]
         if not files:
             raise ConfigurationError(f"--labware {place}: the folder holds no *.json.")
-        for file in files:
-            try:
-                definition = json.loads(file.read_text(encoding="utf-8"))
-                name = definition["parameters"]["loadName"]
-                uri = f"{definition['namespace']}/{name}/{definition['version']}"
-            except OSError as error:
-                raise ConfigurationError(f"--labware {file}: {error.strerror}.") from None
-            except (ValueError, KeyError, TypeError):
-                raise ConfigurationError(
-                    f"--labware {file}: this is no Opentrons labware definition."
-                ) from None
-            found[uri] = definition
+        found += files
     return found

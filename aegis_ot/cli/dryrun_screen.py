@@ -88,8 +88,9 @@ def show(result: DryRun) -> None:
 def _table(rows: Sequence[WellRow]) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold")
     for heading, side in (
-        ("#", "right"), ("well", "left"), ("µL", "right"), ("score", "right"), ("route", "left"),
-        ("gate", "left"), ("verdict", "left"), ("hold s", "right"),
+        ("#", "right"), ("well", "left"), ("µL", "right"), ("score", "right"),
+        ("limit", "right"), ("p", "right"), ("route", "left"), ("gate", "left"),
+        ("verdict", "left"), ("hold s", "right"),
     ):  # fmt: skip
         table.add_column(heading, justify=side, no_wrap=True)  # type: ignore[arg-type]
     for row in rows:
@@ -99,7 +100,7 @@ def _table(rows: Sequence[WellRow]) -> Table:
             str(row.trajectory),
             Text(row.address),
             f"{row.volume_ul:g}",
-            "-" if row.score is None else f"{row.score:.3g}",
+            *("-" if n is None else f"{n:.2g}" for n in (row.score, row.limit, row.p_value)),
             row.route.value if row.route else "-",
             row.gate.value,
             Text(verdict + failure, style=_COLOURS.get(row.outcome or Outcome.UNDECIDED, "")),

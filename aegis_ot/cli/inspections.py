@@ -91,10 +91,11 @@ def _run(what: str, run: str | None, most: int, shown: Progress) -> Inspection:
     from ..evaluation.layer2.recorded import open_store
     from ..inspection import inspect_run
     from ..sidecar import SidecarConfig
+    from ..sidecar.config import known_token
 
     folder = Path(what)
     if not folder.exists():
-        folder, run = SidecarConfig.load().data, what
+        folder, run = SidecarConfig.load(find_token=known_token).data, what
         if not _is_store(folder):
             raise ConfigurationError(
                 f"{what} is no folder, and there is no sidecar's store in {folder} in which it "

@@ -39,6 +39,8 @@ class TerminalScreen:
         self._keys = Keys()
         self._typing: Any = None
         self._interrupted = False
+        self._pause_wanted = False
+        self._paused = False
         self._before: Any = None
 
     def __enter__(self) -> TerminalScreen:
@@ -79,6 +81,7 @@ class TerminalScreen:
 
     def waits(self, text: str) -> None:
         """The run waits for a person."""
+        self._paused = bool(text)
         if text:
             how = "Press r to resume or s to stop" if self._keys.there else "Decide in the App"
             self._print(f"Paused: {text} ({how}.)", "bold yellow")
@@ -91,14 +94,16 @@ class TerminalScreen:
 
     def asked(self) -> str:
         """The key pressed, or the pause that Ctrl-C asks for."""
-        if self._interrupted:
-            self._interrupted = False
-            signal.signal(signal.SIGINT, signal.default_int_handler)
+        if self._pause_wanted:
+            self._pause_wanted = False
             return "pause"
         return _WANTED.get(self._keys.pressed(), "")
 
     def _interrupt(self, _number: int, _frame: FrameType | None) -> None:
-        self._interrupted = True
+        """The first one pauses; there is nothing to pause in a run that waits already."""
+        if self._interrupted or self._paused:
+            raise KeyboardInterrupt
+        self._interrupted = self._pause_wanted = True
 
     def _print(self, text: str, style: str = "") -> None:
         self._console.print(Text(text, style=style), soft_wrap=True)

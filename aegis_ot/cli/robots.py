@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -41,6 +42,12 @@ def run(
     analyse_only: Annotated[
         bool, typer.Option("--analyse-only", help="Stop after the robot's analysis.")
     ] = False,
+    parameter: Annotated[
+        list[str] | None, typer.Option(help="Runtime parameter as NAME=VALUE.")
+    ] = None,
+    labware: Annotated[
+        list[Path] | None, typer.Option(help="Folder or file with custom labware definitions.")
+    ] = None,
     sidecar: SidecarUrl = None,
     token: Token = None,
     analysis_timeout: Annotated[
@@ -49,19 +56,22 @@ def run(
     report: Annotated[Path | None, typer.Option(help="Write a JSON report here.")] = None,
 ) -> None:
     """Run a protocol on a robot: upload, analysis, Layer 1, start, verdicts, report."""
+    from ..checking.files import labware_files, read_values
     from ..robot import RobotClient
-    from ..robot.running import RobotRun, analyse, run_analysed
+    from ..robot.running import Inputs, RobotRun, analyse, run_analysed
     from .robot_screen import TerminalScreen, show_end
 
     if not protocol.is_file():
         raise ConfigurationError(f"There is no protocol {protocol}.")
+    files = labware_files(labware or ())
+    inputs = Inputs(tuple(files), read_values(parameter or ()))
     with RobotClient(robot) as client:
         health = client.health()
         name = str(health.get("name") or client.url)
         _say(f"{name} ({health.get('robot_model', 'robot')}, {health.get('api_version', '?')})")
         with TerminalScreen(console) as screen:
-            identifier, analysis = analyse(client, protocol, screen, analysis_timeout)
-        refused = _show_analysis(protocol, analysis)
+            identifier, analysis = analyse(client, protocol, screen, analysis_timeout, inputs)
+        refused = _show_analysis(protocol, analysis, labware or (), parameter or ())
         if refused or analyse_only:
             raise typer.Exit(FINDINGS if refused else CLEAN)
         _ask_to_start(name, yes)
@@ -69,12 +79,13 @@ def run(
         result = RobotRun(protocol.name, name, client.url, "", analysis)
         try:
             with TerminalScreen(console) as screen:
-                run_analysed(client, identifier, result, screen, verdicts)
+                run_analysed(client, identifier, result, screen, verdicts, inputs)
         except KeyboardInterrupt:
             _say(f"Left to the App: run {result.id} on {name} is {client.run(result.id).status}.")
             raise typer.Exit(INTERRUPTED) from None
         except RobotError:
-            _say(f"Run {result.id} was left as it stood; look at the robot.", "bold red")
+            if result.id:
+                _say(f"Run {result.id} was left as it stood; look at the robot.", "bold red")
             raise
         finally:
             if result.id and report is not None:
@@ -138,7 +149,9 @@ def watch(
     raise typer.Exit(_code(result))
 
 
-def _show_analysis(protocol: Path, analysis: Analysis) -> bool:
+def _show_analysis(
+    protocol: Path, analysis: Analysis, labware: Sequence[Path], parameters: Sequence[str]
+) -> bool:
     """Say what the analysis found; whether the protocol must not start."""
     if not analysis.ok:
         for error in analysis.errors:
@@ -149,16 +162,16 @@ def _show_analysis(protocol: Path, analysis: Analysis) -> bool:
         _say(analysis.guard_words[-1])
         return False
     _say("This protocol carries no guard; Layer 1 checks it here, and nobody watches its tips.")
-    return _fails_here(protocol)
+    return _fails_here(protocol, labware, parameters)
 
 
-def _fails_here(protocol: Path) -> bool:
+def _fails_here(protocol: Path, labware: Sequence[Path], parameters: Sequence[str]) -> bool:
     from ..dryrun import read_script
     from ..errors import RehearsalError
     from ..preflight.checking import check_script, is_rejected, rejection, summary
 
     try:
-        found = check_script(read_script(protocol))
+        found = check_script(read_script(protocol, labware, parameters))
     except RehearsalError as error:
         _say(f"Layer 1 could not rehearse it here: {error}", "yellow")
         return False

@@ -182,8 +182,9 @@ def _told(account: dict[str, Any]) -> list[str]:
 
 def _folder(data: Path | None) -> Path:
     from ..sidecar import SidecarConfig
+    from ..sidecar.config import known_token
 
-    return SidecarConfig.load().data if data is None else data
+    return SidecarConfig.load(find_token=known_token).data if data is None else data
 
 
 def _open(data: Path | None, alone: bool = False) -> Store:

@@ -31,12 +31,12 @@ def doctor(
     better, 2 something must be mended first.
     """
     from ..sidecar import SidecarConfig
-    from ..sidecar.config import kept_token
+    from ..sidecar.config import known_token
     from ..sidecar.doctor import examine
 
     settings = SidecarConfig.load(
         config,
-        find_token=kept_token,
+        find_token=known_token,
         host=host,
         port=port,
         data=data,

@@ -67,6 +67,8 @@ def show_model(
 
 
 def _describe(path: Path, model: ModelFile) -> str:
+    from ..evaluation.layer2.smallest import Smallest
+
     lines = [
         f"{path}: {model.kind}, {path.stat().st_size / 1e6:.2f} MB, made by aegis_ot "
         f"{model.package}, sha256 {model.checksum[:16]}..."
@@ -78,4 +80,6 @@ def _describe(path: Path, model: ModelFile) -> str:
             f"  {used.get('name')} ({used.get('source')}): {used.get('normals')} normal wells"
             f"{left_out}"
         )
+    seen = model.data.get("smallest")
+    lines += [f"  {Smallest(**told)}" for told in (seen if isinstance(seen, list) else [])]
     return "\n".join(lines)

@@ -25,6 +25,7 @@ from ..runtime import Planner
 from ..runtime.words import about_layer1
 from ..settings import load_settings
 from ..sidecar import Analyser, Judged, RunAnalyser, SidecarConfig, running_sidecar
+from ..sidecar.store import Store
 from ..simulation import SessionParameters, SimulatedCamera
 from ..vision.camera import Frame
 from ..vocabulary import Keyframe
@@ -121,6 +122,10 @@ def dry_run(
         "finished": (overview["finished"] or {"at": time.time()})
         | {"outcome": outcome, "detail": detail},
     }
+    if settings.data is not None and report is not None:
+        store = Store(settings.data)
+        store.add_layer1(str(overview["run"]), about_layer1(report))
+        store.close()
     reported = report_run(overview, frames.get, notes)
     seconds = time.monotonic() - begun
     return DryRun(script.file_name, report, reported, wells, outcome, detail, touched, seconds)

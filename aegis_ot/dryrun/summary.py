@@ -21,6 +21,8 @@ class WellRow:
         pipette: Opentrons pipette name.
         volume_ul: Commanded, µL per channel.
         score: Anomaly score; ``None`` without frames.
+        limit: Score up to which a well passes in this run; ``None`` before it is calibrated.
+        p_value: How often a normal well of this run looks this unusual.
         route: Where triage sent it.
         gate: Who settled it.
         outcome: The verdict; ``None`` if the run ended before it was in.
@@ -45,6 +47,8 @@ class WellRow:
     hold_s: float
     measured_ul: float | None = None
     line: int | None = None
+    limit: float | None = None
+    p_value: float | None = None
 
     @property
     def flagged(self) -> bool:
@@ -115,4 +119,6 @@ def _row(entry: Mapping[str, Any]) -> WellRow:
         hold_s=float((entry["hold"] or {}).get("seconds", 0.0)),
         measured_ul=verdict.get("measured_ul"),
         line=last.get("line"),
+        limit=(entry["evidence"].get("band") or (None, None))[1],
+        p_value=entry["evidence"].get("p_value"),
     )

@@ -14,7 +14,6 @@ from ..evaluation.layer2.cascade import JudgedWell, run_cascade
 from ..evaluation.layer2.evaluate import own_threshold
 from ..evaluation.layer2.lopo import HeldOut, ScoredWell, hold_out, score_with
 from ..vision.dataset import Dataset, first_normals
-from ..vision.gates import in_sentences
 from ..vision.measuring import ColumnReading
 from ..vision.scorers import make_scorer
 from ..vision.tips import TipGeometry, tip_for
@@ -70,7 +69,7 @@ def inspect_dataset(
             "One plate alone gives no model of what is normal: there are no scores, and the wells "
             "are judged by their measured columns. Name a world model (aegis-ot fit) to score them."
         )
-    judged = run_cascade(held)
+    judged = run_cascade(held, detector=tips.finder)
     order = {record.id: place for place, record in enumerate(data.records)}
     judged.sort(key=lambda well: order[well.sample.id])
     chosen = pictured([(well.flagged, well.flagged != well.scored.failed) for well in judged], most)
@@ -97,13 +96,28 @@ def _unscored(samples: Sequence[TrajectorySample]) -> HeldOut:
         if sample is not first[sample.plate]
     ]
     anchors = [ScoredWell(sample, 0.0, 0.0, 0.0, False) for sample in first.values()]
-    return HeldOut("none", False, anchors, wells)
+    return HeldOut("none", True, anchors, wells, dict.fromkeys(first, _Unscored()))
+
+
+class _Unscored:
+    """In a scorer's place where there is none: no well looks unusual to it."""
+
+    name = "none"
+
+    def fit(self, normals: Sequence[TrajectorySample]) -> None:
+        """There is nothing to learn."""
+
+    def score(self, sample: TrajectorySample) -> float:
+        return 0.0
+
+    def p_value(self, sample: TrajectorySample) -> float:
+        return 1.0
 
 
 def _well(data: Dataset, judged: JudgedWell, show: bool, scored: bool) -> SeenWell:
     sample, well = judged.sample, judged.scored
-    decision = judged.decision
-    outcome = "calibration" if judged.calibration else decision.outcome.value
+    verdict = judged.verdict
+    outcome = "calibration" if judged.calibration else verdict.outcome.value
     limit = well.limit if np.isfinite(well.limit) else None
     return SeenWell(
         id=sample.id,
@@ -111,10 +125,10 @@ def _well(data: Dataset, judged: JudgedWell, show: bool, scored: bool) -> SeenWe
         well=sample.well,
         title=f"{sample.pipette}, {sample.volume_ul:g} µL {sample.reagent}".rstrip(),
         outcome=outcome,
-        route=judged.triage.route.value,
-        gate=decision.gate.value,
-        failure=decision.failure.value if decision.failure else "",
-        reason=in_sentences(judged.triage.reason, decision.reason),
+        route=verdict.route.value,
+        gate=verdict.gate.value,
+        failure=verdict.failure.value if verdict.failure else "",
+        reason=verdict.reason,
         truth=_truth(sample),
         agreement="" if judged.calibration else _agreement(well.failed, judged.flagged),
         score=well.score if scored else None,
@@ -140,14 +154,15 @@ def _agreement(failed: bool, flagged: bool) -> str:
 def _frames(data: Dataset, judged: JudgedWell, show: bool) -> dict[KeyframeKind, SeenFrame]:
     sample = judged.sample
     tip = tip_for(sample.pipette)
-    stretch = _stretch(judged.readings, tip)
+    readings = judged.readings
+    stretch = _stretch(readings, tip)
     paths = next(record.frames for record in data.records if record.id == sample.id)
     frames = {}
     for kind in KeyframeKind:
         found = sample.detections[kind]
         image = sample.frames[kind] if show else None
         labelled = data.boxes.get(paths[kind])
-        reading = judged.readings.get(kind)
+        reading = readings.get(kind)
         expected = sample.expected_ul[kind]
         whole = None if image is None else whole_frame(image)
         if found is None:
@@ -162,7 +177,7 @@ def _frames(data: Dataset, judged: JudgedWell, show: bool) -> dict[KeyframeKind,
             labelled,
             axis,
             Level(expected, mark=mark_at(axis, box, stretch * share_of(tip, expected))),
-            None if reading is None or reading.vague else _measured(reading, axis, box),
+            None if reading is None else _measured(reading, axis, box),
         )
     return frames
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import functools
 import os
 import sys
-import sysconfig
 from collections.abc import Mapping
 from types import FunctionType, ModuleType
 from typing import Any
@@ -28,8 +27,8 @@ def is_helper_file(file_name: str) -> bool:
 @functools.lru_cache(maxsize=1)
 def _installed() -> tuple[str, ...]:
     """The folders of Python itself and of installed packages."""
-    paths = sysconfig.get_paths()
-    folders = {paths[name] for name in ("stdlib", "platstdlib", "purelib", "platlib")}
+    # Not from sysconfig: it reads a module of build settings that a robot's system may lack.
+    folders = {os.path.dirname(os.__file__)}
     folders |= {path for path in sys.path if path.endswith(("site-packages", "dist-packages"))}
     for name in _PACKAGES:
         file = getattr(sys.modules.get(name), "__file__", None)

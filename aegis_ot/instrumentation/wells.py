@@ -106,7 +106,9 @@ class WellResolver:
             return _describe(labware_core.get_definition())
         definition = self._engine_state.labware.get_definition(labware_id)
         if id(definition) not in self._descriptions:
-            described = _describe(definition.model_dump(exclude_none=True))
+            # opentrons before 8.3, on many an OT-2, has pydantic 1.
+            plain = getattr(definition, "model_dump", None) or definition.dict
+            described = _describe(plain(exclude_none=True))
             self._descriptions[id(definition)] = (definition, described)
         return self._descriptions[id(definition)][1]
 

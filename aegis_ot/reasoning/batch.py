@@ -7,14 +7,14 @@ can answer it.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..errors import ConfigurationError
 from .backend import Request, State
-from .backends.exporting import lines_of, read_requests, request_line
+from .backends.exporting import ids_by_file, lines_of, read_requests, request_line
 from .backends.recording import add_answer, keep_picture
 from .schema import problem_of, read_answer
 
@@ -62,7 +62,8 @@ def import_answers(answers: Path, folder: Path, requests: Path | None = None) ->
     """Turn a file of answers into a replay folder; answers there already are kept.
 
     Args:
-        answers: Lines ``{"id": ..., "answer": {...}, "model": ...}``.
+        answers: Lines ``{"id": ..., "answer": {...}, "model": ...}``; with ``requests`` also
+            ``"about"``, the protocol's file, in place of ``id``.
         folder: The replay folder; made if missing.
         requests: The exported requests; with them each answer is checked against its form now
             rather than when it is used.
@@ -71,6 +72,7 @@ def import_answers(answers: Path, folder: Path, requests: Path | None = None) ->
         ConfigurationError: A file cannot be read, or the folder not written.
     """
     asked = {} if requests is None else read_requests(requests)
+    files = {} if requests is None else ids_by_file(requests)
     kept = 0
     problems: list[str] = []
     for number, line in enumerate(lines_of(answers), 1):
@@ -82,7 +84,7 @@ def import_answers(answers: Path, folder: Path, requests: Path | None = None) ->
         except (ValueError, RecursionError) as error:
             problems.append(f"{where}: is not JSON ({error}).")
             continue
-        problem = _problem(given, asked)
+        problem = _named_by_file(given, files) or _problem(given, asked)
         if problem:
             problems.append(f"{where}: {problem}")
             continue
@@ -96,6 +98,19 @@ _FORM = {
     "properties": {"id": {"type": "string"}, "model": {"type": "string"}},
     "required": ["id", "answer"],
 }
+
+
+def _named_by_file(given: Any, files: Mapping[str, Sequence[str]]) -> str:
+    """Fill in the id of an answer that names the protocol; what is wrong with that, if anything."""
+    if not isinstance(given, dict) or "id" in given or "about" not in given:
+        return ""
+    if not files:
+        return "it names a protocol's file; --requests is needed to find its request."
+    ids = files.get(Path(str(given["about"])).name, ())
+    if len(ids) != 1:
+        return f"{len(ids)} of the exported requests are about {given['about']!r}, expected one."
+    given["id"] = ids[0]
+    return ""
 
 
 def _problem(given: Any, asked: Mapping[str, Mapping[str, Any]]) -> str:

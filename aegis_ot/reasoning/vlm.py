@@ -3,25 +3,26 @@
 The prompt asks for three assessments, skeptical, routine and expert; any one that says "fail"
 fails the well (paper, "Real-time deployment": correlated errors make a majority vote miss what
 one lens sees). What was commanded, what should be left, and the reagent's name and colour stand
-in the question, since clear liquid hardly shows. No answer decides nothing: the next gate,
-in the end the operator, is asked.
+in the question, since clear liquid hardly shows. Beside the well stands a normal one of the same
+run. No answer decides nothing: the next gate, in the end the operator, is asked.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import cv2
-import numpy as np
 
 from ..vision.gates import Case, GateDecision
-from ..vision.types import Image, TipDetection
+from ..vision.measuring import ColumnReading
+from ..vision.types import Image, TipDetection, TrajectorySample
 from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route, one_line
 from .answer import strict_object
 from .backend import Backend, Message, Passage, Picture, Request
 from .prompts_text import prompt
+from .tip_pictures import CropSettings, picture_of
 
 LENSES = ("skeptical", "routine", "expert")
 PURPOSE = "gate"
@@ -46,22 +47,22 @@ _ROUTES = {
     Route.UNCALIBRATED: "the run has no calibration yet",
     Route.ALWAYS_GATE: "every well is looked at in this run",
     Route.CALIBRATION: "it is one of the run's first wells",
+    Route.SILENT_PASS: "it is a spot check: nothing speaks against it",
 }
 
+_SIGNS = {
+    "retained": "a column that is left after the dispense (pictures 3 and 4)",
+    "gap_lit": "a break in the glowing column (picture 1)",
+    "gap_aspirate": "a break in the column (picture 1)",
+    "gap_transit": "a break in the column (picture 2)",
+    "overfull": "a column that ends higher than it should (pictures 1 and 2)",
+    "underfull": "a column that ends lower than it should (pictures 1 and 2)",
+    "absent": "no colour where the full column should be (picture 2)",
+    "patches": "a part of the tip that looks like no normal well's",
+}
 
-@dataclass(frozen=True)
-class CropSettings:
-    """How a frame is cut.
-
-    Attributes:
-        margin: Added around the tip's box on each side, as a fraction of its longer side.
-        side: Longer side of the picture that is sent, px.
-        quality: Of the JPEG, 1 to 100.
-    """
-
-    margin: float = 0.15
-    side: int = 550
-    quality: int = 90
+_SPOKE = 1.0
+"""Surprise of a sign, nats, from which it is named."""
 
 
 class VlmGate:
@@ -95,7 +96,7 @@ class VlmGate:
         return self.decide(reply.value)
 
     def decide(self, answer: Mapping[str, Any]) -> GateDecision:
-        """Any lens that fails the well fails it; it passes if all three pass it."""
+        """Any lens that fails the well fails it; it passes if two pass it and none fails it."""
         verdicts = {lens: answer[lens] for lens in LENSES}
         failing = [lens for lens in LENSES if verdicts[lens]["verdict"] == "fail"]
         if failing:
@@ -113,17 +114,19 @@ class VlmGate:
                 failure,
             )
         unsure = [lens for lens in LENSES if verdicts[lens]["verdict"] != "pass"]
-        if unsure:
+        if len(unsure) > 1:
             return self._undecided(
                 f"The vision model cannot tell ({', '.join(unsure)}): "
                 f"{_short(verdicts[unsure[0]]['reason'])}"
             )
-        expert = verdicts["expert"]
+        passing = [lens for lens in LENSES if lens not in unsure]
+        lens = passing[-1]
+        said = verdicts[lens]
         return GateDecision(
             Outcome.PASS,
             self.gate,
-            f"All 3 assessments pass it; expert, {expert['confidence']} confidence: "
-            f"{_short(expert['reason'])}",
+            f"{len(passing)} of 3 assessments pass it, none fails it; {lens}, "
+            f"{said['confidence']} confidence: {_short(said['reason'])}",
         )
 
     def _undecided(self, reason: str) -> GateDecision:
@@ -144,8 +147,10 @@ def gate_request(case: Case, crop: CropSettings | None = None) -> Request:
         told = "" if expected is None else f"; {expected:g} µL should be in the tip"
         detection = sample.detections.get(kind)
         lost = "" if detection is not None else "; no tip was found in it, so it is the whole frame"
-        parts.append(f"Picture {number}, {kind.value}{told}{lost}:")
-        parts.append(picture_of(frame, detection, crop))
+        normal = None if detection is None else _normal(case, kind)
+        beside = "; left: a normal well of this run, right: the well in question" if normal else ""
+        parts.append(f"Picture {number}, {kind.value}{told}{lost}{beside}:")
+        parts.append(picture_of(frame, detection, crop, normal))
     return Request(
         PURPOSE,
         (Passage(prompt("gate"), cached=True),),
@@ -153,28 +158,6 @@ def gate_request(case: Case, crop: CropSettings | None = None) -> Request:
         GATE_SCHEMA,
         MAX_OUTPUT,
     )
-
-
-def picture_of(frame: Image, detection: TipDetection | None, crop: CropSettings) -> Picture:
-    """The tip cut out with a margin and brought to size; without a tip, the whole frame."""
-    if detection is not None:
-        frame = _cut(frame, detection, crop.margin)
-    height, width = frame.shape[:2]
-    factor = crop.side / max(height, width)
-    method = cv2.INTER_AREA if factor < 1 else cv2.INTER_CUBIC
-    size = (max(round(width * factor), 1), max(round(height * factor), 1))
-    resized = cv2.resize(frame, size, interpolation=method)
-    _, data = cv2.imencode(".jpg", resized, [cv2.IMWRITE_JPEG_QUALITY, crop.quality])
-    return Picture(np.asarray(data).tobytes())
-
-
-def _cut(frame: Image, detection: TipDetection, margin: float) -> Image:
-    extra = margin * max(detection.w, detection.h)
-    height, width = frame.shape[:2]
-    left, right = int(max(detection.x - extra, 0)), int(detection.x + detection.w + extra)
-    top, bottom = int(max(detection.y - extra, 0)), int(detection.y + detection.h + extra)
-    cut = frame[top : min(bottom, height), left : min(right, width)]
-    return cut if cut.size else frame
 
 
 def _facts(case: Case) -> list[str]:
@@ -193,12 +176,34 @@ def _facts(case: Case) -> list[str]:
         )
     else:
         lines.append("What the liquid is called is not known; it may be clear or coloured.")
+    spoke = sorted(case.signs.items(), key=lambda sign: -sign[1])
+    named = [_SIGNS[sign] for sign, nats in spoke if nats >= _SPOKE and sign in _SIGNS]
+    if named:
+        lines.append(f"What spoke against it, strongest first: {'; '.join(named)}.")
     for kind, reading in case.readings.items():
-        lines.append(
-            f"Measured in {kind.value}: about {reading.volume_ul:.0f} ± {reading.sigma_ul:.0f} µL"
-            + ("." if case.calibrated else ", not calibrated on this run yet.")
-        )
+        if _tells(reading, sample.expected_ul.get(kind)):
+            lines.append(
+                f"Measured in {kind.value}: about {reading.volume_ul:.0f} ± "
+                f"{reading.sigma_ul:.0f} µL"
+                + ("." if case.calibrated else ", not calibrated on this run yet.")
+            )
     return lines
+
+
+def _tells(reading: ColumnReading, expected_ul: float | None) -> bool:
+    """Whether a reading is one: where rows tell nothing else, the expected volume stands in it."""
+    return (
+        not reading.vague and math.isfinite(reading.sigma_ul) and reading.volume_ul != expected_ul
+    )
+
+
+def _normal(case: Case, kind: KeyframeKind) -> tuple[Image, TipDetection] | None:
+    """The same moment of this run's normal well."""
+    known: TrajectorySample | None = case.normal
+    if known is None or known.frames is case.sample.frames:
+        return None
+    frame, detection = known.frames.get(kind), known.detections.get(kind)
+    return None if frame is None or detection is None else (frame, detection)
 
 
 def _short(text: object) -> str:

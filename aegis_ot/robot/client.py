@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from email.utils import parsedate_to_datetime
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,9 @@ import httpx
 from ..errors import RobotError, RobotRefused, RobotUnreachable
 from .address import robot_url
 from .shapes import Analysis, Page, RunView, read_analysis, read_command, read_run, read_time
+
+Values = Mapping[str, Any]
+"""Runtime parameters by variable name: numbers, texts, flags."""
 
 TIMEOUT_S = 10.0
 UPLOAD_TIMEOUT_S = 60.0
@@ -60,24 +63,35 @@ class RobotClient:
         found: Mapping[str, Any] = self._ask("GET", "/health")
         return found
 
-    def upload(self, protocol: Path) -> tuple[str, bool]:
+    def upload(
+        self, protocol: Path, labware: Sequence[Path] = (), values: Values | None = None
+    ) -> tuple[str, bool]:
         """Upload a protocol file.
 
+        Args:
+            protocol: The file.
+            labware: Files with custom labware definitions that it needs.
+            values: Of its runtime parameters.
+
         Returns:
-            Its identifier, and whether the server knew the very same file: then it keeps the old
+            Its identifier, and whether the server knew the very same files: then it keeps the old
             analysis, else it begins one.
 
         Raises:
-            OSError: The file cannot be read.
+            OSError: A file cannot be read.
         """
-        files = [("files", (protocol.name, protocol.read_bytes()))]
-        answer = self._send("POST", "/protocols", {"files": files, "timeout": UPLOAD_TIMEOUT_S})
+        files = [("files", (path.name, path.read_bytes())) for path in (protocol, *labware)]
+        data = {"runTimeParameterValues": json.dumps(dict(values))} if values else {}
+        answer = self._send(
+            "POST", "/protocols", {"files": files, "data": data, "timeout": UPLOAD_TIMEOUT_S}
+        )
         return str(self._read(answer)["data"]["id"]), answer.status_code == 200
 
-    def analyse_again(self, protocol: str) -> None:
+    def analyse_again(self, protocol: str, values: Values | None = None) -> None:
         """Begin a new analysis: the server keeps the old one of the same file whatever changed."""
-        body = {"data": {"forceReAnalyze": True}}
-        self._ask("POST", f"/protocols/{protocol}/analyses", json=body, timeout=UPLOAD_TIMEOUT_S)
+        asked = {"forceReAnalyze": True, "runTimeParameterValues": dict(values or {})}
+        path = f"/protocols/{protocol}/analyses"
+        self._ask("POST", path, json={"data": asked}, timeout=UPLOAD_TIMEOUT_S)
 
     def analysis(
         self, protocol: str, timeout_s: float, waiting: Callable[[float], None] = lambda s: None
@@ -104,9 +118,11 @@ class RobotClient:
             waiting(seconds)
             time.sleep(_ANALYSIS_POLL_S)
 
-    def create_run(self, protocol: str) -> str:
+    def create_run(self, protocol: str, values: Values | None = None) -> str:
         """Make a run of an uploaded protocol; its identifier. Nothing moves yet."""
-        answer = self._ask("POST", "/runs", json={"data": {"protocolId": protocol}})
+        asked = {"protocolId": protocol}
+        more = {"runTimeParameterValues": dict(values)} if values else {}
+        answer = self._ask("POST", "/runs", json={"data": asked | more})
         return str(answer["data"]["id"])
 
     def act(self, run: str, kind: str) -> None:

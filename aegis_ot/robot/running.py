@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ..errors import LinkError, RobotError
-from .client import RobotClient
+from .client import RobotClient, Values
 from .following import PATIENCE_S, POLL_S, Completed, Found, Lost, Started, StatusChanged, follow
 from .shapes import OWN_WORDS, PAUSED, Analysis, Command, RunView
 from .verdicts import VerdictReader, WellVerdict
@@ -78,8 +78,20 @@ class RobotRun:
     overview: Any = None
 
 
+@dataclass(frozen=True)
+class Inputs:
+    """What a protocol is run with: files of custom labware, values of runtime parameters."""
+
+    labware: tuple[Path, ...] = ()
+    values: Values = field(default_factory=dict)
+
+
 def analyse(
-    robot: RobotClient, protocol: Path, screen: Screen, timeout_s: float
+    robot: RobotClient,
+    protocol: Path,
+    screen: Screen,
+    timeout_s: float,
+    inputs: Inputs | None = None,
 ) -> tuple[str, Analysis]:
     """Upload a protocol and have it analysed anew, as the robot is set now.
 
@@ -87,11 +99,13 @@ def analyse(
         Its identifier on the robot, and the analysis.
 
     Raises:
-        RobotError: The robot cannot be reached, refuses the file, or takes too long.
-        OSError: The file cannot be read.
+        RobotError: The robot cannot be reached, refuses a file, or takes too long.
+        OSError: A file cannot be read.
     """
-    identifier, was_known = robot.upload(protocol)
-    if was_known:
+    inputs = inputs or Inputs()
+    identifier, was_known = robot.upload(protocol, inputs.labware, inputs.values)
+    if was_known and not inputs.values:  # values make a new analysis by themselves
+        robot.analysis(identifier, timeout_s, screen.analysing)
         robot.analyse_again(identifier)
     return identifier, robot.analysis(identifier, timeout_s, screen.analysing)
 
@@ -102,6 +116,7 @@ def run_analysed(
     run: RobotRun,
     screen: Screen,
     verdicts: VerdictReader | None = None,
+    inputs: Inputs | None = None,
     *,
     poll_s: float = POLL_S,
     patience_s: float = PATIENCE_S,
@@ -114,13 +129,14 @@ def run_analysed(
         run: Filled in as it goes on.
         screen: Shows it, and is asked what the person wants.
         verdicts: Of the run's sidecar.
+        inputs: The values that it was analysed with.
         poll_s, patience_s: As for :func:`~.following.follow`.
 
     Raises:
         RobotError: The robot refuses the start, or is lost for too long. The run then goes on, or
             waits, without this program.
     """
-    run.id = robot.create_run(identifier)
+    run.id = robot.create_run(identifier, (inputs or Inputs()).values)
     driver = RunDriver(robot, run, screen, verdicts)
     robot.act(run.id, "play")
     screen.began(len(run.analysis.kinds))

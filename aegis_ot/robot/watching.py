@@ -22,6 +22,7 @@ from .deck import Deck
 from .following import POLL_S, Completed, Found, Lost, Started, StatusChanged, follow
 from .moments import PastLink, moment_before, moment_of_transit
 from .operations import OperationReader
+from .page_pauses import PagePauses
 from .running import RobotRun, RunDriver, Screen
 from .shapes import Command
 from .verdicts import WellVerdict
@@ -124,6 +125,7 @@ class _Watch:
         self._policies = policies
         self.name = name_of_watch(run.id)
         self._courier = Courier(sidecar, self.name, self._about(), time.sleep)
+        self._pauses = PagePauses(self._courier, lambda action: robot.act(run.id, action))
         self._clock = RobotClock(robot.clock)
         self._reader = OperationReader(Deck(robot, run.id))
         self._tracker = Tracker(self.name, "off", lift=False, capacity=self._reader.capacity)
@@ -151,8 +153,11 @@ class _Watch:
         elif isinstance(step, Found):
             self._lost = False
             self._look_at_clock()
-        elif isinstance(step, StatusChanged) and step.run.status == "succeeded":
-            self._perform(self._tracker.finish(), None)
+        elif isinstance(step, StatusChanged):
+            if step.run.status not in ("paused", "pause-requested"):
+                self._pauses.is_over()
+            if step.run.status == "succeeded":
+                self._perform(self._tracker.finish(), None)
 
     def look_around(self) -> None:
         """Between two looks at the run: the clocks, and the verdict that is due first."""
@@ -160,6 +165,7 @@ class _Watch:
             self._look_at_clock()
         if not self._lost:
             self._followed_since = time.monotonic()
+        self._pauses.look_around()
         if not self._awaited or self._courier.away:
             return
         number = self._awaited[0]
@@ -175,9 +181,9 @@ class _Watch:
         self._run.verdicts[number] = known
         self._screen.judged(known)
         if verdict.outcome is Outcome.FAIL:
-            self._apply(self._policies.on_fail, f"{known.well} failed")
+            self._apply(self._policies.on_fail, f"{known.well} failed", number)
         elif verdict.outcome is Outcome.UNDECIDED:
-            self._apply(self._policies.on_undecided, f"{known.well} could not be judged")
+            self._apply(self._policies.on_undecided, f"{known.well} could not be judged", number)
 
     def end(self) -> None:
         """The run is over, or is followed no longer: the last verdicts, and goodbye."""
@@ -266,7 +272,7 @@ class _Watch:
         self._courier.give_up()
         self._apply(self._policies.on_link_loss, "the sidecar is away")
 
-    def _apply(self, policy: str, why: str) -> None:
+    def _apply(self, policy: str, why: str, trajectory: int | None = None) -> None:
         if policy != "pause":
             return
         try:
@@ -277,6 +283,8 @@ class _Watch:
             self._screen.says(f"NOT PAUSED, though {why}: {error}")
         else:
             self._screen.says(f"Paused by the watch: {why}. Motion ends with the current move.")
+            if trajectory is not None:
+                self._pauses.begin(trajectory)
 
     def _is_plausible(self, completed: float) -> bool:
         """Whether a command ended between the last look and now: else a clock was set meanwhile."""

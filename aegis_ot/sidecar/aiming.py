@@ -15,6 +15,7 @@ from ..errors import AegisError, CameraError
 from ..vision.camera import Camera, Frame
 from ..vision.detection import load_detector
 from ..vision.types import Detector, Image
+from .cameras import BoundCameras, FreeRunning
 from .config import SidecarConfig
 
 _DARK, _BLOWN = 16, 250
@@ -76,7 +77,7 @@ class View:
 
 
 class Aim:
-    """Looks through one camera.
+    """Looks through a camera, or through one of several.
 
     Args:
         config: Names the detector, and how long a frame may take.
@@ -88,27 +89,35 @@ class Aim:
         self, config: SidecarConfig, camera: Camera, last: Callable[[], Frame | None]
     ) -> None:
         self._config = config
-        self._camera = camera
+        several = camera.each if isinstance(camera, BoundCameras) else [(camera.kind, camera)]
+        self.names = [name for name, _ in several]
+        self._cameras = [one for _, one in several]
         self._last = last
         self._looking = threading.Lock()
         self._detector: Detector | None = None
 
-    def look(self) -> View:
+    def look(self, number: int = 0) -> View:
         """A fresh frame, measured; several askers take turns.
 
+        Args:
+            number: Of the camera in ``names``.
+
         Raises:
-            CameraError: The camera gives no frame.
+            CameraError: It gives no frame.
             ModelError: The detector cannot be loaded.
         """
         with self._looking:
-            frame = self._last() or self._fresh()
+            frame = self._frame(number)
             if self._detector is None:
                 self._detector = load_detector(self._config.cascade.detector or "default")
             return measure(frame, self._detector)
 
-    def _fresh(self) -> Frame:
+    def _frame(self, number: int) -> Frame:
+        camera = self._cameras[number]
+        # One that shows what runs announce has nothing of its own to show.
+        last = None if isinstance(camera, FreeRunning) else self._last()
         try:
-            return self._camera.frame_after(time.monotonic(), self._config.camera.timeout_s)
+            return last or camera.frame_after(time.monotonic(), self._config.camera.timeout_s)
         except AegisError:
             raise
         except Exception as error:  # whatever a driver raises

@@ -5,18 +5,16 @@ from __future__ import annotations
 import contextlib
 import functools
 import time
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator
 from typing import Annotated, Any, TypeVar
 
 from fastapi import Depends, FastAPI, Path, Query, Request
-from fastapi.exceptions import RequestValidationError
 from starlette.concurrency import run_in_threadpool
-from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
-from starlette.responses import JSONResponse, Response
+from starlette.responses import Response
 
 from .._version import __version__
-from ..errors import AegisError, CameraError, StoreError
+from ..errors import AegisError
 from ..vision.camera import Camera
 from ..vision.types import Detector
 from ..vocabulary import Keyframe, to_json
@@ -25,6 +23,7 @@ from .cameras import open_cameras
 from .cameras.history import HISTORY_S
 from .config import SidecarConfig
 from .description import ERRORS, describe, takes
+from .error_answers import answer_errors
 from .pages import page_router
 from .reasoning_routes import opinion_router, opinions_of
 from .security import Doorkeeper
@@ -111,7 +110,7 @@ def create_app(
     app.openapi = functools.cache(lambda: describe(app))  # type: ignore[method-assign]
     app.state.sidecar = sidecar
     app.add_middleware(Doorkeeper, config=config)
-    _answer_errors(app)
+    answer_errors(app)
     _robot_routes(app, sidecar)
     _reader_routes(app, sidecar)
     app.include_router(opinion_router(opinions, read_body))
@@ -209,8 +208,10 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
         return {"runs": await run_in_threadpool(sidecar.runs, search, most), "version": version}
 
     @app.get("/v1/camera/view")
-    async def view() -> dict[str, Any]:
-        return (await run_in_threadpool(sidecar.aim.look)).to_json()
+    async def view(number: Annotated[int, Query(ge=0, le=100)] = 0) -> dict[str, Any]:
+        if number >= len(sidecar.aim.names):
+            raise WireError(404, "no_such_camera", f"There is no camera number {number}.")
+        return (await run_in_threadpool(sidecar.aim.look, number)).to_json()
 
     @app.get("/v1/runs/{run}")
     async def overview(run: Run, after: After = None, wait: Wait = 0.0) -> dict[str, Any]:
@@ -279,58 +280,3 @@ async def read_body(request: Request, limit: int = MAX_BODY) -> bytes:
 def _must_match(path: str, body: str) -> None:
     if path != body:
         raise WireError(422, "run", f"The body names run {body!r}, the address {path!r}.")
-
-
-def _answer_errors(app: FastAPI) -> None:
-    """Every error in the wire's shape."""
-
-    def answer(make: Callable[[Any], WireError]) -> Callable[[Request, Any], Awaitable[Response]]:
-        async def handle(_request: Request, error: Any) -> Response:
-            told = make(error)
-            return JSONResponse(told.body(), told.status)
-
-        return handle
-
-    def invalid(error: RequestValidationError) -> WireError:
-        problems = (f"{'.'.join(map(str, p['loc']))}: {p['msg']}" for p in error.errors())
-        return WireError(422, "request", "; ".join(problems))
-
-    def http(error: HTTPException) -> WireError:
-        if error.status_code == 404:
-            return WireError(404, "no_such_address", "There is nothing at this address.")
-        return WireError(error.status_code, "http", str(error.detail))
-
-    app.add_exception_handler(WireError, answer(lambda error: error))
-    app.add_exception_handler(
-        CameraError,
-        answer(
-            lambda error: WireError(
-                503, "camera", str(error), "Check the camera; the keyframe can be resent."
-            )
-        ),
-    )
-    app.add_exception_handler(
-        StoreError,
-        answer(
-            lambda error: WireError(
-                503, "store", str(error), "Check the workstation; the keyframe can be resent."
-            )
-        ),
-    )
-    app.add_exception_handler(
-        AegisError,
-        answer(lambda error: WireError(503, "trouble", str(error), "Run aegis-ot doctor.")),
-    )
-    app.add_exception_handler(RequestValidationError, answer(invalid))
-    app.add_exception_handler(HTTPException, answer(http))
-    app.add_exception_handler(
-        Exception,
-        answer(
-            lambda error: WireError(
-                500,
-                "internal",
-                f"The sidecar failed: {type(error).__name__}.",
-                "Its log says more; please report it.",
-            )
-        ),
-    )

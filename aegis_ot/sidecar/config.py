@@ -114,6 +114,9 @@ class CascadeSettings(Section):
         first_wells: ``ask``: the operator looks at a first well in which no liquid is seen to leave
             the tip; ``trust``: it is taken for normal.
         gates: Asked in this order, the operator after them: ``volumetric``, ``vlm``.
+        spot_check: Share of the wells that pass silently that the gate ``vlm`` sees all the same,
+            0 to 1; with any of it, it also sees the first wells of each liquid and those near the
+            band. 0: only what was flagged, so that it can only clear.
     """
 
     model: Path | None = None
@@ -125,6 +128,7 @@ class CascadeSettings(Section):
     always_gate: bool = False
     first_wells: Literal["ask", "trust"] = "ask"
     gates: tuple[str, ...] = ("volumetric",)
+    spot_check: Annotated[float, Field(ge=0, le=1)] = 0.05
 
     @field_validator("gates")
     @classmethod
@@ -314,6 +318,11 @@ def kept_token(data: Path) -> str:
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigurationError(f"The token in {path} cannot be kept: {error}.") from error
     return token
+
+
+def known_token(data: Path) -> str:
+    """The token that is kept in a data folder, or one for nothing: for who does not listen."""
+    return kept_token(data) if (data / TOKEN_FILE).exists() else secrets.token_urlsafe(24)
 
 
 def is_loopback(host: str) -> bool:

@@ -18,9 +18,10 @@ from .._version import __version__
 from ..errors import AegisError, CameraError, StoreError
 from ..reasoning import make_backend
 from ..reasoning.backends.service import ServiceBackend
+from ..vision.camera import Camera
 from .aiming import Aim
 from .cameras import FreeRunning, open_camera
-from .config import SidecarConfig, is_loopback
+from .config import TOKEN_FILE, CameraSettings, SidecarConfig, is_loopback
 from .notifications import Notifier
 from .store import DATABASE, Store
 
@@ -105,7 +106,10 @@ def _token(config: SidecarConfig) -> Check:
         said = "not needed" if config.token is None else "set"
         todo = "For a robot in the network, start with --host 0.0.0.0; a token is then made."
         return Check("token", "ok", f"{said}: only this machine is answered", todo)
-    return Check("token", "ok", "set, and long enough")
+    kept = (config.data / TOKEN_FILE).exists()
+    return Check(
+        "token", "ok", "kept in the data folder" if kept else "set, or made at first start"
+    )
 
 
 def _sidecar(config: SidecarConfig) -> dict[str, Any] | None:
@@ -127,18 +131,19 @@ def _camera_checks(config: SidecarConfig, working: dict[str, Any] | None) -> Ite
         said = f"{camera.get('kind')}, as the sidecar at work says: {camera.get('detail') or state}"
         yield Check("camera", state, said, "" if state == "ok" else "See its page, Camera.")
         return
-    try:
-        camera = open_camera(config.camera)
-    except AegisError as error:
-        yield Check("camera", "bad", str(error), "Name another camera (--camera).")
-        return
-    try:
-        yield from _look(config, camera)
-    finally:
-        camera.close()
+    for settings in config.cameras or (config.camera,):
+        try:
+            camera = open_camera(settings)
+        except AegisError as error:
+            yield Check("camera", "bad", str(error), "Name another camera (--camera).")
+            continue
+        try:
+            yield from _look(config, settings, camera)
+        finally:
+            camera.close()
 
 
-def _look(config: SidecarConfig, camera: Any) -> Iterator[Check]:
+def _look(config: SidecarConfig, settings: CameraSettings, camera: Camera) -> Iterator[Check]:
     aim = Aim(config, camera, lambda: None)
     until = time.monotonic() + (_FIRST_FRAME_S if isinstance(camera, FreeRunning) else 0)
     while True:
@@ -148,13 +153,13 @@ def _look(config: SidecarConfig, camera: Any) -> Iterator[Check]:
         except CameraError as error:
             if time.monotonic() >= until:
                 todo = "Look at its cable and power; close other programs that use it."
-                yield Check("camera", "bad", str(error), todo)
+                yield Check("camera", "bad", f"{settings.spec}: {error}", todo)
                 return
         except AegisError as error:
             yield Check("detector", "bad", str(error), "Leave cascade.detector out, or mend it.")
             return
     height, width = view.frame.image.shape[:2]
-    yield Check("camera", "ok", f"{config.camera.spec}, {width} x {height} px")
+    yield Check("camera", "ok", f"{settings.spec}, {width} x {height} px")
     light = (
         f"brightness {view.brightness:.0%}, too dark {view.dark:.0%}, blown out {view.blown:.0%}"
     )

@@ -15,6 +15,7 @@ from ..vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
 from ..vision.models import SHIPPED, load_model
 from ..vision.monitor import MonitorSettings, RunMonitor
 from ..vision.scorers import make_scorer
+from ..vision.second_opinion import SpotCheck
 from ..vision.types import Detector, Scorer
 from .analysis import Analyser
 from .config import CascadeSettings
@@ -66,7 +67,12 @@ def make_analyser(
     return RunMonitor(
         detector or make_detector(cascade),
         _world_model(cascade),
-        MonitorSettings(calibration, cascade.always_gate, cascade.first_wells == "ask"),
+        MonitorSettings(
+            calibration,
+            cascade.always_gate,
+            cascade.first_wells == "ask",
+            SpotCheck(cascade.spot_check),
+        ),
         [*(known[name] for name in cascade.gates), OperatorGate()],
         MeasuredColumns,
     )

@@ -86,8 +86,8 @@ def _reading(router: APIRouter, sidecar: Sidecar) -> None:
         return JSONResponse(account, headers=_download(run, "json"))
 
     @router.get("/camera")
-    def camera() -> Response:
-        return _show(sidecar, "camera.html", "camera")
+    def camera(number: Annotated[int, Query(ge=0, le=100)] = 0) -> Response:
+        return _show(sidecar, "camera.html", "camera", names=sidecar.aim.names, number=number)
 
     @router.get("/static/{name}")
     def static(name: str) -> Response:

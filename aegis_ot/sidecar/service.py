@@ -79,7 +79,7 @@ class Sidecar:
         self._camera_trouble = ""
         self._in_trouble: set[str] = set()
         self._last_frame: Frame | None = None
-        self.aim = Aim(config, camera, self._frame_to_show)
+        self.aim = Aim(config, camera, lambda: self._last_frame)
         # A camera that is told what to show must not hear of another keyframe in between.
         # One that runs by itself serves everyone at once.
         self._camera_lock: contextlib.AbstractContextManager[Any] = (
@@ -139,7 +139,8 @@ class Sidecar:
         """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
         self.require(run)
         self.store.add_hold(run, hold)
-        self.session(run).held(hold.trajectory, hold.policy)
+        if (self.store.run(run) or {}).get("mode") != "watch":  # there keyframes come in a pause
+            self.session(run).held(hold.trajectory, hold.policy)
         self.bell.ring()
         event("hold", run=run, **hold.model_dump())
         if hold.resolution not in ("verdict", "stopped") and hold.paused_s is None:
@@ -223,16 +224,14 @@ class Sidecar:
         if run in self._met:
             return
         self._met.add(run)
+        for kind in ("camera", "store"):  # of an earlier process; what goes on begins anew
+            self.store.end_incidents(run, kind)
         row = self.store.run(run)
         if row is not None and not row["finished"] and self.store.next_sequence(run):
             said = "The sidecar was started anew within this run."
             self.store.begin_incident(run, "restart", said)
             self.store.end_incidents(run, "restart")
             event("incident", run=run, kind="restart", seen=said)
-
-    def _frame_to_show(self) -> Frame | None:
-        """Of a camera that shows what runs announce, the last frame; others give a fresh one."""
-        return None if isinstance(self.camera, FreeRunning) else self._last_frame
 
     def _tidied(self, done: Tidied) -> None:
         for run in done.removed:

@@ -94,6 +94,13 @@ class Store(Records):
             )
         )
 
+    def add_layer1(self, run: str, said: dict[str, Any]) -> None:
+        """Keep what Layer 1 said of a run whose robot did not tell it."""
+        self._write(
+            "UPDATE runs SET start = json_set(start, '$.layer1', json(?)) WHERE run = ?",
+            (json.dumps(said), run),
+        )
+
     def knows(self, run: str) -> bool:
         """Whether the run was registered."""
         return bool(self._read("SELECT 1 FROM runs WHERE run = ?", run))

@@ -4,30 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
-
-import numpy as np
 
 from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
 from .calibration import CalibrationState
 from .camera import Frame
 from .cascade import Triage
-from .consistency import second_look
+from .consistency import once_each, second_look
 from .delivery import Delivery, delivery_of
 from .evidence import evidence_of
-from .first_wells import FirstWells, Liquid
+from .first_wells import FirstWells, Liquid, liquid_of
 from .gates import Case, GateDecision, Gates, in_sentences
-from .leftover import Leftover, Leftovers, explains, still_there
+from .leftover import Leftover, Leftovers, still_there
 from .measuring import TipView
+from .second_opinion import SecondOpinion
 from .stream import OpenTrajectory, Stream
 from .tips import pipette_class, tip_for
-from .types import FREE, Detector, Image, TipDetection, TrajectorySample
+from .types import FREE, Detector, TipDetection, TrajectorySample, is_image
 
 MOST_OPEN = 32
 """Trajectories whose frames are kept at once: one that is never judged must not fill memory."""
 
-MOST_ASKED = 8
-"""Undecided first wells of which enough is kept to learn from them once the operator vouches."""
+MOST_ASKED = 2
+"""Undecided first wells whose frames are kept, to learn from them once the operator vouches."""
 
 Judged = tuple[Verdict, Mapping[str, Any]]
 
@@ -40,6 +40,8 @@ class _Well:
     liquid: Liquid
     case: Case
     looks: dict[KeyframeKind, object]
+    clean: bool
+    """Whether its tip holds nothing that an earlier well left: else it looks like no other."""
 
 
 class RunAnalyser:
@@ -56,6 +58,7 @@ class RunAnalyser:
         make_stream: Makes a stream, given one of the same pipette and tip, if there is one.
         gates: Asked in turn.
         first: Holds the run's first wells against what is known without them.
+        second: Asked about wells that pass.
     """
 
     def __init__(
@@ -65,8 +68,10 @@ class RunAnalyser:
         make_stream: Callable[[Stream | None], Stream],
         gates: Gates,
         first: FirstWells,
+        second: SecondOpinion,
     ) -> None:
         self.run = run
+        self._second = second
         self._detector = detector
         self._make_stream = make_stream
         self._gates = gates
@@ -83,7 +88,7 @@ class RunAnalyser:
             del self._open[min(self._open)]
         kind, image = keyframe.kind, frame.image
         trajectory.keyframes[kind] = keyframe
-        if not _is_image(image):
+        if not is_image(image):
             trajectory.unusable.append(kind)
             return
         detection = self._detector.detect(image)
@@ -121,15 +126,19 @@ class RunAnalyser:
         triage = stream.cascade.triage(case.score, case.missing, against)
         case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
-        left = self._leftovers.known(last)
-        if (
-            left is not None
-            and decision.outcome is not Outcome.PASS
-            and explains(left, case, self._delivery(seen, last, left.volume_ul))
-        ):
+        if not triage.to_gate:
+            band = stream.cascade.calibration.band
+            limit = None if band is None else band[1]
+            decision = self._second.on(case, decision, stream.learned + 1, limit)
+        left = None
+        if decision.outcome is not Outcome.PASS:
+            delivery = partial(self._delivery, seen, last)
+            left = self._leftovers.explaining(last, case, delivery)
+        if left is not None:
             decision = still_there(left, decision)
         else:
-            well = _Well(stream, _liquid(last), case, dict(seen.looks))
+            clean = self._leftovers.known(last) is None
+            well = _Well(stream, liquid_of(last), case, dict(seen.looks), clean)
             decision = self._learn(well, trajectory, decision)
         self._leftovers.note(last, case, decision)
         verdict = Verdict(
@@ -145,8 +154,9 @@ class RunAnalyser:
             decision.expected_ul,
         )
         kept = self._leftovers.known(last)
-        evidence = evidence_of(_liquid(last), stream, case, seen, triage, decision, kept)
-        seen.frames.clear()
+        evidence = evidence_of(liquid_of(last), stream, case, seen, triage, decision, kept)
+        if trajectory not in self._asked:
+            seen.frames.clear()
         return verdict, evidence
 
     def confirm(self, trajectory: int) -> None:
@@ -195,14 +205,15 @@ class RunAnalyser:
         p_value = stream.p_value(score)
         return Case(
             sample, Route.GREY_ZONE, score, readings, missing, stream.learned > 0, p_value,
-            clearly_absent=seen.clearly_absent,
+            alarm_p=stream.settings.alarm_p, clearly_absent=seen.clearly_absent,
             delivery=self._delivery(seen, last),
+            signs={} if score is None else stream.scorer.signs(sample), normal=stream.normal,
         )  # fmt: skip
 
     def _delivery(self, seen: OpenTrajectory, last: Keyframe, left_ul: float = 0.0) -> Delivery:
         """What a trajectory shows of its delivery, if the tip held so much before and after, µL."""
         expected = {kind: frame.expected_ul + left_ul for kind, frame in seen.keyframes.items()}
-        return self._first.held_against(_liquid(last), delivery_of(seen.looks, expected))
+        return self._first.held_against(liquid_of(last), delivery_of(seen.looks, expected))
 
     def _look(
         self, stream: Stream, seen: OpenTrajectory, kind: KeyframeKind, detection: TipDetection
@@ -217,7 +228,7 @@ class RunAnalyser:
         """Put the detections right by the run's own tip, and look again where one changed."""
         guess = getattr(self._detector, "best_guess", None)
         if guess is not None:
-            guess = _once_each(guess)
+            guess = once_each(guess)
             seen.detections.update(second_look(guess, seen.detections, seen.frames))
             seen.detections.update(stream.tip.recognise(guess, seen.detections, seen.frames))
             missing = [kind for kind in FREE if seen.detections.get(kind, ...) is None]
@@ -238,7 +249,7 @@ class RunAnalyser:
         )
 
     def _stream(self, keyframe: Keyframe) -> Stream:
-        return self._stream_of(_liquid(keyframe))
+        return self._stream_of(liquid_of(keyframe))
 
     def _stream_of(self, key: Liquid) -> Stream:
         if key not in self._streams:
@@ -288,6 +299,8 @@ class RunAnalyser:
     def _take(self, well: _Well, decision: GateDecision) -> None:
         stream, case, looks = well.stream, well.case, well.looks
         normal = decision.outcome is Outcome.PASS
+        if normal and not well.clean:
+            return
         if not normal and self._first.proven(well.liquid):
             return  # the others were not taken on trust, so this one casts no doubt on them
         collecting = stream.cascade.state is CalibrationState.COLLECTING
@@ -319,38 +332,9 @@ class RunAnalyser:
         )
 
 
-def _liquid(keyframe: Keyframe) -> Liquid:
-    """What wells are compared with each other: one pipette and tip, one liquid."""
-    return f"{keyframe.mount} {keyframe.pipette}", keyframe.capacity_ul, keyframe.reagent or ""
-
-
 def _with_doubt(stream: Stream, decision: GateDecision) -> GateDecision:
     """Tell of an earlier well that turned out to be suspect, once, with the next that passes."""
     if not stream.doubt or decision.outcome is not Outcome.PASS:
         return decision
     reason, stream.doubt = stream.doubt, ""
     return replace(decision, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR, reason=reason)
-
-
-def _once_each(
-    guess: Callable[[Image], TipDetection | None],
-) -> Callable[[Image], TipDetection | None]:
-    """The same, asked once for each frame: it costs as much as finding the tip."""
-    known: dict[int, TipDetection | None] = {}
-
-    def remembered(image: Image) -> TipDetection | None:
-        if id(image) not in known:
-            known[id(image)] = guess(image)
-        return known[id(image)]
-
-    return remembered
-
-
-def _is_image(image: object) -> bool:
-    return (
-        isinstance(image, np.ndarray)
-        and image.dtype == np.uint8
-        and image.ndim == 3
-        and image.shape[2] == 3
-        and min(image.shape[:2]) >= 16
-    )

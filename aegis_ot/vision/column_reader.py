@@ -15,7 +15,7 @@ from .scorers.looks import look
 from .tip_scale import NEAR, TipScale
 from .tips import TipGeometry
 from .types import FREE
-from .usual import Usual, alike
+from .usual import LEFT, Usual, alike
 
 Well = tuple[Mapping[KeyframeKind, object], Mapping[KeyframeKind, float]]
 """Looks and expected volumes of one trajectory."""
@@ -28,9 +28,6 @@ _ORIFICE = (0.06, 8.0)
 
 _SHORTEST = 0.05
 """Fewest rows that are believed against expectation, tip lengths."""
-
-_LEFT = np.array([0.25, 0.5, 0.75, 1.0])
-"""Shares of the column's height that are tried for what normal wells show of a column left."""
 
 _SHARES = np.arange(0.1, 1.01, 0.1)
 """Shares of the column's height that are tried for the smallest column that would be seen."""
@@ -97,6 +94,10 @@ class MeasuredColumns:
         """Learn the tip's geometry together with the reader of another liquid."""
         if isinstance(other, MeasuredColumns):
             self._scale = other._scale
+
+    def expect_heights(self, factors: Mapping[str, float]) -> None:
+        """How high columns stood in earlier runs, over what the geometry says, by tip."""
+        self._scale.expect(factors)
 
     def look(self, view: TipView) -> Look:
         self._contrast.prepare()
@@ -181,12 +182,10 @@ class MeasuredColumns:
             if abs(found - top) < reach and wet.power > 4 and wet.bracketed(found, NEAR):
                 self._scale.note(tip, found, volume)
             return
-        # The worst of a few columns that could have been left, for the worst is looked for.
-        heights = _LEFT * (1.0 - self._scale.place(tip, self._fullest))
-        told = (wet.mean(1.0 - height, end) for height in heights)
-        shares = [share for share, weight in told if weight > 0]
-        if shares:
-            self._usual.note_empty(max(shares))
+        heights = LEFT * (1.0 - self._scale.place(tip, self._fullest))
+        told = [wet.mean(1.0 - height, end) for height in heights]
+        if any(weight > 0 for _, weight in told):
+            self._usual.note_empty([share if weight > 0 else math.nan for share, weight in told])
 
     def _reading(self, seen: Look, expected_ul: float, most_ul: float) -> ColumnReading | None:
         """Read one frame; ``most_ul``: no more than that can be in the tip, 0 if not known."""
@@ -230,7 +229,8 @@ class MeasuredColumns:
             upper = 1.0 - share * (1.0 - top)
             if upper < seen.lowest:
                 bore = seen.bore_px(upper, seen.lowest)
-                if 0.5 / self._usual.variance(wet, bore, full=False) >= _EVIDENCE:
+                variance = self._usual.variance(wet, bore, full=False, height=float(share))
+                if 0.5 / variance >= _EVIDENCE:
                     return self._scale.volume(seen.tip, upper)
         return self._scale.volume(seen.tip, top)
 
@@ -245,7 +245,10 @@ class MeasuredColumns:
         if weight <= 0:
             return False
         bore = seen.bore_px(upper, lower)
-        variance = self._usual.variance(wet, bore, full=not too_much) + 1.0 / weight
+        fullest = max(1.0 - self._scale.place(seen.tip, self._fullest), _SHORTEST)
+        variance = 1.0 / weight + self._usual.variance(
+            wet, bore, full=not too_much, height=(1.0 - upper) / fullest
+        )
         towards = share - 0.5 if too_much else 0.5 - share
         return towards / variance >= _EVIDENCE
 

@@ -279,3 +279,17 @@ def find_again(tip: TipDetection, here: Image, there: Image) -> TipDetection | N
         orifice=(tip.orifice[0] + dx, tip.orifice[1] + dy),
         collar=(x + dx, y + dy),
     )
+
+
+def once_each(
+    guess: Callable[[Image], TipDetection | None],
+) -> Callable[[Image], TipDetection | None]:
+    """The same, asked once for each frame: it costs as much as finding the tip."""
+    known: dict[int, TipDetection | None] = {}
+
+    def remembered(image: Image) -> TipDetection | None:
+        if id(image) not in known:
+            known[id(image)] = guess(image)
+        return known[id(image)]
+
+    return remembered

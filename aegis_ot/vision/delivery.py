@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from ..vocabulary import KeyframeKind
 from .column import ceiling
-from .column.contrast import NOISE, signals
+from .column.contrast import change_between
 from .column_reader import Look
 from .tip_scale import TipScale
 from .usual import alike
@@ -31,18 +31,18 @@ _BORE_LEAST_PX, _ROW_LEAST_PX = 4.0, 3.0
 """In a narrower bore, on the average of the upper rows and in each row, a frame laid a pixel beside
 the other one changes as much as a dye does."""
 
-_UNSEEN_MOST = 0.4
+_UNSEEN_MOST = 0.2
 """Share of the delivery that may stand in rows too narrow to tell, for the others to prove it."""
 
 _LEFT_LEAST = 0.2
 """Share of the delivery that must have stayed to be called so."""
 
-_PLAIN = 4.0
+_PLAIN = 2.7
 """Change of the upper rows from which the liquid is plain to see, in a row's usual noise. Two
-frames of the same tip differ by up to 2.5 where nothing left it, on simulated frames of many
-cameras."""
+frames of the same tip differ by up to 2.3 where nothing left it, and by 3.3 at least where a dye
+did, on simulated frames of many cameras."""
 
-_SURE = 6.0
+_SURE = 3.0
 """Change from which the rows below must show it too."""
 
 _ELSEWHERE = 0.35
@@ -55,13 +55,13 @@ the liquid left, at most the second where it stayed."""
 
 _SECTIONS = 12
 
-_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 11.0, 9.0, 6.0
+_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 5.0, 4.3, 6.0
 """Change of the upper rows from which a gap would show, and from which it would in a bore at least
 so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
 
 _GAP_CHANGE = 0.33
-"""Share of what the column's rows change that those of a gap change at most. Columns without one show 0.5 at least, with one of 8 % of
-their volume 0.25 at most, on simulated frames."""
+"""Share of what the column's rows change that those of a gap change at most. Columns without one
+show 0.5 at least, with one of 8 % of their volume 0.25 at most, on simulated frames."""
 
 _GAP_LENGTH, _GAP_WITHIN = 0.05, 0.8
 """Shortest gap, and the part of the column above the narrow end in which it is looked for, as
@@ -146,11 +146,19 @@ def _bores(look: Look) -> NDArray[np.float64]:
     return np.asarray(2.0 * look.tip.inner_radius(heights) * px_per_mm, dtype=np.float64)
 
 
+def _across(change: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Change of brightness across the whole bore, and of both colours, ``(rows, 3)``.
+
+    A tip that is laid a pixel beside its place changes one side of the bore against the other.
+    """
+    return np.column_stack([change[:, :-2].mean(axis=1), change[:, -2:]]).astype(np.float64)
+
+
 def _compared(
     before: Look, after: Look, inside: NDArray[np.bool_], above: NDArray[np.bool_]
 ) -> Delivery:
     u, tip = before.profile.u.astype(np.float64), before.tip
-    change = (signals(before.profile) - signals(after.profile))[:, :-1] / (np.sqrt(2) * NOISE[:-1])
+    change = _across(change_between(before.profile, after.profile))
     width = np.asarray(tip.inner_radius((1.0 - u) * tip.length_mm), dtype=np.float64)
     rows = np.flatnonzero(inside)
     upper = rows[: max(len(rows) // 3, 1)]
@@ -176,8 +184,12 @@ def _compared(
     if emptied > _LEFT or strength < _SURE:
         return Delivery(Shown.UNKNOWN, per_width)
     sections = np.array_split(rows, _SECTIONS)
-    ends = next((part[0] for part in sections[1:] if share[part].mean() < 0.5), rows[-1])
-    left = float(tip.volume_of((1.0 - u[ends]) * tip.length_mm))
+    means = np.array([share[part].mean() for part in sections])
+    first = int(np.flatnonzero(means[1:] < 0.5)[0]) + 1
+    # What is behind the tip may have changed instead: then these rows change, another way.
+    if float(np.median(np.abs(means[first:]))) > _ELSEWHERE * float(means.max()):
+        return Delivery(Shown.UNKNOWN, per_width)
+    left = float(tip.volume_of((1.0 - u[sections[first][0]]) * tip.length_mm))
     return Delivery(Shown.LEFT, per_width, left)
 
 

@@ -24,7 +24,7 @@ def evidence_of(
     decision: GateDecision,
     left: Leftover | None = None,
 ) -> dict[str, Any]:
-    """Boxes, scores, band, measured and expected volumes, and what restores the calibration."""
+    """Boxes, scores, signs (nats), band, volumes, and what restores the calibration."""
     channels = max(keyframe.channels for keyframe in seen.keyframes.values())
     band = stream.cascade.calibration.band
     scores = {} if case.score is None else {stream.scorer.name: case.score}
@@ -34,6 +34,7 @@ def evidence_of(
         "confidence": {kind.value: tip.confidence for kind, tip in found.items()},
         "scores": scores,
         "band": None if band is None else list(band),
+        "signs": {sign: round(nats, 2) for sign, nats in case.signs.items()},
         "triage": triage.reason,
         "measured_ul": dict(_readings(case.readings)),
         "expected_ul": {kind.value: v for kind, v in case.sample.expected_ul.items()},
@@ -71,5 +72,6 @@ def _readings(
                 "volume": round(reading.volume_ul, 2),
                 "uncertainty": round(reading.sigma_ul, 2),
                 "air": round(reading.gap_ul, 2),
+                "top": round(reading.top, 4),
             },
         )

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..vocabulary import Keyframe
 from .delivery import Delivery, Shown
 from .gates import Case
 
@@ -82,3 +83,8 @@ class FirstWells:
         known.append(strength)
         # The first ones stay: what drifts slowly must not take the measure with it.
         del known[_KNOWN:]
+
+
+def liquid_of(keyframe: Keyframe) -> Liquid:
+    """What wells are compared with each other: one pipette and tip, one liquid."""
+    return f"{keyframe.mount} {keyframe.pipette}", keyframe.capacity_ul, keyframe.reagent or ""

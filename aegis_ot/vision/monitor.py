@@ -15,6 +15,7 @@ from .column_reader import MeasuredColumns
 from .first_wells import FirstWells
 from .gates import ConfirmingGate, Gates, OperatorGate, VolumetricGate
 from .measuring import ColumnReader
+from .second_opinion import SecondOpinion, SpotCheck
 from .stream import Stream
 from .types import Detector, Scorer
 
@@ -29,11 +30,13 @@ class MonitorSettings:
         calibration: See :class:`CalibrationSettings`.
         always_gate: Send every well after calibration to the gates.
         ask_first: Ask the operator about first wells whose frames prove nothing.
+        spot_check: Which wells that pass a vision model sees, if there is one.
     """
 
     calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
     always_gate: bool = False
     ask_first: bool = True
+    spot_check: SpotCheck = field(default_factory=SpotCheck)
 
 
 class RunMonitor:
@@ -71,7 +74,8 @@ class RunMonitor:
         follow, and without a model file so does the band.
         """
         first = FirstWells(self.settings.ask_first)
-        analyser = RunAnalyser(run, self.detector, self._stream, self.gates, first)
+        second = SecondOpinion(self.gates, self.settings.spot_check)
+        analyser = RunAnalyser(run, self.detector, self._stream, self.gates, first, second)
         if self.scorer is not None:
             analyser.recall(history)
         return analyser

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..vocabulary import KeyframeKind
 from .crops import trajectory_vector
-from .scorers import Calibrating
+from .scorers import Calibrating, signs_of
 from .scorers.pca import PcaScorer
+from .tips import tip_for
 from .types import FREE, Scorer, TrajectorySample
 
 LEAST_ALARM = 3.5
@@ -58,6 +59,12 @@ class RunScorer:
         return hasattr(self._scorer, "p_value")
 
     @property
+    def height_factors(self) -> Mapping[str, float]:
+        """How high columns stood in the runs it was fitted on, over what the geometry says."""
+        models = getattr(getattr(self._scorer, "column", self._scorer), "models", {})
+        return {tip_for(name).name: model.height_scale for name, model in models.items()}
+
+    @property
     def needed(self) -> tuple[KeyframeKind, ...]:
         """Keyframes in which a tip must be found for a score to mean anything."""
         if self._adapts is not None:
@@ -83,6 +90,10 @@ class RunScorer:
         if partial is None or not set(missing) <= set(excused):
             return None
         return float(partial(sample))
+
+    def signs(self, sample: TrajectorySample) -> Mapping[str, float]:
+        """What a score is made of, by sign, nats; empty if the scorer cannot say."""
+        return {} if self._scorer is None else signs_of(self._scorer, sample)
 
     def look_ahead(self, sample: TrajectorySample) -> None:
         """Do what can be done before the last frame, while the robot moves."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -80,11 +80,15 @@ class Stream:
         self.cascade = Cascade(self.scorer.name, settings, always_gate, least)
         self.reader = reader
         self.tip: TipConsistency = kin.tip if kin is not None else TipConsistency()
-        if kin is not None and isinstance(reader, MeasuredColumns):
-            reader.share_tip(kin.reader)
+        if isinstance(reader, MeasuredColumns):
+            if kin is None:
+                reader.expect_heights(self.scorer.height_factors)
+            else:
+                reader.share_tip(kin.reader)
         self.learned = 0
         self.vouched = False
         self.doubt = ""
+        self.normal: TrajectorySample | None = None
         self._first: list[tuple[Mapping[KeyframeKind, object], TrajectorySample]] = []
 
     def p_value(self, score: float | None) -> float | None:
@@ -116,6 +120,9 @@ class Stream:
             return
         self.reader.learn(looks, sample.expected_ul)
         self.learned += 1
+        if self.normal is None:
+            # Kept with its frames: a person, or a model, compares other wells with it.
+            self.normal = replace(sample, frames=dict(sample.frames))
         if scored:
             self.scorer.accept(sample)
         if len(self._first) < self.settings.wells:

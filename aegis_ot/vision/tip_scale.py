@@ -6,6 +6,8 @@ Both change every height by the same factor in all wells of a run.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from .tips import TipGeometry
@@ -30,6 +32,11 @@ class TipScale:
 
     def __init__(self) -> None:
         self._heights: list[tuple[float, float]] = []
+        self._earlier: dict[str, float] = {}
+
+    def expect(self, factors: Mapping[str, float]) -> None:
+        """Start from the factors that earlier runs showed, by the tip's name."""
+        self._earlier = dict(factors)
 
     @property
     def known(self) -> bool:
@@ -46,7 +53,7 @@ class TipScale:
         """Where a column of this volume should end, u; 1 without one."""
         if volume_ul <= 0:
             return 1.0
-        return 1.0 - self._factor * float(tip.height_of(volume_ul)) / tip.length_mm
+        return 1.0 - self._factor(tip) * float(tip.height_of(volume_ul)) / tip.length_mm
 
     def volume(self, tip: TipGeometry, top: float) -> float:
         """Volume of a column that ends at ``top`` (u), µL."""
@@ -55,7 +62,7 @@ class TipScale:
     def sigma_ul(self, tip: TipGeometry, top: float, volume_ul: float) -> float:
         """Standard uncertainty of that volume, µL; ``volume_ul`` is the larger one at stake."""
         height = self._height_mm(tip, top)
-        sigma = float(tip.volume_of(height + self._spread_mm)) - float(tip.volume_of(height))
+        sigma = float(tip.volume_of(height + self._spread_mm(tip))) - float(tip.volume_of(height))
         return sigma if self.known else float(np.hypot(sigma, _UNKNOWN_SHARE * volume_ul))
 
     def margin(self, top: float) -> float:
@@ -63,18 +70,16 @@ class TipScale:
         return NEAR if self.known else 0.03 + 0.12 * (1.0 - top)
 
     def _height_mm(self, tip: TipGeometry, top: float) -> float:
-        return max((1.0 - top) * tip.length_mm / self._factor, 0.0)
+        return max((1.0 - top) * tip.length_mm / self._factor(tip), 0.0)
 
-    @property
-    def _factor(self) -> float:
+    def _factor(self, tip: TipGeometry) -> float:
         ratios = [length / wanted for length, wanted in self._heights]
-        return float(np.median(ratios)) if len(ratios) >= 2 else 1.0
+        return float(np.median(ratios)) if len(ratios) >= 2 else self._earlier.get(tip.name, 1.0)
 
-    @property
-    def _spread_mm(self) -> float:
+    def _spread_mm(self, tip: TipGeometry) -> float:
         """How far the meniscus of normal wells stands from where it should, mm."""
         if not self.known:
             return _UNKNOWN_MM
-        factor = self._factor
+        factor = self._factor(tip)
         residuals = np.array([length - factor * wanted for length, wanted in self._heights])
         return max(1.48 * float(np.median(np.abs(residuals - np.median(residuals)))), _LEAST_MM)

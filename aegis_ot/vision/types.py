@@ -102,3 +102,14 @@ class Scorer(Protocol):
 
     def score(self, sample: TrajectorySample) -> float:
         """Anomaly score of one trajectory, in the scorer's own unit, >= 0."""
+
+
+def is_image(image: object) -> bool:
+    """Whether it is a frame that can be looked at at all."""
+    return (
+        isinstance(image, np.ndarray)
+        and image.dtype == np.uint8
+        and image.ndim == 3
+        and image.shape[2] == 3
+        and min(image.shape[:2]) >= 16
+    )

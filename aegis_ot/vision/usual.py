@@ -7,6 +7,7 @@ of one pair of frames look perfect, whatever the background did between the two.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TypeVar
 
 import numpy as np
@@ -14,6 +15,9 @@ import numpy as np
 from .column import Wetness
 
 T = TypeVar("T")
+
+LEFT = np.array([0.25, 0.5, 0.75, 1.0])
+"""Shares of the column's height that are tried for what normal wells show of a column left."""
 
 ENOUGH = 3
 """Normal wells that must have been read before they were learned, until readings are proven."""
@@ -56,7 +60,7 @@ class Usual:
 
     def __init__(self) -> None:
         self._lights: list[float] = []
-        self._dry: list[float] = []
+        self._dry: list[tuple[float, ...]] = []
         self._wet: list[float] = []
         self._gaps: list[float] = []
         self._misfits: list[float] = []
@@ -78,22 +82,32 @@ class Usual:
         _keep(self._misfits, misfit)
         _keep(self._gaps, gap)
 
-    def note_empty(self, share: float) -> None:
-        """Largest mean wetness of the columns that an empty tip could have held."""
-        _keep(self._dry, max(share, 0.0))
+    def note_empty(self, shares: Sequence[float]) -> None:
+        """Mean wetness of an empty tip over columns of the heights :data:`LEFT`, ``nan``: not told.
+
+        A short column is few rows in the narrow end, and strays farther than a long one.
+        """
+        _keep(self._dry, tuple(shares))
 
     def tested(self, *, full: bool) -> int:
         """How many normal tips, full or empty, were read before they were learned."""
         return len(self._wet if full else self._dry)
 
-    def variance(self, wet: Wetness, bore_px: float, *, full: bool) -> float:
-        """Of a normal frame's mean wetness over rows whose bore is ``bore_px`` wide, px."""
+    def variance(self, wet: Wetness, bore_px: float, *, full: bool, height: float = 1.0) -> float:
+        """Of a normal frame's mean wetness over rows whose bore is ``bore_px`` wide, px.
+
+        ``height``: of the column that they would be, as a share of the full one's.
+        """
         scale, low, high = _PRIOR
         prior = float(np.clip(scale / math.sqrt(max(wet.power, 1e-3)), low, high)) ** 2
         prior += (_AXIS_PX / max(bore_px, 0.5)) ** 2
-        known = self._wet if full else self._dry
+        known = self._wet if full else self._left(height)
         total = _PRIOR_WEIGHT * prior + float(np.sum(np.square(known)))
         return max(total / (_PRIOR_WEIGHT + len(known)), _LEAST_SD**2)
+
+    def _left(self, height: float) -> list[float]:
+        at = int(np.argmin(np.abs(LEFT - height)))
+        return [max(shares[at], 0.0) for shares in self._dry if math.isfinite(shares[at])]
 
     def gap_limit(self, wet: Wetness) -> float | None:
         """Strength from which a break is none of the usual ones; ``None`` before that is known."""

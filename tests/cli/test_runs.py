@@ -67,6 +67,13 @@ def test_prune_leaves_a_sidecar_at_work_alone(aegis: Command, data: Path) -> Non
     at_work.close()
 
 
+def test_the_doctor_changes_nothing(aegis: Command, tmp_path: Path) -> None:
+    said = aegis("doctor", "--camera", "folder:/nowhere", "--data", tmp_path / "d", "--port", 1,
+                 "--host", "0.0.0.0")  # fmt: skip
+    assert "token: set, or made at first start" in said.out
+    assert not (tmp_path / "d").exists()
+
+
 def test_the_doctor_says_what_is_wrong_and_what_to_do(aegis: Command, tmp_path: Path) -> None:
     begun = time.monotonic()
     said = aegis("doctor", "--camera", "folder:/nowhere", "--data", tmp_path / "d", "--port", 1,

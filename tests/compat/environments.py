@@ -27,12 +27,14 @@ class Environment:
         python: ``"3.10"``.
         opentrons: Requirement.
         robots: Prefixes of the protocols that this release simulates.
+        newest: The last apiLevel that it knows, 2.N.
     """
 
     name: str
     python: str
     opentrons: str
     robots: tuple[str, ...] = ("ot2", "flex")
+    newest: int = 99
 
     @property
     def interpreter(self) -> Path:
@@ -76,6 +78,8 @@ def _runs(python: str, version: str) -> bool:
 
 
 MATRIX = (
+    # As on many an OT-2: pydantic 1, and an engine that knows no later commands.
+    Environment("py310-ot82", "3.10", "opentrons==8.2.0", robots=("ot2",), newest=21),
     Environment("py310-ot8", "3.10", "opentrons==8.8.2"),
     Environment("py313-ot8", "3.13", "opentrons==8.8.2"),
     Environment("py311-ot9", "3.11", "opentrons==9.0.0"),

@@ -9,6 +9,7 @@ from aegis_ot.errors import ConfigurationError, RehearsalError
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reports.run_html import run_report_html
 from aegis_ot.sidecar import make_analyser
+from aegis_ot.sidecar.store import Store
 from aegis_ot.vocabulary import KeyframeKind, Outcome, Route
 
 TEXT = """
@@ -77,3 +78,29 @@ def test_a_fault_that_makes_no_sense_is_explained():
 def test_a_fault_in_a_well_that_gets_nothing_is_refused():
     with pytest.raises(ConfigurationError, match="9:H9"):
         dry_run(SCRIPT, DryRunSettings(faults=("partial:50@9:H9",)), make_analyser())
+
+
+def test_a_run_is_kept_where_that_is_asked_for(tmp_path):
+    settings = DryRunSettings(faults=("no_dispense@1:A2",), on_fail="stop", data=tmp_path)
+    result = dry_run(SCRIPT, settings, make_analyser())
+    store = Store(tmp_path, alone=True)
+    (row,) = store.runs()
+    assert row["run"] == result.reported.account["run"]
+    assert row["finished"]["outcome"] == "aborted"
+    assert row["wells"]["fail"] == 1
+    assert row["layer1"]["verdict"] == result.report.verdict.value
+    assert store.frame(row["run"], 0)
+    store.close()
+
+
+@pytest.mark.parametrize("fault", ["partial:50", "no_dispense"])
+def test_one_fault_on_a_tip_that_is_used_again_flags_one_well(fault):
+    again = TEXT.replace(
+        'for well in plate.wells()[:10]:\n        p300.transfer(150, reservoir["A1"], well)',
+        'p300.transfer(120, reservoir["A1"], plate.wells()[:7], new_tip="once")',
+    )
+    assert "once" in again
+    settings = DryRunSettings(faults=(f"{fault}@1:D1",))
+    result = dry_run(Script(again, "one_tip.py"), settings, make_analyser())
+    assert [row.address for row in result.flagged] == ["1:D1"]
+    assert "as reported there" in result.wells[4].reason

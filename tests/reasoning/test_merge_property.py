@@ -115,7 +115,7 @@ def stands(before: Report, after: Report, dossier: Dossier) -> None:
     assert all(finding.source == "model" for finding in added)
     assert all(finding.severity is Severity.WARNING for finding in added)
     for finding in added:
-        assert set(finding.wells) <= set(dossier.wells)
+        assert {well.labware for well in finding.wells} <= {item.key for item in dossier.deck}
         assert set(finding.lines) <= set(dossier.lines)
     told = {undecided.rule for undecided in after.undecided}
     for undecided in before.undecided:

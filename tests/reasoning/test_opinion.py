@@ -168,6 +168,27 @@ def test_roles_that_only_prose_tells_let_the_checks_decide() -> None:
     assert said == "read by scripted at line 5: 'The last well is our no-template control.'"
 
 
+def test_the_roles_that_would_decide_a_question_are_told_to_be_pasted() -> None:
+    after = judged(PROSE, answer(roles=READ)).report
+    pasted = {u.rule: u.paste for u in after.undecided}
+    assert pasted["PCR-3"] == (
+        '@guard(roles={"master_mix": ["2:A1"], "template": ["2:A2"], "ntc": ["4:H12"]})'
+    )
+    roles = {"master_mix": ["2:A1"], "template": ["2:A2"], "ntc": ["4:H12"]}
+    given = examined.__wrapped__(PROSE, Options(roles=roles))[0]
+    assert given.undecided == ()
+    errors = {f.rule for f in given.findings if f.severity is Severity.ERROR}
+    assert "PCR-2" in errors, "what the user says is no doubt"
+
+
+def test_a_check_that_sees_the_same_tells_it() -> None:
+    said = reading_of("PCR-2", "violated", ["2:A2", "4:H12"], [12, 16], "H12 is touched.")
+    after = judged(PROSE, answer(roles=READ, answers=[said])).report
+    (found,) = [f for f in after.findings if f.rule == "PCR-2"]
+    assert "H12 is touched" not in found.message
+    assert found.fix
+
+
 def test_where_warnings_are_errors_so_are_the_models() -> None:
     after = judged(PROSE, answer(roles=READ), options=Options(strict=True)).report
     assert {f.severity for f in after.findings} == {Severity.ERROR}

@@ -43,7 +43,9 @@ def test_it_tells_all_that_the_account_holds() -> None:
         "cable", "Over after 8 s", "last frame to verdict", "none: no model was asked",
     ):  # fmt: skip
         assert said in text, said
-    assert text.count("data:image/jpeg;base64,") == 1
+    # The tip close up, and the whole frame where no tip was found.
+    assert text.count("data:image/jpeg;base64,") == 4
+    assert text.count("no tip found") == 3
     assert not re.search(r"(src|href)=\"(?!#|data:)", text)
 
 

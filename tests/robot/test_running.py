@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import json
+import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from opentrons_shared_data.labware import load_definition
 
 from aegis_ot.cli import robot_screen
+from aegis_ot.robot import Command as RobotCommand
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 
 from ..cli.commands import Command
 from ..sidecar.helpers import StubAnalyser, StubCamera
 from ..support.robot_server import RobotServer
-from .protocols import BAD, GOOD, PAUSES, WAITS
+from .protocols import BAD, GOOD, PAUSES, WAITS, WITH_INPUTS
 
 
 @pytest.fixture
@@ -126,6 +129,31 @@ def test_the_person_pauses_and_resumes(
     assert "stopped" in done.out
 
 
+def test_ctrl_c_pauses_and_a_second_one_leaves_the_run_paused(
+    aegis: Command, robot: RobotServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown = robot_screen.TerminalScreen.doing
+    waited = robot_screen.TerminalScreen.waits
+
+    def doing(screen: robot_screen.TerminalScreen, command: RobotCommand) -> None:
+        shown(screen, command)
+        if command.kind == "waitForDuration" and not screen._interrupted:
+            signal.raise_signal(signal.SIGINT)
+
+    def waits(screen: robot_screen.TerminalScreen, text: str) -> None:
+        waited(screen, text)
+        if text:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(robot_screen.TerminalScreen, "doing", doing)
+    monkeypatch.setattr(robot_screen.TerminalScreen, "waits", waits)
+    done = aegis("run", written(WAITS), "--robot", robot.url, "--yes")
+    assert done.code == 130, done.out + done.err
+    assert "Left to the App" in done.out
+    (run,) = robot.runs.values()
+    assert run.status == "paused"
+
+
 def test_a_protocol_that_fails_its_analysis_does_not_start(
     aegis: Command, robot: RobotServer
 ) -> None:
@@ -143,6 +171,22 @@ def test_layer_1_refuses_a_guarded_protocol_in_the_robots_analysis(
     assert done.code == 1, done.out
     assert "Layer 1 found" in done.out
     assert robot.runs == {}
+
+
+def test_labware_and_parameters_of_its_own_go_with_it(aegis: Command, robot: RobotServer) -> None:
+    definition = load_definition("corning_96_wellplate_360ul_flat", 2)
+    definition["parameters"]["loadName"] = "my_plate"
+    definition["namespace"] = "my_lab"
+    Path("labware").mkdir()
+    Path("labware/my_plate.json").write_text(json.dumps(definition), encoding="utf-8")
+    done = aegis(
+        "run", written(WITH_INPUTS), "--robot", robot.url, "--yes",
+        "--labware", "labware", "--parameter", "wells=3",
+    )  # fmt: skip
+    assert done.code == 0, done.out + done.err
+    (run,) = robot.runs.values()
+    kinds = [command["commandType"] for command in run.commands(0, 100)["data"]]
+    assert kinds.count("aspirate") == 3
 
 
 def test_without_a_person_to_ask_the_run_needs_a_yes(aegis: Command, robot: RobotServer) -> None:

@@ -8,9 +8,12 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from aegis_ot.account import Situation, situations
+from aegis_ot.errors import SidecarUnreachable
 from aegis_ot.robot import Analysis, RobotClient
 from aegis_ot.robot.deck import channels_of, largest_volume, under
 from aegis_ot.robot.moments import PastLink, moment_of_transit
@@ -18,8 +21,9 @@ from aegis_ot.robot.running import RobotRun
 from aegis_ot.robot.shapes import Command as RobotCommand
 from aegis_ot.robot.verdicts import WellVerdict
 from aegis_ot.robot.watching import LOSSES, WatchPolicies, await_run, watch_run
+from aegis_ot.runtime.link import Captured
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
-from aegis_ot.vocabulary import Outcome
+from aegis_ot.vocabulary import Keyframe, Outcome, Verdict
 
 from ..cli.commands import Command
 from ..sidecar.helpers import Robot, StubAnalyser, StubCamera
@@ -74,6 +78,29 @@ class Shown:
         return ""
 
 
+class LosingLink(PastLink):
+    """To a sidecar that is gone from the seventh keyframe on."""
+
+    gone = False
+
+    def keyframe(self, keyframe: Keyframe, timeout_s: float, ago_s: float = 0.0) -> Captured:
+        self.gone = self.gone or keyframe.sequence == 6
+        self._must_be_there()
+        return super().keyframe(keyframe, timeout_s, ago_s)
+
+    def health(self, timeout_s: float) -> dict[str, Any]:
+        self._must_be_there()
+        return super().health(timeout_s)
+
+    def verdict(self, run: str, number: int, wait_s: float, timeout_s: float) -> Verdict | None:
+        self._must_be_there()
+        return super().verdict(run, number, wait_s, timeout_s)
+
+    def _must_be_there(self) -> None:
+        if self.gone:
+            raise SidecarUnreachable("The sidecar is gone.")
+
+
 @contextmanager
 def sidecar(folder: Path, *fails: int) -> Iterator[str]:
     config = SidecarConfig(port=0, data=folder / "sidecar")
@@ -120,6 +147,36 @@ def test_a_failed_delivery_pauses_the_robot_by_its_api(client: RobotClient, tmp_
     assert any("Paused by the watch: B2 of my plate (slot 2) failed" in said for said in shown.said)
     assert len(run.pauses) == 1
     assert run.verdicts[1].verdict.outcome is Outcome.FAIL
+
+
+def test_a_pause_of_the_watch_is_answered_on_the_page(client: RobotClient, tmp_path: Path) -> None:
+    shown = Shown()
+    with sidecar(tmp_path, 1) as url:
+        run = begin(client, tmp_path)
+        with Robot(url, f"watch-{run.id}") as page:
+
+            def answer() -> None:
+                while not any("Paused by the watch" in said for said in shown.said):
+                    time.sleep(0.05)
+                until = time.monotonic() + 20
+                while time.monotonic() < until:
+                    found = situations(page.overview(), time.time())
+                    if [one.kind for one in found] == ["paused"]:
+                        break
+                    time.sleep(0.05)
+                asked.extend(found)
+                page.post("trajectories/1/action", {"action": "resume", "by": "Ada"})
+
+            asked: list[Situation] = []
+            somebody = threading.Thread(target=answer)
+            somebody.start()
+            watch_run(client, run, PastLink(url, None), shown, poll_s=0.05)
+            somebody.join()
+            hold = page.overview()["trajectories"][1]["hold"]
+    assert run.status == "succeeded"
+    assert [(one.kind, one.trajectory) for one in asked] == [("paused", 1)]
+    assert hold["answered"] == "page"
+    assert hold["paused_s"] > 0
 
 
 def test_a_run_cancelled_by_somebody_else_ends_the_watch(
@@ -174,17 +231,8 @@ def test_a_lost_sidecar_pauses_once_and_the_watch_goes_on(
     shown = Shown()
     shown.wants["Somebody paused"] = "play"
     with sidecar(tmp_path) as url:
-        link = PastLink(url, None)
+        link = LosingLink(url, None)
         run = begin(client, tmp_path)
-        real = link.keyframe
-
-        def lose(keyframe, timeout_s, ago_s=0.0):  # type: ignore[no-untyped-def]
-            if keyframe.sequence == 6:
-                link._port = 9
-                link.close()
-            return real(keyframe, timeout_s, ago_s)
-
-        link.keyframe = lose  # type: ignore[method-assign]
         watch_run(client, run, link, shown, WatchPolicies(capture_timeout_s=0.3), poll_s=0.05)
     assert run.status == "succeeded"
     assert sum("Paused by the watch: the sidecar is away" in said for said in shown.said) == 1

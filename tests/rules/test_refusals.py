@@ -60,10 +60,6 @@ REFUSED_BY_BOTH = [
         rule(checks=[CARRY, CARRY | {"via_destination": None}]),
         "rule ELISA-1: checks[1]: via_destination: expected only, not or an empty text, found null",
     ),
-    (
-        rule(checks=[SAME | {"check": "receives", "perhaps": [""]}]),
-        "rule ELISA-1: checks[0]: perhaps[0]: expected a word or phrase, found ''",
-    ),
     (rule(checks=[]), "rule ELISA-1: checks: expected at least one, found an empty list"),
     (rule(severity="fatal"), "rule ELISA-1: severity: expected error or warning, found 'fatal'"),
     (rule(scope="galaxy"), "rule ELISA-1: scope: expected family or all, found 'galaxy'"),

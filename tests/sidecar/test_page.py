@@ -12,7 +12,7 @@ from pydantic import SecretStr
 
 from aegis_ot.errors import CameraError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
-from aegis_ot.sidecar.config import CameraSettings, OperatorSettings
+from aegis_ot.sidecar.config import BoundCameraSettings, CameraSettings, OperatorSettings
 
 from .browser import CHROMIUM, Browser, chromium
 from .helpers import Robot, StubAnalyser, StubCamera
@@ -293,4 +293,17 @@ def test_the_camera_is_aimed_before_the_first_run(tmp_path: Path, tab: Browser) 
         assert "No tip is found" in tab.run("document.getElementById('aim-said').textContent")
         first = tab.run("document.getElementById('picture').getAttribute('href')")
         tab.until(f"document.getElementById('picture').getAttribute('href') !== {first!r}")
+        assert tab.errors == []
+
+
+@in_browser
+def test_each_of_several_cameras_can_be_aimed(tmp_path: Path, tab: Browser) -> None:
+    cameras = tuple(BoundCameraSettings(spec="pattern", mount=mount) for mount in ("left", "right"))
+    config = SidecarConfig(port=0, data=tmp_path / "data", cameras=cameras)
+    with running_sidecar(config) as url:
+        tab.open(url + "/camera")
+        tab.until("document.querySelectorAll('nav[aria-label=Cameras] a').length === 2")
+        tab.run("document.querySelectorAll('nav[aria-label=Cameras] a')[1].click()")
+        tab.until("location.search === '?number=1'")
+        tab.until("document.getElementById('picture').getAttribute('href')?.startsWith('data:')")
         assert tab.errors == []

@@ -100,13 +100,13 @@ class RobotServer:
         moment = datetime.fromisoformat(text.replace("Z", "+00:00"))
         return (moment + timedelta(seconds=self.clock_offset_s)).isoformat()
 
-    async def analyse(self, protocol: dict[str, Any]) -> None:
+    async def analyse(self, protocol: dict[str, Any], values: Any = None) -> None:
         analysis: dict[str, Any] = {"id": str(uuid.uuid4()), "status": "pending"}
         protocol["analyses"].append(analysis)
         source = protocol["source"]
         orchestrator = await create_simulating_orchestrator(source.robot_type, source.config)
         try:
-            await orchestrator.load(source, None, None, ParseMode.NORMAL)
+            await orchestrator.load(source, values or None, None, ParseMode.NORMAL)
             result = await orchestrator.run(deck_configuration=[])
         except Exception as error:
             found = [{"errorType": type(error).__name__, "errorCode": "4000", "detail": str(error)}]
@@ -135,7 +135,7 @@ class _Run:
         self._server = server
         self._task: asyncio.Task[Any] | None = None
 
-    async def load(self) -> None:
+    async def load(self, values: Any) -> None:
         source = self.protocol["source"]
         self._loop = asyncio.get_running_loop()
         hardware = await API.build_hardware_simulator(
@@ -165,7 +165,7 @@ class _Run:
             protocol_live_runner=others[2],
         )
         self._hardware = hardware
-        await self.orchestrator.load(source, None, None, ParseMode.NORMAL)
+        await self.orchestrator.load(source, values, None, ParseMode.NORMAL)
 
     @property
     def status(self) -> str:
@@ -309,23 +309,30 @@ def _protocol_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
     @app.post("/protocols")
     async def upload(request: Request) -> Any:
         head = f"Content-Type: {request.headers['content-type']}\r\n\r\n".encode()
-        part: Any = message_from_bytes(head + await request.body()).get_payload(0)  # multipart
-        name, text = part.get_filename(), part.get_payload(decode=True)
-        key = hashlib.sha256(name.encode() + text).hexdigest()
+        parts: Any = message_from_bytes(head + await request.body()).get_payload()  # multipart
+        files = [(p.get_filename(), p.get_payload(decode=True)) for p in parts if p.get_filename()]
+        values = next((json.loads(p.get_payload()) for p in parts if not p.get_filename()), {})
+        key = hashlib.sha256(repr(files).encode()).hexdigest()
         for known in robot.protocols.values():
             if known["key"] == key:
+                if values:
+                    _begin(robot.analyse(known, values))
+                    await asyncio.sleep(0)
                 return body(view(known), 200)
-        path = Path(robot.folder.name) / key[:8] / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_bytes(text)
+        folder = Path(robot.folder.name) / key[:8]
+        folder.mkdir(exist_ok=True)
+        for name, text in files:
+            (folder / name).write_bytes(text)
         try:
-            source = await ProtocolReader().read_saved([path], directory=None)
+            source = await ProtocolReader().read_saved(
+                [folder / name for name, _ in files], directory=None
+            )
         except ProtocolFilesInvalidError as error:
             return _error(422, "ProtocolFilesInvalid", "Protocol File(s) Invalid", str(error))
         protocol = {
             "id": str(uuid.uuid4()),
             "createdAt": datetime.now(timezone.utc).isoformat(),
-            "files": [{"name": name, "role": "main"}],
+            "files": [{"name": source.main_file.name, "role": "main"}],
             "protocolType": "python",
             "robotType": source.robot_type,
             "metadata": source.metadata,
@@ -334,7 +341,7 @@ def _protocol_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
             "analyses": [],
         }
         robot.protocols[protocol["id"]] = protocol
-        _begin(robot.analyse(protocol))
+        _begin(robot.analyse(protocol, values))
         await asyncio.sleep(0)
         return body(view(protocol), 201)
 
@@ -364,7 +371,7 @@ def _protocol_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
         asked = (await request.json()).get("data", {})
         found = robot.protocols[protocol]
         if asked.get("forceReAnalyze"):
-            _begin(robot.analyse(found))
+            _begin(robot.analyse(found, asked.get("runTimeParameterValues")))
             await asyncio.sleep(0)
         summaries = [{"id": a["id"], "status": a["status"]} for a in found["analyses"]]
         return body({"data": summaries, "meta": {"cursor": 0}}, 201)
@@ -392,7 +399,8 @@ def _run_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
 
     @app.post("/runs")
     async def create(request: Request) -> Any:
-        asked = (await request.json())["data"]["protocolId"]
+        data = (await request.json())["data"]
+        asked = data["protocolId"]
         if asked not in robot.protocols:
             detail = f"'Protocol {asked} was not found.'"
             return _error(404, "ProtocolNotFound", "Protocol Not Found", detail)
@@ -401,7 +409,7 @@ def _run_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
             detail = "Current run is not idle or stopped."
             return _error(409, "RunAlreadyActive", "Run Already Active", detail)
         run = _Run(robot, robot.protocols[asked])
-        await run.load()
+        await run.load(data.get("runTimeParameterValues"))
         robot.runs[run.id] = run
         robot.current = run.id
         return body({"data": run.view()}, 201)

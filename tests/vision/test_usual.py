@@ -27,11 +27,19 @@ def test_a_liquid_that_hardly_shows_is_read_less_surely() -> None:
 def test_steady_normal_tips_make_readings_surer_and_straying_ones_less_sure() -> None:
     steady, straying, fresh = Usual(), Usual(), Usual()
     for _ in range(8):
-        steady.note_empty(0.02)
-        straying.note_empty(0.6)
+        steady.note_empty([0.02] * 4)
+        straying.note_empty([0.6] * 4)
     known = [u.variance(wetness(), 3.0, full=False) for u in (steady, fresh, straying)]
     assert known == sorted(known)
     assert (steady.tested(full=False), steady.tested(full=True)) == (8, 0)
+
+
+def test_a_short_column_that_strays_makes_a_long_one_no_less_sure() -> None:
+    usual = Usual()
+    for _ in range(8):
+        usual.note_empty([1.2, 0.3, 0.1, 0.05])
+    short, long = (usual.variance(wetness(), 3.0, full=False, height=share) for share in (0.2, 1.0))
+    assert long < 0.2 * short
 
 
 def test_a_break_is_judged_only_beside_the_breaks_of_normal_columns() -> None:

@@ -1,10 +1,10 @@
-"""The per-run cascade on a held-out plate: calibrate, triage, gate, well by well.
+"""The per-run cascade on a held-out plate: the live run's own judge, with the plate as the run.
 
-It follows what the sidecar does live (``aegis_ot.vision.analyser``), with the plate as the run.
-The first normal wells of a plate, at most six, are its calibration wells and are not scored.
-Where there are enough of them they set the band, as in a live run. Plates in the paper's shape
-begin with one or two normals: no band can be set on those, and such a plate routes by the
-threshold of leave-one-plate-out.
+Every plate is played to :class:`~aegis_ot.vision.monitor.RunMonitor` as a robot would play it:
+keyframe by keyframe, well by well, in the order in which the wells were pipetted. Its model never
+saw the plate. The first normal wells, at most six, are its calibration wells and are not scored.
+Plates in the paper's shape begin with one or two normals: such a run is calibrated on one well, and
+what looks more unusual than one normal well in twenty is not passed for want of proof.
 """
 
 from __future__ import annotations
@@ -12,24 +12,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
-from ...vision.calibration import PRESETS
-from ...vision.cascade import Cascade, Triage
-from ...vision.column_reader import MeasuredColumns
-from ...vision.crops import missing_tips
-from ...vision.gates import (
-    RUN_ALARM,
-    Case,
-    ConfirmingGate,
-    GateDecision,
-    Gates,
-    OperatorGate,
-    VolumetricGate,
-)
-from ...vision.measuring import ColumnReading, TipView
-from ...vision.tips import pipette_class, tip_for
-from ...vision.types import TrajectorySample
-from ...vocabulary import Gate, KeyframeKind, Outcome, Route
+from ...vision.calibration import PRESETS, CalibrationSettings
+from ...vision.camera import Frame
+from ...vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
+from ...vision.measuring import ColumnReading
+from ...vision.monitor import MonitorSettings, RunMonitor
+from ...vision.tips import tip_for
+from ...vision.types import Detector, Image, TipDetection, TrajectorySample
+from ...vocabulary import Keyframe, KeyframeKind, Outcome, Route, Verdict, WellRef
 from .lopo import ALPHA, HeldOut, ScoredWell
 
 BAND_WELLS = 4
@@ -38,118 +30,137 @@ BAND_WELLS = 4
 
 @dataclass(frozen=True)
 class JudgedWell:
-    """One well as the cascade treated it.
+    """One well as the live run treated it.
 
     Attributes:
-        scored: The well with its score; its standing is the threshold's, not the band's.
-        triage: Where it was sent, and why.
-        readings: Measured columns by keyframe.
-        decision: What came of it.
+        scored: The well. Its score is the live run's, and so is its standing where scores are
+            p-values; else the standing is that of leave-one-plate-out.
+        verdict: What came of it.
+        evidence: What stands behind it.
+        calibration: Whether the plate was calibrated on it: assumed normal, and not scored.
     """
 
     scored: ScoredWell
-    triage: Triage
-    readings: Mapping[KeyframeKind, ColumnReading]
-    decision: GateDecision
+    verdict: Verdict
+    evidence: Mapping[str, Any]
+    calibration: bool
 
     @property
     def sample(self) -> TrajectorySample:
         return self.scored.sample
 
     @property
-    def calibration(self) -> bool:
-        """Whether the plate was calibrated on it: assumed normal, and not scored."""
-        return self.triage.route is Route.CALIBRATION
+    def to_gate(self) -> bool:
+        """Whether a gate had to settle it."""
+        return self.verdict.route not in (Route.SILENT_PASS, Route.CALIBRATION)
 
     @property
     def flagged(self) -> bool:
         """Failed, or left to the operator."""
-        return self.decision.outcome is not Outcome.PASS
+        return self.verdict.outcome is not Outcome.PASS
+
+    @property
+    def readings(self) -> dict[KeyframeKind, ColumnReading]:
+        """Measured columns by keyframe; one that proved nothing is left out."""
+        return {
+            KeyframeKind(kind): ColumnReading(
+                told["volume"], told["uncertainty"], told["air"], top=told["top"]
+            )
+            for kind, told in self.evidence.get("measured_ul", {}).items()
+        }
 
 
-def run_cascade(held: HeldOut, asked: Sequence[ConfirmingGate] = ()) -> list[JudgedWell]:
+def run_cascade(
+    held: HeldOut,
+    asked: Sequence[ConfirmingGate] = (),
+    detector: Detector | None = None,
+) -> list[JudgedWell]:
     """Judge every well of every plate, in the order in which they were pipetted.
 
     Args:
-        held: The scored wells.
+        held: The scored wells, and the model that scored each plate.
         asked: Gates between the volumetric one and the operator.
+        detector: What found the tips, if it can make guesses (``best_guess``) in frames in which
+            it found none; the tips themselves are the samples' own.
     """
     judged: list[JudgedWell] = []
+    gates = (VolumetricGate(), *asked, OperatorGate())
     for anchor, wells in held.plates():
-        leading = [anchor]
-        for well in wells:
-            if well.failed or len(leading) >= PRESETS["default"].wells:
-                break
-            leading.append(well)
-        if len(leading) < BAND_WELLS:
-            leading = leading[:1]
-        judged += _Plate(leading, held, asked).judge([anchor, *wells])
+        found = _Replayed(detector)
+        # The first well is known to be normal: nobody is asked about it.
+        settings = MonitorSettings(_calibration(wells), ask_first=False)
+        monitor = RunMonitor(found, held.models.get(anchor.sample.plate), settings, gates)
+        analyser = monitor.begin(anchor.sample.plate)
+        for number, well in enumerate([anchor, *wells]):
+            for keyframe in keyframes(well.sample, number):
+                image = found.show(well.sample, keyframe.kind)
+                analyser.observe(keyframe, Frame(b"", image, 0.0))
+            verdict, evidence = analyser.judge(number)
+            calibrating = number < settings.calibration.wells
+            scored = _live(well, verdict.score, held.gives_p_values)
+            judged.append(JudgedWell(scored, verdict, evidence, calibrating))
     return judged
 
 
-class _Plate:
-    def __init__(
-        self, leading: Sequence[ScoredWell], held: HeldOut, asked: Sequence[ConfirmingGate]
-    ) -> None:
-        self._leading = leading
-        self._name = held.scorer
-        self._p_values = held.gives_p_values
-        settings = replace(PRESETS["default"], wells=len(leading))
-        self._cascade = Cascade(self._name, settings)
-        self._reader = MeasuredColumns()
-        self._gates = Gates((VolumetricGate(), *asked, OperatorGate()))
-        self._banded = len(leading) >= BAND_WELLS
-        for well in leading:
-            self._reader.learn(self._looks(well.sample), well.sample.expected_ul)
-            self._cascade.learn(well.score, normal=True, volume_ul=well.sample.volume_ul)
+def _calibration(wells: Sequence[ScoredWell]) -> CalibrationSettings:
+    """How a plate is calibrated: on the normals that it begins with, if there are enough."""
+    preset = PRESETS["default"]
+    leading = 1
+    for well in wells:
+        if well.failed or leading >= preset.wells:
+            break
+        leading += 1
+    if leading < BAND_WELLS:
+        return replace(preset, wells=1, alarm_p=ALPHA)
+    return replace(preset, wells=leading)
 
-    def judge(self, wells: Sequence[ScoredWell]) -> list[JudgedWell]:
-        return [self._judge(well) for well in wells]
 
-    def _judge(self, well: ScoredWell) -> JudgedWell:
-        sample = well.sample
-        looks = self._looks(sample)
-        readings = self._reader.read(looks, sample.expected_ul)
-        if any(well is first for first in self._leading):
-            triage = Triage(Route.CALIBRATION, "One of the wells that calibrate this plate.")
-            decision = GateDecision(Outcome.PASS, Gate.NONE, triage.reason)
-            return JudgedWell(well, triage, readings, decision)
-        missing = missing_tips(sample)
-        p_value = math.exp(-well.score) if self._p_values else None
-        # On a handful of wells, what the scorer flags and nothing clears stays flagged. A long
-        # run has its own band, and asks more of an alarm.
-        alarm = RUN_ALARM if self._banded else ALPHA
-        case = Case(
-            sample, Route.GREY_ZONE, well.score, readings, missing, p_value=p_value, alarm_p=alarm
+def _live(well: ScoredWell, score: float | None, gives_p_values: bool) -> ScoredWell:
+    if score is None:
+        return well
+    if not gives_p_values:
+        return replace(well, score=score)
+    limit = -math.log(ALPHA)
+    return replace(well, score=score, standing=score - limit, limit=limit)
+
+
+def keyframes(sample: TrajectorySample, number: int) -> list[Keyframe]:
+    """What a robot would say of a recorded trajectory, the ``number``-th of its plate."""
+    well = WellRef(sample.plate, sample.well)
+    return [
+        Keyframe(
+            run=sample.plate,
+            sequence=len(KeyframeKind) * number + place,
+            trajectory=number,
+            kind=kind,
+            pipette=sample.pipette,
+            mount="left",
+            channels=1,
+            tip="",
+            sources=(),
+            destinations=(well,),
+            commanded_ul=sample.volume_ul,
+            expected_ul=sample.expected_ul[kind],
+            capacity_ul=tip_for(sample.pipette).nominal_ul,
+            reagent=sample.reagent or None,
         )
-        volumes = self._gates.screen(case)
-        contradiction = volumes.reason if volumes.outcome is Outcome.FAIL or case.alarming else ""
-        triage = self._triage(well, case, contradiction)
-        if not triage.to_gate:
-            decision = GateDecision(Outcome.PASS, Gate.NONE, triage.reason)
-        else:
-            decision = self._gates.confirm(replace(case, route=triage.route))
-        normal = decision.outcome is Outcome.PASS
-        self._cascade.learn(well.score, normal=normal, volume_ul=sample.volume_ul)
-        if normal and KeyframeKind.TRANSIT in looks:
-            self._reader.learn(looks, sample.expected_ul)
-        return JudgedWell(well, triage, readings, decision)
+        for place, kind in enumerate(KeyframeKind)
+    ]
 
-    def _triage(self, well: ScoredWell, case: Case, contradiction: str) -> Triage:
-        triage = self._cascade.triage(case.score, case.missing, contradiction)
-        decided = contradiction or triage.route is Route.BLANK_FLOOR
-        if self._banded or decided:
-            return triage
-        if well.standing > 0:
-            return Triage(Route.GREY_ZONE, f"The {self._name} score is over the plate's threshold.")
-        return Triage(Route.SILENT_PASS, "Under the plate's threshold.")
 
-    def _looks(self, sample: TrajectorySample) -> dict[KeyframeKind, object]:
-        tip, pipette = tip_for(sample.pipette), pipette_class(sample.pipette)
-        looks: dict[KeyframeKind, object] = {}
-        for kind, expected in sample.expected_ul.items():
-            found = sample.detections[kind]
-            if found is not None:
-                view = TipView(kind, sample.frames[kind], found, tip, pipette, expected)
-                looks[kind] = self._reader.look(view)
-        return looks
+class _Replayed:
+    """A detector that finds what was found in the frame before it, and guesses as it would."""
+
+    def __init__(self, detector: Detector | None) -> None:
+        self._found: TipDetection | None = None
+        guess = getattr(detector, "best_guess", None)
+        if guess is not None:
+            self.best_guess = guess
+
+    def show(self, sample: TrajectorySample, kind: KeyframeKind) -> Image:
+        """The frame that comes next."""
+        self._found = sample.detections[kind]
+        return sample.frames[kind]
+
+    def detect(self, image: Image) -> TipDetection | None:
+        return self._found

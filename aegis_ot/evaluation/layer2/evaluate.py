@@ -44,8 +44,8 @@ def evaluate_layer2(
         dataset: A data set, or its folder.
         scorer: Name of the scorer (:data:`~aegis_ot.vision.scorers.SCORERS`).
         protocol: ``"lopo"``: a well is flagged by its plate's threshold. ``"cascade"``: a well
-            that triage does not pass goes to the volumetric gate (see :mod:`.cascade`);
-            flagged is what the gate fails or leaves to the operator.
+            is judged as a live run judges it (see :mod:`.cascade`); flagged is what it fails or
+            leaves to the operator.
         detector: ``"default"``, a detector file, ``"true"`` for the labelled boxes, or a
             detector.
         threshold: ``"first-normal"`` (the default for the paper's scorers), ``"p-value"`` (for
@@ -75,14 +75,15 @@ def evaluate_layer2(
     routed = flagged = [well.flagged for well in wells]
     settled: Counter[str] = Counter()
     if protocol == "cascade":
-        judged = [well for well in run_cascade(held, gates) if not well.calibration]
+        finder = tips.finder
+        judged = [well for well in run_cascade(held, gates, finder) if not well.calibration]
         wells = [well.scored for well in judged]
-        routed = [well.triage.to_gate for well in judged]
+        routed = [well.to_gate for well in judged]
         flagged = [well.flagged for well in judged]
         settled.update(
-            f"{well.decision.gate.value}_{well.decision.outcome.value}"
-            if well.triage.to_gate
-            else well.triage.route.value
+            f"{well.verdict.gate.value}_{well.verdict.outcome.value}"
+            if well.to_gate
+            else well.verdict.route.value
             for well in judged
         )
     return summarise(
@@ -142,10 +143,12 @@ class FoundTips:
     Attributes:
         samples: All trajectories, in order.
         detector: What found the tips.
+        finder: The detector itself, unless the tips are labelled.
     """
 
     samples: Sequence[TrajectorySample]
     detector: str
+    finder: Detector | None = None
 
 
 def find_tips(
@@ -165,4 +168,4 @@ def find_tips(
         for kind in KeyframeKind:
             sample.detections[kind]
         progress.step()
-    return FoundTips(samples, name)
+    return FoundTips(samples, name, None if isinstance(finder, TrueBoxes) else finder)

@@ -17,6 +17,7 @@ from ...vision.types import Detector, TrajectorySample
 from .evaluate import find_detector, named_detector
 from .progress import Progress
 from .recorded import is_store, open_store, recorded_runs
+from .smallest import smallest_caught
 
 STORED = ("pca", "column", "patches", "ensemble")
 """Scorers that have a model file; the others are for comparison."""
@@ -36,6 +37,7 @@ def fit_model(
     scorer: str = "ensemble",
     detector: Detector | TrueBoxes | str = "default",
     progress: Progress | None = None,
+    measure: bool = True,
 ) -> ModelFile:
     """Fit a scorer on the normals of recorded runs and write its model file.
 
@@ -47,11 +49,13 @@ def fit_model(
         scorer: Name of the scorer.
         detector: As in :func:`~.evaluate.evaluate_layer2`; true boxes serve data sets only.
         progress: Told how far it is.
+        measure: Find out the smallest retained volume that would be caught, see
+            :mod:`.smallest`; takes as long as an evaluation.
 
     Returns:
         What was written. Its ``data["recordings"]`` names each recording with its ``source``
         (``"rendered"``, ``"synthetic"``, ``"real"``), its plates or runs, and how many normals
-        were taken and left out.
+        were taken and left out; ``data["smallest"]`` what this camera would let be caught.
 
     Raises:
         ConfigurationError: If the scorer is unknown or cannot be stored, or a folder holds
@@ -89,8 +93,13 @@ def fit_model(
             "record more of them."
         ) from error
     progress.step()
+    seen = []
+    if measure and hasattr(fitted, "p_value"):
+        progress.begin("Planting retained columns", 1)
+        seen = [one.to_json() for one in smallest_caught(normals, lambda: make_scorer(scorer))]
+        progress.step()
     arrays, settings = fitted.to_arrays()
-    return save_model(path, scorer, arrays, settings, {"recordings": used})
+    return save_model(path, scorer, arrays, settings, {"recordings": used, "smallest": seen})
 
 
 def _normals(

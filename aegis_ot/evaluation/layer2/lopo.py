@@ -13,7 +13,7 @@ import numpy as np
 
 from ...errors import ConfigurationError, DatasetError
 from ...vision.dataset import first_normals
-from ...vision.scorers import Calibrating
+from ...vision.scorers import Calibrating, signs_of
 from ...vision.types import Scorer, TrajectorySample
 from .progress import Progress
 
@@ -66,12 +66,14 @@ class HeldOut:
         gives_p_values: Whether a score is ``-log p``.
         anchors: Each plate's calibration well; it has no standing.
         wells: All other wells, plate by plate.
+        models: What scored each plate; without one, nothing but its columns is judged.
     """
 
     scorer: str
     gives_p_values: bool
     anchors: Sequence[ScoredWell]
     wells: Sequence[ScoredWell]
+    models: Mapping[str, Scorer] = field(default_factory=dict, repr=False)
 
     def plates(self) -> Iterator[tuple[ScoredWell, list[ScoredWell]]]:
         """Each plate's calibration well and its other wells."""
@@ -123,8 +125,9 @@ def hold_out(
     progress.begin(f"Leaving one plate out, {like.name}", len(first))
     anchors: list[ScoredWell] = []
     wells: list[ScoredWell] = []
+    models: dict[str, Scorer] = {}
     for plate, anchor_well in first.items():
-        scorer = make()
+        scorer = models[plate] = make()
         normals = [s for s in samples if s.plate != plate and s.label == "normal"]
         if choose is not None:
             normals = choose(normals)
@@ -140,7 +143,8 @@ def hold_out(
         anchors.append(first_well)
         wells += others
         progress.step()
-    return HeldOut(like.name, hasattr(like, "p_value"), anchors, _place(wells, like, threshold))
+    placed = _place(wells, like, threshold)
+    return HeldOut(like.name, hasattr(like, "p_value"), anchors, placed, models)
 
 
 def score_plate(
@@ -156,7 +160,7 @@ def score_plate(
     wells = []
     for sample in [anchor_well, *(sample for sample in samples if sample is not anchor_well)]:
         score = anchor if sample is anchor_well else scorer.score(sample)
-        parts = _parts(scorer, sample) if explain and not sample.lacks_tip else {}
+        parts = signs_of(scorer, sample) if explain and not sample.lacks_tip else {}
         wells.append(ScoredWell(sample, score, anchor, 0.0, sample.lacks_tip, parts=parts))
     return wells
 
@@ -180,7 +184,7 @@ def score_with(
         progress.step()
     gives = hasattr(fitted, "p_value")
     placed = _place(wells, fitted, "p-value" if gives else "first-normal")
-    return HeldOut(fitted.name, gives, anchors, placed)
+    return HeldOut(fitted.name, gives, anchors, placed, dict.fromkeys(first, fitted))
 
 
 def _place(wells: Sequence[ScoredWell], like: Scorer, threshold: str) -> list[ScoredWell]:
@@ -190,15 +194,6 @@ def _place(wells: Sequence[ScoredWell], like: Scorer, threshold: str) -> list[Sc
     if threshold == "first-normal":
         return _first_normal(wells)
     return _pooled(wells, isinstance(like, Calibrating))
-
-
-def _parts(scorer: Scorer, sample: TrajectorySample) -> dict[str, float]:
-    """Surprises of the signs behind a score, by sign, nats; none where the scorer has no report."""
-    report = scorer.report(sample) if hasattr(scorer, "report") else None
-    column = getattr(report, "column", report)
-    parts = {str(sign): float(value) for sign, value in getattr(column, "surprises", {}).items()}
-    patches = getattr(report, "patches", None)
-    return parts if patches is None else parts | {"patches": float(patches)}
 
 
 def _first_normal(wells: Sequence[ScoredWell]) -> list[ScoredWell]:

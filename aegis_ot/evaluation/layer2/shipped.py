@@ -49,7 +49,7 @@ def make_shipped_model(path: str | Path = SHIPPED) -> ModelFile:
             )
             for pipette, (width, height), seed in SETS
         ]
-        return fit_model(folders, path, "ensemble")
+        return fit_model(folders, path, "ensemble", measure=False)
 
 
 if __name__ == "__main__":

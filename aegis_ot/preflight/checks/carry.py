@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
@@ -111,9 +110,7 @@ class Carry(Check):
                 return True
             first = brought.get(origin)
             return first is not None and (
-                _on_purpose(case, well, origin, visit)
-                or self._made_of(case, visit, origin)
-                or (self.pooled and self._is_put_together(case, visit))
+                _on_purpose(case, well, origin, visit) or self._made_of(case, visit, origin)
             )
         if self.meant and (
             origin in brought or any(case.same_liquid(origin, other) for other in brought)
@@ -130,7 +127,6 @@ class Carry(Check):
             ]
             if any(held) if clean else held and all(held):
                 return True
-            return _ends_in(case, well, visit.index, met.well)
         return False
 
     @staticmethod
@@ -162,27 +158,6 @@ class Carry(Check):
             for given in case.trace.deliveries(dest)
             for _, _, source, _ in delivered(given)
         )
-
-    def _is_put_together(self, case: Case, visit: Visit) -> bool:
-        """Whether an empty tube is being filled from several of these: a mix of components.
-
-        Nothing is drawn from it yet for another well.
-        """
-        well = visit.well
-        if well.prefilled:
-            return False
-        start = next(
-            (v.index for v in well.visits if v.kind is OperationKind.ASPIRATE and not v.mixing),
-            math.inf,
-        )
-        components = {
-            source
-            for given in case.trace.deliveries(well)
-            if given.index < start
-            for _, _, source, _ in delivered(given)
-            if case.has(source, frozenset(self.carried))
-        }
-        return visit.index < start and len(components) > 1
 
     def _violation(self, case: Case, visit: Visit, origin: Well, met: Met) -> Violation:
         well = visit.well
@@ -221,12 +196,6 @@ def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
         if further:
             open_ += later
     return found
-
-
-def _ends_in(case: Case, well: Well, index: int, pool: Well) -> bool:
-    """Whether all of ``well`` is poured, in the end, into this one: a plate swept into a pool."""
-    made = _made_after(case, well, index, further=True)
-    return {dest for dest in made if not _made_after(case, dest, index, further=False)} == {pool}
 
 
 def _is_called(case: Case, well: Well, roles: RoleSet) -> bool:

@@ -80,7 +80,7 @@ class Case:
     def meant(self) -> FirstOrLast:
         """For each well the liquids that measured volumes brought to it, with first index."""
         found: dict[Well, dict[Well, int]] = {}
-        for visit, source, liquid in _transfers(self.trace):
+        for visit, _, liquid in _transfers(self.trace):
             into = found.setdefault(visit.well, {})
             for origin in liquid:
                 into.setdefault(origin, visit.index)
@@ -104,6 +104,15 @@ class Case:
     def straight(self, source: Well, well: Well) -> Sequence[Visit]:
         """The visits that brought liquid straight from one well into another, in order."""
         return self._straight.get((source, well), ())
+
+    def sources_of(self, well: Well) -> set[Well]:
+        """All wells, itself apart, that liquid was drawn from for this one."""
+        return {
+            part[0]
+            for visit in self.trace.deliveries(well)
+            for part in visit.parts
+            if part[0] is not None and part[0] is not well
+        }
 
     @cached_property
     def series(self) -> Sequence[Series]:

@@ -55,12 +55,9 @@ def is_dilution(case: Case, step: Transfer) -> bool:
     """Whether a transfer is a dilution step.
 
     Undiluted stock in an empty first well is none: that well never gets diluent, or only after it
-    was drawn from, when all wells are filled up for the reader. Where the stock stands in the same
-    plate and all of it goes on from there, it is one: the undiluted well is that of the stock.
+    was drawn from, when all wells are filled up for the reader.
     """
     if not step.from_stock or case.has(step.well, diluent_roles(case)):
-        return True
-    if is_used_up(case, step.well, step.source):
         return True
     drawn = [
         visit.index
@@ -90,26 +87,3 @@ def next_draw(step: Transfer) -> Visit | None:
         ),
         None,
     )
-
-
-def is_used_up(case: Case, well: Well, stock: Well | None) -> bool:
-    """Whether the first draw takes all that a well was given, by stock beside it in its plate."""
-    if stock is None or stock.ref.labware != well.ref.labware:
-        return False
-    apart = sum(abs(a - b) for a, b in zip(stock.order, well.order, strict=True))
-    plate = len(case.trace.labware[well.ref.labware].wells) >= _A_PLATE
-    if apart != 1 or not stock.prefilled or not plate:
-        return False
-    held = 0.0
-    for visit in well.visits:
-        if visit.kind is OperationKind.ASPIRATE and not visit.mixing:
-            return 0 < held <= visit.volume + _DREGS and not well.prefilled
-        held += 0.0 if visit.mixing else sum(volume for _, volume, _, _ in visit.parts)
-    return False
-
-
-_A_PLATE = 48
-"""A tube of a rack of fewer may be one to put things together in."""
-
-_DREGS = 0.5
-"""µL that nobody leaves in a well on purpose."""

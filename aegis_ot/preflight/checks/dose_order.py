@@ -32,12 +32,9 @@ class DoseOrder(Check):
         """Follow each tip through the dosed wells."""
         liquid, wanted = frozenset(self.liquid), frozenset(self.wells)
         doses = self._doses(case, liquid)
-        collected = self._collected(case, liquid, wanted)
         seen: set[tuple[int, int]] = set()
         for visit in case.trace.visits:
             if not visit.contact or not visit.carried or not case.has(visit.well, wanted):
-                continue
-            if visit.well in collected:
                 continue
             here = doses.get(visit.well, {})
             key = (visit.tip.number, id(visit.well))
@@ -57,18 +54,6 @@ class DoseOrder(Check):
                 if worse is not None:
                     seen.add(key)
                     yield worse
-
-    @staticmethod
-    def _collected(case: Case, liquid: frozenset[str], wanted: frozenset[str]) -> set[Well]:
-        """Wells that are filled with what stood in dosed ones, as with supernatants."""
-        alike = wanted.union(*(case.roles.closure(role) for role in wanted))
-        dosing: dict[Well, bool] = {}
-        for visit in case.trace.visits:
-            for origin, _, source, _ in delivered(visit):
-                if case.has(origin, liquid):
-                    collects = source is not origin and case.has(source, alike)
-                    dosing[visit.well] = dosing.get(visit.well, True) and collects
-        return {well for well, collects in dosing.items() if collects}
 
     def _doses(self, case: Case, liquid: frozenset[str]) -> dict[Well, dict[Well, float]]:
         """For each well the µL of each dosed liquid that it is given in the whole run."""
@@ -166,32 +151,14 @@ def _compound(case: Case, well: Well) -> tuple[str, ...]:
     return name_without_level(assigned.text, case.common.undescriptive) if assigned else ()
 
 
-_SHORTEST_NAME = 3
-
-
 def _in_one_list(case: Case, one: Well, other: Well) -> bool:
     """Whether two wells have their role from one name, and may be doses of one compound."""
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
     if mine is None or theirs is None:
         return mine is theirs  # nothing is said of either
-    if one.liquids and one.liquids == other.liquids and not one.liquids[0].endswith("s"):
-        return True  # one liquid that is loaded in several wells: "Inhibitor", not "Compounds"
+    if one.liquids and one.liquids == other.liquids:
+        return True
     kinds = lexicon_of({"distinct": case.common.distinct, "dosed": case.common.dose_words})
     said = {match.topic for match in kinds.find(mine.text)}
-    labware = case.trace.labware.get(one.ref.labware)
-    beside = (*(one.text for one in mine.evidence), labware.label if labware else "")
-    said |= {match.topic for text in beside for match in kinds.find(text)} & {"dosed"}
-    same = name_without_level(mine.text, case.common.undescriptive) == name_without_level(
-        theirs.text, case.common.undescriptive
-    )
-    if not same:
-        return False
-    # `INHIBITORS gefitinib 3` and `... 4`: a compound has a name beside its numbers.
-    kind = {match.phrase for match in kinds.find(mine.text) if match.topic == "distinct"}
-    own = [
-        word
-        for word in name_without_level(mine.text, case.common.undescriptive)
-        if word not in kind
-    ]
-    of_one_name = mine.text != theirs.text and any(len(word) > _SHORTEST_NAME for word in own)
-    return "dosed" in said or "distinct" not in said or of_one_name
+    same = _compound(case, one) == _compound(case, other)
+    return same and ("dosed" in said or "distinct" not in said)

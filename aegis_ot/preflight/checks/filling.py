@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -15,7 +15,6 @@ from .dilution_steps import (
     diluent_arrivals,
     diluent_roles,
     is_dilution,
-    is_used_up,
     stock_roles,
 )
 from .series import Series
@@ -45,9 +44,6 @@ class SeriesFilledFirst(Check):
                 if any(index < before for index in fills):
                     continue
                 if not fills and wrong_fill(case, series, step) is not None:
-                    continue
-                if fills and _something_after(case, series, well, fills):
-                    yield Doubt("nothing says which liquid of the first well is diluted")
                     continue
                 if not fills and (not _anyone_filled(case) or _filled_by_hand(case, series)):
                     yield Doubt("no diluent is seen to be added; it may be there already")
@@ -94,22 +90,18 @@ class SeriesFilledFrom(Check):
                 if wrong is None:
                     continue
                 visit, source, line = wrong
-                if not known and (not case.has(source, stock) or _added_by_hand(series, source)):
+                if not known and not case.has(source, stock):
                     yield Doubt("nothing says which reservoir holds the diluent")
                     return
-                if not case.of(source) and (
-                    _fills_a_series_alone(case, series, source)
-                    or not _as_much_as_diluent(case, series, step, source)
-                ):
+                if not case.of(source) and not _stands_in_for_diluent(case, series, step, source):
                     yield Doubt(f"nothing says what {place(source)} holds")
                     continue
-                what = (
-                    f"the {case.title(source)} {place(source)}"
-                    if case.of(source)
-                    else f"{place(source)}, which is not the diluent"
-                )
+                if case.has(source, stock) and _is_in_all(case, series, source):
+                    yield Doubt(f"all wells are given {place(source)}; it may be what dilutes")
+                    continue
                 yield Violation(
-                    f"{place(step.well)} is filled from {what}, {at(line)}, where its diluent "
+                    f"{place(step.well)} is filled from the {case.title(source)} "
+                    f"{place(source)}, {at(line)}, where its diluent "
                     "should come.",
                     (
                         Site(line, source.ref, "drew this in the diluent's place"),
@@ -125,67 +117,25 @@ class SeriesFilledFrom(Check):
         return wrong_fill(case, series, step) is not None
 
 
-def _something_after(case: Case, series: Series, well: Well, fills: Sequence[int]) -> bool:
-    """Whether a liquid comes into a head after its diluent and before it is drawn from."""
-    drawn = [link for link in series.links if link.source is well]
-    if not drawn or any(link.well is well for link in series.links):
-        return False
-    before = min(first_index(link) for link in drawn)
-    diluent, members = diluent_roles(case), set(series.wells)
-    return any(
-        source is not None
-        and source not in members
-        and source not in case.fillers
-        and not case.has(source, diluent)
-        for visit in case.trace.deliveries(well)
-        if fills[0] < visit.index < before
-        for source, _, _, _ in visit.parts
-    )
+def _stands_in_for_diluent(case: Case, series: Series, step: Transfer, source: Well) -> bool:
+    """Whether a well gets as much of this as another one of its series gets of the diluent."""
+    given = sum(visit.volume for visit in case.straight(source, step.well))
+    volumes = [
+        sum(visit.volume for visit in case.straight(other, well))
+        for well in series.wells
+        for other in case.sources_of(well)
+        if case.has(other, diluent_roles(case))
+    ]
+    return any(abs(given - volume) <= 0.05 * volume for volume in volumes)
 
 
-def _added_by_hand(series: Series, source: Well) -> bool:
-    """Whether all wells of a chain are given this, and someone may have added to its head."""
+def _is_in_all(case: Case, series: Series, source: Well) -> bool:
+    """Whether all wells of a chain are given this, and its head another liquid that it dilutes."""
     linked = {well for link in series.links for well in (link.source, link.well)}
     heads = linked - {link.well for link in series.links}
-    return all(_given(well, source) > 0 for well in linked) and all(
-        not well.known and not well.prefilled for well in heads
+    return linked <= case.destinations.get(source, {}).keys() and any(
+        case.sources_of(head) - linked - {source} for head in heads
     )
-
-
-def _fills_a_series_alone(case: Case, series: Series, source: Well) -> bool:
-    """Whether one series is filled from this and another from a diluent in the same labware.
-
-    Each may have a diluent of its own; wells of one series that differ are a mistake.
-    """
-    if any(diluent_arrivals(case, well) for well in series.wells):
-        return False
-    diluent = diluent_roles(case)
-    return any(
-        other is not None and other.ref.labware == source.ref.labware and case.has(other, diluent)
-        for beside in case.series
-        if beside is not series
-        for well in beside.wells
-        for visit in case.trace.deliveries(well)
-        for other, _, _, _ in visit.parts
-    )
-
-
-def _as_much_as_diluent(case: Case, series: Series, step: Transfer, source: Well) -> bool:
-    """Whether a well is given as much of this as another one of the series of its diluent."""
-    here = _given(step.well, source)
-    diluent = diluent_roles(case)
-    volumes = [
-        _given(well, other)
-        for well in series.wells
-        for other in {part[0] for visit in case.trace.deliveries(well) for part in visit.parts}
-        if other is not None and case.has(other, diluent)
-    ]
-    return not volumes or any(abs(here - volume) <= 0.05 * volume for volume in volumes)
-
-
-def _given(well: Well, source: Well) -> float:
-    """µL that a well is given from a source."""
-    return sum(part[1] for visit in well.visits for part in visit.parts if part[0] is source)
 
 
 def first_index(step: Transfer) -> int:
@@ -215,8 +165,7 @@ def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
     It needs no diluent, and a later transfer into it runs the wrong way, which is SD-2's.
     """
     first = next(case.trace.deliveries(well), None)
-    given = first.parts[0][0] if first is not None and first.parts else None
-    if not series.directed or series.position[well] != 0 or is_used_up(case, well, given):
+    if not series.directed or series.position[well] != 0:
         return False
     stock = stock_roles(case)
     drawn = [first_index(link) for link in series.links if link.source is well]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -79,9 +79,6 @@ class MixedAfter(Check):
             if not came or case.trace.mixed_since(well, came[-1].index, math.inf):
                 continue
             last = came[-1]
-            if _another_is_shaken(case, last.index):
-                yield Doubt("a plate is shaken that the run never fills; it may be the same one")
-                return
             what = " or ".join(case.family.roles[role].title for role in self.liquid)
             yield Violation(
                 f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
@@ -89,15 +86,6 @@ class MixedAfter(Check):
                 well,
                 (last.line, what),
             )
-
-
-def _another_is_shaken(case: Case, index: int) -> bool:
-    """Whether after this a shaker runs with nothing on it that was ever filled."""
-    filled = {well.ref.labware for well in case.trace.wells.values()}
-    return any(
-        index < at and keys is not None and filled.isdisjoint(keys)
-        for at, keys in case.trace.shaken
-    )
 
 
 @dataclass(frozen=True)
@@ -128,9 +116,6 @@ class ReceivedBefore(Check):
             for visit in arrivals(case, well, first):
                 if visit.index <= late[0].index:
                     continue
-                if _another_follows(case, late, visit.index):
-                    yield Doubt(f"{place(well)} is given two reagents, one of them afterwards")
-                    break
                 what = " or ".join(case.family.roles[role].title for role in self.then)
                 source = next(
                     (s for o, _, s, _ in delivered(visit) if case.has(o, first)), visit.well
@@ -146,13 +131,6 @@ class ReceivedBefore(Check):
                     (late[0].line, visit.line),
                 )
                 break
-
-
-def _another_follows(case: Case, late: Sequence[Visit], index: int) -> bool:
-    """Whether a liquid that came too early is one of two, the other of which comes in time."""
-    early = {s for visit in late if visit.index < index for _, _, s, _ in delivered(visit)}
-    in_time = {s for visit in late if visit.index > index for _, _, s, _ in delivered(visit)}
-    return any(all(not case.same_liquid(a, b) for b in early) for a in in_time)
 
 
 @dataclass(frozen=True)
@@ -171,7 +149,6 @@ class RisingOrder(Check):
         liquid = frozenset(self.liquid)
         last: dict[tuple[int, int], tuple[Well, float | None, Visit]] = {}
         doubted = False
-        visited: dict[tuple[int, int], dict[Well, Visit]] = {}
         done: set[tuple[int, int, int]] = set()
         for visit in case.trace.visits:
             for source, volume, _, draw_line in visit.parts:
@@ -184,11 +161,7 @@ class RisingOrder(Check):
                 before = last.get(key)
                 if before is not None and before[0] is not source:
                     if before[1] is None or level is None or not comparable(before[1], level):
-                        seen = visited.get(key, {})
-                        if source in seen and len(seen) >= _A_SERIES and (*key, 0) not in done:
-                            done.add((*key, 0))
-                            yield _second_pass(case, source, seen[source], before[2], visit)
-                        elif not doubted:
+                        if not doubted:
                             doubted = True
                             yield Doubt(
                                 f"one tip dispenses {place(before[0])} and then "
@@ -210,23 +183,3 @@ class RisingOrder(Check):
                             (before[2].line, visit.line),
                         )
                 last[key] = (source, level, visit)
-                visited.setdefault(key, {}).setdefault(source, visit)
-
-
-_A_SERIES = 3
-"""As many wells as this under one name are a series and no replicates of one another."""
-
-
-def _second_pass(case: Case, source: Well, first: Visit, last: Visit, visit: Visit) -> Violation:
-    """One tip comes back to a standard after others: whatever they hold, that is not rising."""
-    return Violation(
-        f"The tip that dispensed {case.title(source)} from {place(source)} {at(first.line)} and "
-        f"others since goes back to it for {place(visit.well)} {at(visit.line)}.",
-        (
-            Site(first.line, source.ref, "dispensed this first"),
-            Site(last.line, last.well.ref, "went on to others"),
-            Site(visit.line, visit.well.ref, "began again with the same tip"),
-        ),
-        visit.well,
-        (first.line, visit.line),
-    )

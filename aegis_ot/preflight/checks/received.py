@@ -27,16 +27,6 @@ def filled(case: Case, well: Well) -> tuple[float, int | None]:
     return total, line
 
 
-def sources_of(case: Case, well: Well) -> set[Well]:
-    """All wells, itself apart, that liquid came from into this one."""
-    return {
-        part[0]
-        for visit in case.trace.deliveries(well)
-        for part in visit.parts
-        if part[0] is not None and part[0] is not well
-    }
-
-
 def came_from(case: Case, well: Well, liquid: RoleSet) -> set[Well]:
     """The wells that a liquid came into this one from.
 
@@ -45,5 +35,5 @@ def came_from(case: Case, well: Well, liquid: RoleSet) -> set[Well]:
     stood = {origin for origin in case.meant.get(well, {}) if case.has(origin, liquid)}
     if stood:
         return stood
-    made_in = {source for source in sources_of(case, well) if case.has(source, liquid)}
+    made_in = {source for source in case.sources_of(well) if case.has(source, liquid)}
     return {part for made in made_in for part in case.meant.get(made, {made: 0})}

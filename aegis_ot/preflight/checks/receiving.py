@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
 from ..evidence import Kind
-from ..rules import Word
-from ..source import lexicon_of, tokens
 from ..trace import Well
 from .case import Case, RoleSet, delivered
 from .check import Check, Doubt, Result, Violation, at, place, role_field
-from .received import filled, received, sources_of
+from .received import filled, received
 
 
 def _unknown_source(case: Case, well: Well, served: set[tuple[str, str]]) -> Well | None:
@@ -65,10 +62,6 @@ def _never_received(
     return Violation(message, (others, lacking), well, (case.title(well),), (well, given[2]))
 
 
-_AS_FULL = 0.05
-"""Volumes that differ by no more than this share are alike."""
-
-
 @dataclass(frozen=True)
 class Receives(Check):
     """Every well of ``wells`` receives a liquid of ``liquid``.
@@ -82,16 +75,12 @@ class Receives(Check):
             have a role of ``always``.
         liquid: Roles of the liquid.
         always: Roles whose wells are judged even if the run never touches them.
-        perhaps: Words that also name wells which are filled with a buffer in the liquid's place:
-            a well that is called so and nothing else, and ends as full as the others without
-            the liquid, is no violation but cannot be judged.
     """
 
     name: ClassVar[str] = "receives"
     wells: tuple[str, ...] = role_field()
     liquid: tuple[str, ...] = role_field()
     always: tuple[str, ...] = role_field(())
-    perhaps: tuple[Word, ...] = ()
 
     def find(self, case: Case) -> Iterator[Result]:
         """Look at each well that should receive it."""
@@ -105,11 +94,7 @@ class Receives(Check):
         if not plates and self._stands_unused(case, liquid):
             plates = {ref.labware for ref, used in case.usage.items() if used.received}
             always = frozenset(self.always)
-            judged = [
-                well
-                for well in self._judged(case)
-                if case.has(well, always) and not self._is_ready_made(case, well, served)
-            ]
+            judged = [well for well in self._judged(case) if case.has(well, always)]
         else:
             judged = list(self._judged(case))
         if not plates or not judged:
@@ -145,45 +130,12 @@ class Receives(Check):
                 f"{place(well)} receives something from {place(unknown)}, and nothing says "
                 "what stands there"
             )
-        if self._is_ready_made(case, well, served):
-            return f"{place(well)} may get all of its liquid from one tube, as the others do"
+        sources = case.sources_of(well)
+        if sources and all(case.has(source, frozenset(self.wells)) for source in sources):
+            return f"{place(well)} is filled from wells like it, at a later stage perhaps"
         if case.roles.is_named_by_labware(well.ref):
             return f"nothing but its plate's name says what {place(well)} is for"
-        if self._is_filled_otherwise(case, well, filled(case, well)[0], served):
-            return f"{place(well)} may be a blank of the instrument: it is filled up"
         return ""
-
-    def _is_ready_made(self, case: Case, well: Well, served: set[tuple[str, str]]) -> bool:
-        """Whether an NTC comes out of an NTC tube, and no well beside it is put together."""
-        beside = [
-            other
-            for other in case.trace.wells.values()
-            if other.ref.labware == well.ref.labware
-            and (other.ref.labware, other.ref.name) in served
-        ]
-        always = frozenset(self.always)
-        return any(case.has(source, always) for source in sources_of(case, well)) and all(
-            len(sources_of(case, other)) == 1 for other in beside
-        )
-
-    def _is_filled_otherwise(
-        self, case: Case, well: Well, total: float, served: set[tuple[str, str]]
-    ) -> bool:
-        """Whether a well is called by a word of ``perhaps`` alone, and as full as the others."""
-        assigned = case.roles.by_well.get(well.ref)
-        if assigned is None or total <= 0:
-            return False
-        words = case.family.roles[assigned.role].words
-        found = lexicon_of({"role": words}, case.common.aliases).find(assigned.text)
-        perhaps = {tokens(word) for word in self.perhaps}
-        if not found or any(tokens(match.phrase) not in perhaps for match in found):
-            return False
-        return any(
-            other.ref.labware == well.ref.labware
-            and (other.ref.labware, other.ref.name) in served
-            and math.isclose(filled(case, other)[0], total, rel_tol=_AS_FULL)
-            for other in case.trace.wells.values()
-        )
 
     def _plates(self, case: Case, liquid: RoleSet) -> set[str]:
         """Labware where some well is given the liquid, and their replicates.

@@ -7,13 +7,13 @@ order), running away from the well in which the stock stands.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence, Set
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
 from ...vocabulary import WellRef
 from ..roles import Roles
 from ..trace import Trace, Transfer, Well, chains_of, links_of
-from .series_links import along_series, first_from, is_copying
+from .series_links import along_series, is_copying
 from .series_order import best_order, turned_to_fall
 
 
@@ -58,17 +58,14 @@ def find_series(
         )
         and link.well.ref not in waste
     ]
-    links, fillers = along_series(trace, roles, links, diluent)
+    links, fillers = along_series(trace, links)
     groups = [
         group
         for group in chains_of(links)
         if len({(s.source, s.well) for s in group}) >= shortest and not is_copying(trace, group)
     ]
     linked = {well for group in groups for link in group for well in (link.source, link.well)}
-    alike = _given_alike(trace, roles, groups, diluent)
-    return [
-        _series(trace, roles, group, stock, diluent, linked, fillers, alike) for group in groups
-    ]
+    return [_series(trace, roles, group, stock, diluent, linked, fillers) for group in groups]
 
 
 def _is_made(trace: Trace, roles: Roles, well: Well, made_of: frozenset[str]) -> bool:
@@ -90,7 +87,6 @@ def _series(
     diluent: frozenset[str],
     taken: Collection[Well],
     fillers: frozenset[Well],
-    alike: Set[Well],
 ) -> Series:
     linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
     members = _with_neighbours(trace, roles, linked, diluent | stock, taken)
@@ -101,7 +97,6 @@ def _series(
     member_set = set(members)
     linked_set = set(linked)
     fed = _fed_from_outside(trace, members)
-    special = _for_the_head(roles, fed, links, diluent)
     for well in members:
         last: dict[int, Transfer] = {}
         held_stock = well.prefilled and well in linked_set and not _feeds_last(well, links)
@@ -112,11 +107,10 @@ def _series(
             for source, volume, _, line in visit.parts:
                 if source is None or source is well or volume <= 0 or source in member_set:
                     continue
-                if roles.has(source.ref, diluent) or source in alike:
+                if roles.has(source.ref, diluent):
                     continue
                 if (
                     roles.has(source.ref, stock)
-                    or (source in special and not alike.isdisjoint(fed))
                     # Unnamed, but it goes into one well only, and that one feeds the others.
                     or (not roles.of(source.ref) and fed[source] == {well} and well in linked_set)
                 ):
@@ -125,97 +119,13 @@ def _series(
         for step in last.values():
             entries.append(well)
             steps.append(step)
-    directed = turned_to_fall(order, entries, links, roles)
+    directed = turned_to_fall(order, entries, links)
     position = {well: number for number, well in enumerate(order)}
     for link in sorted(links, key=lambda s: s.visit.index):
         if link.source in entered and entered[link.source] < link.visit.index:
             entered.setdefault(link.well, link.visit.index)
     all_steps = sorted([*steps, *links], key=lambda s: s.visit.index)
-    fillers |= {well for well in alike if well in fed and _comes_first(trace, well, links)}
     return Series(order, position, all_steps, links, directed, entered, fillers)
-
-
-def _given_alike(
-    trace: Trace, roles: Roles, groups: Sequence[Sequence[Transfer]], diluent: frozenset[str]
-) -> set[Well]:
-    """Sources that all wells of a chain are given, where its head alone is given another one.
-
-    That other one is what is diluted. What all get alike is no stock, whatever its name: the
-    protein that a ligand is titrated into, a dye in every well. Where other chains are filled
-    with diluent, what this one is given instead is rather a mistake; and so is the wash buffer,
-    where a diluent stands unused, or what has another name, if the undiluted first well gets none.
-    """
-    alike: dict[bool, set[Well]] = {}
-    unused = _stands_unused(trace, roles, diluent)
-    wrong = _never_diluent(roles) if unused else frozenset()
-    others = roles.named_otherwise() if unused else frozenset()
-    for links in groups:
-        linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
-        fed = _fed_from_outside(trace, linked)
-        found = alike.setdefault(any(roles.has(source.ref, diluent) for source in fed), set())
-        for_the_head = _for_the_head(roles, fed, links, diluent)
-        in_line = any(source.ref.labware == linked[0].ref.labware for source in for_the_head)
-        if len(linked) >= _FEWEST_ALIKE and for_the_head:
-            found.update(
-                source
-                for source, wells in fed.items()
-                if wells.issuperset(linked)
-                and not roles.has(source.ref, wrong)
-                and not (in_line and source.ref in others)
-            )
-    return alike.get(True in alike, set())
-
-
-def _stands_unused(trace: Trace, roles: Roles, diluent: frozenset[str]) -> bool:
-    """Whether a well is named for the diluent, and none of those is ever drawn from."""
-    named = {ref for ref, assigned in roles.by_well.items() if assigned.role in diluent}
-    return bool(named) and named.isdisjoint(trace.served())
-
-
-def _never_diluent(roles: Roles) -> frozenset[str]:
-    """Roles of liquids that are neither diluted nor diluted with."""
-    spec = roles.family.series
-    of_series = (*spec.stock, *spec.diluent, *spec.diluent_else) if spec else ()
-    diluted = frozenset[str]().union(*map(roles.closure, of_series))
-    sources = {name for name, role in roles.family.roles.items() if role.side == "source"}
-    return frozenset(sources - diluted)
-
-
-_FEWEST_ALIKE = 3
-"""In a chain of fewer wells it says little that all of them are given the same."""
-
-
-def _for_the_head(
-    roles: Roles,
-    fed: Mapping[Well, set[Well]],
-    links: Sequence[Transfer],
-    diluent: frozenset[str],
-) -> set[Well]:
-    """Sources other than the diluent that go into the head of a chain and into no later well."""
-    later = {link.well for link in links}
-    heads = {link.source for link in links} - later
-    return {
-        source
-        for source, wells in fed.items()
-        if not roles.has(source.ref, diluent)
-        and not wells.isdisjoint(heads)
-        and wells.isdisjoint(later)
-    }
-
-
-def _comes_first(trace: Trace, source: Well, links: Sequence[Transfer]) -> bool:
-    """Whether a source gives to each well of a chain before the chain reaches it."""
-    reached = {link.well for link in links}
-    given = {
-        well
-        for well in reached
-        for visit in trace.deliveries(well)
-        if any(part[0] is source for part in visit.parts)
-    }
-    return given == reached and all(
-        first_from(trace, source, link.well).index < first_from(trace, link.source, link.well).index
-        for link in links
-    )
 
 
 def _fed_from_outside(trace: Trace, members: Sequence[Well]) -> dict[Well, set[Well]]:

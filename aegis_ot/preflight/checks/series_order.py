@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 
-from ..roles import Roles
 from ..trace import Transfer, Well
 
 
@@ -38,30 +36,20 @@ def _as_made(members: list[Well], links: Sequence[Transfer]) -> list[Well]:
 
 
 def turned_to_fall(
-    order: list[Well], entries: Sequence[Well], links: Sequence[Transfer], roles: Roles
+    order: list[Well],
+    entries: Sequence[Well],
+    links: Sequence[Transfer],
 ) -> bool:
     """Turn an order in place, if need be, so that it runs away from the stock.
-
-    Where each well's level is said, the levels tell better than the stock's place: somebody may
-    have put it into the wrong end. Levels of 1 and more may be by how much each is diluted.
 
     Args:
         order: The wells of a series, in the order of its labware.
         entries: Those that stock goes into.
         links: The transfers between them.
-        roles: For their levels.
 
     Returns:
         Whether it is known which end is the most concentrated one.
     """
-    levels = [roles.level(well.ref) for well in order]
-    told = [level for level in levels if level is not None and level < 1]
-    if len(told) == len(order) >= _FEWEST_TOLD:
-        if all(one > other for one, other in pairwise(told)):
-            return True
-        if all(one < other for one, other in pairwise(told)):
-            order.reverse()
-            return True
     if entries:
         # Where stock stands in the diluent's place too, only the well that no other feeds tells.
         linked = {well for link in links for well in (link.source, link.well)}
@@ -80,7 +68,3 @@ def turned_to_fall(
     if sum(1 if position[s.well] > position[s.source] else -1 for s in links) < 0:
         order.reverse()
     return False
-
-
-_FEWEST_TOLD = 3
-"""Levels of fewer wells say little of an order."""

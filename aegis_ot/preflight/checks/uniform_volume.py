@@ -11,7 +11,7 @@ from ..rules import AtLeast
 from ..trace import Well
 from .case import Case, RoleSet
 from .check import Check, Result, Violation, at, place, role_field
-from .received import came_from, filled, received, sources_of
+from .received import came_from, filled, received
 
 Member = tuple[Well, float, float]
 """A well, the µL of the liquid that it received, and those that it received in all."""
@@ -49,7 +49,7 @@ class UniformVolume(Check):
                 continue
             if self._is_shared_out(case, well, wells):
                 continue
-            sources = sources_of(case, well)
+            sources = case.sources_of(well)
             if sources and all(case.has(source, wells) for source in sources):
                 continue  # a product that goes on to a gel
             got, _ = received(case, well, liquid)
@@ -57,13 +57,7 @@ class UniformVolume(Check):
                 total, _ = filled(case, well)
                 groups.setdefault(self._assay(case, well, liquid), []).append((well, got, total))
         for members in groups.values():
-            by_tube = self._by_tube(case, members, liquid)
-            several = len(by_tube) > 1 and all(
-                len(served) > 1 and not any(self._differs(one[1], served[0][1]) for one in served)
-                for served in by_tube.values()
-            )
-            for alike in by_tube.values() if several else [members]:
-                yield from self._compare(case, alike)
+            yield from self._compare(case, members)
 
     @staticmethod
     def _is_shared_out(case: Case, well: Well, wells: RoleSet) -> bool:
@@ -72,19 +66,6 @@ class UniformVolume(Check):
             other is not well and other.ref.labware == well.ref.labware and case.has(other, wells)
             for other in case.destinations.get(well, {})
         )
-
-    @staticmethod
-    def _by_tube(
-        case: Case, members: list[Member], liquid: RoleSet
-    ) -> dict[frozenset[Well], list[Member]]:
-        """Members by the wells that their ``liquid`` came from; one group if it is declared."""
-        found: dict[frozenset[Well], list[Member]] = {}
-        for member in members:
-            tubes = frozenset(came_from(case, member[0], liquid))
-            if any(tube.liquids for tube in tubes):
-                return {frozenset(): members}
-            found.setdefault(tubes, []).append(member)
-        return found
 
     def _differs(self, volume: float, usual: float) -> bool:
         return abs(volume - usual) > max(self.tolerance * usual, 0.01)

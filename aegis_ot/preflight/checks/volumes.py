@@ -12,6 +12,7 @@ from ..trace import Imbalance, Visit, Well
 from .case import Case
 from .check import Check, Doubt, Result, Violation, at, place
 
+_FEWEST_ALIKE = 3
 _FAR_SHORT = 2.0
 """Where so many times more is drawn than the run has put in, the plate was filled by hand."""
 
@@ -37,6 +38,7 @@ class VolumeBookkeeping(Check):
             for one in case.trace.imbalances
             if not one.overfilled and _is_far_short(one.visit.well)
         }
+        short = _all_short(case)
         found: dict[tuple[Well, bool], list[Imbalance]] = {}
         for one in case.trace.imbalances:
             well = one.visit.well
@@ -49,9 +51,9 @@ class VolumeBookkeeping(Check):
                     or well.generation  # brought by hand in a pause: nobody says what it holds
                 ):
                     continue  # it may have held what nobody declared
-                if one.visit.mixing:
+                if one.visit.mixing or well.ref.labware in short:
                     yield Doubt(
-                        f"{place(well)} is mixed with {one.volume:.4g} µL {at(one.visit.line)}, "
+                        f"{one.volume:.4g} µL are drawn from {place(well)} {at(one.visit.line)}, "
                         f"and the run has put {one.limit:.4g} µL there: it may have held more"
                     )
                     continue
@@ -59,6 +61,16 @@ class VolumeBookkeeping(Check):
         for together in found.values():
             told = [(one, _why_practice(case, one)) for one in together]
             yield _violation(*next((one for one in told if not one[1]), told[0]))
+
+
+def _all_short(case: Case) -> set[str]:
+    """Labware of which all wells that the run draws from hold too little: they held more before."""
+    drawn: dict[str, set[Well]] = {}
+    for visit in case.trace.visits:
+        if visit.kind is OperationKind.ASPIRATE and not visit.mixing:
+            drawn.setdefault(visit.well.ref.labware, set()).add(visit.well)
+    short = {one.visit.well for one in case.trace.imbalances if not one.overfilled}
+    return {key for key, wells in drawn.items() if len(wells) >= _FEWEST_ALIKE and wells <= short}
 
 
 def _is_far_short(well: Well) -> bool:

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from ...vocabulary import WellRef
+from ..source import tokens
 from .deck import Deck
 from .evidence import Evidence, Kind, shortened
+from .well_names import WELL
 from .written_wells import entries_of
+
+_WELL = re.compile(rf"\b{WELL}\b")
+_SHORT = 4
+"""Words of a description that is a name; a longer one is prose."""
 
 
 def given_roles(deck: Deck, given: Mapping[str, Sequence[str]]) -> Iterator[Evidence]:
@@ -26,7 +33,7 @@ def loaded_liquids(deck: Deck) -> Iterator[Evidence]:
     for liquid, wells in by_name.items():
         yield Evidence(Kind.LIQUID, liquid, tuple(wells), f"liquid '{liquid}'")
         description = deck.trace.descriptions.get(liquid)
-        if description:
+        if description and len(tokens(description)) <= _SHORT:
             said = f"liquid '{liquid}', described as '{shortened(description)}'"
             yield Evidence(Kind.DESCRIPTION, description, tuple(wells), said)
 
@@ -41,5 +48,6 @@ def labels(deck: Deck) -> Iterator[Evidence]:
         for names, said in entries or ():
             yield Evidence(Kind.NAME, said, deck.refs((info.key,), names), citation)
         if not entries:
-            wells = deck.used_wells((info.key,))
+            apart = deck.refs((info.key,), _WELL.findall(info.label))  # "DNA (H2 = water)"
+            wells = tuple(ref for ref in deck.used_wells((info.key,)) if ref not in apart)
             yield Evidence(Kind.NAME, info.label, wells, citation, whole=True)

@@ -12,7 +12,7 @@ from ..source import SourceFacts, level_in, lexicon_of, tokens
 from .deck import Deck
 from .evidence import Evidence, Kind
 
-_NUMBERED = re.compile(r"(.*)\[(?P<quote>['\"]?)(-?\d+(?:\.\d+)?)(?P=quote)\](.*)")
+NUMBERED = re.compile(r"(.*)\[(?P<quote>['\"]?)(-?\d+(?:\.\d+)?)(?P=quote)\](.*)")
 
 
 def named_wells(
@@ -30,13 +30,14 @@ def named_wells(
             if _is_one_of_many(binding, names):
                 continue  # the list that it runs over says as much of all its wells
             passing = True
+        passing = passing or (binding.function, base) in facts.rebound
         line = facts.assigned.get(base.rpartition(".")[2], binding.line)
-        wells = binding.wells or deck.used_wells(binding.labware)
+        wells = deck.meant(binding.wells) or deck.used_wells(binding.labware)
         level = keyed.get(binding.name)
         text = binding.name
         levels: tuple[float | None, ...] = ()
         if binding.name in keyed:
-            text = _NUMBERED.sub(r"\1\4", text) if level is None else text
+            text = NUMBERED.sub(r"\1\4", text) if level is None else text
             levels = (level,) * len(wells)
         elif binding.wells and len(wells) > 1:
             levels = _listed_beside(binding, lists)
@@ -85,7 +86,7 @@ def levels_of_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
     """Level of each name like ``standards[125]``; ``None`` where the keys only count."""
     groups: dict[tuple[str, str], dict[str, float]] = {}
     for binding in names:
-        match = _NUMBERED.fullmatch(binding.name)
+        match = NUMBERED.fullmatch(binding.name)
         if match:
             group = groups.setdefault((match[1] + match[4], match["quote"]), {})
             group[binding.name] = float(match[3])

@@ -14,33 +14,41 @@ from ..rules import Common
 from ..source import Index, SourceFacts, level_in, lexicon_of
 from .deck import Deck
 from .evidence import Evidence, Kind
-from .names import levels_of_keys
+from .names import NUMBERED, levels_of_keys
 
 
 def plate_maps(
     deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
 ) -> Iterator[Evidence]:
     """What maps and lists of well names, and rows beside wells, say of these wells."""
-    amounts = lexicon_of({"amount": common.amounts})
     keyed = levels_of_keys(names)
+    by_map: dict[str, list[Evidence]] = {}
     for binding in names:
         base = binding.name.split("[", 1)[0]
         if (binding.function, base) in facts.varying or binding.name == "metadata":
             continue
         line = facts.assigned.get(base.rpartition(".")[2], binding.line)
         uses = facts.flow.indexed_with(base.rpartition(".")[2])
+        found = by_map.setdefault(base, [])
         if binding.spots and uses:
-            wells = deck.refs(_labware(deck, facts, uses), binding.spots)
-            if _are_plausible(deck, wells):
-                citation = f"plate map `{binding.name}` at line {line}"
-                level = keyed.get(binding.name)
-                levels = () if level is None else (level,) * len(wells)
-                yield Evidence(Kind.NAME, binding.name, wells, citation, line, levels=levels)
+            wells = _wells_of_list(deck, _labware(deck, facts, uses), binding.spots)
+            found.append(_of_list(binding.name, wells, line, keyed.get(binding.name)))
         for row in binding.rows:
             wells = row.wells or _wells_of_row(deck, facts, row, uses)
-            if wells and _are_plausible(deck, wells):
-                of_amounts = bool(amounts.find(binding.name))
-                yield from _of_row(binding.name, row, wells, line, common, of_amounts)
+            found += _of_row(binding.name, row, wells, line, common)
+    for found in by_map.values():
+        # A map of 96 places of which few are used may serve another run.
+        spoken_of = {ref for one in found for ref in one.wells}
+        if 2 * sum(map(deck.is_used, spoken_of)) >= len(spoken_of):
+            yield from found
+
+
+def _of_list(name: str, wells: tuple[WellRef, ...], line: int, level: float | None) -> Evidence:
+    # A running number tells none of its wells from the others.
+    counted = level is None and NUMBERED.fullmatch(name) is not None
+    citation = f"plate map `{name}` at line {line}"
+    levels = () if level is None else (level,) * len(wells)
+    return Evidence(Kind.NAME, name, wells, citation, line, whole=counted, levels=levels)
 
 
 def _labware(deck: Deck, facts: SourceFacts, uses: Iterable[Index]) -> tuple[str, ...]:
@@ -50,6 +58,17 @@ def _labware(deck: Deck, facts: SourceFacts, uses: Iterable[Index]) -> tuple[str
         for origin in (use.held, *facts.flow.comes_from.get(use.held, ())):
             found |= deck.by_name.get(origin, set())
     return tuple(key for key in deck.trace.labware if key in found)
+
+
+def _wells_of_list(deck: Deck, labware: Sequence[str], spots: Sequence[str]) -> tuple[WellRef, ...]:
+    """The wells of a list of names. Where several labware are indexed with them, those in which
+    all are used: ``("D6", "H12")`` may be a tube and a well.
+    """
+    in_each = [deck.refs((key,), spots) for key in labware]
+    if len(in_each) > 1:
+        whole = [wells for wells in in_each if len(wells) == len(spots)]
+        in_each = [wells for wells in whole if all(map(deck.is_used, wells))]
+    return tuple(ref for wells in in_each for ref in wells)
 
 
 def _wells_of_row(
@@ -63,13 +82,8 @@ def _wells_of_row(
         asked = [use for use in uses if column and column in use.fields]
         if len(row.spots) > 1 and not asked:
             return ()
-        found += deck.refs(_labware(deck, facts, asked or uses), (cell,))
+        found += _wells_of_list(deck, _labware(deck, facts, asked or uses), (cell,))
     return tuple(found)
-
-
-def _are_plausible(deck: Deck, wells: Sequence[WellRef]) -> bool:
-    """Whether the run uses most of these wells: a map of 96 places may serve another run."""
-    return 2 * sum(map(deck.is_used, wells)) >= len(wells)
 
 
 def _of_row(
@@ -78,9 +92,9 @@ def _of_row(
     wells: tuple[WellRef, ...],
     line: int,
     common: Common,
-    of_amounts: bool,
 ) -> Iterator[Evidence]:
     amounts = lexicon_of({"amount": common.amounts})
+    of_amounts = bool(amounts.find(name))
     texts = [said for _, said in row.said if isinstance(said, str)]
     numbers = [
         float(said)

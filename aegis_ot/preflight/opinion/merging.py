@@ -9,10 +9,11 @@ in a protocol that talks a model round can change what the checks found.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from ...vocabulary import Finding, Severity, Undecided, VerdictWord
+from ...vocabulary import Finding, Severity, Undecided, VerdictWord, WellRef
 from ..evidence import Evidence
 from ..judging import (
     Reading,
@@ -22,6 +23,7 @@ from ..judging import (
     apply_waivers,
     judge_reading,
     read_waivers,
+    spelled,
     verdict_of,
 )
 from .answers import is_known
@@ -44,20 +46,26 @@ def merge(report: Report, opinion: Opinion, dossier: Dossier, reading: Reading) 
     decided = {brief.id for brief in dossier.rules if brief.decided}
     notes = [f"{opinion.model}: {opinion.summary}"] if opinion.summary else []
     severity = Severity.ERROR if reading.options.strict else Severity.WARNING
-    candidates: list[Finding] = []
+    accepted, rejected, second = _judged_again(reading, opinion)
+    # A check tells more exactly what happens than a model that saw the same.
+    candidates = [
+        replace(
+            finding,
+            message=f"{finding.message} ({opinion.model} read what the wells are for.)",
+            severity=severity,
+            source="model",
+        )
+        for finding in (second.findings if second else ())
+        if finding.rule not in decided
+    ]
     for finding in opinion.findings:
         if finding.rule in decided:
             notes.append(
                 f"{opinion.model} disagrees with the check of {finding.rule}, which stands: "
                 f"{finding.message}"
             )
-        else:
+        elif not is_known(finding, candidates):
             candidates.append(replace(finding, severity=severity))
-    accepted, rejected, second = _judged_again(reading, opinion)
-    for finding in second.findings if second else ():
-        if finding.rule not in decided and not is_known(finding, candidates):
-            message = f"{finding.message} ({opinion.model} read what the wells are for.)"
-            candidates.append(replace(finding, message=message, severity=severity, source="model"))
     notes += [f"{opinion.model}, role of {text}." for text in rejected]
     notes += [f"{opinion.model}, left out: {text}" for text in opinion.left_out]
     standing, waived = _without_waived(reading, candidates)
@@ -68,7 +76,7 @@ def merge(report: Report, opinion: Opinion, dossier: Dossier, reading: Reading) 
         report,
         findings=tuple(findings),
         verdict=report.verdict if report.verdict is VerdictWord.ERROR else verdict_of(findings),
-        undecided=tuple(_questions(report, opinion, standing, second)),
+        undecided=tuple(_questions(report, opinion, standing, accepted, second)),
         waived=(*report.waived, *waived),
         notes=(*report.notes, *notes),
         roles=(*report.roles, *_roles(report, accepted, second)),
@@ -98,14 +106,19 @@ def _assay(reading: Reading, opinion: Opinion) -> tuple[str, ...]:
 
 
 def _questions(
-    report: Report, opinion: Opinion, standing: Sequence[Finding], second: Report | None
+    report: Report,
+    opinion: Opinion,
+    standing: Sequence[Finding],
+    accepted: Sequence[Evidence],
+    second: Report | None,
 ) -> Iterable[Undecided]:
+    """What stays open, with the model's reading; and the roles to paste, if they are right."""
     found = {finding.rule for finding in standing}
     answers = {answer.rule: answer for answer in opinion.answers}
     for question in report.undecided:
         if question.rule in found:
             continue
-        reason = question.reason
+        reason, paste = question.reason, question.paste
         answer = answers.get(question.rule)
         if answer is not None:
             words = {"holds": "it holds", "violated": "it is violated"}
@@ -114,7 +127,20 @@ def _questions(
             reason += f": {answer.reason}" if answer.reason else ""
         if second is not None and question.rule in second.judged:
             reason += "; with the roles that it reads, the check finds nothing"
-        yield replace(question, reason=reason)
+            paste = _pasted(accepted) or paste
+        yield replace(question, reason=reason, paste=paste)
+
+
+def _pasted(accepted: Sequence[Evidence]) -> str:
+    """The model's roles as a guard takes them."""
+    wells: dict[str, list[WellRef]] = {}
+    for one in accepted:
+        wells.setdefault(one.role, []).extend(one.wells)
+    listed = ", ".join(
+        f'"{role}": {json.dumps(spelled(refs))}'  # a list of texts, as Python writes it as well
+        for role, refs in wells.items()
+    )
+    return f"@guard(roles={{{listed}}})" if listed else ""
 
 
 def _without_waived(

@@ -84,7 +84,10 @@ class _Verifier:
         )
 
     def _wells(self, proposal: RoleProposal) -> tuple[WellRef, ...]:
-        """The wells of the run that are meant, all of one labware."""
+        """The wells that are meant, all of one labware that the run uses.
+
+        A well that the run forgets is one of them: a control that never gets its vehicle.
+        """
         found: dict[WellRef, None] = {}
         for place in proposal.wells:
             labware, _, spec = place.rpartition(":")
@@ -94,12 +97,13 @@ class _Verifier:
             named = self._deck.at(f"{labware}:{spec}") if spec.strip() else ()
             if not named:
                 raise Rejected(f"there is no well {place!r} on the deck")
-            found.update(dict.fromkeys(ref for ref in named if self._deck.is_used(ref)))
-        if not found:
-            raise Rejected("the run uses none of these wells")
-        if len({ref.labware for ref in found}) > 1:
+            found.update(dict.fromkeys(named))
+        used = {ref.labware for ref in found if self._deck.used_wells([ref.labware])}
+        if not used:
+            raise Rejected("the run does not use this labware" if found else "it names no well")
+        if len(used) > 1:
             raise Rejected("these wells are in several labware")
-        return tuple(found)
+        return tuple(ref for ref in found if ref.labware in used)
 
     def _check_quotes(self, citations: Sequence[Citation]) -> None:
         if not citations:

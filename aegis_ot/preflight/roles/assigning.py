@@ -55,19 +55,26 @@ def assign_roles(
             role = _fitting(named, roles, sides(ref), one)
             if role is not None and not (family.roles[role].dosed and level == 0):
                 placed = True
-                worth = (float(one.kind), 0.0 if one.whole else 1.0, -float(len(one.wells)))
+                worth = _worth(one, names)
                 candidates.setdefault(ref, []).append(Candidate(worth, role, one, level))
         if not placed:
             roles.unread.append(one)
             if one.kind is Kind.LIQUID:
                 roles.unnamed.update(one.wells)
     for ref, found in candidates.items():
-        assigned = _chosen(roles, ref, found)
+        assigned = _chosen(roles, ref, found, is_filled=sides(ref)[0] == "destination")
         if assigned is not None:
             roles.by_well[ref] = assigned
     _add_dosed(roles, sides, common)
     _spread_over_channels(roles, trace)
     return roles
+
+
+def _worth(one: Evidence, names: RoleNames) -> tuple[float, ...]:
+    kind = float(one.kind)
+    if one.kind is Kind.DESCRIPTION and names.is_outright(one.text):
+        kind = Kind.LIQUID + 0.5  # "steroid-free serum", described as "diluent"
+    return (kind, 0.0 if one.whole else 1.0, -float(len(one.wells)))
 
 
 def _levels(evidence: Evidence, common: Common) -> tuple[float | None, ...]:
@@ -94,8 +101,9 @@ def _fitting(
         fitting = [role for role in fitting if not specs[role].one_liquid]
     if passes_on and any(specs[role].side == "source" for role in named):
         # A plate of doses that is made here and given on is no plate of treated cells.
-        fitting = [role for role in fitting if not specs[role].implies_contents]
-        if not fitting:
+        plates = {r for r in fitting if specs[r].implies_contents and specs[r].side == side}
+        fitting = [role for role in fitting if role not in plates]
+        if not fitting and not evidence.whole:
             fitting = [role for role in named if specs[role].side == "source"]
     # The vehicle control in "vehicle (mock)": of a kind and its parent, the kind; and the vehicle
     # in "PBS (vehicle)": what a medium is used as, where both are said.
@@ -105,7 +113,9 @@ def _fitting(
     return fitting[0] if fitting else None
 
 
-def _chosen(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | None:
+def _chosen(
+    roles: Roles, ref: WellRef, found: list[Candidate], is_filled: bool
+) -> Assignment | None:
     """What a well is for; ``None`` where weak evidence says two things that nothing settles."""
     found.sort(key=lambda candidate: candidate.worth, reverse=True)
     best = found[0]
@@ -121,8 +131,11 @@ def _chosen(roles: Roles, ref: WellRef, found: list[Candidate]) -> Assignment | 
         conflict = f"{best.evidence.citation} against {rivals[0].evidence.citation}"
         roles.conflicts.setdefault(conflict, []).append(ref)
         agreed = [other for other in found if other.worth < best.worth]
-        for one in (best, *rivals):
-            if any(not _differ(roles, one, other) for other in agreed):
+        # Of two lists that share a well by mistake, the one of controls says what it is: the other
+        # one says what is given to it.
+        declared = [one for one in (best, *rivals) if is_filled and roles.is_declared(one.role)]
+        for one in declared or (best, *rivals):
+            if declared or any(not _differ(roles, one, other) for other in agreed):
                 best = one
                 break
         else:

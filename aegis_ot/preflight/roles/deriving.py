@@ -11,6 +11,8 @@ from .roles import Roles
 
 _FEWEST_PAIRS = 3
 _SMALLEST_PLATE = 24
+_MOST_TUBES = 24
+"""Labware of no more wells is a rack or a reservoir, in which various things stand."""
 _SHARED = 3
 """A liquid that serves as many wells is a reagent for all rather than something of its own."""
 
@@ -21,6 +23,7 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
     A reaction is what template goes into; wells that only pass liquid on (a dilution plate) are
     none. A source without a name is what the wells that it feeds are named for.
     """
+    _unsay_by_use(roles, trace)
     for name, spec in roles.family.roles.items():
         if spec.feeds:
             _derive_source(roles, name, spec, trace)
@@ -33,12 +36,44 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
             _derive_receiving(roles, name, spec, trace, usage)
 
 
+def _unsay_by_use(roles: Roles, trace: Trace) -> None:
+    """Forget what only the name of a labware says of a source, where its use speaks against it.
+
+    In a rack of "inhibitors" the vehicle stands beside them, and goes into controls alone; and so
+    does a stain, which goes into all wells.
+    """
+    specs = roles.family.roles
+    served = trace.served(prefilled=True)
+    named = {
+        ref
+        for ref, assigned in roles.by_well.items()
+        if assigned.whole and not specs[assigned.role].one_liquid and ref in served
+    }
+    fed = {well for ref in named for well in served[ref]}
+    controls = {well for well in fed if _is_control(roles, well)}
+    for ref in named:
+        into = served[ref]
+        # Of a plate that is stamped, each well serves one: that says nothing.
+        various = len(trace.labware[ref.labware].wells) <= _MOST_TUBES
+        alone = various and into <= controls
+        for_all = 2 * len(into - controls) > len(fed - controls)
+        if not controls.isdisjoint(into) and (alone or for_all):
+            del roles.by_well[ref]
+
+
+def _is_control(roles: Roles, ref: WellRef) -> bool:
+    assigned = roles.by_well.get(ref)
+    return assigned is not None and roles.is_declared(assigned.role)
+
+
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """A source without a name that mostly goes into named wells of ``spec.feeds``."""
     wanted = frozenset(spec.feeds)
     for ref, wells in trace.served(prefilled=True).items():
         if roles.of(ref):
             continue
+        if any(_is_control(roles, well) for well in wells):
+            continue  # a stain, a read-out: a reagent for all
         right = [well for well in wells if roles.has(well, wanted)]
         if len(right) * 2 > len(wells) and not all(map(roles.is_doubtful, right)):
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
@@ -94,16 +129,32 @@ def _derive_receiving(
         if used is None or not used.received or used.first_drawn or used.drain or used.feeds:
             continue
         assigned = roles.by_well.get(well.ref)
-        if assigned is not None and assigned.role not in roles.closure(name):
+        unlike = assigned is not None and assigned.role not in roles.closure(name)
+        if assigned is not None and unlike and not assigned.whole:
             continue
-        if _receives(roles, well, trace, wanted):
+        if unlike and _receives_what_it_is_named_for(roles, well, trace):
+            continue
+        if _receives(roles, well, trace, wanted, frozenset({name})):
+            if unlike:
+                del roles.by_well[well.ref]  # calibrators stand on the "CSF plate" as well
             roles.derived.setdefault(well.ref, set()).update(roles.closure(name))
 
 
-def _receives(roles: Roles, well: Well, trace: Trace, wanted: frozenset[str]) -> bool:
+def _receives_what_it_is_named_for(roles: Roles, well: Well, trace: Trace) -> bool:
+    wanted = frozenset(roles.family.roles[roles.by_well[well.ref].role].receives)
+    return not wanted or _receives(roles, well, trace, wanted, frozenset())
+
+
+def _receives(
+    roles: Roles, well: Well, trace: Trace, wanted: frozenset[str], made: frozenset[str]
+) -> bool:
+    """Whether a liquid of these roles comes into a well, and not from one that it made already: a
+    product that goes on to a gel makes no reaction there.
+    """
     return any(
         roles.has(origin.ref, wanted)
         for visit in trace.deliveries(well)
-        for _, _, liquid, _ in visit.parts
+        for source, _, liquid, _ in visit.parts
+        if source is not None and not roles.has(source.ref, made)
         for origin in liquid
     )

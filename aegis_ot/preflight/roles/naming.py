@@ -48,9 +48,11 @@ class RoleNames:
         if evidence.kind is Kind.MODEL:
             return []  # a verified role, of another family
         text = evidence.text
-        _, dot, field = text.rpartition(".")
-        if dot and self._lexicon.find(field):
-            text = field  # `assay.mix_tube` is a mix and no assay mix
+        record, dot, field = text.rpartition(".")
+        if dot:
+            # `assay.mix_tube` is a mix and no assay mix; `NO_DNA.dna_tube` holds no DNA.
+            own = " ".join(word for word in tokens(field) if word not in tokens(record))
+            text = field if self._lexicon.find(own) else record
         key = text.rpartition("[")[2] if text.endswith("]") else ""
         if key and self._names(self._lexicon.find(key)) and self._head(key):
             text = key  # `tubes["water"]` is water, whatever the dict is called
@@ -62,6 +64,11 @@ class RoleNames:
             named = [role for role in named if not self._is_loose_plural(text, role)]
         return named
 
+    def is_outright(self, text: str) -> bool:
+        """Whether a text is nothing but the word for a role: "diluent"."""
+        words = self._lexicon.words(text)
+        return any(match.end - match.start == len(words) for match in self._lexicon.find(text))
+
     def _head(self, text: str, is_name: bool = True) -> list[str]:
         words = self._lexicon.words(text.replace("%", " percent "))
         ends = (at for at, word in enumerate(words) if word in self._joints)
@@ -72,7 +79,8 @@ class RoleNames:
             for match in self._lexicon.find(text.replace("%", " percent "))
             if match.start < end and not (match.start and words[match.start - 1] in self._lacking)
         ]
-        found.sort(key=lambda match: (words[match.start] not in self._sides, match.start))
+        telling = [match for match in found if words[match.start] not in self._sides]
+        found = telling or found  # `SAMPLE_POS` is the place of a sample
         return [match.topic for match in reversed(found) if not match.topic.startswith("!")]
 
     def _names(self, found: Sequence[Match]) -> set[str]:

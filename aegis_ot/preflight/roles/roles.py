@@ -121,6 +121,11 @@ class Roles:
             known = self._closure[role] = frozenset(found)
         return known
 
+    def is_declared(self, role: str) -> bool:
+        """Whether a role does not follow from what a well receives: a control."""
+        spec = self.family.roles[role]
+        return bool(spec.parents) and not spec.receives and spec.side != "source"
+
     def known(self, role: str) -> bool:
         """Whether any well has this role."""
         if any(role in self.closure(a.role) for a in self.by_well.values()):

@@ -135,6 +135,8 @@ def _note_index(flow: Flow, base: ast.expr, index: ast.expr) -> None:
         if base.func.attr not in _WELL_GETTERS or base.args:
             return
         base = base.func.value
+    if isinstance(index, (ast.BinOp, ast.JoinedStr)):
+        return  # `plate[well[0] + "3"]` is another well than the name says
     held = _last_name(base)
     names = frozenset(_held_names(index))
     if held and names:

@@ -38,6 +38,7 @@ class SourceFacts:
         strings: Every other string of the text, with its line.
         assigned: Line of the first assignment of each name.
         varying: Names that are loop variables, as ``(function, name)``.
+        rebound: Names that loops bind anew in each turn, these among them.
         parameters: Names that are parameters of functions, as ``(function, name)``.
         flow: Which names the values of a name come from, and which labware they index.
     """
@@ -50,6 +51,7 @@ class SourceFacts:
     strings: list[tuple[int, str]] = field(default_factory=list)
     assigned: dict[str, int] = field(default_factory=dict)
     varying: set[tuple[str, str]] = field(default_factory=set)
+    rebound: set[tuple[str, str]] = field(default_factory=set)
     parameters: set[tuple[str, str]] = field(default_factory=set)
     flow: Flow = field(default_factory=Flow)
 
@@ -145,6 +147,11 @@ def _read_scopes(node: ast.AST, function: str, facts: SourceFacts) -> None:
                 facts.parameters.add((inside, argument.arg))
         elif isinstance(child, (ast.For, ast.AsyncFor, ast.comprehension)):
             facts.varying |= {(inside, name) for name in names_in(child.target)}
+            facts.rebound |= {
+                (inside, inner.id)
+                for inner in ast.walk(child)
+                if isinstance(inner, ast.Name) and isinstance(inner.ctx, ast.Store)
+            }
         _read_scopes(child, inside, facts)
 
 

@@ -56,6 +56,11 @@ class BoundCameras:
         }
         self._chosen = threading.local()
 
+    @property
+    def each(self) -> list[tuple[str, Camera]]:
+        """Name and camera, for who looks through one of them."""
+        return [(bound.name, bound.camera) for bound in self._cameras]
+
     def meet(self, run: str, robot: str) -> None:
         """A run is one of the robot of this name."""
         self._robots[run] = robot

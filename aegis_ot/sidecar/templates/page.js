@@ -101,10 +101,11 @@ window.addEventListener("popstate", () => { address = location.href; load(addres
 async function aim() {
   const say = (id, text) => { document.getElementById(id).textContent = text; };
   const percent = (share) => `${(100 * share).toFixed(share < 0.1 ? 1 : 0)} %`;
+  const number = document.getElementById("aim").dataset.number;
   let best = 0;
   for (;;) {
     try {
-      const answer = await fetch("/v1/camera/view", { cache: "no-store" });
+      const answer = await fetch(`/v1/camera/view?number=${number}`, { cache: "no-store" });
       const seen = await answer.json();
       if (!answer.ok) throw new Error(seen.error.message);
       document.getElementById("view").setAttribute("viewBox", `0 0 ${seen.width} ${seen.height}`);

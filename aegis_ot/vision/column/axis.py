@@ -51,8 +51,7 @@ def rectify(
             shift = _nozzle_shift(image, collar, orifice, shape, _NARROW, 4.0)
     collar = collar + (orifice - collar) * (shift or 0.0)
     if length is not None:
-        along = orifice - collar
-        orifice = collar + along * (length / max(float(np.hypot(*along)), 1.0))
+        collar, orifice = _of_length(image, collar, orifice, shape, length)
         collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
     orifice = orifice + (orifice - collar) * _orifice_shift(image, collar, orifice, shape)
     pixels, u, v = resample(image, collar, orifice, shape.rows, shape.half_width)
@@ -64,6 +63,22 @@ def rectify(
         (float(orifice[0]), float(orifice[1])),
         clarity,
     )
+
+
+def _of_length(
+    image: Image, collar: Point, orifice: Point, shape: TipShape, length: float
+) -> tuple[Point, Point]:
+    """The same axis made ``length`` px long: of its two ends, the one is kept that fits better.
+
+    The nozzle shows in every frame, so it says which.
+    """
+    along = orifice - collar
+    along = along * (length / max(float(np.hypot(*along)), 1.0))
+    choices = ((collar, collar + along), (orifice - along, orifice))
+    shift = [_nozzle_shift(image, top, end, shape, _NARROW, 4.0) for top, end in choices]
+    best = 1 if shift[0] is None and shift[1] is not None else 0
+    step = along * (shift[best] or 0.0)
+    return choices[best][0] + step, choices[best][1] + step
 
 
 def _onto_outline(
@@ -94,14 +109,17 @@ def _onto_outline(
         )
         values = np.ascontiguousarray(table).ravel()
         first = np.arange(0, height * width, width)[:, None, None]
-        total = np.zeros((grid.size, grid.size))
+        sides = []
         for side in (-1.0, 1.0):
             at = (centre + (side * radius - v[0])[:, None, None]) * rows
             low = np.clip(at.astype(np.intp), 0, width - 2)
             part = np.clip(at - low, 0.0, 1.0)
             low += first
             here = values.take(low)
-            total += (here + (values.take(low + 1) - here) * part).sum(axis=0)
+            sides.append(here + (values.take(low + 1) - here) * part)
+        # An outline has two sides: one strong edge alone, the shaft's where the tip is narrower
+        # than its class, must not draw the axis to itself.
+        total = 2.0 * np.minimum(*sides).sum(axis=0)
         off = 0.25 * (grid / _SIDEWAYS) ** 2
         total -= 2 * height * (off[:, None] + off[None, :])
         best = np.unravel_index(int(np.argmax(total)), total.shape)

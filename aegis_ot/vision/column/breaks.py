@@ -64,10 +64,15 @@ def find_break(profile: TipProfile, top: float) -> Break | None:
     return dips if step > _BRIGHT or dips.strength > bars.strength else bars
 
 
+def lit(profile: TipProfile, top: float) -> bool:
+    """Whether a column that ends at ``top`` (u) guides light: it glows far above its empty tip."""
+    return _brightness_step(profile, top, (profile.u > top + 0.04) & (profile.u < 0.92)) > _BRIGHT
+
+
 def _brightness_step(profile: TipProfile, top: float, inside: Mask) -> float:
     """How much brighter (log) the column is than the empty tip above it."""
     above = (profile.u < top - 0.04) & (profile.u > top - 0.15)
-    if not above.any():
+    if not above.any() or not inside.any():
         return 0.0
     return float(np.median(profile.brightness[inside]) - np.median(profile.brightness[above]))
 

@@ -33,6 +33,9 @@ _CORRELATED = 5.0
 NOISE = np.array([0.05] * 7 + [0.02] * 2 + [0.05])
 """Standard deviation of :func:`signals` before the run has shown its own."""
 
+_LAG = 4
+"""Rows from one to the next that is independent of it."""
+
 _NOISE_ROWS = 150.0
 """How many rows of the run's own that counts for."""
 
@@ -50,6 +53,16 @@ def signals(profile: TipProfile) -> Array:
         axis=1,
     )
     return np.asarray(cv2.blur(raw, (1, 3)), dtype=np.float32)
+
+
+def change_between(before: TipProfile, after: TipProfile) -> Array:
+    """What changed in each row of one tip between two frames, ``(rows, 9)``, in standard
+    deviations of such rows: usual ones, or these frames' own where they are noisier.
+    """
+    change = (signals(before) - signals(after))[:, :-1]
+    near = np.diff(change[::_LAG], axis=0)
+    own = 1.48 * np.median(np.abs(near), axis=0) / np.sqrt(2)
+    return np.asarray(change / np.maximum(np.sqrt(2) * NOISE[:-1], own), dtype=np.float32)
 
 
 @dataclass(frozen=True)

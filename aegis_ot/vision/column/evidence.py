@@ -66,10 +66,10 @@ def mean_dye(dyes: list[Dye]) -> Dye | None:
 
 @dataclass(frozen=True)
 class Step:
-    """A signal's mean below a row minus its mean above, for every row.
+    """How much of a signal begins at a row and goes on to the orifice, for every row.
 
     Attributes:
-        size: ``(rows,)``.
+        size: ``(rows,)`` at the row itself; below it, it dwindles as the bore does.
         sd: ``(rows,)`` its standard deviation, the rows' correlation counted; infinite where
             too few rows lie on one side.
     """
@@ -78,27 +78,53 @@ class Step:
     sd: Array
 
 
+_ABOVE = 0.25
+"""How far up from a column's end its tip is compared with it, tip lengths: lamps and backgrounds
+change along a tip."""
+
+_TAPER_END = 1.03
+"""Where the bore's width would reach nothing, u: a dye's colour, summed across the bore, falls off
+towards it."""
+
+_FEWEST_ROWS = 5
+_ROW_NOISE = 2e-3
+"""Least noise of a row: JPEG rounds faint colours to none, which proves nothing."""
+
+
+def taper(u: Array) -> NDArray[np.float64]:
+    """``(rows,)`` in what proportion the rows of one column show its colour; 1 at u = 0.5."""
+    return np.maximum(_TAPER_END - u.astype(np.float64), 0.02) / (_TAPER_END - 0.5)
+
+
 def long_step(u: Array, signal: Array, top: float, bottom: float) -> Step:
-    """Steps against all rows between ``top`` and ``bottom`` (u) on either side."""
+    """Matched filter for a column that ends at each row between ``top`` and ``bottom`` (u).
+
+    All rows below against those next above, each by how much colour a column would show there.
+    """
     size = np.zeros(len(u), dtype=np.float32)
     sd = np.full(len(u), np.inf, dtype=np.float32)
     inside = np.flatnonzero((u > top) & (u < bottom))
     if len(inside) < 16:
         return Step(size, sd)
     x = signal[inside].astype(np.float64)
+    weight = taper(u[inside])
     n = len(x)
-    sums = np.concatenate(([0.0], np.cumsum(x)))
-    k = np.arange(1, n)
-    above, below = sums[k] / k, (sums[-1] - sums[k]) / (n - k)
-    jump = below - above
-    best = int(np.argmax((np.abs(jump) * np.sqrt(k * (n - k)))[5:-4])) + 5
-    rest = x - np.where(np.arange(n) <= best, above[best], below[best])
-    noise = 1.48 * float(np.median(np.abs(rest - np.median(rest)))) + 1e-4
+    k = np.arange(_FEWEST_ROWS, n - _FEWEST_ROWS + 1)
+    reach = max(int(_ABOVE / float(u[1] - u[0])), 2 * _FEWEST_ROWS)
+    rows_above = np.minimum(k, reach)
+    # An empty tip has a tint of its own, which dwindles with the bore as well.
+    matched, power = np.cumsum(weight * x), np.cumsum(weight**2)
+    power_above = power[k - 1] - np.where(k > reach, power[k - 1 - rows_above], 0.0)
+    above = matched[k - 1] - np.where(k > reach, matched[k - 1 - rows_above], 0.0)
+    above = above / power_above
+    power_below = power[-1] - power[k - 1]
+    step = (matched[-1] - matched[k - 1]) / power_below - above
+    best = int(np.argmax(np.abs(step) * np.sqrt(power_below)))
+    rest = x - weight * (above[best] + np.where(np.arange(n) >= k[best], step[best], 0.0))
+    noise = 1.48 * float(np.median(np.abs(rest - np.median(rest)))) + _ROW_NOISE
     spread = _correlation_length(np.clip(rest, -3 * noise, 3 * noise))
-    size[inside[k]] = jump
-    sd[inside[k]] = noise * np.sqrt(spread * (1.0 / k + 1.0 / (n - k)))
-    sd[inside[:6]] = np.inf
-    sd[inside[-4:]] = np.inf
+    size[inside[k]] = step
+    sd[inside[k]] = noise * np.sqrt(spread * (1.0 / power_below + 1.0 / power_above))
     return Step(size, sd)
 
 

@@ -25,6 +25,13 @@ from .trajectory import (
 _BLIND = 3e-3
 """Chance per row that a frame's best meniscus is none: about one frame in two."""
 
+_LEAST_PX = 1.2
+"""How well a meniscus can be placed at best, px."""
+
+_PRIOR_WELLS = 1.5
+"""Wells of a run that what earlier plates taught of a meniscus's place is worth: one reading is off
+by more than plates differ. On rendered plates a first well tells 0.4 of the next one's shift."""
+
 _SD = (0.004, 0.02)
 """Standard deviation of an empty tip's colour step: what a few dozen frames can prove, and what
 still tells anything."""
@@ -38,9 +45,7 @@ def learn_run(signs: Sequence[Signs]) -> RunReference:
     for kind in LOADED:
         seen = [s.misfill[kind] for s in signs if abs(s.misfill.get(kind, 1.0)) < NEAR]
         if seen:
-            # One reading is about as uncertain as plates differ, so the prior counts as half
-            # a well.
-            shift[kind] = float(np.median(seen)) * len(seen) / (len(seen) + 0.5)
+            shift[kind] = float(np.median(seen)) * len(seen) / (len(seen) + _PRIOR_WELLS)
     return RunReference(dyes, shift)
 
 
@@ -71,6 +76,7 @@ def learn_tip(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry) -
         return TipModel(empty=empty)
     scale = float(scales[int(np.argmax(votes))])
     reference = Reference(empty=empty, height_scale=scale, height_sd=0.03)
+    length = float(np.median([look.length for _, look, _ in loaded]))
     offset, spread = dict.fromkeys(KeyframeKind, 0.0), dict.fromkeys(KeyframeKind, 0.03)
     for wanted in LOADED:
         misses = []
@@ -83,7 +89,7 @@ def learn_tip(trajectories: Sequence[tuple[Looks, Volumes]], tip: TipGeometry) -
             offset[wanted] = float(np.median(near))
             # A high quantile, for the readings have tails: 0.85 of a normal lies within 1.44 sd.
             deviation = float(np.quantile(np.abs(near - offset[wanted]), 0.85)) / 1.44
-            spread[wanted] = float(np.clip(deviation, 0.008, 0.05))
+            spread[wanted] = float(np.clip(deviation, max(0.008, _LEAST_PX / length), 0.05))
     return TipModel(scale, offset, spread, empty)
 
 

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from ..tips import TipGeometry
-from .contrast import NOISE, signals
+from .contrast import change_between
 from .profile import TipProfile
 
 _PLAIN = 8.0
@@ -43,7 +43,7 @@ def column_left(
     u = before.u
     if len(after.u) != len(u) or min(before.length, after.length) < _LENGTH_LEAST:
         return None
-    change = (signals(before) - signals(after))[:, :-1] / (np.sqrt(2) * NOISE[:-1])
+    change = change_between(before, after)
     seen = cv2.blur((change**2).mean(axis=1).astype(np.float32)[:, None], (1, 7))[:, 0]
     inside = (u > max(top, ceiling)) & (u < 0.94)
     if int(inside.sum()) < 2 * _ROWS_LEAST:

@@ -2,9 +2,10 @@
 
 Three physical signals, none of which needs the other:
 
-- **Colour.** A dye absorbs (Beer-Lambert), so the rows of a column differ in colour from the
-  empty tip above it. Colour is taken relative to the background beside the tip, over a width
-  that holds what JPEG's chroma subsampling smears out.
+- **Colour.** A dye absorbs, so the rows of a column differ in colour from the empty tip above
+  it. Colour is the light that a row adds to what is beside the tip, summed across the bore: a
+  difference of light, since the logarithm of a dark pixel is noise, and a sum, since blur and
+  JPEG's chroma subsampling smear a bore of two pixels over six but lose nothing of it.
 - **Edges.** A meniscus is a curved mirror: it shows as a thin bright bar across the whole bore,
   with any liquid. A speck (a caustic, a droplet outside) does not span the bore, so the bar is
   a trimmed mean across it.
@@ -23,6 +24,7 @@ from typing import Any, TypeVar, cast
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from .strip import Array, Strip, TipShape
 
@@ -33,15 +35,17 @@ LANES = np.linspace(-2.6, 2.6, 53).astype(np.float32)
 
 _SECTION = np.linspace(-1.05, 1.05, 8)
 _INSIDE = np.abs(LANES) < 0.7
-_WIDE = np.abs(LANES) < 1.3
 _BESIDE = np.abs(LANES) > 1.65
 _FLOOR = 1e-3
-_DARK = 4.0
-"""Grey levels added before a logarithm: dark pixels are noise."""
 
-_SCALE = 0.5
-_THROUGH = 0.8
-"""Share of the background's colour that shows through a tip."""
+_SMEARED_PX = 3.0
+"""Half the width over which blur and chroma subsampling spread the colour of a fine bore, px."""
+
+_BESIDE_PX = (2.0, 6.0)
+"""Where the background is taken, px outside of that."""
+
+_WHITE_LEAST = 8.0
+"""Grey level of the nozzle below which a frame is too dark to tell its white."""
 
 
 @dataclass(frozen=True)
@@ -50,8 +54,8 @@ class TipProfile:
 
     Attributes:
         u: ``(rows,)``.
-        colour: ``(rows, 2)`` half the logarithm of red over green and of blue over green, less
-            what the background beside the tip explains of it.
+        colour: ``(rows, 2)`` red less green and blue less green of the light that the row adds to
+            what is beside the tip, as a mean over six pixels across, in units of the nozzle's.
         brightness: ``(rows,)`` natural logarithm, relative to the nozzle.
         background: ``(rows,)`` the same beside the tip.
         bar: ``(rows,)`` a thin bright bar across the bore, in standard deviations of the rows
@@ -96,7 +100,7 @@ def tip_profile(strip: Strip, shape: TipShape, cone: Array | None = None) -> Tip
     background = np.median(luminance[:, _BESIDE], axis=1)
     return TipProfile(
         u=u,
-        colour=_colour(cone),
+        colour=_colour(strip, shape, nozzle),
         brightness=brightness.astype(np.float32),
         background=background.astype(np.float32),
         bar=_bar(luminance, background, u),
@@ -137,17 +141,24 @@ def _section(luminance: Array) -> Array:
     return np.asarray(np.stack(lanes, axis=1), dtype=np.float32)
 
 
-def _colour(cone: Array) -> Array:
-    """Colour of the tip against what is beside it, as absorbances against green's.
-
-    A clear tip shows what is behind it, times its own transmission (Beer-Lambert); a frosted one
-    scatters light of its own besides.
-    """
-    inside = np.log(cone[:, _WIDE].mean(axis=1) + _DARK)
-    beside = np.log(np.median(cone[:, _BESIDE], axis=1) + _DARK)
-    seen = np.stack([inside[:, 2] - inside[:, 1], inside[:, 0] - inside[:, 1]], axis=1)
-    behind = np.stack([beside[:, 2] - beside[:, 1], beside[:, 0] - beside[:, 1]], axis=1)
-    return np.asarray(_SCALE * (seen - _THROUGH * behind), dtype=np.float32)
+def _colour(strip: Strip, shape: TipShape, nozzle: NDArray[np.bool_]) -> Array:
+    """Light that the tip adds to what is beside it, summed across the bore; see the module."""
+    # A camera's grey levels are about the square root of the light.
+    light = np.square(np.maximum(strip.pixels, 0.0))
+    inner = np.abs(strip.v) < 0.6 * shape.collar_radius
+    white = np.median(light[nozzle][:, inner], axis=(0, 1))
+    light = light / np.maximum(white, _WHITE_LEAST**2)
+    px = 1.0 / max(strip.length, 1.0)
+    aside = np.abs(strip.v)[None, :]
+    half = np.maximum(_SMEARED_PX * px, 1.1 * shape.radius(strip.u))[:, None]
+    near, far = (half + reach * px for reach in _BESIDE_PX)
+    inside = (aside < half).astype(np.float32)
+    beside = ((aside > near) & (aside < far)).astype(np.float32)
+    beside /= np.maximum(beside.sum(axis=1, keepdims=True), 1.0)
+    behind = np.einsum("rc,rck->rk", beside, light)
+    added = np.einsum("rc,rck->rk", inside, light) - inside.sum(axis=1)[:, None] * behind
+    added *= float(strip.v[1] - strip.v[0]) / px / (2 * _SMEARED_PX)
+    return np.stack([added[:, 2] - added[:, 1], added[:, 0] - added[:, 1]], axis=1)
 
 
 def _bar(luminance: Array, background: Array, u: Array) -> Array:

@@ -14,6 +14,7 @@ import numpy as np
 
 from ...vocabulary import KeyframeKind
 from ..tips import TipGeometry
+from .breaks import lit
 from .evidence import (
     ALIKE,
     IMPOSSIBLE,
@@ -22,6 +23,7 @@ from .evidence import (
     combine,
     edge_evidence,
     mean_dye,
+    taper,
 )
 from .measure import (
     Reference,
@@ -101,6 +103,7 @@ class Signs:
         misfill: How far the column's end is from where it should be, by keyframe, u; negative
             values mean too much liquid.
         absent: Log-likelihood ratio of no column where there should be one.
+        lit: Keyframes whose column guides light: its end, and a break in it, are sharp to see.
         own_dye: Colour of the full column from this trajectory alone: TRANSIT against the empty tip
             above.
         spent_dye: TRANSIT against the tip after the dispense: right only for a normal one.
@@ -110,6 +113,7 @@ class Signs:
     gap: Mapping[KeyframeKind, float]
     misfill: Mapping[KeyframeKind, float]
     absent: float | None
+    lit: frozenset[KeyframeKind]
     own_dye: Dye | None
     spent_dye: Dye | None
 
@@ -128,6 +132,7 @@ def weigh(
     """
     gap: dict[KeyframeKind, float] = {}
     misfill: dict[KeyframeKind, float] = {}
+    glowing: set[KeyframeKind] = set()
     own = _own_dye(looks, tip, expected, model, run)
     dye = mean_dye([*run.dyes, *([own] if own is not None else [])])
     for kind in LOADED:
@@ -137,14 +142,17 @@ def weigh(
         # At the ASPIRATE a lit column outshines its own colour.
         known = dye if kind is KeyframeKind.TRANSIT and _coloured(dye) else None
         found = read_column(looks[kind], tip, volume, _reference(model, known))
+        where = place(kind, volume, tip, model, run)
+        if lit(looks[kind], where):
+            glowing.add(kind)
         if found.presence > SEEN:
-            misfill[kind] = found.top - place(kind, volume, tip, model, run)
+            misfill[kind] = found.top - where
         if found.presence > 0:
             gap[kind] = found.gap.strength if found.gap is not None else 0.0
     retained = _retained(looks, tip, expected, model, run, dye)
     absent = _absent(looks, tip, expected, model, run)
     spent = _spent_dye(looks, tip, expected, model, run)
-    return Signs(retained, gap, misfill, absent, own, spent)
+    return Signs(retained, gap, misfill, absent, frozenset(glowing), own, spent)
 
 
 def place(
@@ -157,7 +165,7 @@ def place(
 
 def _coloured(dye: Dye | None) -> bool:
     """Whether the reagent is known to have a colour that a tip shows."""
-    return dye is not None and float(np.hypot(dye.red, dye.blue)) > max(4 * dye.sd, 0.02)
+    return dye is not None and float(np.hypot(dye.red, dye.blue)) > max(3 * dye.sd, 0.04)
 
 
 def _reference(model: TipModel, dye: Dye | None) -> Reference:
@@ -194,9 +202,11 @@ def _spent_dye(
     rows = (full.u > place(before, volume, tip, model, run) + 0.02) & (full.u < 0.92)
     if int(rows.sum()) < 8:
         return None
-    red, blue = np.median(full.colour[rows] - spent.colour[rows], axis=0)
-    sd = 1.5 * float(np.hypot(model.empty.red_sd, model.empty.blue_sd))
-    return Dye(float(red), float(blue), sd)
+    left = (full.colour[rows] - spent.colour[rows]).astype(np.float64)
+    weight = taper(full.u[rows])[:, None]
+    red, blue = (weight * left).sum(axis=0) / (weight**2).sum()
+    # Lamp and background are the same in both, the places of the two tips are not.
+    return Dye(float(red), float(blue), max(model.empty.red_sd, model.empty.blue_sd))
 
 
 def _retained(
@@ -217,7 +227,11 @@ def _retained(
     # A glint in one frame alone is no meniscus. But colour in one frame is colour, for labware
     # may hide the column in the other.
     edge = combine(edges[0], edges[1], _GLINT) if len(edges) > 1 else edges[0]
-    joint = sum(colours[1:], colours[0]) + edge
+    colour = sum(colours[1:], colours[0])
+    if _coloured(dye):
+        # A dye shows below its meniscus: without it, a bright bar is a glint.
+        edge = np.minimum(edge, np.maximum(colour, 0.0))
+    joint = colour + edge
     joint = np.where(possible_tops(looks[seen[-1]], tip), joint, IMPOSSIBLE)
     u = looks[seen[-1]].u
     # No more than was drawn can be left; a little more where a failure accumulates.

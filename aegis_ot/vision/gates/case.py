@@ -33,6 +33,8 @@ class Case:
         clearly_absent: Whether nothing like this run's tips is in the frames without one.
         delivery: What the trajectory shows by itself of its delivery, in the light of the run's
             earlier wells; ``None`` if it was not looked at.
+        signs: What the scorer found, by sign, nats; empty if it cannot say.
+        normal: A normal well of this run, to compare with.
     """
 
     sample: TrajectorySample
@@ -45,6 +47,8 @@ class Case:
     alarm_p: float = RUN_ALARM
     clearly_absent: bool = True
     delivery: Delivery | None = None
+    signs: Mapping[str, float] = field(default_factory=dict)
+    normal: TrajectorySample | None = None
 
     @property
     def alarming(self) -> bool:

@@ -19,6 +19,11 @@ class Gates:
     def __init__(self, gates: Sequence[ConfirmingGate]) -> None:
         self._gates = tuple(gates)
 
+    @property
+    def model(self) -> ConfirmingGate | None:
+        """The vision model among them, if there is one."""
+        return next((gate for gate in self._gates if gate.gate is Gate.VLM), None)
+
     def screen(self, case: Case) -> GateDecision:
         """What the gates say that may be asked about every well; ``UNDECIDED`` if there is none."""
         return _ask([gate for gate in self._gates if gate.screens], case)

@@ -26,6 +26,8 @@ class VolumetricLimits:
             a reading's agreement is worth anything.
         gross_sigmas, gross_fraction: The same limits for calibration wells, on which the
             reading itself is not calibrated yet.
+        sharp_fraction: A reading whose uncertainty is at most this share of the commanded volume
+            tells a column that stayed whole from one of which most did.
         gross_empty: On those, the loaded tip counts as empty up to this share of its volume.
     """
 
@@ -36,6 +38,7 @@ class VolumetricLimits:
     tested: int = ENOUGH
     gross_sigmas: float = 5.0
     gross_fraction: float = 0.2
+    sharp_fraction: float = 0.1
     gross_empty: float = 0.35
 
 
@@ -137,7 +140,11 @@ class VolumetricGate:
                 measured,
                 expected,
             )
-        nothing = difference >= 0.9 * sample.volume_ul
+        # A column that ends among rows that no other well showed is read as all that was drawn.
+        sharp = reading.sigma_ul <= limits.sharp_fraction * sample.volume_ul
+        shown = case.delivery.shown if case.delivery is not None else Shown.UNKNOWN
+        all_of_it = difference >= 0.9 * sample.volume_ul
+        nothing = all_of_it and shown is not Shown.LEFT and (sharp or shown is Shown.NOTHING)
         return self._fail(
             FailureType.NO_DISPENSE if nothing else FailureType.PARTIAL_DISPENSE,
             f"About {measured:.0f} µL are left in the tip after the dispense, "

@@ -31,7 +31,7 @@ SCORERS = tuple(_WHERE)
 BASELINES = SCORERS[:6]
 """The paper's scorers."""
 
-__all__ = ["BASELINES", "SCORERS", "Calibrating", "make_scorer"]
+__all__ = ["BASELINES", "SCORERS", "Calibrating", "make_scorer", "signs_of"]
 
 
 @runtime_checkable
@@ -60,3 +60,12 @@ def make_scorer(name: str) -> Scorer:
         raise ConfigurationError(f"scorer {name!r} cannot be loaded: {error}") from error
     scorer: Scorer = getattr(loaded, cls)()
     return scorer
+
+
+def signs_of(scorer: Scorer, sample: TrajectorySample) -> dict[str, float]:
+    """Surprises of the signs behind a score, by sign, nats; none where the scorer has no report."""
+    report = scorer.report(sample) if hasattr(scorer, "report") else None
+    column = getattr(report, "column", report)
+    signs = {str(sign): float(value) for sign, value in getattr(column, "surprises", {}).items()}
+    patches = getattr(report, "patches", None)
+    return signs if patches is None else signs | {"patches": float(patches)}

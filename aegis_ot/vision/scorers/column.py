@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ...errors import ModelError
 from ...vocabulary import KeyframeKind
 from ..column import EmptyColour, RunReference, Signs, TipModel, learn_run, learn_tip, weigh
+from ..column.trajectory import LOADED
 from ..models import ModelFile
 from ..tips import pipette_class, tip_for
 from ..types import TrajectorySample
@@ -24,14 +25,15 @@ _MOST_MISFILL = 7.0
 edge."""
 
 _SHARED = 0.7
-"""Share of what a run's own normals show that is put down to the run: the rest was chance."""
+"""Share of what many of a run's normals show that is put down to the run; the rest is chance."""
 
 PRIORS: Mapping[str, Tail] = {
     "retained": Tail(3.0, 1.0),
-    "gap_aspirate": Tail(1.0, 0.8),
+    "gap_lit": Tail(1.0, 0.8),
+    "gap_aspirate": Tail(2.5, 1.0),
     "gap_transit": Tail(3.0, 2.0),
-    "misfill_aspirate": Tail(1.2, 1.0),
-    "misfill_transit": Tail(1.2, 1.0),
+    "overfull": Tail(1.2, 1.0),
+    "underfull": Tail(1.2, 1.0),
     "absent": Tail(-1.0, 1.5),
 }
 """Tails before any normal is known, by sign; a fit moves their scale by half at most.
@@ -59,9 +61,9 @@ class ColumnReport:
 class ColumnScorer:
     """Surprise of the measured column, in nats; near 0 for most normals.
 
-    Six signs, each judged by the normals' own tail: a column left after the dispense (both
-    frames together), a break in the loaded column and a column that ends elsewhere than its
-    volume says (ASPIRATE, TRANSIT), and a dye that should be there and is not.
+    Its signs, each judged by the normals' own tail: a column left after the dispense (both frames
+    together), a break in the loaded column (ASPIRATE, lit or not, and TRANSIT), a column that ends
+    higher or lower than its volume says (both together), and a dye that should be there and is not.
     """
 
     name = "column"
@@ -71,6 +73,7 @@ class ColumnScorer:
         self.tails: dict[str, dict[str, Tail]] = {}
         self.run = RunReference()
         self._own: dict[str, float] = {}
+        self._shared = _SHARED
 
     def fit(self, normals: Sequence[TrajectorySample]) -> None:
         """Learn tip model and tails for each tip class.
@@ -123,6 +126,8 @@ class ColumnScorer:
                 if value is not None:
                     seen[sign].append(value)
         self._own = {sign: float(np.median(values)) for sign, values in seen.items()}
+        # What one well alone shows may be that well's own: an air bubble, say.
+        self._shared = _SHARED * len(normals) / (len(normals) + 1)
 
     def score(self, sample: TrajectorySample) -> float:
         """Surprise of one trajectory, nats, >= 0."""
@@ -145,7 +150,7 @@ class ColumnScorer:
     def _usual(self, sign: str, tails: Mapping[str, Tail]) -> float:
         """How much of a sign this run's wells show, where they clearly stick out."""
         clear = tails[sign].start + 2 * tails[sign].scale
-        return _SHARED * max(self._own.get(sign, -np.inf) - clear, 0.0)
+        return self._shared * max(self._own.get(sign, -np.inf) - clear, 0.0)
 
     def _model(self, pipette: str) -> TipModel:
         return self.models.get(pipette_class(pipette), TipModel())
@@ -227,10 +232,31 @@ def _as_in_use(
 def _values(signs: Signs, model: TipModel) -> dict[str, float | None]:
     """One number per sign of :data:`PRIORS`; larger is worse."""
     values: dict[str, float | None] = {"retained": signs.retained, "absent": signs.absent}
-    for kind in (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT):
-        miss = signs.misfill.get(kind)
-        spread = model.spread.get(kind, 0.03)
-        values[f"gap_{kind.value}"] = signs.gap.get(kind)
-        z = None if miss is None else min(abs(miss) / spread, _MOST_MISFILL)
-        values[f"misfill_{kind.value}"] = z
+    for kind in LOADED:
+        where = "lit" if kind in signs.lit else kind.value
+        values[f"gap_{where}"] = signs.gap.get(kind)
+    off = _misfill(signs, model)
+    values["overfull"] = None if off is None else max(-off, 0.0)
+    values["underfull"] = None if off is None else max(off, 0.0)
     return values
+
+
+def _misfill(signs: Signs, model: TipModel) -> float | None:
+    """How far below its place the loaded column ends, sd; the loaded frames together.
+
+    The tip holds as much in the one frame as in the other, so what they agree about counts. A lit
+    column proves it alone; an ASPIRATE that is not lit shows the labware's edges as well.
+    """
+    off = {
+        kind: float(np.clip(miss / model.spread.get(kind, 0.03), -_MOST_MISFILL, _MOST_MISFILL))
+        for kind, miss in signs.misfill.items()
+    }
+    first, second = (off.get(kind) for kind in LOADED)
+    if first is None or second is None:
+        alone = [kind for kind in off if kind is not KeyframeKind.ASPIRATE or kind in signs.lit]
+        return off[alone[0]] if alone else None
+    agree = first * second > 0
+    if KeyframeKind.ASPIRATE in signs.lit:
+        both = (first + second) / 2**0.5
+        return both if agree and abs(both) > abs(first) else first
+    return 2**0.5 * min(first, second, key=abs) if agree else 0.0

@@ -9,12 +9,18 @@ import numpy as np
 
 from ...vocabulary import KeyframeKind
 from ..column import TipLook, look_at_tip
+from ..column.trajectory import LOADED
 from ..crops import remember
 from ..types import FREE, Image, TipDetection, TrajectorySample
 
 _PERSPECTIVE = 0.08
 """By how much the length of one tip differs between the frames of a trajectory at most: it
-comes nearer to the camera and goes farther from it. Rendered plates: sd 0.02."""
+comes nearer to the camera and goes farther from it. Rendered plates: sd 0.024."""
+
+_SURE = 0.6
+_SURELY_OFF = 0.12
+"""Confidence of a detection that is not stretched to another frame's length, unless it differs from
+it by more than this."""
 
 _SAME = 0.03
 """Lengths this close are the same: looking again would change nothing."""
@@ -67,15 +73,18 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
     usual = _usual_length({kind: seen.profile.length for kind, seen in taken.items()})
     for kind, seen in list(taken.items()):
         detection = sample.detections[kind]
-        off = usual is not None and abs(seen.profile.length / usual - 1.0) > _PERSPECTIVE
-        if detection is not None and off:
+        if usual is None or detection is None:
+            continue
+        sure = detection.confidence >= _SURE and kind in LOADED
+        if abs(seen.profile.length / usual - 1.0) > (_SURELY_OFF if sure else _PERSPECTIVE):
             taken[kind] = look(images[kind], detection, sample.pipette, usual)
     return taken
 
 
 def _usual_length(lengths: Mapping[KeyframeKind, float]) -> float | None:
-    """Length of the tip, px: that of the free frames, if they agree; else what most show."""
+    """Length of the tip, px, as the free frames show it: labware hides a part, nothing adds one."""
     free = [lengths[kind] for kind in FREE if kind in lengths]
-    if free and max(free) <= (1 + _PERSPECTIVE) * min(free):
-        return float(np.mean(free))
-    return float(np.median(list(lengths.values()))) if len(lengths) >= 3 else None
+    if not free:
+        return None
+    agree = max(free) <= (1 + _PERSPECTIVE) * min(free)
+    return float(np.mean(free)) if agree else max(free)

@@ -7,6 +7,7 @@ contrasts against the tip around it, not by grey levels: those belong to the pla
 
 from __future__ import annotations
 
+import warnings
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from functools import partial
@@ -76,10 +77,10 @@ class PatchesScorer:
         for name, samples in classes.items():
             bank = np.stack([describe(sample) for sample in samples])
             plates = np.array([sample.plate for sample in samples])
-            spread = np.nanquantile(bank, 0.84, axis=0) - np.nanquantile(bank, 0.16, axis=0)
+            spread = (_quantile(bank, 0.84) - _quantile(bank, 0.16))[0]
             # Places differ in what they show; a place that never shows anything is not infinitely
             # sensitive.
-            typical = np.nanmedian(spread, axis=(1, 2), keepdims=True)
+            typical = _quantile(spread, 0.5, (1, 2))
             self.scales[name] = np.maximum(0.5 * spread, 0.25 * typical + 1e-3).astype(np.float32)
             self.banks[name] = bank
             distances = np.stack(
@@ -88,7 +89,7 @@ class PatchesScorer:
                     for i in range(len(bank))
                 ]
             )
-            self.usual[name] = (np.nanmedian(distances, axis=0) + 0.5).astype(np.float32)
+            self.usual[name] = (_quantile(distances, 0.5)[0] + 0.5).astype(np.float32)
             worst = [_worst(d / self.usual[name]) for d in distances]
             self.tails[name] = fit_tail(worst, Tail(2.0, 0.4))
             self._left_out.update(
@@ -225,6 +226,15 @@ def _patches(look: TipLook, middle: float) -> Array:
 def _others(plates: NDArray[Any], i: int) -> NDArray[Any]:
     """Indices of the bank that stand for other plates, and the plate's own other wells."""
     return np.flatnonzero(np.arange(len(plates)) != i)
+
+
+def _quantile(values: Array, share: float, axes: int | tuple[int, ...] = 0) -> Array:
+    """Quantile along axes that are kept; NaN where no normal shows anything, without a warning:
+    a place that labware always hides is no trouble."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "All-NaN slice", RuntimeWarning)
+        found = np.nanquantile(values, share, axis=axes, keepdims=True)
+    return np.asarray(found, dtype=np.float32)
 
 
 def _worst(ratios: Array) -> float:

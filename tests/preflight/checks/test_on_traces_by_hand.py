@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import pytest
 
 from aegis_ot.preflight.trace import Contact
@@ -20,7 +22,12 @@ HIGH, NEAR, DEEP = 1.0, -7.5, -9.5
 
 
 def transfer(
-    bench: Bench, source: str, target: str, volume: float = 10, top: float = DEEP, fresh: bool = True
+    bench: Bench,
+    source: str,
+    target: str,
+    volume: float = 10,
+    top: float = DEEP,
+    fresh: bool = True,
 ) -> None:
     if fresh:
         bench.pick()
@@ -179,7 +186,7 @@ def dilution(mixed: bool = True, one_tip: bool = True) -> Bench:
     columns = [1, 2, 3, 4, 5]
     if one_tip:
         bench.pick()
-    for source, target in zip(columns, columns[1:], strict=False):
+    for source, target in itertools.pairwise(columns):
         if not one_tip:
             bench.pick()
         bench.draw(f"plate:A{source}", 50)

@@ -77,11 +77,6 @@ def test_a_well_may_be_named_by_slot_or_by_the_labwares_name(place: str) -> None
     assert [ref.address for ref in accepted[0].wells] == ["2:A2"]
 
 
-def test_of_a_range_the_wells_that_the_run_uses_are_meant() -> None:
-    (one,), _ = verified(said("reaction", "4:A1-H12", quote="mix"))
-    assert {ref.address for ref in one.wells} == {"4:A1", "4:H12"}
-
-
 def test_blanks_in_a_quote_do_not_matter() -> None:
     accepted, _ = verified(said("master_mix", "2:A1", 2, "comes the polymerase  mix"))
     assert len(accepted) == 1
@@ -126,9 +121,17 @@ def test_wells_are_of_one_labware() -> None:
     assert "several labware" in reason(said("water", "2:A3 4:H12"))
 
 
-def test_the_run_uses_them() -> None:
-    assert "the run uses none of these wells" in reason(said("template", "4:B7 4:B8"))
-    assert "there is no well" not in reason(said("template", ""))
+def test_a_well_that_the_run_forgets_may_be_named() -> None:
+    (one,), _ = verified(said("ntc", "4:G12 4:H12", 3, "H12 of the plate stays without DNA"))
+    assert [ref.address for ref in one.wells] == ["4:G12", "4:H12"]
+
+
+def test_the_run_uses_their_labware() -> None:
+    idle = PROTOCOL.replace(
+        "    p20 =", '    protocol.load_labware("biorad_96_wellplate_200ul_pcr", 5)\n    p20 ='
+    )
+    assert "the run does not use this labware" in reason(said("template", "5:A1"), idle)
+    assert "it names no well" in reason(said("template", ""))
 
 
 def test_the_role_is_one_of_a_family_in_force() -> None:

@@ -81,3 +81,15 @@ def test_a_dose_of_zero_is_no_drug() -> None:
         assay="cell_treatment",
     )
     assert roles_by_well(reading) == {"2:A2": "drug"}
+
+
+def test_a_mix_that_is_filled_and_given_on_is_a_mix() -> None:
+    reading = read(
+        """
+        dna_mix = tubes["C1"]
+        template = tubes["A1"]
+        p20.transfer(10, template, dna_mix)
+        p20.transfer(5, dna_mix, plate["A1"])
+        """
+    )
+    assert roles_by_well(reading)["2:C1"] == "master_mix"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from aegis_ot.vision.column import Dye, EmptyColour, combine, look_at_tip, mean_dye
-from aegis_ot.vision.column.evidence import colour_evidence, long_step
+from aegis_ot.vision.column.evidence import colour_evidence, long_step, taper
 
 from .drawn import RED, WATER, detection, draw_tip
 
@@ -32,11 +32,13 @@ def test_a_glint_in_one_frame_does_not_make_a_column() -> None:
 
 def test_a_step_has_no_finite_uncertainty_where_too_few_rows_lie_beside_it() -> None:
     u = np.linspace(0, 1, 200, dtype=np.float32)
-    step = long_step(u, (u > 0.6).astype(np.float32), 0.2, 0.95)
+    column = np.where(u > 0.6, taper(u), 0.0).astype(np.float32)
+    step = long_step(u, column, 0.2, 0.95)
     assert np.isinf(step.sd[0])
     assert np.isinf(step.sd[-1])
     row = int(np.argmax(step.size))
     assert u[row] == pytest.approx(0.6, abs=0.02)
+    assert step.size[row] == pytest.approx(1.0, abs=0.05)
 
 
 def test_colour_speaks_for_its_own_dye_and_against_another() -> None:

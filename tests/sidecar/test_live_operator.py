@@ -1,0 +1,81 @@
+"""A guarded run on Opentrons' own engine, a real sidecar, and an operator at its page."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+
+from aegis_ot.account import situations
+from aegis_ot.settings import Settings
+from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from tests.runtime.live import LiveRun
+from tests.runtime.test_live import in_time, two_wells
+from tests.runtime.test_page_answers import RobotServer, robot
+
+from .helpers import StubAnalyser, StubCamera
+
+__all__ = ["robot"]  # a fixture
+
+
+class Stage:
+    """The run, and the page that a person has open."""
+
+    def __init__(self, url: str, run: LiveRun) -> None:
+        self.run = run
+        self.http = httpx.Client(base_url=url, trust_env=False, timeout=20)
+
+    def overview(self) -> dict[str, Any]:
+        answer: dict[str, Any] = self.http.get("/v1/runs/run").json()
+        return answer
+
+    def asked(self) -> list[str]:
+        return [one.kind for one in situations(self.overview(), time.time())]
+
+    def answer(self, words: str) -> None:
+        form = {"by": "Ada", "note": "a drop", "answer": words}
+        assert self.http.post("/runs/run/wells/0", data=form).status_code == 303
+
+
+@pytest.fixture
+def stage(config: SidecarConfig, robot: RobotServer) -> Iterator[Stage]:
+    with running_sidecar(config, StubCamera(), StubAnalyser(fails=[0])) as url:
+        settings = Settings(sidecar=url, run_id="run")
+        run = robot.run = LiveRun(two_wells, settings).start()
+        run.wait_for_status("paused")
+        stage = Stage(url, run)
+        in_time(lambda: stage.asked() == ["paused"])
+        yield stage
+        stage.http.close()
+
+
+def test_a_well_is_put_right_and_the_run_resumed_from_the_page(
+    stage: Stage, robot: RobotServer
+) -> None:
+    assert "partial dispense" in stage.http.get("/").text
+    stage.answer("pass resume")
+    stage.run.join()
+    assert stage.run.error is None
+    assert robot.told == [("/runs/abc/actions", "play")]
+    first = stage.overview()["trajectories"][0]
+    assert (first["verdict"]["outcome"], first["decisions"][0]["by"]) == ("pass", "Ada")
+    assert first["hold"]["answered"] == "page"
+    assert stage.asked() == []
+    assert stage.run.watcher is not None
+    assert "2 passed" in stage.run.watcher.summary()
+    report = stage.http.get("/runs/run/report.html").text
+    assert "Ada" in report
+    assert "answered at the page" in report
+
+
+def test_a_run_is_stopped_from_the_page(stage: Stage, robot: RobotServer) -> None:
+    stage.answer("stop")
+    stage.run.join()
+    assert stage.run.error is not None
+    in_time(lambda: stage.overview()["finished"] is not None)
+    overview = stage.overview()
+    assert overview["finished"]["outcome"] == "stopped"
+    assert [(one["action"], one["by"]) for one in overview["actions"]] == [("stop", "Ada")]
