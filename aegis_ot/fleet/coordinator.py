@@ -9,7 +9,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..errors import AegisError, FleetError, LinkError, RobotError
-from .config import RobotConfig
+from .config import FleetConfig, RobotConfig
+from .hosting import MakeAgent, agents_of
 from .jobs import Job, numbered
 from .remote import RemoteAgent
 from .report import BROKEN_OFF, LOST, NOT_RUN, Entry, FleetReport
@@ -176,12 +177,15 @@ class Coordinator:
 
 
 async def run_fleet(
-    config: Any, jobs: Sequence[Job], screen: FleetScreen | None = None, make_agent: Any = None
+    config: FleetConfig,
+    jobs: Sequence[Job],
+    screen: FleetScreen | None = None,
+    make_agent: MakeAgent | None = None,
 ) -> FleetReport:
     """Launch the fleet's own agents, find the remote ones, and run protocols on them all.
 
     Args:
-        config: A :class:`~.config.FleetConfig`.
+        config: The fleet.
         jobs: The protocols.
         screen: Told of it.
         make_agent: Makes the agent of a robot, by default an :class:`~.agent.AegisAgent`.
@@ -190,7 +194,5 @@ async def run_fleet(
         ConfigurationError: The exchange cannot be used.
         AgentLost: A remote agent cannot be found.
     """
-    from .hosting import agents_of
-
     async with agents_of(config, make_agent) as agents:
         return await Coordinator(jobs, config.robot, agents, screen or FleetScreen()).run()

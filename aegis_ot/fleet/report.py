@@ -15,7 +15,6 @@ from .schedule import least_s
 FORMAT = "aegis-ot fleet report"
 VERSION = 1
 
-CLEAN, REFUSED = "succeeded", "rejected"
 LOST, NOT_RUN, BROKEN_OFF = "lost", "not run", "broken off"
 
 
@@ -53,7 +52,7 @@ class Entry:
     @property
     def is_clean(self) -> bool:
         """Whether nobody has to look at it."""
-        return self.outcome == CLEAN and not self.flagged
+        return self.outcome == "succeeded" and not self.flagged
 
 
 @dataclass

@@ -16,6 +16,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from academy.exception import AcademyRemoteError
+from academy.handle import Handle
+from academy.serialize import SerializationStrategy
 
 from aegis_ot.errors import AgentLost, ConfigurationError
 from aegis_ot.fleet import FleetConfig, FleetScreen, hosting, read_job, run_fleet, serve_agents
@@ -145,6 +148,37 @@ def test_a_host_that_nobody_serves_is_told(
     monkeypatch.setattr(hosting, "FIND_S", 0.5)
     with pytest.raises(AgentLost, match="Nobody serves the agent of there"):
         asyncio.run(run_fleet(FleetConfig.load(robots, {}), [read_job(protocols[0])]))
+
+
+class Bomb:
+    """A pickle that makes a file where it is read."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def __reduce__(self):
+        return Path.touch, (self.path,)
+
+
+@pytest.mark.parametrize("exchange", ["redis"], indirect=True)
+def test_an_agent_reads_no_pickle(robots: Path, exchange: str, tmp_path: Path) -> None:
+    bomb = tmp_path / "bomb"
+
+    async def send() -> None:
+        config = FleetConfig(exchange=exchange, robot=[{"name": "here"}])
+        async with hosting.agents_of(config) as agents:
+            to = agents["here"]._handle
+            pickling = Handle(
+                to.agent_id,
+                exchange=to.exchange,
+                request_serializer=SerializationStrategy.PICKLE,
+                result_serializer=SerializationStrategy.JSON,
+            )
+            with pytest.raises(AcademyRemoteError, match="Prohibited"):
+                await pickling.action("status", Bomb(bomb))
+
+    asyncio.run(asyncio.wait_for(send(), START_S))
+    assert not bomb.exists()
 
 
 def test_an_exchange_that_is_not_there_is_one_sentence(aegis: Command, tmp_path: Path) -> None:
