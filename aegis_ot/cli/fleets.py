@@ -40,7 +40,9 @@ def run(
     robots: Robots,
     yes: Annotated[
         bool,
-        typer.Option("--yes", "-y", help="Every real robot is ready for whatever it is given."),
+        typer.Option(
+            "--yes", "-y", help="Every real robot is ready for the first protocol that it gets."
+        ),
     ] = False,
     labware: Annotated[
         list[Path] | None, typer.Option(help="Folder or file with custom labware definitions.")
@@ -55,6 +57,8 @@ def run(
     """Run protocols on a fleet, the longest first, each on a robot that has what it needs."""
     from ..fleet import run_fleet
 
+    if report is not None and report.suffix not in (".json", ".html"):
+        raise ConfigurationError(f"The report {report} must end in .json or .html.")
     config = _load(robots)
     if not yes and not sys.stdin.isatty() and any(not robot.simulated for robot in config.robot):
         raise ConfigurationError("Nobody can be asked whether decks are in place. Add --yes.")
@@ -151,6 +155,7 @@ class _Shown:
     def __init__(self, names: Sequence[str], yes: bool) -> None:
         self._yes = yes
         self._asking = asyncio.Lock()
+        self._given: set[str] = set()
         self._rows: dict[str, Mapping[str, Any]] = {name: {} for name in names}
         self._live = Live(console=console, transient=True, refresh_per_second=4)
 
@@ -163,8 +168,11 @@ class _Shown:
 
     async def is_ready(self, robot: str, job: Job) -> bool:
         """Ask, one robot at a time, while the others go on."""
-        if self._yes:
+        if self._yes and robot not in self._given:
+            self._given.add(robot)
             return True
+        if not sys.stdin.isatty():  # nobody has put a fresh deck in place either
+            return False
         question = f"{job.name} goes to {robot}. Deck, tips and liquids are in place?"
         async with self._asking:
             self._live.stop()

@@ -6,6 +6,9 @@ import json
 
 import pytest
 
+from ..robot.protocols import GOOD
+from ..support.robot_server import RobotServer
+
 EMPTY = 'metadata = {"apiLevel": "2.15"}\ndef run(protocol):\n    pass\n'
 FLEX = 'requirements = {"robotType": "Flex", "apiLevel": "2.16"}\ndef run(protocol):\n    pass\n'
 
@@ -56,3 +59,24 @@ def test_without_a_person_a_real_robot_needs_a_yes(aegis, tmp_path):
     done = aegis("fleet", "run", "--robots", path, protocol)
     assert done.code == 2
     assert "Add --yes" in done.err
+
+
+def test_a_yes_holds_for_the_first_protocol_of_each_real_robot(aegis, tmp_path):
+    path, protocol = tmp_path / "fleet.toml", tmp_path / "good.py"
+    protocol.write_text(GOOD)
+    with RobotServer() as robot:
+        path.write_text(
+            f'[[robot]]\nname = "a"\naddress = "{robot.url}"\n'
+            'pipettes = {left = "p300_single_gen2"}\n'
+        )
+        done = aegis("fleet", "run", "--yes", "--robots", path, protocol, protocol)
+        assert len(robot.runs) == 1
+    assert done.code == 2
+    assert "good.py on a: succeeded" in done.out
+    assert "good.py (2): not run" in done.out
+
+
+def test_a_report_of_another_kind_is_refused_before_anything_starts(aegis, robots, tmp_path):
+    done = aegis("fleet", "run", "--robots", robots, "--report", "x.pdf", tmp_path / "no.py")
+    assert done.code == 2
+    assert ".json or .html" in done.err
