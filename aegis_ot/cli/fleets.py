@@ -90,6 +90,19 @@ def serve(
 
 
 @fleet.command()
+def pause(
+    robots: Robots,
+    robot: Annotated[list[str] | None, typer.Option(help="Only these; else all.")] = None,
+    release: Annotated[bool, typer.Option("--release", help="Let them go on.")] = False,
+) -> None:
+    """Hold the robots of a running fleet before their next move; needs redis or http."""
+    from ..fleet import hold_robots
+
+    asyncio.run(hold_robots(_load(robots), robot or (), not release))
+    _say("Released." if release else "Held; --release lets them go on.")
+
+
+@fleet.command()
 def exchange(
     host: Annotated[str, typer.Option(help="Address to listen at.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(help="Port to listen at.")] = 8700,

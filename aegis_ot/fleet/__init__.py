@@ -6,7 +6,7 @@ protocols. See ``docs/fleet.md``.
 
 from .config import FleetConfig, RobotConfig
 from .coordinator import FleetScreen, run_fleet
-from .hosting import serve_agents
+from .hosting import hold_robots, serve_agents
 from .jobs import Job, read_job
 from .report import FleetReport
 
@@ -16,6 +16,7 @@ __all__ = [
     "FleetScreen",
     "Job",
     "RobotConfig",
+    "hold_robots",
     "read_job",
     "run_fleet",
     "serve_agents",

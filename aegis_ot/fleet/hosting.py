@@ -59,23 +59,55 @@ async def serve_agents(
 
     Raises:
         ConfigurationError: There is no such robot, or the exchange cannot be used.
+        AgentLost: An agent has ended, most likely with the exchange.
     """
+    robots = _named(config, names) or [robot for robot in config.robot if robot.remote]
+    if config.exchange == "local" or not robots:
+        raise ConfigurationError("Serving agents needs an exchange and robots with remote = true.")
+    async with _hosted(config, robots, make_agent) as hosted:
+        started([robot.name for robot in robots])
+        await hosted.one_ended()
+        raise AgentLost(f"An agent has ended. Is {_public(config.exchange)} still there?")
+
+
+async def hold_robots(config: FleetConfig, names: Collection[str], on: bool) -> None:
+    """Hold robots of a fleet that runs elsewhere before their next move, or let them go on.
+
+    Args:
+        config: The fleet.
+        names: Which robots; none: all.
+        on: Whether to hold them.
+
+    Raises:
+        ConfigurationError: There is no such robot, or no exchange to reach it by.
+        AgentLost: Its agent cannot be found.
+    """
+    wanted = [robot.name for robot in _named(config, names) or config.robot]
+    if config.exchange == "local":
+        raise ConfigurationError("Agents of another process are reached by redis or http only.")
+    async with _hosted(config, (), None) as hosted:
+        for name, handle in (await _find(hosted.client, wanted)).items():
+            await RemoteAgent(name, handle, config.dead_after_s).pause(on)
+
+
+def _named(config: FleetConfig, names: Collection[str]) -> list[RobotConfig]:
     known = {robot.name: robot for robot in config.robot}
     wrong = [name for name in names if name not in known]
     if wrong:
         raise ConfigurationError(f"No robot is called {wrong[0]!r}; there are {', '.join(known)}.")
-    robots = [known[name] for name in names] or [r for r in config.robot if r.remote]
-    if config.exchange == "local" or not robots:
-        raise ConfigurationError("Serving agents needs an exchange and robots with remote = true.")
-    async with _hosted(config, robots, make_agent):
-        started([robot.name for robot in robots])
-        await asyncio.Event().wait()
+    return [known[name] for name in names]
 
 
 class _Hosted:
     def __init__(self, manager: Manager[Any]) -> None:
+        self._manager = manager
         self.client = manager.exchange_client
         self.launched: list[tuple[str, Handle[Any]]] = []
+
+    async def one_ended(self) -> None:
+        """Wait until any agent launched here has ended."""
+        agents = [handle for _, handle in self.launched]
+        await self._manager.wait(agents, return_when=asyncio.FIRST_COMPLETED)
 
 
 @contextlib.asynccontextmanager

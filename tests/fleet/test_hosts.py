@@ -19,11 +19,14 @@ import pytest
 from academy.exception import AcademyRemoteError
 from academy.handle import Handle
 from academy.serialize import SerializationStrategy
+from redis import Redis
 
 from aegis_ot.errors import AgentLost, ConfigurationError
 from aegis_ot.fleet import FleetConfig, FleetScreen, hosting, read_job, run_fleet, serve_agents
+from aegis_ot.fleet.agent import AegisAgent
 
 from ..cli.commands import Command
+from .support import Robot, job, passed
 
 AEGIS = [sys.executable, "-c", "from aegis_ot.cli import main; main()"]
 START_S = 60.0
@@ -148,6 +151,58 @@ def test_a_host_that_nobody_serves_is_told(
     monkeypatch.setattr(hosting, "FIND_S", 0.5)
     with pytest.raises(AgentLost, match="Nobody serves the agent of there"):
         asyncio.run(run_fleet(FleetConfig.load(robots, {}), [read_job(protocols[0])]))
+
+
+@pytest.mark.parametrize("exchange", ["redis"], indirect=True)
+def test_robots_are_held_and_released_from_another_terminal(robots: Path) -> None:
+    async def pause(*more: str) -> None:
+        arguments = ("fleet", "pause", "--robots", str(robots), "--robot", "there", *more)
+        done = await asyncio.create_subprocess_exec(*AEGIS, *arguments)
+        assert await done.wait() == 0
+
+    async def talk() -> list[bool]:
+        held = []
+        async with hosting.agents_of(FleetConfig.load(robots, {})) as agents:
+            for more in ((), ("--release",)):
+                await pause(*more)
+                held.append((await agents["there"].status())["held"])
+        return held
+
+    with process(*AEGIS, "fleet", "serve", "--robots", str(robots), says="Serving there"):
+        assert asyncio.run(asyncio.wait_for(talk(), 100)) == [True, False]
+
+
+@pytest.mark.parametrize("exchange", ["redis"], indirect=True)
+def test_an_answer_may_take_longer_than_a_redis_clients_patience(exchange: str) -> None:
+    def slowly(script):
+        time.sleep(6)  # as a model does; a Redis client waits 5 s unless told otherwise
+        return passed()
+
+    async def talk() -> dict:
+        config = FleetConfig(exchange=exchange, robot=[{"name": "a"}])
+
+        def make(robot):
+            return AegisAgent(robot, slowly, Robot())
+
+        async with hosting.agents_of(config, make) as agents:
+            plain = job("x")
+            asked = asyncio.ensure_future(agents["a"].process(plain.to_wire()))
+            await asyncio.sleep(6.5)  # nothing is heard meanwhile: that is the test
+            while (await agents["a"].status())["state"] != "asking":
+                pass
+            await agents["a"].go_ahead("x")
+            return await asked
+
+    assert asyncio.run(asyncio.wait_for(talk(), START_S))["outcome"] == "succeeded"
+
+
+@pytest.mark.parametrize("exchange", ["redis"], indirect=True)
+def test_agents_whose_exchange_goes_away_say_so(robots: Path, exchange: str) -> None:
+    port = int(exchange.rpartition(":")[2])
+    with process(*AEGIS, "fleet", "serve", "--robots", str(robots), says="Serving there") as host:
+        with Redis(port=port, password="secret") as redis:
+            redis.shutdown(nosave=True)
+        assert host.wait(START_S) == 2
 
 
 class Bomb:
