@@ -41,8 +41,8 @@ def make_exchange(address: str) -> Any:
     if url.scheme in ("redis", "rediss") and url.hostname:
         options: dict[str, Any] = {"username": url.username, "password": url.password}
         options["ssl"] = url.scheme == "rediss"
-        # Listening blocks until a message comes. Redis clients from 8 on would give up after 5 s,
-        # and Academy ends an agent whose listening ends.
+        # Listening blocks until a message comes. Redis clients from 8 on would give up within a
+        # minute, and Academy ends an agent whose listening ends.
         options["socket_timeout"] = None
         return RedisExchangeFactory(url.hostname, port or 6379, **options)
     if url.scheme in ("http", "https") and url.hostname:

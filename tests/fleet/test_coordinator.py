@@ -227,6 +227,17 @@ def test_an_unknown_exchange_is_told(address):
         make_exchange(address)
 
 
+def test_listening_at_redis_has_no_time_limit():
+    # Redis clients from 8 on give a silent exchange up within a minute, and the agent ends.
+    exchange = make_exchange("rediss://me:secret@h:7")
+    assert exchange.redis_info.kwargs == {
+        "username": "me",
+        "password": "secret",
+        "ssl": True,
+        "socket_timeout": None,
+    }
+
+
 def test_the_hosted_exchange_is_refused():
     from academy.exchange.cloud.client import DEFAULT_EXCHANGE_URL
 

@@ -23,10 +23,8 @@ from redis import Redis
 
 from aegis_ot.errors import AgentLost, ConfigurationError
 from aegis_ot.fleet import FleetConfig, FleetScreen, hosting, read_job, run_fleet, serve_agents
-from aegis_ot.fleet.agent import AegisAgent
 
 from ..cli.commands import Command
-from .support import Robot, job, passed
 
 AEGIS = [sys.executable, "-c", "from aegis_ot.cli import main; main()"]
 START_S = 60.0
@@ -170,30 +168,6 @@ def test_robots_are_held_and_released_from_another_terminal(robots: Path) -> Non
 
     with process(*AEGIS, "fleet", "serve", "--robots", str(robots), says="Serving there"):
         assert asyncio.run(asyncio.wait_for(talk(), 100)) == [True, False]
-
-
-@pytest.mark.parametrize("exchange", ["redis"], indirect=True)
-def test_an_answer_may_take_longer_than_a_redis_clients_patience(exchange: str) -> None:
-    def slowly(script):
-        time.sleep(6)  # as a model does; a Redis client waits 5 s unless told otherwise
-        return passed()
-
-    async def talk() -> dict:
-        config = FleetConfig(exchange=exchange, robot=[{"name": "a"}])
-
-        def make(robot):
-            return AegisAgent(robot, slowly, Robot())
-
-        async with hosting.agents_of(config, make) as agents:
-            plain = job("x")
-            asked = asyncio.ensure_future(agents["a"].process(plain.to_wire()))
-            await asyncio.sleep(6.5)  # nothing is heard meanwhile: that is the test
-            while (await agents["a"].status())["state"] != "asking":
-                pass
-            await agents["a"].go_ahead("x")
-            return await asked
-
-    assert asyncio.run(asyncio.wait_for(talk(), START_S))["outcome"] == "succeeded"
 
 
 @pytest.mark.parametrize("exchange", ["redis"], indirect=True)
