@@ -71,10 +71,10 @@ def show(found: dict[str, Any]) -> str:
         "nothing: tried, and passed in silence"
     ]
     for row in found["cases"]:
-        lines.append(f"{row['case']:32} {row['tried']:5} {len(row['wrong']):5}")
-    lines += [
-        f"passed in silence, {row['case']}: {run}" for row in found["cases"] for run in row["wrong"]
-    ]
+        late = sum(": held at well" in run for run in row["wrong"])
+        told = f", of which {late} were held later" if late else ""
+        lines.append(f"{row['case']:32} {row['tried']:5} {len(row['wrong']):5}{told}")
+    lines += [f"{row['case']}: {run}" for row in found["cases"] for run in row["wrong"]]
     return "\n".join(lines) + "\n"
 
 

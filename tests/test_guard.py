@@ -10,7 +10,6 @@ import re
 import sys
 import textwrap
 import time
-from pathlib import Path
 
 import pytest
 from opentrons import simulate
@@ -29,11 +28,23 @@ tubes = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 2, "tu
 tips = protocol.load_labware("opentrons_96_tiprack_300ul", 3)
 p300 = protocol.load_instrument("p300_single_gen2", "left", [tips])
 """
-WITH_PARAMETERS = (
-    Path(__file__).with_name("preflight")
-    / "protocols"
-    / ("columns_from_runtime_parameters_wrong.py")
-)
+WITH_PARAMETERS = """
+metadata = {"apiLevel": "2.20", "protocolName": "HeLa cells, drug treatment"}
+
+def add_parameters(parameters):
+    parameters.add_int("Control column", "control_column", 12, minimum=1, maximum=12)
+
+def run(protocol):
+    cells = protocol.load_labware("corning_96_wellplate_360ul_flat", 1, "HeLa cells")
+    tubes = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 2)
+    tips = protocol.load_labware("opentrons_96_filtertiprack_20ul", 3)
+    p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[tips])
+    drug, vehicle = tubes["A1"], tubes["A2"]
+    controls = cells.columns()[protocol.params.control_column - 1]
+    treated = cells.columns()[0]
+    p20.transfer(5, vehicle, controls[1:], new_tip="always")
+    p20.transfer(5, drug, [*treated, controls[0]], new_tip="always")
+"""
 GOOD = 'p300.transfer(50, tubes["A1"], plate.wells()[:2], new_tip="always")'
 BAD = """
 template, water, ntc = tubes["A1"], tubes["A2"], plate["H12"]
@@ -489,8 +500,6 @@ def test_a_protocol_after_one_that_could_not_begin_is_guarded():
 
 
 def test_runtime_parameters_say_where_the_controls_are():
-    text = WITH_PARAMETERS.read_text().replace(
-        "def run", "from aegis_ot import guard\n@guard\ndef run"
-    )
+    text = WITH_PARAMETERS.replace("def run", "from aegis_ot import guard\n@guard\ndef run")
     with pytest.raises(Exception, match=r"CELL-1.*control well A12"):
         simulated(text)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
@@ -15,7 +16,7 @@ from .delivery import Delivery, delivery_of
 from .evidence import evidence_of
 from .first_wells import FirstWells, Liquid, liquid_of
 from .gates import Case, GateDecision, Gates, in_sentences
-from .leftover import Leftover, Leftovers, explains, still_there
+from .leftover import Leftover, Leftovers, still_there
 from .measuring import TipView
 from .second_opinion import SecondOpinion
 from .stream import OpenTrajectory, Stream
@@ -39,6 +40,8 @@ class _Well:
     liquid: Liquid
     case: Case
     looks: dict[KeyframeKind, object]
+    clean: bool
+    """Whether its tip holds nothing that an earlier well left: else it looks like no other."""
 
 
 class RunAnalyser:
@@ -127,15 +130,15 @@ class RunAnalyser:
             band = stream.cascade.calibration.band
             limit = None if band is None else band[1]
             decision = self._second.on(case, decision, stream.learned + 1, limit)
-        left = self._leftovers.known(last)
-        if (
-            left is not None
-            and decision.outcome is not Outcome.PASS
-            and explains(left, case, self._delivery(seen, last, left.volume_ul))
-        ):
+        left = None
+        if decision.outcome is not Outcome.PASS:
+            delivery = partial(self._delivery, seen, last)
+            left = self._leftovers.explaining(last, case, delivery)
+        if left is not None:
             decision = still_there(left, decision)
         else:
-            well = _Well(stream, liquid_of(last), case, dict(seen.looks))
+            clean = self._leftovers.known(last) is None
+            well = _Well(stream, liquid_of(last), case, dict(seen.looks), clean)
             decision = self._learn(well, trajectory, decision)
         self._leftovers.note(last, case, decision)
         verdict = Verdict(
@@ -296,6 +299,8 @@ class RunAnalyser:
     def _take(self, well: _Well, decision: GateDecision) -> None:
         stream, case, looks = well.stream, well.case, well.looks
         normal = decision.outcome is Outcome.PASS
+        if normal and not well.clean:
+            return
         if not normal and self._first.proven(well.liquid):
             return  # the others were not taken on trust, so this one casts no doubt on them
         collecting = stream.cascade.state is CalibrationState.COLLECTING

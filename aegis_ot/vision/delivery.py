@@ -37,12 +37,12 @@ _UNSEEN_MOST = 0.2
 _LEFT_LEAST = 0.2
 """Share of the delivery that must have stayed to be called so."""
 
-_PLAIN = 4.0
+_PLAIN = 2.7
 """Change of the upper rows from which the liquid is plain to see, in a row's usual noise. Two
-frames of the same tip differ by up to 2.5 where nothing left it, and by 5.5 at least where a dye
+frames of the same tip differ by up to 2.3 where nothing left it, and by 3.3 at least where a dye
 did, on simulated frames of many cameras."""
 
-_SURE = 5.0
+_SURE = 3.0
 """Change from which the rows below must show it too."""
 
 _ELSEWHERE = 0.35
@@ -55,7 +55,7 @@ the liquid left, at most the second where it stayed."""
 
 _SECTIONS = 12
 
-_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 9.0, 8.0, 6.0
+_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 5.0, 4.3, 6.0
 """Change of the upper rows from which a gap would show, and from which it would in a bore at least
 so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
 
@@ -146,11 +146,19 @@ def _bores(look: Look) -> NDArray[np.float64]:
     return np.asarray(2.0 * look.tip.inner_radius(heights) * px_per_mm, dtype=np.float64)
 
 
+def _across(change: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Change of brightness across the whole bore, and of both colours, ``(rows, 3)``.
+
+    A tip that is laid a pixel beside its place changes one side of the bore against the other.
+    """
+    return np.column_stack([change[:, :-2].mean(axis=1), change[:, -2:]]).astype(np.float64)
+
+
 def _compared(
     before: Look, after: Look, inside: NDArray[np.bool_], above: NDArray[np.bool_]
 ) -> Delivery:
     u, tip = before.profile.u.astype(np.float64), before.tip
-    change = change_between(before.profile, after.profile)
+    change = _across(change_between(before.profile, after.profile))
     width = np.asarray(tip.inner_radius((1.0 - u) * tip.length_mm), dtype=np.float64)
     rows = np.flatnonzero(inside)
     upper = rows[: max(len(rows) // 3, 1)]

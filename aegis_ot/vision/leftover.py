@@ -6,7 +6,8 @@ run go on, so the expectation for the next well starts from it: only what comes 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 from ..vocabulary import FailureType, Gate, Keyframe, KeyframeKind, Outcome
 from .delivery import Delivery, Shown
@@ -28,11 +29,14 @@ class Leftover:
         tip: Which one.
         volume_ul: µL.
         well: Where it was reported.
+        perhaps_ul: What may be left besides, µL: nothing was seen to leave, so it was not drawn or
+            it is still there, and the next well tells which.
     """
 
     tip: str
     volume_ul: float
     well: str
+    perhaps_ul: float = 0.0
 
 
 class Leftovers:
@@ -64,6 +68,31 @@ class Leftovers:
             volume = before.volume_ul + case.sample.volume_ul
         if volume is not None and volume > 0:
             self._of[keyframe.mount] = Leftover(keyframe.tip, volume, case.sample.well)
+        elif before is not None and case.delivery is not None:
+            perhaps = case.sample.volume_ul if case.delivery.shown is Shown.NOTHING else 0.0
+            self._of[keyframe.mount] = replace(
+                before, well=case.sample.well, perhaps_ul=before.perhaps_ul + perhaps
+            )
+
+    def explaining(
+        self, keyframe: Keyframe, case: Case, delivery: Callable[[float], Delivery]
+    ) -> Leftover | None:
+        """The leftover of this tip, if a well that did not pass shows no more than that.
+
+        Args:
+            keyframe: Its last one.
+            case: The well, as it is judged without that.
+            delivery: What it shows if the tip held so much before and after, µL.
+        """
+        left = self.known(keyframe)
+        if left is None or explains(left, case, delivery(left.volume_ul)):
+            return left
+        more = replace(left, volume_ul=left.volume_ul + left.perhaps_ul, perhaps_ul=0.0)
+        shown = delivery(more.volume_ul)
+        if more == left or shown.shown is not Shown.EMPTIED or not explains(more, case, shown):
+            return None
+        self._of[keyframe.mount] = more
+        return more
 
     def restore(self, mount: str, left: Leftover) -> None:
         """From what was kept of an earlier verdict."""

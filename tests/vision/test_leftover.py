@@ -102,3 +102,27 @@ def test_failures_that_leave_nothing_are_forgotten(failure) -> None:
     tips = Leftovers()
     tips.note(KEYFRAME, case(), GateDecision(Outcome.FAIL, Gate.VLM, "", failure))
     assert tips.known(KEYFRAME) is None
+
+
+def unseen() -> Case:
+    """A well of which nothing was seen to leave."""
+    return replace(case(), delivery=Delivery(Shown.NOTHING))
+
+
+@pytest.mark.parametrize(
+    ("shown", "left"),
+    [
+        ({50.0: Shown.EMPTIED, 150.0: Shown.NOTHING}, 50.0),
+        ({50.0: Shown.NOTHING, 150.0: Shown.EMPTIED}, 150.0),
+        ({50.0: Shown.NOTHING, 150.0: Shown.NOTHING}, None),
+        ({50.0: Shown.NOTHING, 150.0: Shown.UNKNOWN}, None),
+    ],
+)
+def test_whether_what_was_not_seen_to_leave_is_still_there_is_told_by_the_next_well(
+    shown: dict[float, Shown], left: float | None
+) -> None:
+    tips = Leftovers()
+    tips.note(KEYFRAME, case(), fail(50.0, 0.0))
+    tips.note(KEYFRAME, unseen(), GateDecision(Outcome.FAIL, Gate.VLM, "", FailureType.OTHER))
+    found = tips.explaining(KEYFRAME, unseen(), lambda held: Delivery(shown[held]))
+    assert (None if found is None else found.volume_ul) == left

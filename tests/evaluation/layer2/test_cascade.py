@@ -8,6 +8,7 @@ from dataclasses import replace
 from aegis_ot.evaluation.layer2.cascade import keyframes, run_cascade
 from aegis_ot.evaluation.layer2.lopo import HeldOut, ScoredWell
 from aegis_ot.sidecar import make_analyser
+from aegis_ot.sidecar.config import CascadeSettings
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vision.types import TrajectorySample
 from aegis_ot.vocabulary import KeyframeKind, Outcome, Route
@@ -72,7 +73,8 @@ def test_a_missing_tip_is_flagged_whatever_the_score() -> None:
 
 def test_a_recording_is_judged_as_the_sidecar_judges_it_live() -> None:
     known = held([1.0, 1.1, 0.9, 1.0, 1.05, 1.0, 1.0, 90.0])
-    monitor = make_analyser()
+    # A recording's first normal wells are known to be normal: nobody is asked.
+    monitor = make_analyser(CascadeSettings(first_wells="trust"))
     monitor.scorer = known.models["p1"]
 
     class Told:

@@ -68,7 +68,7 @@ def test_a_nearly_full_tube_is_touched_where_an_empty_one_is_not() -> None:
             tubes = protocol.load_labware(
                 "opentrons_10_tuberack_falcon_4x50ml_6x15ml_conical", 4)
             water = protocol.define_liquid("Water", "", "#0000ff")
-            tubes["A1"].load_liquid(water, 14000)
+            tubes["A1"].load_liquid(water, 14900)
             tubes["A3"].load_liquid(water, 40000)
             single.pick_up_tip()
             for tube in ("A1", "B1", "B1"):
