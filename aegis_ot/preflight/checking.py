@@ -51,7 +51,7 @@ def check_script(
         RehearsalError: It cannot be rehearsed.
         RuleError: A rule file cannot be used.
     """
-    return judge(record(script, timeout_s), database or load_database(), options)
+    return judge(record(script, timeout_s=timeout_s), database or load_database(), options)
 
 
 def is_rejected(report: Report) -> bool:
