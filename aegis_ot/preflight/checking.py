@@ -84,6 +84,8 @@ def summary(report: Report) -> str:
     ]
     if report.waived:
         parts.append(f"{len(report.waived)} waived")
+    if report.remarks:
+        parts.append(f"{counted(len(report.remarks), 'remark')} (aegis-ot check shows them)")
     rules = ", ".join(dict.fromkeys(finding.rule for finding in report.findings))
     told = f" ({rules})" if rules else ""
     silence = unanswered(report)
