@@ -62,16 +62,13 @@ def check(path: Path) -> None:
 
 def _verdict_share(path: Path) -> float:
     """Time of the verdict, rules loaded, over the time of the rehearsal."""
-    from aegis_ot.preflight import Recording, judge, load_database
-    from aegis_ot.preflight.rehearsal import Recorder, Script, rehearse
+    from aegis_ot.preflight import judge, load_database, record
+    from aegis_ot.preflight.rehearsal import Script
 
-    script, recorder, database = Script(path.read_text(), path.name), Recorder(), load_database()
+    script, database = Script(path.read_text(), path.name), load_database()
     begun = time.process_time()
-    rehearsal = rehearse(script, [recorder])
+    recording = record(script)
     rehearsed = time.process_time()
-    recording = Recording(
-        script.file_name, script.text, recorder.log, rehearsal.labware, rehearsal.names
-    )
     judge(recording, database)
     return (time.process_time() - rehearsed) / (rehearsed - begun)
 
