@@ -93,10 +93,13 @@ class Usual:
         """How many normal tips, full or empty, were read before they were learned."""
         return len(self._wet if full else self._dry)
 
-    def variance(self, wet: Wetness, bore_px: float, *, full: bool, height: float = 1.0) -> float:
+    def variance(
+        self, wet: Wetness, bore_px: float, *, full: bool, height: float | None = 1.0
+    ) -> float:
         """Of a normal frame's mean wetness over rows whose bore is ``bore_px`` wide, px.
 
-        ``height``: of the column that they would be, as a share of the full one's.
+        ``height``: of the column that they would be, as a share of the full one's; ``None``: they
+        do not reach down to the orifice.
         """
         scale, low, high = _PRIOR
         prior = float(np.clip(scale / math.sqrt(max(wet.power, 1e-3)), low, high)) ** 2
@@ -105,7 +108,9 @@ class Usual:
         total = _PRIOR_WEIGHT * prior + float(np.sum(np.square(known)))
         return max(total / (_PRIOR_WEIGHT + len(known)), _LEAST_SD**2)
 
-    def _left(self, height: float) -> list[float]:
+    def _left(self, height: float | None) -> list[float]:
+        if height is None:
+            return [max(0.0, *filter(math.isfinite, shares)) for shares in self._dry]
         at = int(np.argmin(np.abs(LEFT - height)))
         return [max(shares[at], 0.0) for shares in self._dry if math.isfinite(shares[at])]
 

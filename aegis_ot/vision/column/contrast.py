@@ -49,7 +49,7 @@ def signals(profile: TipProfile) -> Array:
     # Against what is beside the tip: how bright the nozzle looks depends on where it is cut.
     beside = profile.background - np.median(profile.background)
     raw = np.concatenate(
-        [profile.section - profile.background[:, None], 2 * profile.colour, beside[:, None]],
+        [profile.section - profile.background[:, None], 2 * profile.tint, beside[:, None]],
         axis=1,
     )
     return np.asarray(cv2.blur(raw, (1, 3)), dtype=np.float32)

@@ -35,7 +35,14 @@ LANES = np.linspace(-2.6, 2.6, 53).astype(np.float32)
 
 _SECTION = np.linspace(-1.05, 1.05, 8)
 _INSIDE = np.abs(LANES) < 0.7
+_WIDE = np.abs(LANES) < 1.3
 _BESIDE = np.abs(LANES) > 1.65
+_DARK = 4.0
+"""Grey levels added before a logarithm: dark pixels are noise."""
+
+_THROUGH = 0.8
+"""Share of the background's colour that shows through a tip."""
+
 _FLOOR = 1e-3
 
 _SMEARED_PX = 3.0
@@ -56,6 +63,9 @@ class TipProfile:
         u: ``(rows,)``.
         colour: ``(rows, 2)`` red less green and blue less green of the light that the row adds to
             what is beside the tip, as a mean over six pixels across, in units of the nozzle's.
+        tint: ``(rows, 2)`` half the logarithm of red over green and of blue over green, less what
+            the background explains of it: about the same in all rows of a column, so that rows of
+            one run can be compared one by one, but noise where it is dark.
         brightness: ``(rows,)`` natural logarithm, relative to the nozzle.
         background: ``(rows,)`` the same beside the tip.
         bar: ``(rows,)`` a thin bright bar across the bore, in standard deviations of the rows
@@ -67,6 +77,7 @@ class TipProfile:
 
     u: Array
     colour: Array
+    tint: Array
     brightness: Array
     background: Array
     bar: Array
@@ -101,6 +112,7 @@ def tip_profile(strip: Strip, shape: TipShape, cone: Array | None = None) -> Tip
     return TipProfile(
         u=u,
         colour=_colour(strip, shape, nozzle),
+        tint=_tint(cone),
         brightness=brightness.astype(np.float32),
         background=background.astype(np.float32),
         bar=_bar(luminance, background, u),
@@ -159,6 +171,15 @@ def _colour(strip: Strip, shape: TipShape, nozzle: NDArray[np.bool_]) -> Array:
     added = np.einsum("rc,rck->rk", inside, light) - inside.sum(axis=1)[:, None] * behind
     added *= float(strip.v[1] - strip.v[0]) / px / (2 * _SMEARED_PX)
     return np.stack([added[:, 2] - added[:, 1], added[:, 0] - added[:, 1]], axis=1)
+
+
+def _tint(cone: Array) -> Array:
+    """Colour of the tip against what is beside it, as absorbances against green's."""
+    inside = np.log(cone[:, _WIDE].mean(axis=1) + _DARK)
+    beside = np.log(np.median(cone[:, _BESIDE], axis=1) + _DARK)
+    seen = np.stack([inside[:, 2] - inside[:, 1], inside[:, 0] - inside[:, 1]], axis=1)
+    behind = np.stack([beside[:, 2] - beside[:, 1], beside[:, 0] - beside[:, 1]], axis=1)
+    return np.asarray(0.5 * (seen - _THROUGH * behind), dtype=np.float32)
 
 
 def _bar(luminance: Array, background: Array, u: Array) -> Array:
