@@ -10,9 +10,14 @@ def received(case: Case, well: Well, liquid: RoleSet) -> tuple[float, int | None
     """µL of a liquid that a well receives in the run, and the line that first brought it."""
     total, line = 0.0, None
     for visit in case.trace.deliveries(well):
-        for origin, volume, source, _ in delivered(visit):
-            if case.has(origin, liquid) or case.has(source, liquid):
-                total += volume
+        for source, volume, composition, _ in visit.parts:
+            if source is None or source is well:
+                continue
+            share = sum(part for origin, part in composition.items() if case.has(origin, liquid))
+            if not share and case.has(source, liquid):
+                share = 1.0  # it stood there mixed before the run
+            if share:
+                total += volume * share
                 line = line or visit.line
     return total, line
 
