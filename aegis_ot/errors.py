@@ -16,6 +16,9 @@
     ├── RobotError               the robot's server could not do what was asked
     │   ├── RobotUnreachable     no answer in time
     │   └── RobotRefused         it answered, and refused
+    ├── FleetError               a fleet could not do what was asked
+    │   ├── AgentLost            a robot's agent does not answer any more
+    │   └── AgentFailed          it answered that it broke down
     ├── CameraError              no usable frame
     ├── StoreError               the sidecar could not keep what it received
     ├── ModelError               a vision model file cannot be used
@@ -103,6 +106,18 @@ class RobotRefused(RobotError):
     def __init__(self, message: str, status: int) -> None:
         super().__init__(message)
         self.status = status
+
+
+class FleetError(AegisError):
+    """A fleet could not do what was asked."""
+
+
+class AgentLost(FleetError):
+    """A robot's agent does not answer any more; its robot may still move."""
+
+
+class AgentFailed(FleetError):
+    """A robot's agent answered that it broke down."""
 
 
 class CameraError(AegisError):

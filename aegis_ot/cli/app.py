@@ -71,6 +71,7 @@ from . import (  # noqa: E402
     demo,  # noqa: F401
     dryruns,  # noqa: F401
     evaluations,  # noqa: F401
+    fleets,  # noqa: F401
     inspections,  # noqa: F401
     layer2,  # noqa: F401
     llm,  # noqa: F401

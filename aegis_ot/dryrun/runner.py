@@ -66,6 +66,9 @@ class Progress:
     def begin(self, wells: int) -> None:
         """The run starts; so many wells will be watched."""
 
+    def moves(self, operation: Operation) -> None:
+        """The simulated robot is about to do this; it waits until this returns."""
+
     def judged(self, judged: Judged) -> None:
         """A verdict is in (called from the sidecar's worker)."""
 
@@ -153,7 +156,7 @@ def _run(
     run, token = f"dry-run-{settings.seed}", secrets.token_urlsafe(16)
     if settings.data is not None:
         run += time.strftime("-%Y%m%d-%H%M%S")
-    robot = _Robot()
+    robot = _Robot(progress.moves)
     outcome, detail = "succeeded", ""
     with contextlib.ExitStack() as stack:
         data = settings.data or Path(
@@ -210,8 +213,9 @@ def _get(url: str, token: str) -> bytes:
 class _Robot:
     """Hears, below the guard, what the simulated robot really did."""
 
-    def __init__(self) -> None:
+    def __init__(self, moves: Callable[[Operation], None]) -> None:
         self.operations: list[Operation] = []
+        self._moves = moves
 
     def under(self, guarded: Callable[[Any], Any], file_name: str) -> Callable[[Any], Any]:
         def run(protocol: Any) -> Any:
@@ -222,6 +226,7 @@ class _Robot:
 
     def before(self, operation: Operation) -> None:
         """Only what was done counts."""
+        self._moves(operation)
 
     def after(self, operation: Operation) -> None:
         self.operations.append(operation)

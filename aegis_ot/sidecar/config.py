@@ -281,7 +281,7 @@ class SidecarConfig(Section):
         Raises:
             ConfigurationError: Naming the setting and what is wrong with it.
         """
-        values = _read_file(Path(path)) if path is not None else {}
+        values = read_settings_file(Path(path)) if path is not None else {}
         environ = os.environ if environ is None else environ
         for variable, place in ENVIRONMENT.items():
             if environ.get(variable):
@@ -372,7 +372,12 @@ def _meant(place: tuple[int | str, ...]) -> str:
     return f"; did you mean {close[0]!r}?" if close else f"; there are {', '.join(known)}"
 
 
-def _read_file(path: Path) -> dict[str, Any]:
+def read_settings_file(path: Path) -> dict[str, Any]:
+    """What a JSON or TOML file (by its suffix) holds.
+
+    Raises:
+        ConfigurationError: It cannot be read, or holds something else.
+    """
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

@@ -55,6 +55,7 @@ def rehearse(
     live_parameters: Any = None,
     timeout_s: float = 120.0,
     is_stopping: Callable[[], bool] = lambda: False,
+    look: Callable[[Any], None] = lambda context: None,
 ) -> Rehearsal:
     """Run ``script`` in the simulator from its first line to its last.
 
@@ -64,6 +65,7 @@ def rehearse(
         live_parameters: The ``Parameters`` object of a live run; a copy is used.
         timeout_s: After this long the protocol is interrupted.
         is_stopping: Asked every 0.1 s whether the live run is being stopped meanwhile.
+        look: Given the simulated ``ProtocolContext`` once the protocol has ended in it.
 
     Raises:
         RehearsalError: It cannot be parsed, raised by itself, or was stopped; with its line.
@@ -81,6 +83,7 @@ def rehearse(
             namespace = {"__builtins__": builtins_in_virtual_time()}
             with names.watching(namespace):
                 _perform(protocol, context, limit, namespace)
+            look(context)
             values = plain_values(context._params)
             return Rehearsal(names.bindings, dict(tap.wells.labware), values)
     finally:

@@ -1,0 +1,226 @@
+"""A robot's Layer 2 session: runs one protocol at a time on a simulated or on a real robot."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Protocol
+
+from ..dryrun import DryRunSettings, Progress, dry_run
+from ..instrumentation import Operation, OperationKind
+from ..robot import Command, RobotClient
+from ..robot.run_report import run_report
+from ..robot.running import RobotRun, analyse, run_analysed
+from ..robot.verdicts import VerdictReader, WellVerdict
+from ..sidecar import Judged, make_analyser
+from ..sidecar.config import CascadeSettings
+from ..vocabulary import Outcome
+from .config import RobotConfig
+from .jobs import Job
+
+_MOVES_LIQUID = (OperationKind.ASPIRATE, OperationKind.DISPENSE, OperationKind.BLOW_OUT)
+_ANALYSIS_TIMEOUT_S = 900.0
+_FLAGGED = ("fail", "undecided")
+
+
+class Watch(Protocol):
+    """What a session tells of its run, and asks; called from the session's own threads."""
+
+    def ask_leave(self) -> None:
+        """Liquid is about to move for the first time; returns once that is allowed.
+
+        Raises:
+            RunAborted: It never was, or the agent is being shut down.
+        """
+
+    def go_on(self) -> None:
+        """Returns once the robot is not held.
+
+        Raises:
+            RunAborted: The agent is being shut down.
+        """
+
+    def tell(self, **news: Any) -> None:
+        """``wells`` to be watched, ``judged``, ``flagged``, ``text``: as they stand."""
+
+    @property
+    def wanted(self) -> str:
+        """``"play"``, ``"pause"`` or ``"stop"``, once for each change of mind; else ``""``."""
+
+
+class Session(Protocol):
+    """Runs protocols on one robot."""
+
+    def run(self, job: Job, watch: Watch) -> dict[str, Any]:
+        """Run one to its end.
+
+        Returns:
+            ``outcome`` (``"succeeded"``, ``"stopped"`` or ``"failed"``), ``detail``, ``frames``
+            (``"simulated"`` or ``"real"``), ``counts`` of wells by state, ``flagged`` wells
+            (``well``, ``state``, ``failure``, ``reason``, ``line``), ``robot_run``.
+
+        Raises:
+            AegisError: It could not be run.
+        """
+
+
+def open_session(robot: RobotConfig) -> Session:
+    """The session of a robot."""
+    if robot.simulated:
+        return SimulatedSession(robot.seed)
+    return RobotSession(robot, os.environ.get(robot.token_variable))
+
+
+class SimulatedSession:
+    """Opentrons' simulator, a sidecar and a simulated camera, in this process.
+
+    Args:
+        seed: Of the camera.
+    """
+
+    def __init__(self, seed: int = 0) -> None:
+        self._seed = seed
+
+    def run(self, job: Job, watch: Watch) -> dict[str, Any]:
+        """See :class:`Session`."""
+        settings = DryRunSettings(faults=job.faults, seed=self._seed, rules="off")
+        analyser = make_analyser(CascadeSettings(first_wells="trust"))  # nobody is there to ask
+        done = dry_run(job.script, settings, analyser, _Told(watch))
+        account = done.reported.account
+        return {
+            "outcome": done.outcome,
+            "detail": done.detail,
+            "frames": "simulated",
+            "counts": dict(account["counts"]),
+            "flagged": [_short(well) for well in account["wells"] if well["state"] in _FLAGGED],
+            "robot_run": account["run"],
+        }
+
+
+def _short(well: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: well.get(name) for name in ("well", "state", "failure", "reason", "line")}
+
+
+class _Told(Progress):
+    """A dry run's progress, told to a watch."""
+
+    def __init__(self, watch: Watch) -> None:
+        self._watch = watch
+        self._allowed = False
+        self._judged = self._flagged = 0
+
+    def begin(self, wells: int) -> None:
+        self._watch.tell(wells=wells)
+
+    def moves(self, operation: Operation) -> None:
+        if not self._allowed and operation.kind in _MOVES_LIQUID:
+            self._watch.ask_leave()
+            self._allowed = True
+        self._watch.go_on()
+
+    def judged(self, judged: Judged) -> None:
+        self._judged += 1
+        self._flagged += judged[0].outcome is not Outcome.PASS
+        self._watch.tell(judged=self._judged, flagged=self._flagged)
+
+
+class RobotSession:
+    """A real robot through its HTTP API; Layer 2 is its protocol's guard, read from its sidecar.
+
+    Args:
+        robot: With an address.
+        token: Of its sidecar.
+    """
+
+    def __init__(self, robot: RobotConfig, token: str | None = None) -> None:
+        assert robot.address is not None
+        self._name = robot.name
+        self._address = robot.address
+        self._sidecar, self._token = robot.sidecar, token
+
+    def run(self, job: Job, watch: Watch) -> dict[str, Any]:
+        """See :class:`Session`."""
+        screen = _Screen(watch)
+        with RobotClient(self._address) as client, tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / Path(job.script.file_name).name
+            path.write_text(job.script.text, encoding="utf-8")
+            identifier, analysis = analyse(client, path, screen, _ANALYSIS_TIMEOUT_S)
+            run = RobotRun(path.name, self._name, client.url, "", analysis)
+            if not analysis.ok:
+                run.status, run.errors = "failed", analysis.errors
+                return _of_robot(run)
+            reader = self._reader(path.name)
+            watch.ask_leave()
+            try:
+                run_analysed(client, identifier, run, screen, reader)
+            finally:
+                if reader is not None:
+                    reader.close()
+        return _of_robot(run)
+
+    def _reader(self, protocol: str) -> VerdictReader | None:
+        if self._sidecar is None:
+            return None
+        reader = VerdictReader(self._sidecar, self._token, protocol)
+        reader.check()
+        return reader
+
+
+def _of_robot(run: RobotRun) -> dict[str, Any]:
+    report = run_report(run)
+    outcomes = [verdict["outcome"] for verdict in report["verdicts"]]
+    counts = {outcome: outcomes.count(outcome) for outcome in dict.fromkeys(outcomes)}
+    return {
+        "outcome": run.status if run.status in ("succeeded", "stopped") else "failed",
+        "detail": " ".join(run.errors),
+        "frames": "real",
+        "counts": counts | {"wells": len(outcomes)},
+        "flagged": [
+            _short(verdict | {"state": verdict["outcome"]})
+            for verdict in report["verdicts"]
+            if verdict["outcome"] in _FLAGGED
+        ],
+        "robot_run": run.id,
+    }
+
+
+class _Screen:
+    """A :class:`aegis_ot.robot.running.Screen` that tells a watch."""
+
+    def __init__(self, watch: Watch) -> None:
+        self._watch = watch
+        self._judged = self._flagged = 0
+
+    def analysing(self, seconds: float) -> None:
+        """The robot analyses the protocol."""
+        self._watch.tell(text="the robot analyses it")
+
+    def began(self, commands: int | None) -> None:
+        """The run has started."""
+        self._watch.tell(text="")
+
+    def doing(self, command: Command) -> None:
+        """Too much to tell of each."""
+
+    def done(self, command: Command) -> None:
+        """Likewise."""
+
+    def says(self, text: str) -> None:
+        """A comment of the guard, or trouble with the connection."""
+        self._watch.tell(text=text)
+
+    def waits(self, text: str) -> None:
+        """The run waits for a person."""
+        self._watch.tell(text=f"waits for a person: {text}" if text else "")
+
+    def judged(self, verdict: WellVerdict) -> None:
+        """A verdict is in."""
+        self._judged += 1
+        self._flagged += verdict.verdict.outcome is not Outcome.PASS
+        self._watch.tell(judged=self._judged, flagged=self._flagged)
+
+    def asked(self) -> str:
+        """What the fleet wants of the robot."""
+        return self._watch.wanted
