@@ -55,7 +55,7 @@ the liquid left, at most the second where it stayed."""
 
 _SECTIONS = 12
 
-_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 6.0, 5.0, 6.0
+_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 8.5, 6.0, 6.0
 """Change of the upper rows from which a gap would show, and from which it would in a bore at least
 so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
 
