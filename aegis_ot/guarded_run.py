@@ -149,17 +149,16 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> _Layer1:
     """Rehearse and judge before anything moves; what there is to say of it."""
     if settings.rules == "off":
         return _Layer1("")
-    from .preflight.rehearsal import Recorder, find_script, recording_of, rehearse
+    from .preflight.rehearsal import find_script, record
     from .runtime.runstate import RunState
 
     script = find_script(file_name, protocol)
     if script is None:
         return _Layer1("Layer 1 could not find the protocol's text, so it was not checked.")
-    recorder, state = Recorder(), RunState(protocol)
+    state = RunState(protocol)
     try:
-        rehearsal = rehearse(
+        recording = record(
             script,
-            [recorder],
             # The property is refused below apiLevel 2.18.
             live_parameters=getattr(protocol, "_params", None),
             timeout_s=settings.rehearsal_timeout_s,
@@ -173,7 +172,7 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> _Layer1:
         raise
     except Exception as error:  # as in _judge
         return _failed(error)
-    return _judge(recording_of(script, recorder, rehearsal), protocol, settings)
+    return _judge(recording, protocol, settings)
 
 
 def _watched(

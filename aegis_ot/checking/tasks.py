@@ -88,7 +88,7 @@ class TimedCheck(_OfProtocol):
     def perform(self) -> Timed:
         """Judge."""
         start = time.perf_counter()
-        recording = record(self.script, self.timeout_s)
+        recording = record(self.script, timeout_s=self.timeout_s)
         recorded = time.perf_counter()
         report = judge(recording, _database(self.rules), self.options)
         return Timed(report, recorded - start, time.perf_counter() - recorded)

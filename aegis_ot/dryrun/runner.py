@@ -19,7 +19,7 @@ from ..errors import AegisError, ConfigurationError, RehearsalError, RunAborted
 from ..guard import guard
 from ..instrumentation import Event, Operation, OperationKind, tapped
 from ..preflight.checking import check_recording, is_rejected, rejection
-from ..preflight.rehearsal import Recorder, Script, play, recording_of, rehearse
+from ..preflight.rehearsal import Script, play, record
 from ..reports.run_html import report_run
 from ..runtime import Planner
 from ..runtime.words import about_layer1
@@ -86,13 +86,12 @@ def dry_run(
         ConfigurationError: A fault cannot be planted in this protocol.
     """
     progress = progress or Progress()
-    recorder, planner = Recorder(), Planner()
-    rehearsal = rehearse(script, [recorder, planner], timeout_s=settings.timeout_s)
+    planner = Planner()
+    recording = record(script, [planner], timeout_s=settings.timeout_s)
     planner.finish()
     report = None
     if settings.rules != "off":
         guard_settings = load_settings(rules=settings.rules)
-        recording = recording_of(script, recorder, rehearsal)
         report = check_recording(recording, guard_settings)
         progress.checked(report)
         if is_rejected(report) and settings.rules == "on":

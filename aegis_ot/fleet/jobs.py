@@ -9,8 +9,7 @@ from typing import Any
 
 from ..dryrun import read_script
 from ..instrumentation import OperationKind
-from ..preflight.rehearsal import Recorder, Script, rehearse
-from ..preflight.rehearsal.recorder import Step
+from ..preflight.rehearsal import Script, Step, record
 
 _SECONDS = {
     OperationKind.PICK_UP_TIP: 6.0,
@@ -114,10 +113,10 @@ def read_job(
         RehearsalError: It cannot be rehearsed.
     """
     script = read_script(path, labware, parameters)
-    deck, recorder = _Deck(), Recorder()
-    rehearsal = rehearse(script, [recorder], timeout_s=timeout_s, look=deck.look)
-    moving = sum(_seconds(step) for step in recorder.log if isinstance(step, Step))
-    names = {info.load_name for info in rehearsal.labware.values() if not info.is_trash}
+    deck = _Deck()
+    recording = record(script, timeout_s=timeout_s, look=deck.look)
+    moving = sum(_seconds(step) for step in recording.log if isinstance(step, Step))
+    names = {info.load_name for info in recording.labware.values() if not info.is_trash}
     needs = Needs(deck.robot_type, deck.pipettes, tuple(deck.modules), frozenset(names))
     return Job(path.name, script, needs, moving + deck.waits_s, tuple(faults))
 

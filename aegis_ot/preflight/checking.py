@@ -51,7 +51,7 @@ def check_script(
         RehearsalError: It cannot be rehearsed.
         RuleError: A rule file cannot be used.
     """
-    return judge(record(script, timeout_s), database or load_database(), options)
+    return judge(record(script, timeout_s=timeout_s), database or load_database(), options)
 
 
 def is_rejected(report: Report) -> bool:
@@ -84,6 +84,8 @@ def summary(report: Report) -> str:
     ]
     if report.waived:
         parts.append(f"{len(report.waived)} waived")
+    if report.remarks:
+        parts.append(f"{counted(len(report.remarks), 'remark')} (aegis-ot check shows them)")
     rules = ", ".join(dict.fromkeys(finding.rule for finding in report.findings))
     told = f" ({rules})" if rules else ""
     silence = unanswered(report)

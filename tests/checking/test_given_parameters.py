@@ -10,7 +10,7 @@ import pytest
 from aegis_ot.checking import CheckRun, CheckSettings, check_files
 from aegis_ot.errors import RehearsalError
 from aegis_ot.preflight import load_database
-from aegis_ot.preflight.rehearsal import Script, rehearse
+from aegis_ot.preflight.rehearsal import Script, record
 
 DECLARES = """
 requirements = {"robotType": "OT-2", "apiLevel": "2.20"}
@@ -51,7 +51,7 @@ def test_a_value_that_is_refused_is_told_with_its_name_and_what_is_taken(
     name: str, value: Any, takes: str
 ) -> None:
     with pytest.raises(RehearsalError) as caught:
-        rehearse(Script(DECLARES, "p.py", {name: value}), [])
+        record(Script(DECLARES, "p.py", {name: value}))
     told = f"p.py: the runtime parameter {name} cannot be {value!r}; it takes {takes}."
     assert str(caught.value) == told
 
@@ -62,7 +62,7 @@ def test_a_value_that_is_refused_is_told_with_its_name_and_what_is_taken(
 )
 def test_a_value_without_a_parameter_is_an_error(tmp_path: Path, text: str, words: str) -> None:
     with pytest.raises(RehearsalError, match=words):
-        rehearse(Script(text, "p.py", {"foo": 3}), [])
+        record(Script(text, "p.py", {"foo": 3}))
     run = check(tmp_path, [text], parameters={"foo": 3})
     (problem,) = (protocol.problem for protocol in run.protocols)
     assert run.exit_code == 2

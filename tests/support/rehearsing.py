@@ -6,7 +6,7 @@ import textwrap
 from dataclasses import dataclass, field
 
 from aegis_ot.instrumentation import Event, Operation, OperationKind
-from aegis_ot.preflight.rehearsal import Rehearsal, Script, rehearse
+from aegis_ot.preflight.rehearsal import Recording, Script, record
 
 FILE_NAME = "protocol.py"
 
@@ -32,11 +32,11 @@ class Heard:
         return [operation for operation in self.operations if operation.kind in kinds]
 
 
-def run(text: str, **options: object) -> tuple[Heard, Rehearsal]:
+def run(text: str, **options: object) -> tuple[Heard, Recording]:
     """Rehearse ``text`` (dedented) and return what was heard."""
     heard = Heard()
     script = Script(textwrap.dedent(text), FILE_NAME, **options)  # type: ignore[arg-type]
-    return heard, rehearse(script, [heard], timeout_s=60)
+    return heard, record(script, [heard], timeout_s=60)
 
 
 def ot2(body: str, api_level: str = "2.20") -> str:

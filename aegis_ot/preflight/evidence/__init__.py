@@ -6,5 +6,6 @@ Names and data are the program's to read, prose is a model's (``docs/decisions``
 from .deck import Deck
 from .evidence import DOUBTFUL, Evidence, Kind
 from .gathering import gather
+from .labels import unknown_places
 
-__all__ = ["DOUBTFUL", "Deck", "Evidence", "Kind", "gather"]
+__all__ = ["DOUBTFUL", "Deck", "Evidence", "Kind", "gather", "unknown_places"]

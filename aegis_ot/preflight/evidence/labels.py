@@ -9,7 +9,7 @@ from ...vocabulary import WellRef
 from ..source import tokens
 from .deck import Deck
 from .evidence import Evidence, Kind, shortened
-from .well_names import WELL
+from .well_names import WELL, not_wells_in
 from .written_wells import entries_of
 
 _WELL = re.compile(rf"\b{WELL}\b")
@@ -22,6 +22,22 @@ def given_roles(deck: Deck, given: Mapping[str, Sequence[str]]) -> Iterator[Evid
     for role, places in given.items():
         wells = tuple(ref for place in places for ref in deck.at(str(place)))
         yield Evidence(Kind.GIVEN, role, wells, f"given to the guard as {role}", role=role)
+
+
+def unknown_places(deck: Deck, given: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    """What is wrong with the places of roles that were given: each, in a sentence."""
+    for role, listed in given.items():
+        for place in map(str, listed):
+            labware, _, spec = place.rpartition(":")
+            found = deck.called(labware)
+            told = f"The role {role} is given for '{place}', but "
+            if not found:
+                on_deck = ", ".join(f"'{info.label or info.slot}'" for info in deck.plates())
+                yield f"{told}no labware is called '{labware}'; there are {on_deck}."
+                continue
+            left = [not_wells_in(spec, deck.trace.labware[key]) for key in found]
+            if all(left):
+                yield f"{told}'{left[0]}' is no well of that labware."
 
 
 def loaded_liquids(deck: Deck) -> Iterator[Evidence]:

@@ -41,6 +41,20 @@ def wells_in(text: str, info: LabwareInfo) -> list[str]:
     return list(found)
 
 
+def not_wells_in(text: str, info: LabwareInfo) -> str:
+    """What of a list of places is no well of this labware: ``"Z99"``; empty if all is."""
+    if text.strip() in ("", "*"):
+        return ""
+    rest = _PLACE.sub("", text)
+    if re.sub(_AND, "", rest).strip():
+        return text.strip()
+    for match in _PLACE.finditer(text):
+        ends = [plain_name(name) for name in (match["first"], match["last"]) if name]
+        if not _meant(match, info) or any(name not in info.wells for name in ends):
+            return match[0].strip()
+    return ""
+
+
 def _meant(match: re.Match[str], info: LabwareInfo) -> list[str]:
     if match["first"]:
         first = plain_name(match["first"])

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 from ...vocabulary import Undecided, WellRef
 from ..roles import Roles
-from ..rules import RoleSpec, RuleSpec
+from ..rules import RuleSpec
 from ..trace import Sides, places
 from .reading import Reading
 
@@ -32,11 +32,8 @@ def missing_roles(reading: Reading, rule: RuleSpec, family: str, needs: Sequence
     names = [" or ".join(roles[role].title for role in need.split("|")) for need in needs]
     reason = f"nothing says which well is the {' and which the '.join(names)}"
     first = [need.split("|")[0] for need in needs]
-    unnamed = unnamed_wells(reading)
-    sides = Sides(reading.usage)
-    given = ", ".join(
-        f'"{role}": [{", ".join(_offered(roles[role], unnamed, sides))}]' for role in first
-    )
+    listed = {role: _offered(role, reading, family) for role in first}
+    given = ", ".join(f'"{role}": [{", ".join(wells)}]' for role, wells in listed.items())
     return Undecided(rule.id, reason, f"@guard(roles={{{given}}})")
 
 
@@ -47,10 +44,28 @@ def unnamed_wells(reading: Reading) -> tuple[WellRef, ...]:
     return tuple(dict.fromkeys(ref for ref in found if roles is None or ref not in roles.by_well))
 
 
-def _offered(spec: RoleSpec, unnamed: Iterable[WellRef], sides: Sides) -> list[str]:
-    """Unnamed wells on the role's side, as a guard takes them: to be cut down to the right ones."""
-    fitting = [ref for ref in unnamed if spec.side in ("any", sides(ref)[0])]
-    return [f'"{place}"' for place in spelled(fitting)[:_MOST_SHOWN]]
+def _offered(role: str, reading: Reading, family: str) -> list[str]:
+    """Wells on the role's side, as a guard takes them: to be cut down to the right ones.
+
+    Those of a more general role (an NTC is one of the reactions), else those of which nothing is
+    said, else all: some well is called what it is not.
+    """
+    roles = next((one for one in reading.roles if one.family.family == family), None)
+    if roles is None:
+        return []
+    sides = Sides(reading.usage)
+    side = roles.family.roles[role].side
+    used = (well.ref for well in reading.trace.wells.values() if well.visits)
+    fitting = [ref for ref in dict.fromkeys(used) if side in ("any", sides(ref)[0])]
+    general = roles.closure(role) - {role}
+    kin = [ref for ref in fitting if _named(roles, ref) in general]
+    offered = kin or [ref for ref in fitting if ref not in roles.by_well] or fitting
+    return [f'"{place}"' for place in spelled(offered)[:_MOST_SHOWN]]
+
+
+def _named(roles: Roles, ref: WellRef) -> str:
+    assigned = roles.by_well.get(ref)
+    return assigned.role if assigned else ""
 
 
 def spelled(wells: Iterable[WellRef]) -> list[str]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ...vocabulary import Remark, Severity, Undecided
 from ..checks import Case, Doubt, Violation, make_check
-from ..evidence import Kind
+from ..evidence import Deck, Kind, unknown_places
 from ..rehearsal import Recording
 from ..roles import Roles
 from ..rules import Database, RuleSpec
@@ -139,11 +139,22 @@ def _report(
         roles=tuple(_evidence(reading.roles)),
         families=reading.families,
         waived=tuple(waived),
-        remarks=(*_conflicts(reading.roles), *waiver_remarks(waivers, waived, judged, known)),
+        remarks=(
+            *_misplaced(reading),
+            *_conflicts(reading.roles),
+            *waiver_remarks(waivers, waived, judged, known),
+        ),
         judged=tuple(judged),
         lines=tuple(source_lines(recording.text)),
         unnamed=unnamed_wells(reading),
     )
+
+
+def _misplaced(reading: Reading) -> Iterable[Remark]:
+    """Roles that were given for wells that the deck does not have."""
+    given = reading.options.roles
+    if given:
+        yield from map(Remark, unknown_places(Deck(reading.trace, reading.recording.names), given))
 
 
 def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:

@@ -69,7 +69,7 @@ def check_with_dossier(
         RehearsalError: It cannot be rehearsed.
         RuleError: A rule file cannot be used.
     """
-    recording = record(script, timeout_s)
+    recording = record(script, timeout_s=timeout_s)
     reading = read_recording(recording, database or load_database(), options or Options())
     report = judge_reading(reading)
     return report, make_dossier(reading, report), reading

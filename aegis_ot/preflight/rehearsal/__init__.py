@@ -1,15 +1,14 @@
 """A protocol run in Opentrons' own simulator, and everything that it did written down.
 
-Door: :func:`rehearse` runs a :class:`Script` with listeners; a :class:`Recorder` is one.
+Door: :func:`record` runs a :class:`Script`, with further listeners if there are any.
 """
 
 from .interruption import interrupted_after, second_clock
 from .loading import load
 from .parameters import Parameter, declared_parameters, plain_values, undeclared
-from .recorder import Record, Recorder, Step
-from .recording import Recording, record, recording_of
+from .recording import Record, Recorder, Recording, Step
 from .refusals import in_words, line_of
-from .rehearsing import Rehearsal, is_rehearsing, play, rehearse
+from .rehearsing import is_rehearsing, play, record
 from .script import Script, find_home, find_script
 
 __all__ = [
@@ -17,7 +16,6 @@ __all__ = [
     "Record",
     "Recorder",
     "Recording",
-    "Rehearsal",
     "Script",
     "Step",
     "declared_parameters",
@@ -31,8 +29,6 @@ __all__ = [
     "plain_values",
     "play",
     "record",
-    "recording_of",
-    "rehearse",
     "second_clock",
     "undeclared",
 ]

@@ -6,18 +6,18 @@ does on every load: nothing that the live protocol has at module level is touche
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 from ...errors import AegisError, RehearsalError
-from ...instrumentation import LabwareInfo, Listener, NameBinding, NameCollector, tapped
+from ...instrumentation import Listener, NameCollector, tapped
 from .interruption import interrupted_after
 from .loading import load
 from .parameters import Limit, copied_parameters, lacking_files, plain_values, runtime_parameters
+from .recording import Recorder, Recording
 from .refusals import is_unexecuted, never_executed, stopped
 from .script import Script
 from .simulated_context import simulated_context
@@ -33,35 +33,20 @@ def is_rehearsing() -> bool:
     return _REHEARSING.get()
 
 
-@dataclass(frozen=True)
-class Rehearsal:
-    """What a rehearsal yields besides what its listeners heard.
-
-    Attributes:
-        names: Names that held wells.
-        labware: Every labware of the run, by key.
-        parameters: The numbers and texts that its runtime parameters had.
-    """
-
-    names: tuple[NameBinding, ...]
-    labware: Mapping[str, LabwareInfo]
-    parameters: Mapping[str, int | float | str]
-
-
-def rehearse(
+def record(
     script: Script,
-    listeners: Sequence[Listener],
+    listeners: Sequence[Listener] = (),
     *,
     live_parameters: Any = None,
     timeout_s: float = 120.0,
     is_stopping: Callable[[], bool] = lambda: False,
     look: Callable[[Any], None] = lambda context: None,
-) -> Rehearsal:
-    """Run ``script`` in the simulator from its first line to its last.
+) -> Recording:
+    """Run ``script`` in the simulator from its first line to its last, and write down what it does.
 
     Args:
         script: The protocol.
-        listeners: Hear of every operation and event.
+        listeners: Hear of every operation and event as well.
         live_parameters: The ``Parameters`` object of a live run; a copy is used.
         timeout_s: After this long the protocol is interrupted.
         is_stopping: Asked every 0.1 s whether the live run is being stopped meanwhile.
@@ -72,20 +57,27 @@ def rehearse(
         RehearsalTimeout: It did not end in time.
     """
     protocol = load(script)
+    recorder = Recorder()
     limit = partial(interrupted_after, timeout_s, script.file_name, is_stopping)
     token = _REHEARSING.set(True)
     try:
         with (
             _stage(protocol, script, live_parameters, limit) as context,
-            tapped(context, listeners, script.file_name) as tap,
+            tapped(context, [recorder, *listeners], script.file_name) as tap,
         ):
             names = NameCollector(tap.wells, tap.stack, script.file_name)
             namespace = {"__builtins__": builtins_in_virtual_time()}
             with names.watching(namespace):
                 _perform(protocol, context, limit, namespace)
             look(context)
-            values = plain_values(context._params)
-            return Rehearsal(names.bindings, dict(tap.wells.labware), values)
+            return Recording(
+                script.file_name,
+                script.text,
+                recorder.log,
+                dict(tap.wells.labware),
+                names.bindings,
+                plain_values(context._params),
+            )
     finally:
         _REHEARSING.reset(token)
 
@@ -116,7 +108,6 @@ def _stage(protocol: Any, script: Script, live_parameters: Any, limit: Limit) ->
         protocol.api_level,
         protocol.robot_type,
         extra_labware=protocol.extra_labware,
-        bundled_labware=protocol.bundled_labware,
         bundled_data=protocol.bundled_data,
     ) as context:
         if parameters:

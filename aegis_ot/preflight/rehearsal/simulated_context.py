@@ -22,7 +22,6 @@ def simulated_context(
     robot_type: str,
     *,
     extra_labware: Mapping[str, Any] | None = None,
-    bundled_labware: Mapping[str, Any] | None = None,
     bundled_data: Mapping[str, bytes] | None = None,
 ) -> Iterator[Any]:
     """Yield a homed, simulated ``ProtocolContext``.
@@ -31,7 +30,6 @@ def simulated_context(
         api_level: ``opentrons.protocols.api_support.types.APIVersion``.
         robot_type: ``"OT-2 Standard"`` or ``"OT-3 Standard"``.
         extra_labware: Custom definitions, by URI.
-        bundled_labware: Definitions of a zipped protocol (legacy cores only).
         bundled_data: Data files of the protocol.
     """
     from opentrons.protocol_api import create_protocol_context
@@ -52,7 +50,6 @@ def simulated_context(
             engine_parts = {
                 "use_simulating_core": True,
                 "extra_labware": dict(extra_labware or {}),
-                "bundled_labware": bundled_labware,
             }
         context = create_protocol_context(
             api_version=api_level,

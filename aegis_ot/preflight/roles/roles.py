@@ -132,11 +132,6 @@ class Roles:
             return True
         return any(role in extra for extra in self.derived.values())
 
-    def named_otherwise(self) -> frozenset[WellRef]:
-        """Wells without a role that have a name of their own, or a liquid's: "catalase"."""
-        outright = (one for one in self.unread if not one.whole and one.kind >= Kind.NAME)
-        return frozenset(ref for one in outright for ref in one.wells if not self.of(ref))
-
     def title(self, ref: WellRef) -> str:
         """What a well is, for a message: "no-template control"."""
         assigned, derived = self.by_well.get(ref), sorted(self.derived.get(ref, ()))

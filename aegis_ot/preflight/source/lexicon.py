@@ -44,11 +44,6 @@ def tokens(text: str) -> tuple[str, ...]:
 _LETTERS = {"ß": "ss", "µ": "u", "æ": "ae", "Æ": "Ae", "œ": "oe", "Œ": "Oe"}
 
 
-def any_of(words: Collection[str]) -> str:
-    """A pattern for any of these words, the longest first; for nothing at all if there are none."""
-    return "|".join(sorted(map(re.escape, words), key=len, reverse=True)) or "(?!)"
-
-
 def _folded(word: str) -> str:
     """``stammloesung`` and "Stammlösung" are one word, ``oestradiol`` and "œstradiol" too."""
     return word.replace("ae", "a").replace("oe", "o").replace("ue", "u")

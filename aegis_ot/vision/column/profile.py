@@ -175,6 +175,8 @@ def _colour(strip: Strip, shape: TipShape, nozzle: NDArray[np.bool_]) -> Array:
 
 def _tint(cone: Array) -> Array:
     """Colour of the tip against what is beside it, as absorbances against green's."""
+    # Interpolation can undershoot black beside a bright edge.
+    cone = np.maximum(cone, 0.0)
     inside = np.log(cone[:, _WIDE].mean(axis=1) + _DARK)
     beside = np.log(np.median(cone[:, _BESIDE], axis=1) + _DARK)
     seen = np.stack([inside[:, 2] - inside[:, 1], inside[:, 0] - inside[:, 1]], axis=1)

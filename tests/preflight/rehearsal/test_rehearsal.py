@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import pytest
 
 from aegis_ot.errors import RehearsalError, RehearsalTimeout
-from aegis_ot.preflight.rehearsal import Script, interrupted_after, rehearse, second_clock
+from aegis_ot.preflight.rehearsal import Script, interrupted_after, record, second_clock
 from aegis_ot.preflight.rehearsal.virtual_time import builtins_in_virtual_time
 
 
@@ -52,20 +52,20 @@ class TestVirtualTime:
 
     def test_a_rehearsal_uses_it(self):
         began = time.monotonic()
-        rehearse(script("sleep(30)\ntime.sleep(30)"), [])
+        record(script("sleep(30)\ntime.sleep(30)"))
         assert time.monotonic() - began < 10
 
 
 class TestInterruption:
     def test_an_endless_loop_is_told_with_its_line(self):
         with pytest.raises(RehearsalTimeout, match=r"within 0\.3 s") as caught:
-            rehearse(script("while True:\n    pass"), [], timeout_s=0.3)
+            record(script("while True:\n    pass"), timeout_s=0.3)
         assert caught.value.line in (6, 7)
 
     def test_one_that_swallows_everything_ends_too(self):
         body = "for _ in range(3):\n    try:\n        while True: pass\n    except: pass"
         with pytest.raises(RehearsalTimeout):
-            rehearse(script(body + "\nwhile True: pass"), [], timeout_s=0.3)
+            record(script(body + "\nwhile True: pass"), timeout_s=0.3)
 
     def test_getting_ready_takes_nothing_from_the_time_of_the_protocol(self):
         """A busy machine may need longer than the limit until the protocol's first line."""
@@ -84,25 +84,25 @@ class TestInterruption:
             told.append("over")
 
         with second_clock(clock):
-            rehearse(script("protocol.comment('first line')"), [Heard()], timeout_s=7)
+            record(script("protocol.comment('first line')"), [Heard()], timeout_s=7)
         # Once for what stands outside of run, once for all of it.
         assert told == [7, "over", "labware_loaded", 7, "comment", "over"]
 
     def test_a_clock_around_others_ends_what_they_hold(self):
         told = pytest.raises(RehearsalTimeout, match=r"outer did not end within 0\.3 s")
         with told, interrupted_after(0.3, "outer"):
-            rehearse(script("while True: pass"), [], timeout_s=60)
+            record(script("while True: pass"), timeout_s=60)
 
     def test_a_stop_ends_it(self):
         stopping = threading.Event()
         threading.Timer(0.5, stopping.set).start()
         with pytest.raises(RehearsalError, match="stopped") as caught:
-            rehearse(script("while True: pass"), [], is_stopping=stopping.is_set)
+            record(script("while True: pass"), is_stopping=stopping.is_set)
         assert not isinstance(caught.value, RehearsalTimeout)
 
     def test_no_thread_is_left(self):
         before = set(threading.enumerate())
-        rehearse(script("pass"), [])
+        record(script("pass"))
         until = time.monotonic() + 5
         while set(threading.enumerate()) - before:
             assert time.monotonic() < until, threading.enumerate()
@@ -117,6 +117,6 @@ def test_a_csv_file_that_the_rehearsal_read_is_whole_for_the_run():
     live = Parameters({"table": CSVParameter(b"a,b", APIVersion(2, 20)), "count": 3})
     body = "with protocol.params.table.file as table:\n    assert table.read() == 'a,b'"
     text = script(body).text.replace("2.15", "2.20")
-    rehearse(Script(text, "protocol.py"), [], live_parameters=live)
+    record(Script(text, "protocol.py"), live_parameters=live)
     assert live.table.file.read() == "a,b"
     assert live.count == 3

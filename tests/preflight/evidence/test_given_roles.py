@@ -1,0 +1,73 @@
+"""Roles that are given for places that the deck does not have are told, never passed over."""
+
+from __future__ import annotations
+
+import functools
+import re
+import textwrap
+
+import pytest
+
+from aegis_ot.preflight import Options, Report, Script, judge, load_database, record
+from aegis_ot.preflight.checking import summary
+from aegis_ot.preflight.rehearsal import Recording
+
+PROTOCOL = """
+    metadata = {"apiLevel": "2.15", "protocolName": "qPCR set-up"}
+
+    def run(protocol):
+        tips = protocol.load_labware("opentrons_96_tiprack_20ul", 1)
+        plate = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 2, "PCR plate")
+        rack = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 3)
+        p20 = protocol.load_instrument("p20_single_gen2", "left", [tips])
+        p20.transfer(15, rack["A1"], plate.columns()[0], new_tip="once")
+        p20.transfer(5, rack.columns()[1][:3], plate.columns()[0][:3], new_tip="once")
+"""
+
+
+@functools.cache
+def recording() -> Recording:
+    return record(Script(textwrap.dedent(PROTOCOL), "protocol.py"))
+
+
+def told(**roles: str) -> Report:
+    given = {role: (place,) for role, place in roles.items()}
+    return judge(recording(), load_database(), Options(roles=given))
+
+
+@pytest.mark.parametrize(
+    ("place", "wrong"),
+    [
+        ("PCR plate:Z99", "'Z99' is no well"),
+        ("PCR plate:A1-Z3", "'A1-Z3' is no well"),
+        ("PCR plate:A1-H13", "'A1-H13' is no well"),
+        ("3:column 9", "'column 9' is no well"),
+        ("3:A1, B9", "'B9' is no well"),
+        ("PCR plat:A1", "no labware is called 'PCR plat'; there are 'PCR plate', '3'"),
+        ("5:A1", "no labware is called '5'"),
+        ("A1", "no labware is called ''"),
+    ],
+)
+def test_a_place_that_is_not_there_is_told(place: str, wrong: str) -> None:
+    report = told(ntc=place)
+    (remark,) = report.remarks
+    assert f"'{place}'" in remark.message
+    assert wrong in remark.message
+    assert "1 remark" in summary(report)
+
+
+@pytest.mark.parametrize(
+    "place", ["PCR plate:H12", "2:A1-H1,A3", "plate:*", "PCR plate:row H", "2:columns 1-3, A12"]
+)
+def test_a_place_that_is_there_is_taken(place: str) -> None:
+    assert told(ntc=place).remarks == ()
+
+
+def test_the_line_to_paste_offers_reactions_for_the_control() -> None:
+    (open_,) = (one for one in told().undecided if one.rule == "PCR-4")
+    assert re.search(r'"ntc": \["2:A1-H1"\], "template": \["3:A1,A2-C2"\]', open_.paste)
+
+
+def test_the_line_to_paste_is_never_without_wells() -> None:
+    everything = told(reaction="2:A1-H1", water="3:*")
+    assert not [one for one in everything.undecided if "[]" in one.paste]
