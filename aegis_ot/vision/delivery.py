@@ -37,12 +37,12 @@ _UNSEEN_MOST = 0.2
 _LEFT_LEAST = 0.2
 """Share of the delivery that must have stayed to be called so."""
 
-_PLAIN = 2.7
+_PLAIN = 3.0
 """Change of the upper rows from which the liquid is plain to see, in a row's usual noise. Two
-frames of the same tip differ by up to 2.3 where nothing left it, and by 3.3 at least where a dye
+frames of the same tip differ by up to 2.0 where nothing left it, and by 4.8 at least where a dye
 did, on simulated frames of many cameras."""
 
-_SURE = 3.0
+_SURE = 3.5
 """Change from which the rows below must show it too."""
 
 _ELSEWHERE = 0.35
@@ -55,7 +55,7 @@ the liquid left, at most the second where it stayed."""
 
 _SECTIONS = 12
 
-_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 5.0, 4.3, 6.0
+_GAP_SURE, _GAP_SURE_WIDE, _GAP_WIDE_PX = 8.5, 6.0, 6.0
 """Change of the upper rows from which a gap would show, and from which it would in a bore at least
 so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
 
