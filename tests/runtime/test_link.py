@@ -341,7 +341,7 @@ def test_a_silent_camera(sidecar: FakeSidecar, link: SidecarLink) -> None:
     link.start("run", {}, 1.0)
     error = {"code": "camera", "message": "No frame within 2 s.", "hint": "Look."}
     sidecar.fault = once("/keyframes", lambda h: h.answer(503, {"error": error}))
-    with pytest.raises(CameraSilent, match=r"No frame within 2 s\)\. Look"):
+    with pytest.raises(CameraSilent, match=r"No frame within 2 s\)\. Its page"):
         link.keyframe(keyframe(), 1.0)
     assert link.keyframe(keyframe(), 1.0).sequence == 0
 
