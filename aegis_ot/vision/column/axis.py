@@ -109,17 +109,14 @@ def _onto_outline(
         )
         values = np.ascontiguousarray(table).ravel()
         first = np.arange(0, height * width, width)[:, None, None]
-        sides = []
+        total = np.zeros((grid.size, grid.size))
         for side in (-1.0, 1.0):
             at = (centre + (side * radius - v[0])[:, None, None]) * rows
             low = np.clip(at.astype(np.intp), 0, width - 2)
             part = np.clip(at - low, 0.0, 1.0)
             low += first
             here = values.take(low)
-            sides.append(here + (values.take(low + 1) - here) * part)
-        # An outline has two sides: one strong edge alone, the shaft's where the tip is narrower
-        # than its class, must not draw the axis to itself.
-        total = 2.0 * np.minimum(*sides).sum(axis=0)
+            total += (here + (values.take(low + 1) - here) * part).sum(axis=0)
         off = 0.25 * (grid / _SIDEWAYS) ** 2
         total -= 2 * height * (off[:, None] + off[None, :])
         best = np.unravel_index(int(np.argmax(total)), total.shape)
