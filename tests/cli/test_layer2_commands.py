@@ -72,14 +72,14 @@ def test_a_model_looks_at_what_the_volumes_leave_open_and_can_be_replayed(
         return json.loads(Path("o.json").read_text(encoding="utf-8"))["settled"]
 
     alone = settled()
-    left_open = alone.pop("operator_undecided")
     with WireServer() as server:
         server.answers = [Answer(body=openai_completion(json.dumps(dict.fromkeys(LENSES, said))))]
         asked = settled("--model", f"openai:m@{server.url}/v1", "--record", "kept")
-        assert len(server.seen) == left_open > 0
-    assert asked.pop("vlm_fail") == left_open
-    assert asked == alone
-    assert settled("--model", "replay:kept") == {**alone, "vlm_fail": left_open}
+        # First wells and a share of those that passed are looked at too.
+        assert len(server.seen) > alone["operator_undecided"] > 0
+    assert "silent_pass" in alone
+    assert "silent_pass" not in asked, "wells that the model doubts calibrate nothing"
+    assert settled("--model", "replay:kept") == asked
     wrong = aegis(*command, "--model", "replay:kept")
     assert wrong.code == 2
     assert "--protocol cascade" in wrong.err
