@@ -79,11 +79,6 @@ def _vector(sample: TrajectorySample) -> Array:
     return np.concatenate(crops)
 
 
-def missing_tips(sample: TrajectorySample) -> tuple[KeyframeKind, ...]:
-    """Keyframes in which no tip was found."""
-    return tuple(kind for kind in KeyframeKind if sample.detections.get(kind) is None)
-
-
 _memory: dict[tuple[int, str], tuple[weakref.ref[TrajectorySample], Any]] = {}
 
 

@@ -61,7 +61,8 @@ so wide, px: in a narrow one a speck on the wall takes the place of a gap."""
 
 _GAP_CHANGE = 0.33
 """Share of what the column's rows change that those of a gap change at most. Columns without one
-show 0.5 at least, with one of 8 % of their volume 0.25 at most, on simulated frames."""
+show 0.5 at least; with one of 8 % of their volume 0.25 at most, but up to 0.46 from a webcam or
+a corner of the deck, where the gap is then not told; on simulated frames."""
 
 _GAP_LENGTH, _GAP_WITHIN = 0.05, 0.8
 """Shortest gap, and the part of the column above the narrow end in which it is looked for, as

@@ -6,7 +6,10 @@ import pytest
 
 from aegis_ot.robot import RobotClient
 
+from ..cli.conftest import aegis
 from ..support.robot_server import RobotServer
+
+__all__ = ["aegis", "client", "robot"]
 
 
 @pytest.fixture

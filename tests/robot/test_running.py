@@ -21,14 +21,6 @@ from ..support.robot_server import RobotServer
 from .protocols import BAD, GOOD, PAUSES, WAITS, WITH_INPUTS
 
 
-@pytest.fixture
-def aegis(
-    capfdbinary: pytest.CaptureFixture[bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Command:
-    monkeypatch.chdir(tmp_path)
-    return Command(capfdbinary)
-
-
 @contextmanager
 def sidecar(folder: Path, *fails: int) -> Iterator[str]:
     config = SidecarConfig(port=0, data=folder / "sidecar")

@@ -16,18 +16,15 @@ from pathlib import Path
 from typing import Any
 
 from opentrons.hardware_control import API
-from opentrons.protocol_engine import Config, DeckType, error_recovery_policy
-from opentrons.protocol_engine.create_protocol_engine import create_protocol_engine
 from opentrons.protocol_reader import ProtocolReader
-from opentrons.protocol_runner import RunOrchestrator, create_protocol_runner
-from opentrons.protocol_runner.protocol_runner import LiveRunner
-from opentrons.protocols.api_support.deck_type import should_load_fixed_trash
 from opentrons.protocols.parse import PythonParseMode
 from opentrons.types import Mount
 
 from aegis_ot.instrumentation.tap import tapped
 from aegis_ot.runtime import Watcher
 from aegis_ot.settings import Settings
+
+from ..support.live_engine import make_live
 
 _TEXT = """
 metadata = {{"apiLevel": "{api}"}}
@@ -157,28 +154,7 @@ class LiveRun:
             path = Path(folder) / "live.py"
             path.write_text(self._text(key), encoding="utf-8")
             source = await ProtocolReader().read_saved([path], directory=None)
-            engine = await create_protocol_engine(
-                hardware_api=hardware,
-                config=Config(
-                    robot_type="OT-2 Standard",
-                    deck_type=DeckType.OT2_STANDARD,
-                    use_simulated_deck_config=True,
-                ),
-                error_recovery_policy=error_recovery_policy.never_recover,
-                load_fixed_trash=should_load_fixed_trash(source.config),
-            )
-            runner = create_protocol_runner(
-                protocol_config=source.config, protocol_engine=engine, hardware_api=hardware
-            )
-            others = [LiveRunner(protocol_engine=engine, hardware_api=hardware) for _ in range(3)]
-            self._orchestrator = RunOrchestrator(
-                hardware_api=hardware,
-                protocol_engine=engine,
-                json_or_python_protocol_runner=runner,
-                fixit_runner=others[0],
-                setup_runner=others[1],
-                protocol_live_runner=others[2],
-            )
+            engine, runner, self._orchestrator = await make_live(hardware, source.config)
             self._loop = asyncio.get_running_loop()
             await runner.load(source, PythonParseMode.NORMAL, None, None)
             self._ready.set()

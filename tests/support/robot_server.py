@@ -25,14 +25,11 @@ import uvicorn
 from fastapi import FastAPI, Request
 from fastapi.responses import JSONResponse, Response
 from opentrons.hardware_control import API
-from opentrons.protocol_engine import Config, DeckType, error_recovery_policy
-from opentrons.protocol_engine.create_protocol_engine import create_protocol_engine
 from opentrons.protocol_reader import ProtocolFilesInvalidError, ProtocolReader
-from opentrons.protocol_runner import RunOrchestrator, create_protocol_runner
 from opentrons.protocol_runner.create_simulating_orchestrator import create_simulating_orchestrator
-from opentrons.protocol_runner.protocol_runner import LiveRunner
 from opentrons.protocol_runner.run_orchestrator import ParseMode
-from opentrons.protocols.api_support.deck_type import should_load_fixed_trash
+
+from .live_engine import make_live
 
 IDLE, ENDED = "idle", ("succeeded", "failed", "stopped")
 SUMMARY = (
@@ -142,28 +139,7 @@ class _Run:
             attached_instruments={_left(): dict(self._server.attached)}
         )
         hardware._em_simulate = False  # wait and be cancelled as on a robot
-        engine = await create_protocol_engine(
-            hardware_api=hardware,
-            config=Config(
-                robot_type="OT-2 Standard",
-                deck_type=DeckType.OT2_STANDARD,
-                use_simulated_deck_config=True,
-            ),
-            error_recovery_policy=error_recovery_policy.never_recover,
-            load_fixed_trash=should_load_fixed_trash(source.config),
-        )
-        runner = create_protocol_runner(
-            protocol_config=source.config, protocol_engine=engine, hardware_api=hardware
-        )
-        others = [LiveRunner(protocol_engine=engine, hardware_api=hardware) for _ in range(3)]
-        self.orchestrator = RunOrchestrator(
-            hardware_api=hardware,
-            protocol_engine=engine,
-            json_or_python_protocol_runner=runner,
-            fixit_runner=others[0],
-            setup_runner=others[1],
-            protocol_live_runner=others[2],
-        )
+        self.orchestrator = (await make_live(hardware, source.config)).orchestrator
         self._hardware = hardware
         await self.orchestrator.load(source, values, None, ParseMode.NORMAL)
 
