@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,18 +13,14 @@ from rich.progress import Progress as Bar
 from rich.table import Table
 from rich.text import Text
 
-from ..dryrun import DryRun, DryRunSettings, Progress, WellRow, dry_run
+from ..dryrun import UNATTENDED, DryRun, DryRunSettings, Progress, WellRow, dry_run
 from ..preflight.checking import summary
 from ..reports.run_html import run_report_html
 from ..sidecar import Judged, make_analyser
-from ..sidecar.config import CascadeSettings
 from ..vocabulary import Outcome, counted
 from .app import BROKEN, CLEAN, FINDINGS
 
 console = Console(highlight=False)
-
-UNATTENDED = CascadeSettings(first_wells="trust")
-"""Nobody is there to be asked whether a first well is right."""
 
 _COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
 
@@ -38,7 +35,9 @@ def run_and_show(script: Any, settings: DryRunSettings) -> DryRun:
         console=console,
         transient=True,
     ) as bar:
-        result = dry_run(script, settings, make_analyser(UNATTENDED), _Shown(bar, script.file_name))
+        settings = replace(settings, cascade=UNATTENDED)
+        analyser = make_analyser(settings.cascade)
+        result = dry_run(script, settings, analyser, _Shown(bar, script.file_name))
     show(result)
     return result
 

@@ -3,8 +3,16 @@
 Door: :func:`dry_run`, which gives a :class:`DryRun`.
 """
 
-from .runner import DryRunSettings, Progress, dry_run
+from .runner import UNATTENDED, DryRunSettings, Progress, dry_run
 from .scripts import read_script
 from .summary import DryRun, WellRow
 
-__all__ = ["DryRun", "DryRunSettings", "Progress", "WellRow", "dry_run", "read_script"]
+__all__ = [
+    "UNATTENDED",
+    "DryRun",
+    "DryRunSettings",
+    "Progress",
+    "WellRow",
+    "dry_run",
+    "read_script",
+]

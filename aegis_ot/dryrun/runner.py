@@ -9,7 +9,7 @@ import tempfile
 import time
 import urllib.request
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from ..runtime import Planner
 from ..runtime.words import about_layer1
 from ..settings import load_settings
 from ..sidecar import Analyser, Judged, RunAnalyser, SidecarConfig, running_sidecar
+from ..sidecar.config import CascadeSettings
 from ..sidecar.store import Store
 from ..simulation import SessionParameters, SimulatedCamera
 from ..vision.camera import Frame
@@ -32,6 +33,10 @@ from ..vocabulary import Keyframe
 from .summary import DryRun, rows_of
 
 _LOOPBACK = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+
+
+UNATTENDED = CascadeSettings(first_wells="trust")
+"""Nobody is there to be asked whether a first well is right."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +51,7 @@ class DryRunSettings:
         hold: As for the guard.
         timeout_s: Longest rehearsal, s.
         data: Folder of a sidecar to keep the run in; ``None``: it is not kept.
+        cascade: What the analyser was made with; the run's report says it.
     """
 
     faults: tuple[str, ...] = ()
@@ -55,6 +61,7 @@ class DryRunSettings:
     hold: str = "boundary"
     timeout_s: float = 120.0
     data: Path | None = None
+    cascade: CascadeSettings = field(default_factory=CascadeSettings)
 
 
 class Progress:
@@ -161,7 +168,7 @@ def _run(
         data = settings.data or Path(
             stack.enter_context(tempfile.TemporaryDirectory(prefix="aegis-ot-"))
         )
-        config = SidecarConfig(port=0, token=SecretStr(token), data=data)
+        config = SidecarConfig(port=0, token=SecretStr(token), data=data, cascade=settings.cascade)
         told = _Telling(analyser, progress.judged)
         with running_sidecar(config, camera, told) as url:
 

@@ -8,14 +8,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
-from ..dryrun import DryRunSettings, Progress, dry_run
+from ..dryrun import UNATTENDED, DryRunSettings, Progress, dry_run
 from ..instrumentation import Operation, OperationKind
 from ..robot import Command, RobotClient
 from ..robot.run_report import run_report
 from ..robot.running import RobotRun, analyse, run_analysed
 from ..robot.verdicts import VerdictReader, WellVerdict
 from ..sidecar import Judged, make_analyser
-from ..sidecar.config import CascadeSettings
 from ..vocabulary import Outcome
 from .config import RobotConfig
 from .jobs import Job
@@ -85,9 +84,10 @@ class SimulatedSession:
 
     def run(self, job: Job, watch: Watch) -> dict[str, Any]:
         """See :class:`Session`."""
-        settings = DryRunSettings(faults=job.faults, seed=self._seed, rules="off")
-        analyser = make_analyser(CascadeSettings(first_wells="trust"))  # nobody is there to ask
-        done = dry_run(job.script, settings, analyser, _Told(watch))
+        settings = DryRunSettings(
+            faults=job.faults, seed=self._seed, rules="off", cascade=UNATTENDED
+        )
+        done = dry_run(job.script, settings, make_analyser(settings.cascade), _Told(watch))
         account = done.reported.account
         return {
             "outcome": done.outcome,

@@ -16,3 +16,4 @@ def test_the_demo_catches_what_it_says_and_gives_no_false_alarm(aegis, tmp_path:
     report = (tmp_path / "out" / "demo-report.html").read_text(encoding="utf-8")
     assert "D4" in report
     assert "simulated" in report
+    assert "first wells trust" in report, "nobody is there to be asked"
