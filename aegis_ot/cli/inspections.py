@@ -91,7 +91,7 @@ def _run(what: str, run: str | None, most: int, shown: Progress) -> Inspection:
     from ..evaluation.layer2.recorded import open_store
     from ..inspection import inspect_run
     from ..sidecar import SidecarConfig
-    from ..sidecar.config import known_token
+    from ..sidecar.token_file import known_token
 
     folder = Path(what)
     if not folder.exists():

@@ -182,7 +182,7 @@ def _told(account: dict[str, Any]) -> list[str]:
 
 def _folder(data: Path | None) -> Path:
     from ..sidecar import SidecarConfig
-    from ..sidecar.config import known_token
+    from ..sidecar.token_file import known_token
 
     return SidecarConfig.load(find_token=known_token).data if data is None else data
 

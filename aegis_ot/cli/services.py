@@ -31,8 +31,8 @@ def doctor(
     better, 2 something must be mended first.
     """
     from ..sidecar import SidecarConfig
-    from ..sidecar.config import known_token
     from ..sidecar.doctor import examine
+    from ..sidecar.token_file import known_token
 
     settings = SidecarConfig.load(
         config,

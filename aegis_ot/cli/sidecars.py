@@ -34,9 +34,9 @@ def sidecar(
 ) -> None:
     """Watch the robot's tips: capture, score, judge, and show a page."""
     from ..sidecar import SidecarConfig, make_analyser, make_detector, serve
-    from ..sidecar.config import TOKEN_FILE, kept_token
     from ..sidecar.journal import event, set_up
     from ..sidecar.reasoning_routes import gates_of
+    from ..sidecar.token_file import TOKEN_FILE, kept_token
 
     made: list[str] = []
     kept: list[Path] = []

@@ -11,7 +11,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
 from ..errors import ConfigurationError
-from ..sidecar.config import read_settings_file
+from ..sidecar.settings_file import read_settings_file
 from .jobs import Needs
 
 EXCHANGE_VARIABLE = "AEGIS_OT_FLEET_EXCHANGE"

@@ -5,10 +5,11 @@ from __future__ import annotations
 import sys
 
 from ..errors import AegisError
-from .config import SidecarConfig, kept_token
+from .config import SidecarConfig
 from .journal import event, set_up
 from .judging import make_analyser, make_detector
 from .server import serve
+from .token_file import kept_token
 
 
 def main(arguments: list[str]) -> int:

@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import difflib
-import importlib
 import ipaddress
-import json
 import os
-import secrets
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -24,11 +21,11 @@ from pydantic import (
 )
 
 from ..errors import ConfigurationError
+from .settings_file import read_settings_file
 
 DEFAULT_PORT = 7645
 LEAST_TOKEN = 16
 """Characters of a token, so that it cannot be guessed."""
-TOKEN_FILE = "token"
 
 ENVIRONMENT = {
     "AEGIS_OT_SIDECAR_HOST": ("host",),
@@ -301,30 +298,6 @@ def default_data() -> Path:
     return user_data_path("aegis-ot", appauthor=False)
 
 
-def kept_token(data: Path) -> str:
-    """The token that is kept in a data folder; one is made the first time.
-
-    Raises:
-        ConfigurationError: It cannot be read or written.
-    """
-    path = data / TOKEN_FILE
-    try:
-        if path.exists():
-            return path.read_text(encoding="ascii").strip()
-        data.mkdir(parents=True, exist_ok=True)
-        token = secrets.token_urlsafe(24)
-        with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
-            file.write(token + "\n")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigurationError(f"The token in {path} cannot be kept: {error}.") from error
-    return token
-
-
-def known_token(data: Path) -> str:
-    """The token that is kept in a data folder, or one for nothing: for who does not listen."""
-    return kept_token(data) if (data / TOKEN_FILE).exists() else secrets.token_urlsafe(24)
-
-
 def is_loopback(host: str) -> bool:
     """Whether only this machine can reach ``host``. Names other than localhost are not trusted."""
     if host == "localhost":
@@ -370,32 +343,3 @@ def _meant(place: tuple[int | str, ...]) -> str:
     known = list(section.model_fields)
     close = difflib.get_close_matches(str(place[-1]), known, n=1)
     return f"; did you mean {close[0]!r}?" if close else f"; there are {', '.join(known)}"
-
-
-def read_settings_file(path: Path) -> dict[str, Any]:
-    """What a JSON or TOML file (by its suffix) holds.
-
-    Raises:
-        ConfigurationError: It cannot be read, or holds something else.
-    """
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ConfigurationError(f"Cannot read the settings file {path}: {error}") from error
-    try:
-        data = _parse_toml(text) if path.suffix == ".toml" else json.loads(text)
-    except ValueError as error:
-        raise ConfigurationError(f"The settings file {path} is damaged: {error}") from error
-    if not isinstance(data, dict):
-        raise ConfigurationError(f"The settings file {path} must hold one object of settings.")
-    return data
-
-
-def _parse_toml(text: str) -> Any:
-    try:
-        tomllib = importlib.import_module("tomllib")
-    except ImportError:  # Python 3.10
-        raise ConfigurationError(
-            "TOML settings need Python 3.11 or newer; write the same settings as JSON."
-        ) from None
-    return tomllib.loads(text)

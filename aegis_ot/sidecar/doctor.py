@@ -21,9 +21,10 @@ from ..reasoning.backends.service import ServiceBackend
 from ..vision.camera import Camera
 from .aiming import Aim
 from .cameras import FreeRunning, open_camera
-from .config import TOKEN_FILE, CameraSettings, SidecarConfig, is_loopback
+from .config import CameraSettings, SidecarConfig, is_loopback
 from .notifications import Notifier
 from .store import DATABASE, Store
+from .token_file import TOKEN_FILE
 
 _LEAST_FREE_GB = 2.0
 _FIRST_FRAME_S = 8.0

@@ -15,8 +15,9 @@ from pydantic import SecretStr
 
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
-from aegis_ot.sidecar.config import NotificationSettings, kept_token
+from aegis_ot.sidecar.config import NotificationSettings
 from aegis_ot.sidecar.journal import set_up
+from aegis_ot.sidecar.token_file import kept_token
 
 from .helpers import Robot, StubAnalyser, StubCamera
 
