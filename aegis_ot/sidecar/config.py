@@ -7,7 +7,7 @@ import ipaddress
 import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from platformdirs import user_data_path
 from pydantic import (
@@ -339,7 +339,10 @@ def _meant(place: tuple[int | str, ...]) -> str:
     """Which setting an unknown one resembles, as the end of a sentence."""
     section: Any = SidecarConfig
     for name in place[:-1]:
-        section = section.model_fields[name].annotation
+        if isinstance(name, int):  # One of several: their type is that of the first.
+            section = get_args(section)[0]
+        else:
+            section = section.model_fields[name].annotation
     known = list(section.model_fields)
     close = difflib.get_close_matches(str(place[-1]), known, n=1)
     return f"; did you mean {close[0]!r}?" if close else f"; there are {', '.join(known)}"

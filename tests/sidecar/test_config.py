@@ -46,6 +46,10 @@ def test_toml(tmp_path: Path) -> None:
         ('{"port": 99999}', "port"),
         ('{"camera": {"timeout_s": NaN}}', "camera.timeout_s"),
         ('{"camera": {"speck": 1}}', "camera.speck: there is no such setting; did you mean 'spec'"),
+        (
+            '{"cameras": [{"robot": "a", "speck": 1}]}',
+            "cameras.0.speck: there is no such setting; did you mean 'spec'",
+        ),
         ('{"token": ""}', "token"),
         ('{"token": "a b"}', "token"),
         ('{"cascade": {"gates": ["oracle"]}}', "oracle"),
