@@ -26,6 +26,8 @@ LIVE_WAIT_S = 1.0
 _REQUEST_S = 5.0
 _POLL_S = 0.5
 
+_WHO = "the sidecar's model"
+
 
 def with_opinion(report: Report, reading: Reading, settings: Settings, protocol: Any) -> Report:
     """The checks' report with the opinion of the sidecar's model merged into it.
@@ -67,15 +69,15 @@ def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: fl
         return _exchange(client, dossier, timeout_s)
     except TimeoutError:
         detail = f"the sidecar has not answered in {timeout_s:g} s."
-        return Opinion("timeout", "the sidecar's model", detail)
+        return Opinion("timeout", _WHO, detail)
     except (OSError, http.client.HTTPException) as error:
         detail = f"the sidecar cannot be reached ({type(error).__name__})."
-        return Opinion("unavailable", "the sidecar's model", detail)
+        return Opinion("unavailable", _WHO, detail)
     except _Refused as error:
-        return Opinion(error.state, "the sidecar's model", str(error))
+        return Opinion(error.state, _WHO, str(error))
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         detail = f"the sidecar's answer makes no sense ({error})."
-        return Opinion("invalid", "the sidecar's model", detail)
+        return Opinion("invalid", _WHO, detail)
     finally:
         if client is not None:
             client.close()
@@ -88,7 +90,7 @@ def _exchange(client: HttpClient, dossier: Dossier, timeout_s: float) -> Opinion
         left = deadline - time.monotonic()
         if left <= 0:
             detail = f"it has not answered in {timeout_s:g} s; the next run may find it."
-            return Opinion("timeout", "the sidecar's model", detail)
+            return Opinion("timeout", _WHO, detail)
         path = f"/v1/opinions/{answer['digest']}?wait={min(_POLL_S, left):.2f}"
         answer = _send(client, "GET", path, None, deadline)
     return from_json(Opinion, answer["opinion"])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
@@ -175,7 +175,10 @@ def _read(
 
 
 def _implied_elsewhere(
-    database: Database, families: Iterable[Inference], roles_of: object, trace: Trace
+    database: Database,
+    families: Iterable[Inference],
+    roles_of: Callable[[Family], Roles],
+    trace: Trace,
 ) -> frozenset[WellRef]:
     """Wells that held liquid before the run in the eyes of a family that is not judged.
 
@@ -183,7 +186,6 @@ def _implied_elsewhere(
     """
     if not any(i.visit.well.declared is None and not i.overfilled for i in trace.imbalances):
         return frozenset()
-    assert callable(roles_of)
     return frozenset(
         ref
         for inference in families
