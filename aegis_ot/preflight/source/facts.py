@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TypeGuard
 
 from .data_flow import Flow, read_flow
+
+_LOOPS = (ast.For, ast.AsyncFor, ast.comprehension)
 
 _MOST_TEXTS = 2000
 """A protocol that carries its data in strings says nothing more of itself after so many."""
@@ -40,6 +43,7 @@ class SourceFacts:
         varying: Names that are loop variables, as ``(function, name)``.
         rebound: Names that loops bind anew in each turn, these among them.
         parameters: Names that are parameters of functions, as ``(function, name)``.
+        nodes: The parsed text in reading order, without operators and annotations.
         flow: Which names the values of a name come from, and which labware they index.
     """
 
@@ -53,7 +57,11 @@ class SourceFacts:
     varying: set[tuple[str, str]] = field(default_factory=set)
     rebound: set[tuple[str, str]] = field(default_factory=set)
     parameters: set[tuple[str, str]] = field(default_factory=set)
-    flow: Flow = field(default_factory=Flow)
+    nodes: list[ast.AST] = field(default_factory=list, repr=False)
+
+    @cached_property
+    def flow(self) -> Flow:
+        return read_flow(self.nodes)
 
     def comment_blocks(self) -> list[tuple[int, str]]:
         """Comments by their first line; those that stand below each other are one text."""
@@ -76,11 +84,50 @@ def read_source(text: str) -> SourceFacts:
         tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError):
         return facts
-    nodes = list(ast.walk(tree))  # once: it takes longer than all that is read from them
-    _read_nodes(nodes, facts)
-    _read_scopes(tree, "<module>", facts)
-    facts.flow = read_flow(nodes)
+    placed = _in_reading_order(tree)
+    facts.nodes = [node for node, _, _ in placed]
+    _read_nodes(facts)
+    _read_scopes(placed, facts)
     return facts
+
+
+_Placed = tuple[ast.AST, str, tuple[str, ...]]
+"""A node, the function that it is in, and those around it in which loops enclose it."""
+
+_PLAIN_FIELDS = frozenset({"ctx", "op", "ops", "kind", "type_comment", "returns", "annotation"})
+"""What holds operators and types: nearly half of all nodes, and nothing is read from them."""
+
+
+def _in_reading_order(tree: ast.AST) -> list[_Placed]:
+    """Every node that says something, once: the walk takes longer than what is read from it."""
+    found: list[_Placed] = []
+    open_: list[_Placed] = [(tree, "<module>", ())]
+    while open_:
+        placed = open_.pop()
+        found.append(placed)
+        node, function, looping = placed
+        if isinstance(node, (ast.FunctionDef, ast.Lambda)):
+            function = _name_of(node)
+        elif isinstance(node, _LOOPS):
+            looping = (*looping, function)
+        open_ += [(child, function, looping) for child in reversed(_children(node))]
+    return found
+
+
+def _children(node: ast.AST) -> list[ast.AST]:
+    children: list[ast.AST] = []
+    for name in node._fields:
+        if name not in _PLAIN_FIELDS:
+            value = getattr(node, name, None)
+            if isinstance(value, ast.AST):
+                children.append(value)
+            elif isinstance(value, list):
+                children += [child for child in value if isinstance(child, ast.AST)]
+    return children
+
+
+def _name_of(function: ast.FunctionDef | ast.Lambda) -> str:
+    return function.name if isinstance(function, ast.FunctionDef) else "<lambda>"
 
 
 def _read_comments(text: str, facts: SourceFacts) -> None:
@@ -95,9 +142,9 @@ def _read_comments(text: str, facts: SourceFacts) -> None:
                 facts.own_line.add(line)
 
 
-def _read_nodes(nodes: Sequence[ast.AST], facts: SourceFacts) -> None:
+def _read_nodes(facts: SourceFacts) -> None:
     documents: set[int] = set()
-    for node in nodes:
+    for node in facts.nodes:
         if isinstance(node, ast.Expr) and _is_text(node.value):
             facts.docstrings.append((node.value.lineno, str(node.value.value)))
             documents.add(id(node.value))
@@ -136,23 +183,17 @@ def _texts_of(value: ast.expr) -> Mapping[str, str]:
     }
 
 
-def _read_scopes(node: ast.AST, function: str, facts: SourceFacts) -> None:
+def _read_scopes(placed: Iterable[_Placed], facts: SourceFacts) -> None:
     """Which names loops give many values, and which ones calls do, by the function they are in."""
-    for child in ast.iter_child_nodes(node):
-        inside = function
-        if isinstance(child, (ast.FunctionDef, ast.Lambda)):
-            inside = child.name if isinstance(child, ast.FunctionDef) else "<lambda>"
-            given = child.args
+    for node, function, looping in placed:
+        if isinstance(node, (ast.FunctionDef, ast.Lambda)):
+            inside, given = _name_of(node), node.args
             for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs):
                 facts.parameters.add((inside, argument.arg))
-        elif isinstance(child, (ast.For, ast.AsyncFor, ast.comprehension)):
-            facts.varying |= {(inside, name) for name in names_in(child.target)}
-            facts.rebound |= {
-                (inside, inner.id)
-                for inner in ast.walk(child)
-                if isinstance(inner, ast.Name) and isinstance(inner.ctx, ast.Store)
-            }
-        _read_scopes(child, inside, facts)
+        elif isinstance(node, _LOOPS):
+            facts.varying |= {(function, name) for name in names_in(node.target)}
+        elif looping and isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            facts.rebound |= {(outer, node.id) for outer in looping}
 
 
 def names_in(node: ast.AST) -> set[str]:
