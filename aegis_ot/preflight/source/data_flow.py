@@ -8,9 +8,11 @@ the sources says nothing of the wells beside them.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
+
+from .nodes import LOOPS, Nodes
 
 _PASSING_ON = frozenset({"enumerate", "list", "tuple", "reversed", "sorted", "set", "iter", "next"})
 _WELL_GETTERS = frozenset(
@@ -54,22 +56,24 @@ class Flow:
         return [index for index in self.indexed if name in self.origins(index.names)]
 
 
-def read_flow(nodes: Sequence[ast.AST]) -> Flow:
+def read_flow(nodes: Nodes) -> Flow:
     """Read all nodes of a parsed protocol."""
     flow = Flow()
-    functions = {n.name: n for n in nodes if isinstance(n, ast.FunctionDef)}
-    for node in nodes:
-        if isinstance(node, ast.Assign):
-            for target in node.targets:
-                _bind(flow, target, node.value, looped=False)
-        elif isinstance(node, (ast.AnnAssign, ast.NamedExpr)) and node.value is not None:
-            _bind(flow, node.target, node.value, looped=False)
-        elif isinstance(node, (ast.For, ast.AsyncFor, ast.comprehension)):
-            _bind(flow, node.target, node.iter, looped=True)
-        elif isinstance(node, ast.Subscript):
-            _note_index(flow, node.value, node.slice)
-        elif isinstance(node, ast.Call):
-            _call(flow, node, functions)
+    for assignment in nodes.of(ast.Assign):
+        for target in assignment.targets:
+            _bind(flow, target, assignment.value, looped=False)
+    for typed in nodes.of(ast.AnnAssign):
+        if typed.value is not None:
+            _bind(flow, typed.target, typed.value, looped=False)
+    for walrus in nodes.of(ast.NamedExpr):
+        _bind(flow, walrus.target, walrus.value, looped=False)
+    for loop in nodes.of(*LOOPS):
+        _bind(flow, loop.target, loop.iter, looped=True)
+    for subscript in nodes.of(ast.Subscript):
+        _note_index(flow, subscript.value, subscript.slice)
+    functions = {function.name: function for function in nodes.of(ast.FunctionDef)}
+    for call in nodes.of(ast.Call):
+        _call(flow, call, functions)
     return flow
 
 

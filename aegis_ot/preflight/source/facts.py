@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import islice
 from typing import TypeGuard
 
 from .data_flow import Flow, read_flow
-
-_LOOPS = (ast.For, ast.AsyncFor, ast.comprehension)
+from .nodes import FUNCTIONS, LOOPS, Nodes, name_of
 
 _MOST_TEXTS = 2000
 """A protocol that carries its data in strings says nothing more of itself after so many."""
@@ -43,7 +43,7 @@ class SourceFacts:
         varying: Names that are loop variables, as ``(function, name)``.
         rebound: Names that loops bind anew in each turn, these among them.
         parameters: Names that are parameters of functions, as ``(function, name)``.
-        nodes: The parsed text in reading order, without operators and annotations.
+        nodes: The parsed text.
         flow: Which names the values of a name come from, and which labware they index.
     """
 
@@ -57,7 +57,7 @@ class SourceFacts:
     varying: set[tuple[str, str]] = field(default_factory=set)
     rebound: set[tuple[str, str]] = field(default_factory=set)
     parameters: set[tuple[str, str]] = field(default_factory=set)
-    nodes: list[ast.AST] = field(default_factory=list, repr=False)
+    nodes: Nodes = field(default_factory=Nodes, repr=False)
 
     @cached_property
     def flow(self) -> Flow:
@@ -81,53 +81,13 @@ def read_source(text: str) -> SourceFacts:
     facts = SourceFacts()
     _read_comments(text, facts)
     try:
-        tree = ast.parse(text)
+        facts.nodes = Nodes(ast.parse(text))
     except (SyntaxError, ValueError, RecursionError):
         return facts
-    placed = _in_reading_order(tree)
-    facts.nodes = [node for node, _, _ in placed]
-    _read_nodes(facts)
-    _read_scopes(placed, facts)
+    _read_strings(facts)
+    _read_names(facts)
+    _read_scopes(facts)
     return facts
-
-
-_Placed = tuple[ast.AST, str, tuple[str, ...]]
-"""A node, the function that it is in, and those around it in which loops enclose it."""
-
-_PLAIN_FIELDS = frozenset({"ctx", "op", "ops", "kind", "type_comment", "returns", "annotation"})
-"""What holds operators and types: nearly half of all nodes, and nothing is read from them."""
-
-
-def _in_reading_order(tree: ast.AST) -> list[_Placed]:
-    """Every node that says something, once: the walk takes longer than what is read from it."""
-    found: list[_Placed] = []
-    open_: list[_Placed] = [(tree, "<module>", ())]
-    while open_:
-        placed = open_.pop()
-        found.append(placed)
-        node, function, looping = placed
-        if isinstance(node, (ast.FunctionDef, ast.Lambda)):
-            function = _name_of(node)
-        elif isinstance(node, _LOOPS):
-            looping = (*looping, function)
-        open_ += [(child, function, looping) for child in reversed(_children(node))]
-    return found
-
-
-def _children(node: ast.AST) -> list[ast.AST]:
-    children: list[ast.AST] = []
-    for name in node._fields:
-        if name not in _PLAIN_FIELDS:
-            value = getattr(node, name, None)
-            if isinstance(value, ast.AST):
-                children.append(value)
-            elif isinstance(value, list):
-                children += [child for child in value if isinstance(child, ast.AST)]
-    return children
-
-
-def _name_of(function: ast.FunctionDef | ast.Lambda) -> str:
-    return function.name if isinstance(function, ast.FunctionDef) else "<lambda>"
 
 
 def _read_comments(text: str, facts: SourceFacts) -> None:
@@ -142,24 +102,30 @@ def _read_comments(text: str, facts: SourceFacts) -> None:
                 facts.own_line.add(line)
 
 
-def _read_nodes(facts: SourceFacts) -> None:
+def _read_strings(facts: SourceFacts) -> None:
     documents: set[int] = set()
-    for node in facts.nodes:
-        if isinstance(node, ast.Expr) and _is_text(node.value):
-            facts.docstrings.append((node.value.lineno, str(node.value.value)))
-            documents.add(id(node.value))
-        elif isinstance(node, ast.Name):
-            facts.names.add(node.id)
-            if isinstance(node.ctx, ast.Store):
-                facts.assigned.setdefault(node.id, node.lineno)
-        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
-            facts.assigned.setdefault(node.attr, node.lineno)
-        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
-            facts.names.add(node.name)
-        elif _is_text(node) and id(node) not in documents and len(facts.strings) < _MOST_TEXTS:
-            facts.strings.append((node.lineno, str(node.value)))
-        if isinstance(node, ast.Assign) and _is_metadata(node):
-            facts.metadata.update(_texts_of(node.value))
+    for statement in facts.nodes.of(ast.Expr):
+        if _is_text(statement.value):
+            facts.docstrings.append((statement.value.lineno, str(statement.value.value)))
+            documents.add(id(statement.value))
+    others = (n for n in facts.nodes.of(ast.Constant) if _is_text(n) and id(n) not in documents)
+    facts.strings += [(node.lineno, str(node.value)) for node in islice(others, _MOST_TEXTS)]
+    for assignment in facts.nodes.of(ast.Assign):
+        if _is_metadata(assignment):
+            facts.metadata.update(_texts_of(assignment.value))
+
+
+def _read_names(facts: SourceFacts) -> None:
+    for name in facts.nodes.of(ast.Name):
+        facts.names.add(name.id)
+        if isinstance(name.ctx, ast.Store):
+            facts.assigned.setdefault(name.id, name.lineno)
+    for attribute in facts.nodes.of(ast.Attribute):
+        if isinstance(attribute.ctx, ast.Store):
+            line = facts.assigned.get(attribute.attr, attribute.lineno)
+            facts.assigned[attribute.attr] = min(line, attribute.lineno)
+    facts.names |= {node.name for node in facts.nodes.of(ast.FunctionDef)}
+    facts.names |= {node.name for node in facts.nodes.of(ast.ClassDef)}
 
 
 def _is_text(node: ast.AST) -> TypeGuard[ast.Constant]:
@@ -183,17 +149,17 @@ def _texts_of(value: ast.expr) -> Mapping[str, str]:
     }
 
 
-def _read_scopes(placed: Iterable[_Placed], facts: SourceFacts) -> None:
+def _read_scopes(facts: SourceFacts) -> None:
     """Which names loops give many values, and which ones calls do, by the function they are in."""
-    for node, function, looping in placed:
-        if isinstance(node, (ast.FunctionDef, ast.Lambda)):
-            inside, given = _name_of(node), node.args
-            for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs):
-                facts.parameters.add((inside, argument.arg))
-        elif isinstance(node, _LOOPS):
-            facts.varying |= {(function, name) for name in names_in(node.target)}
-        elif looping and isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            facts.rebound |= {(outer, node.id) for outer in looping}
+    for function in facts.nodes.of(*FUNCTIONS):
+        given = function.args
+        for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs):
+            facts.parameters.add((name_of(function), argument.arg))
+    for loop, inside, _ in facts.nodes.placed(*LOOPS):
+        facts.varying |= {(inside, name) for name in names_in(loop.target)}
+    for name, _, looping in facts.nodes.placed(ast.Name):
+        if looping and isinstance(name.ctx, ast.Store):
+            facts.rebound |= {(outer, name.id) for outer in looping}
 
 
 def names_in(node: ast.AST) -> set[str]:

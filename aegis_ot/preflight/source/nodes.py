@@ -1,0 +1,68 @@
+"""The nodes of a parsed text by kind, each with the function that it is in."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import TypeVar
+
+LOOPS: tuple[type[ast.For | ast.AsyncFor | ast.comprehension], ...] = (
+    ast.For,
+    ast.AsyncFor,
+    ast.comprehension,
+)
+FUNCTIONS: tuple[type[ast.FunctionDef | ast.Lambda], ...] = (ast.FunctionDef, ast.Lambda)
+
+_Node = TypeVar("_Node", bound=ast.AST)
+_Placed = tuple[ast.AST, str, tuple[str, ...]]
+
+_SILENT_FIELDS = frozenset({"ctx", "op", "ops", "kind", "type_comment", "returns", "annotation"})
+"""What holds operators and types: nearly half of all nodes, and nothing is read from them."""
+
+
+class Nodes:
+    """Every node that says something, in reading order within its kind.
+
+    The walk takes most of the time that reading a text takes, so there is one, and each reader
+    looks only at its own kinds.
+    """
+
+    def __init__(self, tree: ast.AST | None = None) -> None:
+        self._placed: dict[type[ast.AST], list[_Placed]] = {}
+        open_: list[_Placed] = [(tree, "<module>", ())] if tree is not None else []
+        while open_:
+            placed = open_.pop()
+            node, function, looping = placed
+            self._placed.setdefault(type(node), []).append(placed)
+            if isinstance(node, FUNCTIONS):
+                function = name_of(node)
+            elif isinstance(node, LOOPS):
+                looping = (*looping, function)
+            open_ += [(child, function, looping) for child in reversed(_children(node))]
+
+    def of(self, *kinds: type[_Node]) -> Iterator[_Node]:
+        """The nodes of these kinds, one kind after the other."""
+        for node, _, _ in self.placed(*kinds):
+            yield node
+
+    def placed(self, *kinds: type[_Node]) -> Iterator[tuple[_Node, str, tuple[str, ...]]]:
+        """Likewise, each with its function, and with those in which loops enclose it."""
+        for kind in kinds:
+            yield from self._placed.get(kind, ())  # type: ignore[misc]
+
+
+def name_of(function: ast.FunctionDef | ast.Lambda) -> str:
+    """A function's name."""
+    return function.name if isinstance(function, ast.FunctionDef) else "<lambda>"
+
+
+def _children(node: ast.AST) -> list[ast.AST]:
+    children: list[ast.AST] = []
+    for name in node._fields:
+        if name not in _SILENT_FIELDS:
+            value = getattr(node, name, None)
+            if isinstance(value, ast.AST):
+                children.append(value)
+            elif isinstance(value, list):
+                children += [child for child in value if isinstance(child, ast.AST)]
+    return children
