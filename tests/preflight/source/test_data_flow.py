@@ -7,10 +7,11 @@ import ast
 import pytest
 
 from aegis_ot.preflight.source.data_flow import read_flow
+from aegis_ot.preflight.source.nodes import Nodes
 
 
 def indexed(text: str, name: str) -> set[str]:
-    return {use.held for use in read_flow(list(ast.walk(ast.parse(text)))).indexed_with(name)}
+    return {use.held for use in read_flow(Nodes(ast.parse(text))).indexed_with(name)}
 
 
 @pytest.mark.parametrize(
