@@ -109,15 +109,24 @@ def _why_warning(violation: Violation, case: Case) -> str:
     for well in violation.rests_on:
         if roles.is_doubtful(well.ref):
             return _DOUBTFUL.format(roles.by_well[well.ref].evidence[0].citation)
-    if case.family.default and not all(_is_named(well, roles) for well in violation.rests_on):
+    if case.family.default and not _are_named(violation.rests_on, case):
         return "Nothing in the protocol says what these wells hold."
     return ""
 
 
-def _is_named(well: Well, roles: Roles) -> bool:
-    """Whether a name, a loaded liquid or an argument says what a well is for."""
-    assigned = roles.by_well.get(well.ref)
-    return bool(well.liquids) or (assigned is not None and assigned.kind >= Kind.NAME)
+def _are_named(wells: Sequence[Well], case: Case) -> bool:
+    """Whether names, loaded liquids or arguments say what these wells are for.
+
+    Where nothing says which assay this is, they must also say what one of them holds: all that
+    ``source`` and ``dest`` tell is seen in the run too.
+    """
+    roles = case.roles.by_well
+    unsaid = [well for well in wells if not well.liquids]
+    if not all(well.ref in roles and roles[well.ref].kind >= Kind.NAME for well in unsaid):
+        return False
+    if not case.left_over or len(unsaid) < len(wells) or not wells:
+        return True
+    return any(case.roles.says_what_it_holds(well.ref) for well in wells)
 
 
 def _report(

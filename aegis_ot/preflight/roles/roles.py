@@ -92,6 +92,19 @@ class Roles:
         assigned = self.by_well.get(ref)
         return assigned is not None and assigned.whole and not self.derived.get(ref)
 
+    def says_what_it_holds(self, ref: WellRef) -> bool:
+        """Whether a name, a label or an argument says what is in a well, and not only that
+        something comes from there or goes there: other roles refine ``source``.
+        """
+        assigned = self.by_well.get(ref)
+        if assigned is None or assigned.kind < Kind.NAME:
+            return False
+        return assigned.kind > Kind.NAME or assigned.role not in self._refined
+
+    @cached_property
+    def _refined(self) -> frozenset[str]:
+        return frozenset(p for spec in self.family.roles.values() for p in spec.parents)
+
     def level(self, ref: WellRef) -> float | None:
         """Concentration or dose of a well, if known."""
         assigned = self.by_well.get(ref)
