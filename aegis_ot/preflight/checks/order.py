@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -110,27 +110,41 @@ class ReceivedBefore(Check):
         for well in case.trace.wells.values():
             if wanted and not case.has(well, wanted):
                 continue
-            late = arrivals(case, well, then)
-            if not late:
+            begun = _begun(case, arrivals(case, well, then), then)
+            if begun is None:
                 continue
             for visit in arrivals(case, well, first):
-                if visit.index <= late[0].index:
+                if visit.index <= begun.index:
                     continue
                 what = " or ".join(case.family.roles[role].title for role in self.then)
                 source = next(
                     (s for o, _, s, _ in delivered(visit) if case.has(o, first)), visit.well
                 )
                 yield Violation(
-                    f"{place(well)} receives {what} {at(late[0].line)}, before the "
+                    f"{place(well)} receives {what} {at(begun.line)}, before the "
                     f"{case.title(source)} that is added {at(visit.line)}.",
                     (
-                        Site(late[0].line, well.ref, f"received {what}"),
+                        Site(begun.line, well.ref, f"received {what}"),
                         Site(visit.line, well.ref, f"received {case.title(source)} after it"),
                     ),
                     well,
-                    (late[0].line, visit.line),
+                    (begun.line, visit.line),
                 )
                 break
+
+
+def _begun(case: Case, came: Sequence[Visit], liquid: RoleSet) -> Visit | None:
+    """When the last of several liquids of these roles first came: of two reagents one develops
+    nothing without the other.
+    """
+    first: dict[Well | None, Visit] = {}
+    for visit in came:
+        for origin, volume, source, _ in delivered(visit):
+            if volume > 0 and case.has(origin, liquid):
+                first.setdefault(origin, visit)
+            elif volume > 0 and case.has(source, liquid):
+                first.setdefault(source, visit)
+    return max(first.values(), key=lambda visit: visit.index, default=None)
 
 
 @dataclass(frozen=True)

@@ -65,7 +65,10 @@ def find_series(
         if len({(s.source, s.well) for s in group}) >= shortest and not is_copying(trace, group)
     ]
     linked = {well for group in groups for link in group for well in (link.source, link.well)}
-    return [_series(trace, roles, group, stock, diluent, linked, fillers) for group in groups]
+    in_all = frozenset().union(*(_in_all(trace, roles, group, diluent) for group in groups))
+    return [
+        _series(trace, roles, group, stock, diluent, linked, fillers, in_all) for group in groups
+    ]
 
 
 def _is_made(trace: Trace, roles: Roles, well: Well, made_of: frozenset[str]) -> bool:
@@ -87,9 +90,10 @@ def _series(
     diluent: frozenset[str],
     taken: Collection[Well],
     fillers: frozenset[Well],
+    in_all: frozenset[Well],
 ) -> Series:
-    linked = list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
-    members = _with_neighbours(trace, roles, linked, diluent | stock, taken)
+    linked = _wells_of(links)
+    members = _with_neighbours(trace, roles, linked, diluent | stock, taken, in_all)
     order = best_order(members, links)
     steps: list[Transfer] = []
     entries: list[Well] = []
@@ -107,7 +111,7 @@ def _series(
             for source, volume, _, line in visit.parts:
                 if source is None or source is well or volume <= 0 or source in member_set:
                     continue
-                if roles.has(source.ref, diluent):
+                if roles.has(source.ref, diluent) or source in in_all:
                     continue
                 if (
                     roles.has(source.ref, stock)
@@ -140,6 +144,32 @@ def _fed_from_outside(trace: Trace, members: Sequence[Well]) -> dict[Well, set[W
     return fed
 
 
+def _wells_of(links: Sequence[Transfer]) -> list[Well]:
+    return list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
+
+
+def _in_all(
+    trace: Trace, roles: Roles, links: Sequence[Transfer], diluent: frozenset[str]
+) -> frozenset[Well]:
+    """What every well of a chain is given, by itself or in a mix, while another liquid is diluted
+    along it: a component of all reactions (a dye, a label), and neither stock nor a step.
+    """
+    linked = _wells_of(links)
+    given: list[set[Well]] = []
+    for well in linked:
+        origins = {
+            origin
+            for visit in trace.deliveries(well)
+            for source, _, liquid, _ in visit.parts
+            if source is not None and source not in linked
+            for origin in (source, *liquid)
+            if not roles.has(origin.ref, diluent)
+        }
+        given.append(origins.difference(linked))
+    in_all = frozenset(set.intersection(*given))
+    return in_all if any(origins - in_all for origins in given) else frozenset()
+
+
 def _feeds_last(well: Well, links: Sequence[Transfer]) -> bool:
     """Whether a well only receives from the chain and feeds nothing in it."""
     return all(link.source is not well for link in links)
@@ -151,6 +181,7 @@ def _with_neighbours(
     linked: list[Well],
     filling: frozenset[str],
     taken: Collection[Well],
+    in_all: Collection[Well],
 ) -> list[Well]:
     """Add wells of the same row or column that were given stock or diluent, but no link.
 
@@ -171,7 +202,7 @@ def _with_neighbours(
             len(columns) == 1 and well.order[1] in columns
         )
         if inside and any(
-            source is not None and roles.has(source.ref, filling)
+            source is not None and source not in in_all and roles.has(source.ref, filling)
             for visit in trace.deliveries(well)
             for source, _, _, _ in visit.parts
         ):

@@ -142,6 +142,16 @@ def test_dye_before_protein_and_dye_never_mixed() -> None:
     assert "B1" in messages
 
 
+def test_of_two_reagents_the_last_is_the_dye() -> None:
+    """An assay of two reagents: the first alone develops nothing."""
+    roles = {"sample": "source:A1", "dye": "source:C1 source:D1", "sample_well": "plate:A1"}
+    bench = Bench()
+    for source in ("source:C1", "source:A1", "source:D1"):
+        transfer(bench, source, "plate:A1")
+    found = broken(case_of(bench.trace(), "bradford", roles), "BRD-4")
+    assert not [one for one in found if "before" in one.message]
+
+
 def test_standards_fall_in_one_tip_session() -> None:
     roles = {"standard": "source:A1 source:B1"}
     levels = {"source:A1": 100.0, "source:B1": 50.0}
@@ -216,6 +226,32 @@ def test_a_series_that_is_not_mixed() -> None:
     case = case_of(dilution(mixed=False).trace(), "serial_dilution", SERIES)
     assert wells(broken(case, "SD-1")) == {"plate:A2", "plate:A3", "plate:A4", "plate:A5"}
     assert all(not one.warning for one in broken(case, "SD-5"))
+
+
+def test_what_all_wells_of_a_series_get_is_a_component_and_no_stock() -> None:
+    """The label goes into the control beside the series too, which is no step of it."""
+    series = {**SERIES, "stock": "source:A1 source:B1"}
+    labelled = Bench()
+    for column in range(1, 7):
+        transfer(labelled, "source:C1", f"plate:A{column}", 50, HIGH)
+        transfer(labelled, "source:B1", f"plate:A{column}", 20, HIGH)
+    transfer(labelled, "source:A1", "plate:A1", 100)
+    for column in range(1, 5):
+        labelled.pick()
+        labelled.draw(f"plate:A{column}", 50)
+        labelled.give(f"plate:A{column + 1}", 50)
+        for _ in range(3):
+            labelled.draw(f"plate:A{column + 1}", 60, mixing=True)
+            labelled.give(f"plate:A{column + 1}", 60, mixing=True)
+        labelled.drop()
+    labelled.pick()
+    for _ in range(3):
+        labelled.draw("plate:A1", 60, mixing=True)
+        labelled.give("plate:A1", 60, mixing=True)
+    labelled.drop()
+    case = case_of(labelled.trace(), "serial_dilution", series)
+    assert not wells(broken(case, "SD-1")) - {"plate:A1"}
+    assert not broken(case, "SD-3")
 
 
 def test_stock_where_diluent_should_come() -> None:
