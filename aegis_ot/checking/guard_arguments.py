@@ -1,4 +1,4 @@
-"""What a guarded protocol itself says about its roles: ``@guard(assay="pcr", roles={...})``.
+"""What a guarded protocol itself says about its judging: ``@guard(assay="pcr", roles={...})``.
 
 Read from the text, because in a rehearsal the guard stands aside. Only literals count.
 """
@@ -6,35 +6,63 @@ Read from the text, because in a rehearsal the guard stands aside. Only literals
 from __future__ import annotations
 
 import ast
+from dataclasses import dataclass, field
 from typing import Any
+
+from ..settings.values import READERS, Site
+from ..vocabulary import Remark
 
 _NAMES = ("assay", "roles", "select", "ignore", "rules")
 
 
-def guard_arguments(text: str) -> dict[str, Any]:
-    """The literal arguments of the protocol's guard that concern judging; empty without one."""
+@dataclass(frozen=True)
+class GuardArguments:
+    """The arguments of the protocol's guard that concern judging.
+
+    Attributes:
+        values: Those that are literals, as the settings hold them.
+        unread: The others: the guard will know them, and a reader of the text does not.
+    """
+
+    values: dict[str, Any] = field(default_factory=dict)
+    unread: tuple[Remark, ...] = ()
+
+
+def guard_arguments(text: str) -> GuardArguments:
+    """Read them; nothing is said without a guard, or by text that does not parse.
+
+    Raises:
+        ConfigurationError: One of them is nothing that the guard takes, which will say so too.
+    """
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return {}
+        return GuardArguments()
     for node in ast.walk(tree):
         if isinstance(node, ast.Call) and _is_guard(node.func):
-            return {
-                keyword.arg: value
-                for keyword in node.keywords
-                if keyword.arg in _NAMES and (value := _literal(keyword.value)) is not None
-            }
-    return {}
+            return _read(node)
+    return GuardArguments()
+
+
+def _read(call: ast.Call) -> GuardArguments:
+    values: dict[str, Any] = {}
+    unread: list[Remark] = []
+    for keyword in call.keywords:
+        if keyword.arg not in _NAMES:
+            continue
+        name, line = keyword.arg, keyword.value.lineno
+        try:
+            value = ast.literal_eval(keyword.value)
+        except (ValueError, TypeError, SyntaxError):
+            told = f"The guard's {name} is worked out in the run, so this check does not know it;"
+            unread.append(Remark(f"{told} written out as a literal, it counts.", line))
+            continue
+        if value is not None:
+            values[name] = READERS[name](value, Site(name, f"argument of the guard, line {line}"))
+    return GuardArguments(values, tuple(unread))
 
 
 def _is_guard(function: ast.expr) -> bool:
     if isinstance(function, ast.Attribute):
         return function.attr == "guard"
     return isinstance(function, ast.Name) and function.id == "guard"
-
-
-def _literal(node: ast.expr) -> Any:
-    try:
-        return ast.literal_eval(node)
-    except (ValueError, TypeError, SyntaxError):
-        return None

@@ -13,6 +13,7 @@ from ..errors import ConfigurationError, RehearsalError
 from ..preflight import Database, Options, Report
 from ..preflight.rehearsal import Script
 from ..preflight.source import source_lines
+from ..settings import Settings
 from ..vocabulary import Finding, Remark
 from .baseline import Baseline
 from .configuration import ConfiguredWaiver
@@ -108,7 +109,10 @@ def _check_file(
         csv_parameters=settings.csv_parameters,
         extra_labware=settings.labware,
     )
-    options = options_for(text, settings.options)
+    try:
+        options = options_for(text, settings.options)
+    except ConfigurationError as error:
+        return CheckedProtocol(name, problem=Problem(str(error)), lines=lines)
     if options.leave_none(database):
         told = "no rule is left to judge it by, with what its guard selects and ignores."
         return CheckedProtocol(name, problem=Problem(told), lines=lines)
@@ -180,28 +184,20 @@ def _judge(
 
 
 def options_for(text: str, options: Options) -> Options:
-    """What the command line leaves open, the guard inside the protocol may say."""
-    said = guard_arguments(text)
-    assay, roles = said.get("assay"), said.get("roles")
-    changes: dict[str, Any] = {}
-    if assay and not options.assay:
-        changes["assay"] = (assay,) if isinstance(assay, str) else tuple(assay)
-    if isinstance(roles, dict):
-        given = {r: (p,) if isinstance(p, str) else tuple(p) for r, p in roles.items()}
-        changes["roles"] = {**given, **options.roles}
-    if said.get("select") and not options.select:
-        changes["select"] = _names(said["select"])
-    if said.get("ignore"):
-        changes["ignore"] = (*options.ignore, *_names(said["ignore"]))
-    if said.get("rules") == "strict":
-        changes["strict"] = True
-    return dataclasses.replace(options, **changes) if changes else options
+    """What the command line leaves open, the guard inside the protocol may say.
 
-
-def _names(value: Any) -> tuple[str, ...]:
-    """As the guard takes them: a list, or one text with commas."""
-    parts = value.split(",") if isinstance(value, str) else value
-    return tuple(name.strip() for name in parts if name.strip())
+    Raises:
+        ConfigurationError: An argument of the guard is nothing that it takes.
+    """
+    said = Options.from_settings(Settings(**guard_arguments(text).values))
+    return dataclasses.replace(
+        options,
+        assay=options.assay or said.assay,
+        roles={**said.roles, **options.roles},
+        select=options.select or said.select,
+        ignore=(*options.ignore, *said.ignore),
+        strict=options.strict or said.strict,
+    )
 
 
 def _settle(checked: CheckedProtocol, settings: CheckSettings) -> CheckedProtocol:
@@ -211,7 +207,7 @@ def _settle(checked: CheckedProtocol, settings: CheckSettings) -> CheckedProtoco
         return checked
     standing, waived = waive(checked.file, report, settings.waivers, settings.waiver_root)
     known: list[Finding] = []
-    remarks: list[Remark] = []
+    remarks = list(guard_arguments("\n".join(checked.lines)).unread)
     if settings.baseline is not None:
         standing, known, gone = settings.baseline.split(checked.file, standing, checked.lines)
         if gone:

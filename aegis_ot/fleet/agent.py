@@ -36,7 +36,7 @@ def validate(script: Script) -> Report:
         RehearsalError: It cannot be rehearsed.
         ConfigurationError, RuleError: Its guard, or a rule file, cannot be used.
     """
-    return check_recording(record(script), load_settings(**guard_arguments(script.text)))
+    return check_recording(record(script), load_settings(**guard_arguments(script.text).values))
 
 
 class AegisAgent(Agent):
@@ -108,7 +108,7 @@ class AegisAgent(Agent):
         self._tell(state="checking", job=job.name, wells=None, judged=0, flagged=0)
         report = await self.agent_run_sync(self._validator, job.script)
         layer1 = about_layer1(report)
-        refuses = guard_arguments(job.script.text).get("rules", "on") == "on"
+        refuses = guard_arguments(job.script.text).values.get("rules", "on") == "on"
         if refuses and is_rejected(report):
             return {"outcome": "rejected", "detail": rejection(report), "layer1": layer1}
         self._tell(state="preparing")

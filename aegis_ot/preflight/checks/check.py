@@ -38,9 +38,15 @@ class Violation:
 
 @dataclass(frozen=True)
 class Doubt:
-    """A place that a check cannot judge, and why."""
+    """A place that a check cannot judge.
+
+    Attributes:
+        reason: Why, in a sentence.
+        levels_of: Wells whose concentration or dose would decide it.
+    """
 
     reason: str
+    levels_of: tuple[Well, ...] = ()
 
 
 Result = Violation | Doubt

@@ -80,11 +80,13 @@ class DoseOrder(Check):
                 return None
             harm = "a well of a lower dose" if alike else "a well of another compound"
         elif here and (mine is not None or any(level is not None for level in own)):
-            return Doubt(f"the dose in {place(origin)} or of its neighbours is not known")
+            why = f"the dose in {place(origin)} or of its neighbours is not known"
+            return Doubt(why, (origin, *here))
         elif here and all(_in_one_list(case, origin, other) for other in here):
             return Doubt(
                 f"one tip visits several {case.title(origin)} wells, and nothing says "
-                "which dose is higher"
+                "which dose is higher",
+                (origin, *here),
             )
         else:
             harm = "a treated well that is not meant for it"

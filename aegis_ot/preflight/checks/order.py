@@ -179,7 +179,8 @@ class RisingOrder(Check):
                             doubted = True
                             yield Doubt(
                                 f"one tip dispenses {place(before[0])} and then "
-                                f"{place(source)}, and nothing says which is more concentrated"
+                                f"{place(source)}, and nothing says which is more concentrated",
+                                (before[0], source),
                             )
                     elif level < before[1] and (*key, id(source)) not in done:
                         done.add((*key, id(source)))

@@ -104,9 +104,20 @@ class Deck:
 
     def at(self, place: str) -> tuple[WellRef, ...]:
         """The wells of a place: ``"4:H12"``, ``"PCR plate:A1-A8"``, ``"plate:*"``."""
-        labware, _, spec = place.rpartition(":")
+        labware, spec, _ = parts_of_place(place)
         return tuple(
             self.ref(key, name)
             for key in self.called(labware)
             for name in wells_in(spec, self.trace.labware[key])
         )
+
+
+def parts_of_place(place: str) -> tuple[str, str, str]:
+    """Labware, wells and level of a place; the level is ``""`` where none is given.
+
+    >>> parts_of_place("standards:A1 = 2 mg/mL")
+    ('standards', 'A1', '2 mg/mL')
+    """
+    wells, _, level = place.partition("=")
+    labware, _, spec = wells.rpartition(":")
+    return labware, spec.strip(), level.strip()

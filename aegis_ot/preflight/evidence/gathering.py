@@ -34,7 +34,7 @@ def gather(
     """
     deck = Deck(trace, names)
     found = [
-        *given_roles(deck, given),
+        *given_roles(deck, given, common.levels),
         *loaded_liquids(deck),
         *named_wells(deck, names, facts, common),
         *fields_of_rows(names, facts),

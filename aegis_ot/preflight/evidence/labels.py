@@ -6,8 +6,8 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from ...vocabulary import WellRef
-from ..source import tokens
-from .deck import Deck
+from ..source import level_in, tokens
+from .deck import Deck, parts_of_place
 from .evidence import Evidence, Kind, shortened
 from .well_names import WELL, not_wells_in
 from .written_wells import entries_of
@@ -17,20 +17,47 @@ _SHORT = 4
 """Words of a description that is a name; a longer one is prose."""
 
 
-def given_roles(deck: Deck, given: Mapping[str, Sequence[str]]) -> Iterator[Evidence]:
-    """The guard's own arguments: ``roles={"ntc": ["PCR plate:H12"]}``."""
-    for role, places in given.items():
-        wells = tuple(ref for place in places for ref in deck.at(str(place)))
-        yield Evidence(Kind.GIVEN, role, wells, f"given to the guard as {role}", role=role)
+def given_roles(
+    deck: Deck, given: Mapping[str, Sequence[str]], words: Mapping[str, float]
+) -> Iterator[Evidence]:
+    """The guard's own arguments: ``roles={"ntc": ["PCR plate:H12"]}``, with a concentration or
+    dose where a rule needs one: ``{"standard": ["4:A1 = 2 mg/mL", "4:B1 = 1 mg/mL"]}``.
+
+    Args:
+        deck: What stands on the deck.
+        given: Places by role.
+        words: Words for levels: ``{"blank": 0.0}``.
+    """
+    for role, listed in given.items():
+        wells: list[WellRef] = []
+        levels: list[float | None] = []
+        for place in map(str, listed):
+            here = deck.at(place)
+            wells += here
+            levels += [_level_of(place, words)] * len(here)
+        citation = f"given to the guard as {role}"
+        yield Evidence(Kind.GIVEN, role, tuple(wells), citation, role=role, levels=tuple(levels))
 
 
-def unknown_places(deck: Deck, given: Mapping[str, Sequence[str]]) -> Iterator[str]:
+def _level_of(place: str, words: Mapping[str, float]) -> float | None:
+    level = parts_of_place(place)[2]
+    try:
+        return float(level)
+    except ValueError:
+        return level_in(level, words)
+
+
+def unknown_places(
+    deck: Deck, given: Mapping[str, Sequence[str]], words: Mapping[str, float]
+) -> Iterator[str]:
     """What is wrong with the places of roles that were given: each, in a sentence."""
     for role, listed in given.items():
         for place in map(str, listed):
-            labware, _, spec = place.rpartition(":")
+            labware, spec, level = parts_of_place(place)
             found = deck.called(labware)
             told = f"The role {role} is given for '{place}', but "
+            if level and _level_of(place, words) is None:
+                yield f"{told}'{level}' is no concentration or dose, as 2, '2 mg/mL' or '50 nM' is."
             if not found:
                 on_deck = ", ".join(f"'{info.label or info.slot}'" for info in deck.plates())
                 yield f"{told}no labware is called '{labware}'; there are {on_deck}."

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from ...vocabulary import Undecided, WellRef
+from ..checks import Case, Doubt
 from ..roles import Roles
 from ..rules import RuleSpec
 from ..trace import Sides, places
@@ -35,6 +36,17 @@ def missing_roles(reading: Reading, rule: RuleSpec, family: str, needs: Sequence
     listed = {role: _offered(role, reading, family) for role in first}
     given = ", ".join(f'"{role}": [{", ".join(wells)}]' for role, wells in listed.items())
     return Undecided(rule.id, reason, f"@guard(roles={{{given}}})")
+
+
+def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
+    """What a check could not judge, with the levels to be given where those would decide it."""
+    wells: dict[str, dict[str, None]] = {}
+    for well in doubt.levels_of:
+        assigned = case.roles.by_well.get(well.ref)
+        if assigned is not None:
+            wells.setdefault(assigned.role, {})[f'"{places([well.ref])} = ..."'] = None
+    given = ", ".join(f'"{role}": [{", ".join(listed)}]' for role, listed in wells.items())
+    return Undecided(rule.id, doubt.reason, f"@guard(roles={{{given}}})" if given else "")
 
 
 def unnamed_wells(reading: Reading) -> tuple[WellRef, ...]:

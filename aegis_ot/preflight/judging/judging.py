@@ -13,16 +13,16 @@ from ..roles import Roles
 from ..rules import Database, RuleSpec
 from ..source import source_lines
 from ..trace import Contact, Well
-from .doubts import missing_needs, missing_roles, unnamed_wells
+from .doubts import missing_needs, missing_roles, undecided_by, unnamed_wells
 from .findings import Broken, findings_of
 from .options import Options
 from .reading import Reading, read_recording, uncollected
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
-_UNKNOWN_VOLUME = "how high the liquid stands is not known; say it with load_liquid"
+_UNKNOWN_VOLUME = Doubt("how high the liquid stands is not known; say it with load_liquid")
 _DOUBTFUL = "It rests on what is only read of a well: {}."
-_UNKNOWN_ASSAY = 'the assay is not known; say it with assay="..."'
+_UNKNOWN_ASSAY = Doubt('the assay is not known; say it with assay="..."')
 
 
 def judge(recording: Recording, database: Database, options: Options | None = None) -> Report:
@@ -53,23 +53,25 @@ def judge_reading(reading: Reading) -> Report:
             violations, doubt = _judge_rule(rule, case, bool(options.assay))
             broken.append(Broken(rule, Severity(severity), violations, options.strict))
             if doubt:
-                undecided.append(Undecided(rule.id, doubt))
+                undecided.append(undecided_by(doubt, rule, case))
         open_ = {question.rule for question in undecided}
         judged = [one.rule.id for one in broken if one.rule.id not in open_]
         return _report(reading, broken, undecided, judged)
 
 
-def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Violation], str]:
-    """Where a rule is broken, or why that cannot be said (``""`` if it can)."""
+def _judge_rule(
+    rule: RuleSpec, case: Case, assay_given: bool
+) -> tuple[list[Violation], Doubt | None]:
+    """Where a rule is broken, or why that cannot be said (``None`` if it can)."""
     sure = case.confident or assay_given
     if not sure and not case.family.default:
         return [], _UNKNOWN_ASSAY
     violations: list[Violation] = []
-    doubts: list[str] = []
+    doubts: list[Doubt] = []
     for number, check in enumerate(rule.checks):
         for result in make_check(check, rule.id).find(case):
             if isinstance(result, Doubt):
-                doubts.append(result.reason)
+                doubts.append(result)
             elif not sure and not _plain(result, case.roles):
                 doubts.append(_UNKNOWN_ASSAY)
             elif case.left_over and result.contact is Contact.NEAR:
@@ -80,7 +82,7 @@ def _judge_rule(rule: RuleSpec, case: Case, assay_given: bool) -> tuple[list[Vio
                 violations.append(replace(result, cause=cause, warning=warning))
     if not sure and not violations:
         doubts.append(_UNKNOWN_ASSAY)
-    return violations, doubts[0] if doubts and not violations else ""
+    return violations, doubts[0] if doubts and not violations else None
 
 
 def _plain(violation: Violation, roles: Roles) -> bool:
@@ -163,7 +165,8 @@ def _misplaced(reading: Reading) -> Iterable[Remark]:
     """Roles that were given for wells that the deck does not have."""
     given = reading.options.roles
     if given:
-        yield from map(Remark, unknown_places(Deck(reading.trace, reading.recording.names), given))
+        deck = Deck(reading.trace, reading.recording.names)
+        yield from map(Remark, unknown_places(deck, given, reading.database.common.levels))
 
 
 def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:
