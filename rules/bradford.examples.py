@@ -166,7 +166,7 @@ for well in standard_wells + sample_wells:
         p300.dispense(100, well.bottom(2))
     p300.drop_tip()
 
-# BRD-4 fails: dye added but not mixed
+# BRD-4 warns: dye added but not mixed
 p20.transfer(5, list(bsa.values()), standard_wells, new_tip="always")
 p20.transfer(5, samples, sample_wells, new_tip="always")
 p300.transfer(150, bradford_reagent, standard_wells + sample_wells, new_tip="always")
@@ -203,7 +203,7 @@ m20.transfer(10, standards[0], plate["A1"])
 m20.transfer(10, lysates.rows()[0][:2], plate.rows()[0][1:3], new_tip="always")
 m300.transfer(150, bca_reagent, plate.rows()[0][:2], new_tip="always", mix_after=(3, 100))
 
-# BRD-4 fails: eight channels bring the reagent from above, and nothing mixes it
+# BRD-4 warns: eight channels bring the reagent from above, and nothing mixes it
 m20.transfer(10, standards[0], plate["A1"])
 m20.transfer(10, lysates.rows()[0][:2], plate.rows()[0][1:3], new_tip="always")
 m300.transfer(150, bca_reagent, [column.top() for column in plate.rows()[0][:3]], new_tip="once")

@@ -14,6 +14,8 @@ from .case import Case, RoleSet, carried_liquids, delivered
 from .check import Check, Result, Violation, at, place, role_field
 from .unnamed import unnamed_contact
 
+_IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
+
 
 @dataclass(frozen=True)
 class Carry(Check):
@@ -27,7 +29,8 @@ class Carry(Check):
         stock: Whether the wells are stocks: then liquid that was mixed into the stock on
             purpose beforehand is let be, and nothing else is.
         pooled: Whether carrying one source into another is let be when all that is ever made
-            of the second is meant to hold the first too (pooling, water and then sample).
+            of the second is meant to hold the first too (pooling, water and then sample); into
+            a stock it then warns.
         via_destination: ``only``: judge liquids met in wells that the run had put something
             into; ``not``: judge the others; empty: all.
         shared: Whether only wells that serve several destinations are judged.
@@ -120,7 +123,8 @@ class Carry(Check):
             # Water and then sample, drawn for one well, spoils no sample for its other uses.
             clean = self._is_one_liquid(case, origin)
             held = [
-                any(case.same_liquid(origin, other) for other in case.meant.get(dest, {}))
+                dest is origin
+                or any(case.same_liquid(origin, other) for other in case.meant.get(dest, {}))
                 for dest in _made_after(case, well, visit.index, further=clean)
                 # What is washed is kept; what is drawn off to the waste is not.
                 if visit.kind is OperationKind.ASPIRATE or dest.ref not in case.waste
@@ -180,9 +184,26 @@ class Carry(Check):
             (visit.line, met.line, what),
             (origin, well),
             contact=contact,
+            warning=self._practice(case, visit, origin, met),
             # A liquid that stands in all wells may be meant to come along.
             in_any_assay=contact is Contact.WET and not self._is_one_liquid(case, origin),
         )
+
+    def _practice(self, case: Case, visit: Visit, origin: Well, met: Met) -> str:
+        """Why going back into a shared stock is practice: all that is made of it from now on, at
+        last, is given whatever stood in the well that the tip comes from.
+        """
+        if not self.pooled or self.via_destination != "only" or met.well.prefilled:
+            return ""
+        made = _made_after(case, visit.well, visit.index, further=True) - {visit.well}
+        ends = [dest for dest in made if not _made_after(case, dest, visit.index, further=False)]
+        stood = {origin, *case.meant.get(met.well, {})}
+        told = all(
+            any(case.same_liquid(one, other) for other in case.meant.get(dest, {}))
+            for dest in ends
+            for one in stood
+        )
+        return _IN_ALL if ends and told else ""
 
 
 def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:

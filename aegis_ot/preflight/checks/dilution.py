@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ...vocabulary import Site
+from ..trace import Transfer, Well
 from .case import Case
 from .check import Check, Doubt, Result, Violation, at, place
 from .dilution_steps import NO_SERIES, is_dilution, is_mixed, next_draw
 from .series_links import branching
+
+_BY_HAND = "None of the wells in which this series ends is mixed; that may be done by hand."
 
 
 @dataclass(frozen=True)
@@ -24,9 +27,9 @@ class SeriesMixed(Check):
         if not case.series:
             yield Doubt(NO_SERIES)
         for series in case.series:
-            for step in series.steps:
-                if not is_dilution(case, step):
-                    continue
+            steps = [step for step in series.steps if is_dilution(case, step)]
+            by_hand = _left_to_hand(case, steps)
+            for step in steps:
                 if is_mixed(case, step):
                     continue
                 drawn = next_draw(step)
@@ -42,7 +45,17 @@ class SeriesMixed(Check):
                     ),
                     step.well,
                     (step.visit.line,),
+                    warning=_BY_HAND if step.well in by_hand else "",
                 )
+
+
+def _left_to_hand(case: Case, steps: Sequence[Transfer]) -> set[Well]:
+    """The last wells of a series that branches, where none of them is mixed: one may be forgotten,
+    all are left to whoever takes them off the deck.
+    """
+    ends = [step for step in steps if next_draw(step) is None]
+    wells = {step.well for step in ends}
+    return set() if len(wells) < 2 or any(is_mixed(case, step) for step in ends) else wells
 
 
 @dataclass(frozen=True)

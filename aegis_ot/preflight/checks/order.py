@@ -48,6 +48,9 @@ def _is_reagent(case: Case, source: Well, liquid: RoleSet) -> bool:
     )
 
 
+_BY_HAND = "None of the wells that receive it is mixed in the run; that may be done by hand."
+
+
 @dataclass(frozen=True)
 class MixedAfter(Check):
     """Each well of ``wells`` that receives ``liquid`` is mixed after the last of it.
@@ -67,6 +70,25 @@ class MixedAfter(Check):
 
     def find(self, case: Case) -> Iterator[Result]:
         """Look for a mix after the last arrival."""
+        unmixed = []
+        by_hand = True
+        for well, came in self._receivers(case):
+            ever = case.trace.mixed_since(well, -1, math.inf)
+            by_hand = by_hand and not ever and not case.destinations.get(well)
+            if not (ever and case.trace.mixed_since(well, came[-1].index, math.inf)):
+                unmixed.append((well, came[-1]))
+        what = " or ".join(case.family.roles[role].title for role in self.liquid)
+        for well, last in unmixed:
+            yield Violation(
+                f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
+                (Site(last.line, well.ref, f"received {what}, never mixed"),),
+                well,
+                (last.line, what),
+                warning=_BY_HAND if by_hand else "",
+            )
+
+    def _receivers(self, case: Case) -> Iterator[tuple[Well, list[Visit]]]:
+        """The wells that are judged, each with the visits that brought it the liquid."""
         liquid, wanted = frozenset(self.liquid), frozenset(self.wells)
         for well in case.trace.wells.values():
             if case.has(well, liquid) or (wanted and not case.has(well, wanted)):
@@ -76,16 +98,8 @@ class MixedAfter(Check):
             if not wanted and case.destinations.get(well) and _is_reagent(case, well, liquid):
                 continue
             came = arrivals(case, well, liquid)
-            if not came or case.trace.mixed_since(well, came[-1].index, math.inf):
-                continue
-            last = came[-1]
-            what = " or ".join(case.family.roles[role].title for role in self.liquid)
-            yield Violation(
-                f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
-                (Site(last.line, well.ref, f"received {what}, never mixed"),),
-                well,
-                (last.line, what),
-            )
+            if came:
+                yield well, came
 
 
 @dataclass(frozen=True)

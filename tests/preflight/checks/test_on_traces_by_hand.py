@@ -152,6 +152,23 @@ def test_of_two_reagents_the_last_is_the_dye() -> None:
     assert not [one for one in found if "before" in one.message]
 
 
+def test_dye_that_no_well_is_mixed_behind_is_left_to_a_shaker() -> None:
+    roles = {"sample": "source:A1", "dye": "source:C1", "sample_well": "plate:A1 plate:B1"}
+    bench = Bench()
+    for target in ("plate:A1", "plate:B1"):
+        transfer(bench, "source:A1", target)
+        transfer(bench, "source:C1", target, 100)
+    found = broken(case_of(bench.trace(), "bradford", roles), "BRD-4")
+    assert wells(found) == {"plate:A1", "plate:B1"}
+    assert all("by hand" in one.warning for one in found)
+    bench.pick()
+    for _ in range(3):
+        bench.draw("plate:A1", 50, mixing=True)
+        bench.give("plate:A1", 50, mixing=True)
+    (forgotten,) = broken(case_of(bench.trace(), "bradford", roles), "BRD-4")
+    assert (wells([forgotten]), forgotten.warning) == ({"plate:B1"}, "")
+
+
 def test_standards_fall_in_one_tip_session() -> None:
     roles = {"standard": "source:A1 source:B1"}
     levels = {"source:A1": 100.0, "source:B1": 50.0}
@@ -254,6 +271,23 @@ def test_what_all_wells_of_a_series_get_is_a_component_and_no_stock() -> None:
     assert not broken(case, "SD-3")
 
 
+def test_the_ends_of_a_series_that_branches_may_be_mixed_by_hand() -> None:
+    bench = Bench()
+    for column in range(1, 5):
+        transfer(bench, "source:C1", f"plate:A{column}", 100, HIGH)
+    transfer(bench, "source:A1", "plate:A1", 20)
+    bench.pick()
+    for _ in range(3):
+        bench.draw("plate:A1", 60, mixing=True)
+        bench.give("plate:A1", 60, mixing=True)
+    bench.drop()
+    for column, volume in ((2, 5.0), (3, 10.0), (4, 20.0)):
+        transfer(bench, "plate:A1", f"plate:A{column}", volume)
+    found = broken(case_of(bench.trace(), "serial_dilution", SERIES), "SD-1")
+    assert wells(found) == {"plate:A2", "plate:A3", "plate:A4"}
+    assert all("by hand" in one.warning for one in found)
+
+
 def test_stock_where_diluent_should_come() -> None:
     bench = Bench()
     for column in range(2, 5):
@@ -275,6 +309,37 @@ def test_one_tip_through_several_sources() -> None:
         transfer(bench, f"source:{row}1", f"plate:{row}1", fresh=False)
     found = broken(case_of(bench.trace(), "generic", roles), "GEN-1")
     assert wells(found) == {"source:B1", "plate:B1"}
+
+
+def test_back_into_the_pool_that_the_tip_comes_from() -> None:
+    """Two wells are drawn off into one: the film on the tip was of that one."""
+    roles = {"destination": "plate:A1 plate:A2 pool:A1"}
+    bench = Bench()
+    for well in ("plate:A1", "plate:A2", "pool:A1"):
+        bench.load(well, 100)
+    bench.pick()
+    for well in ("plate:A1", "plate:A2"):
+        transfer(bench, well, "pool:A1", fresh=False)
+    found = broken(case_of(bench.trace(), "generic", roles), "GEN-1")
+    assert not [one for one in found if one.sites[0].well.labware == "pool"]
+
+
+@pytest.mark.parametrize(("second", "practice"), [("plate:A2", True), ("plate:B2", False)])
+def test_back_into_a_stock_of_which_all_is_given_the_same(second: str, practice: bool) -> None:
+    roles = {
+        "source": "source:C1",
+        "stock": "source:D1",
+        "destination": "plate:A1 plate:A2 plate:B2",
+    }
+    bench = Bench()
+    for target in ("plate:A1", "plate:A2"):
+        transfer(bench, "source:C1", target, 30, HIGH)
+    bench.pick()
+    for target in ("plate:A1", second):
+        transfer(bench, "source:D1", target, fresh=False)
+    found = broken(case_of(bench.trace(), "generic", roles), "GEN-2")
+    assert wells(found) == {"source:D1"}
+    assert [bool(one.warning) for one in found] == [practice]
 
 
 def test_pooling_is_meant() -> None:
