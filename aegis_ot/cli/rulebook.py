@@ -9,11 +9,11 @@ from typing import Annotated
 import typer
 
 from ..checking import Rehearser, TaskFailed
+from ..checking.rule_examples import ExampleResult
 from ..checking.tasks import RunExamples
 from ..errors import ConfigurationError
 from ..preflight import Database, load_database
 from ..preflight.database import shipped_rules
-from ..preflight.examples import ExampleResult
 from ..reports import rule_list, rule_pages, rule_text
 from ..vocabulary import counted
 from .app import CLEAN, FINDINGS, app

@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Iterator
 
-from ..preflight.example_files import examples_of
+from ..checking.rule_example_files import examples_of
 from ..preflight.rules import Database, Example, Family, RuleSpec
 from ..vocabulary import counted
 

@@ -2,7 +2,7 @@
 
 An example is the body of ``run`` on a small fixed deck (see :data:`DECK`), or a whole protocol
 if it defines ``run`` itself. A rule file holds examples itself, or has a file of them beside it:
-``pcr.json``, ``pcr.examples.py``; see :mod:`.example_files`.
+``pcr.json``, ``pcr.examples.py``; see :mod:`.rule_example_files`.
 """
 
 from __future__ import annotations
@@ -12,12 +12,10 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from ..errors import AegisError
+from ..preflight import Database, Options, Report, Script, check_script
+from ..preflight.rules import Example, Family, RuleSpec
 from ..vocabulary import Finding, Severity
-from .checking import check_script
-from .example_files import examples_of
-from .judging import Options, Report
-from .rehearsal import Script
-from .rules import Database, Example, Family, RuleSpec
+from .rule_example_files import examples_of
 
 HEAD = 'metadata = {"apiLevel": "2.15"}\n\n\ndef run(protocol):\n'
 

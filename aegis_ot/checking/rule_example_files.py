@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Literal
 
 from ..errors import RuleError
-from .rules import Example, Examples, Family
+from ..preflight.rules import Example, Examples, Family
 
 _HEADING = re.compile(r"# (?:deck|(?P<rules>[\w-]+(?:, [\w-]+)*) (?P<does>\w+): (?P<title>\S.*))$")
 _SEVERITY: Mapping[str, Literal["error", "warning"]] = {"fails": "error", "warns": "warning"}

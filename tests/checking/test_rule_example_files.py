@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from aegis_ot.checking.rule_example_files import examples_of
+from aegis_ot.checking.rule_examples import protocol_text, run_examples
 from aegis_ot.errors import RuleError
 from aegis_ot.preflight import load_database
 from aegis_ot.preflight.database import load_family
-from aegis_ot.preflight.example_files import examples_of
-from aegis_ot.preflight.examples import protocol_text, run_examples
 from aegis_ot.preflight.rules import Database, Example
 
 ELISA = Path(__file__).parents[2] / "examples" / "rules" / "elisa.json"
