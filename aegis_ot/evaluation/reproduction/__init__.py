@@ -1,0 +1,31 @@
+"""Every table and figure of the paper by one command: ``aegis-ot reproduce``.
+
+An experiment is a short module that makes an :class:`~.experiment.Outcome`; :data:`EXPERIMENTS`
+lists them, :func:`reproduce` runs them and keeps what is finished.
+"""
+
+from . import layer1, multi_bug, rules
+from .context import Context, Options, as_json
+from .experiment import Experiment, Outcome
+from .page import reproduction_html, reproduction_json
+from .runner import Entry, reproduce
+
+EXPERIMENTS: tuple[Experiment, ...] = (
+    rules.EXPERIMENT,
+    layer1.EXPERIMENT,
+    multi_bug.EXPERIMENT,
+)
+"""In the order of the page."""
+
+__all__ = [
+    "EXPERIMENTS",
+    "Context",
+    "Entry",
+    "Experiment",
+    "Options",
+    "Outcome",
+    "as_json",
+    "reproduce",
+    "reproduction_html",
+    "reproduction_json",
+]
