@@ -4,7 +4,16 @@ An experiment is a short module that makes an :class:`~.experiment.Outcome`; :da
 lists them, :func:`reproduce` runs them and keeps what is finished.
 """
 
-from . import layer1, multi_bug, rules
+from . import (
+    baselines,
+    calibration,
+    components,
+    detector,
+    layer1,
+    leave_one_out,
+    multi_bug,
+    rules,
+)
 from .context import Context, Options, as_json
 from .experiment import Experiment, Outcome
 from .page import reproduction_html, reproduction_json
@@ -14,6 +23,12 @@ EXPERIMENTS: tuple[Experiment, ...] = (
     rules.EXPERIMENT,
     layer1.EXPERIMENT,
     multi_bug.EXPERIMENT,
+    detector.EXPERIMENT,
+    leave_one_out.P1000,
+    leave_one_out.P20,
+    baselines.EXPERIMENT,
+    components.EXPERIMENT,
+    calibration.EXPERIMENT,
 )
 """In the order of the page."""
 

@@ -69,6 +69,7 @@ class Context:
     options: Options
     backends: Sequence[Backend] = ()
     progress: Progress = field(default_factory=Progress)
+    _sets: dict[str, list[Dataset]] = field(default_factory=dict, init=False)
     _tips: dict[str, list[tuple[Dataset, FoundTips]]] = field(default_factory=dict, init=False)
 
     def option(self, name: str) -> Any:
@@ -81,11 +82,16 @@ class Context:
     def tips(self, pipette: str) -> list[tuple[Dataset, FoundTips]]:
         """Data sets of a pipette with the tip in every frame; found once for all experiments."""
         if pipette not in self._tips:
-            sets = self.given[pipette] or [self._simulated(pipette)]
             self._tips[pipette] = [
-                (data, find_tips(data, "default", self.progress)) for data in sets
+                (data, find_tips(data, "default", self.progress)) for data in self.sets(pipette)
             ]
         return self._tips[pipette]
+
+    def sets(self, pipette: str) -> list[Dataset]:
+        """Data sets of a pipette: the user's, else a simulated one."""
+        if pipette not in self._sets:
+            self._sets[pipette] = self.given[pipette] or [self._simulated(pipette)]
+        return self._sets[pipette]
 
     @cached_property
     def given(self) -> Mapping[str, list[Dataset]]:
