@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import aegis_ot
 
 from ...errors import ConfigurationError, DatasetError
-from ...simulation import write_dataset
+from ...simulation import SessionParameters, write_dataset
 from ...vision.dataset import Dataset, load_dataset
 from ...vision.tips import pipette_class
 from ..layer2 import FoundTips, Progress, find_tips
@@ -23,7 +23,13 @@ if TYPE_CHECKING:
     from ...reasoning import Backend
 
 SIZE = (960, 540)
-"""Of simulated frames, px: that of the rendered sets."""
+"""Of simulated frames of drawn cameras, px: that of the rendered sets."""
+
+VIEWS = {
+    "webcam": "one camera for all plates, after a measured 640x480 webcam before an OT-2",
+    "drawn": "camera, light and deck drawn anew for each plate",
+}
+"""Simulated sets: the paper's plates were seen by one camera; the other is harder."""
 
 PIPETTES = ("p1000", "p20")
 
@@ -88,9 +94,11 @@ class Context:
         return self._tips[pipette]
 
     def sets(self, pipette: str) -> list[Dataset]:
-        """Data sets of a pipette: the user's, else a simulated one."""
+        """Data sets of a pipette: the user's, else simulated ones (:data:`VIEWS`)."""
         if pipette not in self._sets:
-            self._sets[pipette] = self.given[pipette] or [self._simulated(pipette)]
+            self._sets[pipette] = self.given[pipette] or [
+                self._simulated(pipette, view) for view in VIEWS
+            ]
         return self._sets[pipette]
 
     @cached_property
@@ -115,11 +123,10 @@ class Context:
 
     def describe(self, data: Dataset) -> str:
         """What a result on a set stands on."""
-        made = f", seed {data.meta['seed']}" if data.source == "synthetic" else ""
-        return (
-            f"{label(data.source)}: {data.name}, {len(data.records)} trajectories on "
-            f"{len(data.plates)} plates{made}"
-        )
+        told = f"{len(data.records)} trajectories on {len(data.plates)} plates"
+        if data.source == "synthetic" and not self.options.data:
+            told += f", seed {data.meta['seed']}, {VIEWS[data.name.rpartition('-')[2]]}"
+        return f"{label(data.source)}: {data.name}, {told}"
 
     def pictures(self, experiment: str) -> Path:
         """An empty folder for an experiment's pictures."""
@@ -132,17 +139,19 @@ class Context:
         """A picture's path as the outcome names it."""
         return file.relative_to(self.options.out).as_posix()
 
-    def _simulated(self, pipette: str) -> Dataset:
+    def _simulated(self, pipette: str, view: str) -> Dataset:
         """A simulated set in the paper's shape, made once and kept in the output folder."""
         plates, seed = self.options.plates, self.options.seed
-        name = f"simulated-{pipette}-{plates}-plates-seed-{seed}-{version()[-8:]}"
-        folder = self.options.out / "data" / name
+        made_by = f"{plates}-plates-seed-{seed}-{version().rpartition('+')[2]}"
+        folder = self.options.out / "data" / made_by / f"simulated-{pipette}-{view}"
         if not folder.exists():
-            self.progress.begin(f"Drawing a simulated set, {pipette}", 1)
-            unfinished = folder.with_name(f"{name}.unfinished")
+            self.progress.begin(f"Drawing {folder.name}", 1)
+            unfinished = folder.with_name(f"{folder.name}.unfinished")
             shutil.rmtree(unfinished, ignore_errors=True)
             # Its own seeds: no model that ships was fitted or tuned on them.
-            write_dataset(unfinished, plates, DATA_SEED + seed, pipette, size=SIZE)
+            number = DATA_SEED + seed
+            session = SessionParameters.webcam(number) if view == "webcam" else None
+            write_dataset(unfinished, plates, number, pipette, size=SIZE, parameters=session)
             unfinished.rename(folder)
             self.progress.step()
         return load_dataset(folder)
