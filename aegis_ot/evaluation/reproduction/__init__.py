@@ -11,6 +11,7 @@ from . import (
     detector,
     layer1,
     leave_one_out,
+    live,
     multi_bug,
     rules,
 )
@@ -29,6 +30,7 @@ EXPERIMENTS: tuple[Experiment, ...] = (
     baselines.EXPERIMENT,
     components.EXPERIMENT,
     calibration.EXPERIMENT,
+    live.EXPERIMENT,
 )
 """In the order of the page."""
 
