@@ -8,7 +8,10 @@ from . import (
     baselines,
     calibration,
     components,
+    cost,
     detector,
+    fleet,
+    latency,
     layer1,
     leave_one_out,
     live,
@@ -31,6 +34,9 @@ EXPERIMENTS: tuple[Experiment, ...] = (
     components.EXPERIMENT,
     calibration.EXPERIMENT,
     live.EXPERIMENT,
+    cost.EXPERIMENT,
+    latency.EXPERIMENT,
+    fleet.EXPERIMENT,
 )
 """In the order of the page."""
 

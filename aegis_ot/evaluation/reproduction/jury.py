@@ -9,7 +9,7 @@ from typing import Any
 
 from ...dryrun.runner import DryRunSettings, dry_run
 from ...preflight.rehearsal import Script
-from ...reasoning import Backend
+from ...reasoning import Backend, Reply, Request, load_prices
 from ...sidecar import Analyser, RunAnalyser, make_analyser
 from ...sidecar.config import CascadeSettings
 from ...sidecar.judging import make_detector
@@ -47,7 +47,7 @@ class Word:
     Attributes:
         well: Number of the well in its run, from 0.
         outcome, route, gate: Of the verdict.
-        calls: Calls of a model, and what they came to: ``calls``, ``amount``, ``seconds``.
+        costs: Of asking models: ``calls``, ``tokens_in``, ``amount``, ``seconds`` and the like.
     """
 
     well: int
@@ -67,17 +67,46 @@ class Word:
         return self.route not in (Route.CALIBRATION, Route.SILENT_PASS)
 
 
-def analysers(backends: Sequence[Backend]) -> dict[str, Analyser]:
-    """All operating points, by name; those with a model for each backend."""
-    detector = _Remembering(make_detector())
-    made = {name: make_analyser(one, detector=detector) for name, one in POINTS.items()}
-    for backend in backends:
-        from ...reasoning.vlm import VlmGate
+class Heard:
+    """A backend, and whether it ever answered."""
 
-        gates = {"vlm": VlmGate(backend)}
-        for name, settings in MODEL_POINTS.items():
-            made[name.format(backend.name)] = make_analyser(settings, gates, detector)
+    def __init__(self, backend: Backend) -> None:
+        self.name = backend.name
+        self.answered = 0
+        self._backend = backend
+
+    def ask(self, request: Request) -> Reply:
+        """As the backend does."""
+        reply = self._backend.ask(request)
+        self.answered += reply.answered
+        return reply
+
+
+def analysers(
+    points: Mapping[str, CascadeSettings], model_points: Mapping[str, Backend]
+) -> dict[str, Analyser]:
+    """Operating points by name.
+
+    Args:
+        points: Those without a model.
+        model_points: Models by the name of one of :data:`MODEL_POINTS`, with its model's name in.
+    """
+    from ...reasoning.gate_tiers import VlmTiers
+
+    detector = _Remembering(make_detector())
+    made = {name: make_analyser(one, detector=detector) for name, one in points.items()}
+    for name, backend in model_points.items():
+        settings = next(
+            one for form, one in MODEL_POINTS.items() if form.format(backend.name) == name
+        )
+        gates = {"vlm": VlmTiers([backend], load_prices())}
+        made[name] = make_analyser(settings, gates, detector)
     return made
+
+
+def points_of(backends: Sequence[Backend]) -> dict[str, Backend]:
+    """All of :data:`MODEL_POINTS` for each backend."""
+    return {form.format(one.name): one for one in backends for form in MODEL_POINTS}
 
 
 def judged_run(

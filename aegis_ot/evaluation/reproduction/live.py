@@ -11,7 +11,7 @@ from ...vocabulary import Outcome as Said
 from ..layer2.metrics import wilson
 from .context import Context
 from .experiment import NOT_RUN, Experiment, Outcome, Table, table
-from .jury import MODEL_POINTS, POINTS, Word, analysers, judged_run
+from .jury import MODEL_POINTS, POINTS, Heard, Word, analysers, judged_run, points_of
 from .layer1 import NO_MODEL
 
 KINDS = {
@@ -58,7 +58,8 @@ def script_of(reagent: str, wells: int, volume: float = 140.0) -> Script:
 
 def run(context: Context) -> Outcome:
     """Every cell of the matrix, the same frames for all operating points."""
-    points = analysers(context.backends)
+    heard = [Heard(backend) for backend in context.backends]
+    points = analysers(POINTS, points_of(heard))
     replicates = context.options.replicates
     cells = list(product(KINDS, REAGENTS, range(replicates)))
     context.progress.begin("Live runs on the simulated robot", len(cells))
@@ -69,7 +70,7 @@ def run(context: Context) -> Outcome:
         for point, said in words.items():
             found.setdefault((point, kind, reagent), []).append(said)
         context.progress.step()
-    silent = [point for point in points if point not in POINTS and _unanswered(found, point)]
+    silent = [point for one in heard if not one.answered for point in points_of([one])]
     shown = [point for point in points if point not in silent]
     return Outcome(
         data=(
@@ -157,19 +158,6 @@ def _not_run(context: Context, silent: Sequence[str]) -> Table:
     return table("Operating points with a vision model", ("operating point", "state"), rows or [
         ("all", "run, see above")
     ])  # fmt: skip
-
-
-def _unanswered(found: Found, point: str) -> bool:
-    """Whether a model was asked by this point and never answered."""
-    costs = [
-        cost
-        for (name, _, _), runs in found.items()
-        if name == point
-        for run in runs
-        for word in run
-        for cost in word.costs
-    ]
-    return not any(cost["tokens_out"] or cost["seconds"] for cost in costs)
 
 
 def _short(point: str, found: Found) -> str:
