@@ -60,7 +60,8 @@ def reproduce(
 
     names = [one.name for one in EXPERIMENTS]
     chosen = [one_of("--only", name, names) for name in split("--only", only) or names]
-    backends = [one for name in model or [None] if (one := backend_of(name, record)) is not None]
+    asked: Sequence[str | None] = model or (None,)
+    backends = [one for name in asked if (one := backend_of(name, record)) is not None]
     folders = tuple(open_dataset(folder).root for folder in data or ())
     writable_folder(out)
     options = Options(

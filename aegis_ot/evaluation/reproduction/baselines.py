@@ -30,14 +30,18 @@ NEVER = {
 
 def run(context: Context) -> Outcome:
     """Every baseline on every p1000 set; the vision model where one answers."""
-    tables, answers, figures = [], [], {}
+    tables, answers = [], []
+    figures: dict[str, dict[str, Any]] = {}
     sets = context.tips("p1000")
     for data, tips in sets:
         results = evaluate(context, BASELINES, data, tips)
-        told = {name: _model_alone(context, backend, tips) for backend in context.backends
-                for name in [f"vision model alone, {backend.name}"]}  # fmt: skip
+        told = {
+            f"vision model alone, {backend.name}": _model_alone(context, backend, tips)
+            for backend in context.backends
+        }
         tables.append(_table(f"{data.name} ({label(data.source)} frames)", results, told))
-        figures[data.name] = {one.scorer: one.to_json() for one in results} | told
+        figures[data.name] = {one.scorer: one.to_json() for one in results}
+        figures[data.name] |= told
         aurocs = {one.scorer: one.metrics["auroc"].value for one in results}
         worse = [name for name in BASELINES[1:] if aurocs[name] < aurocs["pca"]]
         shown = ", ".join(f"{name_of(name)} {value:.3f}" for name, value in aurocs.items())

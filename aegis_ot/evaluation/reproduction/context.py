@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
+import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -17,7 +18,7 @@ from ...errors import ConfigurationError, DatasetError
 from ...simulation import SessionParameters, write_dataset
 from ...vision.dataset import Dataset, load_dataset
 from ...vision.tips import pipette_class
-from ..layer2 import FoundTips, Progress, find_tips
+from ..layer2 import FoundTips, Progress, find_tips, fit_model
 
 if TYPE_CHECKING:
     from ...reasoning import Backend
@@ -139,11 +140,31 @@ class Context:
         """A picture's path as the outcome names it."""
         return file.relative_to(self.options.out).as_posix()
 
+    def papers_model(self) -> Path:
+        """The paper's world model for the live runs: a PCA of 26 normal wells of their camera."""
+        path = self._made("paper-pca.npz")
+        if not path.exists():
+            self.progress.begin("Fitting the paper's world model", 1)
+            with tempfile.TemporaryDirectory() as place:
+                number = DATA_SEED + self.options.seed
+                session = SessionParameters.bench(number)
+                normals = write_dataset(
+                    Path(place) / "normals", 13, number, parameters=session, normals_per_plate=2
+                )
+                path.parent.mkdir(parents=True, exist_ok=True)
+                fit_model([normals], path, "pca", measure=False)
+            self.progress.step()
+        return path
+
+    def _made(self, *names: str) -> Path:
+        """Where what is made by this version and seed is kept."""
+        digest = version().rpartition("+")[2]
+        return self.options.out.joinpath("data", f"seed-{self.options.seed}-{digest}", *names)
+
     def _simulated(self, pipette: str, view: str) -> Dataset:
         """A simulated set in the paper's shape, made once and kept in the output folder."""
         plates, seed = self.options.plates, self.options.seed
-        made_by = f"{plates}-plates-seed-{seed}-{version().rpartition('+')[2]}"
-        folder = self.options.out / "data" / made_by / f"simulated-{pipette}-{view}"
+        folder = self._made(f"{plates}-plates", f"simulated-{pipette}-{view}")
         if not folder.exists():
             self.progress.begin(f"Drawing {folder.name}", 1)
             unfinished = folder.with_name(f"{folder.name}.unfinished")

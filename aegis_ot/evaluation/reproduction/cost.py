@@ -4,21 +4,13 @@ from __future__ import annotations
 
 import statistics
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from ...reasoning import (
-    Backend,
-    PriceTable,
-    Reply,
-    Request,
-    State,
-    Usage,
-    load_prices,
-    request_size,
-)
+from ...reasoning import Usage, load_prices
+from ..layer1.bill import cost_of
 from .context import Context
 from .experiment import NOT_RUN, Experiment, Outcome, Table, table
-from .jury import MODEL_POINTS, Heard, Word, after_calibration, analysers, judged_run, points_of
+from .jury import MODEL_POINTS, Counted, Word, after_calibration, analysers, counted, judged_run
 from .live import REAGENTS, script_of
 
 SEED = 96_000
@@ -34,19 +26,6 @@ ANSWER_TOKENS = 300
 PLATE = 96
 
 
-@dataclass
-class Nobody:
-    """Stands where a model would be: counts the questions and their size, answers none."""
-
-    name: str = "a model"
-    tokens: list[int] = field(default_factory=list)
-
-    def ask(self, request: Request) -> Reply:
-        """No answer: the well goes to the operator, who finds it right."""
-        self.tokens.append(request_size(request).total)
-        return Reply(State.NO_MODEL, self.name, detail="It is only counted.", attempts=0)
-
-
 @dataclass(frozen=True)
 class Routed:
     """What one operating point did with the sound wells of whole plates.
@@ -54,34 +33,34 @@ class Routed:
     Attributes:
         wells: After calibration.
         to_gate: Of these, to a gate.
-        calls: Of a model, on all wells.
-        plates: How many.
-        held: Sound wells at which the run was held (but for a model that gives no answer).
-        spent: By the price table, USD; ``None`` without an answer or a price.
     """
 
     wells: int
     to_gate: int
-    calls: int
-    plates: int
-    held: int
-    spent: float | None
 
     @property
     def share(self) -> float:
         """Of the wells after calibration, 0 to 1."""
         return self.to_gate / self.wells if self.wells else 0.0
 
-    def calls_a_plate(self, filled: int) -> float:
-        """Questions about a whole plate, of which ``filled`` wells were run."""
-        return self.calls / self.plates * PLATE / filled
+
+@dataclass(frozen=True)
+class Asked:
+    """Questions of one operating point, for a whole plate.
+
+    Attributes:
+        questions: So many.
+        spent: By the price table, USD; ``None`` without an answer or a price.
+    """
+
+    questions: float
+    spent: float | None
 
 
 def run(context: Context) -> Outcome:
     """One plate of sound wells of each reagent, the same frames for all operating points."""
-    nobody, heard = Nobody(), [Heard(backend) for backend in context.backends]
-    asked: Sequence[Backend] = [nobody, *heard]
-    points = analysers({}, points_of(asked))
+    asking = counted([None, *context.backends])
+    points = analysers(context.papers_model(), {}, asking)
     wells = context.options.wells
     context.progress.begin(f"Whole plates, {wells} wells each", len(REAGENTS))
     words: dict[str, dict[str, list[Word]]] = {}
@@ -89,22 +68,23 @@ def run(context: Context) -> Outcome:
         script = script_of(reagent, wells, 100.0)
         words[reagent] = judged_run(script, SEED + 10 * context.options.seed + number, points)
         context.progress.step()
-    silent = {point for one in heard if not one.answered for point in points_of([one])}
+    silent = [p for p, one in asking.items() if p not in counted([None]) and not one.answered]
     found = {
         point: {reagent: _routed([words[reagent][point]]) for reagent in REAGENTS}
         | {"all": _routed([words[reagent][point] for reagent in REAGENTS])}
         for point in points
         if point not in silent
     }
-    tokens = statistics.median(nobody.tokens) if nobody.tokens else 0.0
-    call = _price(load_prices(), tokens)
+    asked = {point: _asked(asking[point], wells) for point in found}
+    tokens = statistics.median([n for one in asking.values() for n in one.tokens] or [0])
+    call = load_prices().cost(PRICED, Usage(input=round(tokens), output=ANSWER_TOKENS))
     return Outcome(
         data=(
             f"simulated: robot and camera (1280x720, grey panel), {wells} sound wells of each "
             "reagent, p1000, 100 µL",
         ),
-        answers={"routed": _answer(found, wells)},
-        tables=(_shares(found), _costs(found, wells, call), _models(context, silent)),
+        answers={"routed": _answer(found, asked)},
+        tables=(_shares(found), _costs(asked, call), _models(context, silent)),
         notes=(
             "Questions are counted on sound wells; nobody answers them here unless a model is "
             "given. The paper's plate costs are its routed share times 96 times the call.",
@@ -119,6 +99,7 @@ def run(context: Context) -> Outcome:
         figures={
             "points": {
                 point: {name: vars(one) | {"share": one.share} for name, one in by.items()}
+                | vars(asked[point])
                 for point, by in found.items()
             },
             "tokens_a_call": tokens,
@@ -129,23 +110,16 @@ def run(context: Context) -> Outcome:
 
 def _routed(runs: Sequence[Sequence[Word]]) -> Routed:
     later = [word for words in runs for word in after_calibration(words)]
-    every = [word for words in runs for word in words]
-    costs = [cost for word in every for cost in word.costs]
-    amounts = [cost["amount"] for cost in costs]
-    answered = any(cost["tokens_in"] for cost in costs)
-    spent = None if not answered or None in amounts else float(sum(amounts))
-    return Routed(
-        len(later),
-        sum(word.routed for word in later),
-        len(costs),
-        len(runs),
-        sum(word.held for word in every),
-        spent,
-    )
+    return Routed(len(later), sum(word.routed for word in later))
 
 
-def _price(prices: PriceTable, tokens: float) -> float | None:
-    return prices.cost(PRICED, Usage(input=round(tokens), output=ANSWER_TOKENS))
+def _asked(one: Counted, wells: int) -> Asked:
+    """Of runs of ``wells`` wells, one for each reagent, told for a plate of 96."""
+    scale = PLATE / wells / len(REAGENTS)
+    amounts = [cost_of(reply, load_prices()) for reply in one.replies]
+    known = [amount for amount in amounts if amount is not None]
+    spent = sum(known) * scale if one.answered and len(known) == len(amounts) else None
+    return Asked(len(one.tokens) * scale, spent)
 
 
 Found = Mapping[str, Mapping[str, Routed]]
@@ -160,22 +134,18 @@ def _shares(found: Found) -> Table:
     return table("Sound wells sent to a gate (the paper: 15.7 % of wells)", header, rows)
 
 
-def _costs(found: Found, wells: int, call: float | None) -> Table:
-    rows = []
-    for point, by in found.items():
-        calls = by["all"].calls_a_plate(wells)
-        spent = by["all"].spent
-        plate = None if spent is None else spent / by["all"].plates * PLATE / wells
-        rows.append(
-            (
-                point,
-                f"{calls:.1f}",
-                f"{calls * PAPER_CALL:.2f}",
-                "unknown" if call is None else f"{calls * call:.2f}",
-                f"{NOT_RUN}: nobody was asked" if plate is None else f"{plate:.2f}",
-                "10.33" if point.startswith("always") else "1.63",
-            )
+def _costs(asked: Mapping[str, Asked], call: float | None) -> Table:
+    rows = [
+        (
+            point,
+            f"{one.questions:.1f}",
+            f"{one.questions * PAPER_CALL:.2f}",
+            "unknown" if call is None else f"{one.questions * call:.2f}",
+            f"{NOT_RUN}: nobody was asked" if one.spent is None else f"{one.spent:.2f}",
+            "10.33" if point.startswith("always") else "1.63",
         )
+        for point, one in asked.items()
+    ]
     header = (
         "operating point",
         "questions a plate of 96",
@@ -187,24 +157,22 @@ def _costs(found: Found, wells: int, call: float | None) -> Table:
     return table("Cost of a plate", header, rows)
 
 
-def _models(context: Context, silent: set[str]) -> Table:
+def _models(context: Context, silent: Sequence[str]) -> Table:
     if not context.backends:
         rows = [(form.format("MODEL"), f"{NOT_RUN}: no model") for form in MODEL_POINTS]
     else:
-        rows = [(point, f"{NOT_RUN}: the model gave no answer") for point in sorted(silent)]
+        rows = [(point, f"{NOT_RUN}: the model gave no answer") for point in silent]
     header = ("operating point", "state")
     return table("With a model that answers", header, rows or [("all", "run, see above")])
 
 
-def _answer(found: Found, wells: int) -> str:
-    told = []
-    for point, by in found.items():
-        calls = by["all"].calls_a_plate(wells)
-        told.append(
-            f"{point}: {by['all'].share:.1%} of sound wells to a gate, {calls:.1f} questions a "
-            f"plate, {calls * PAPER_CALL:.2f} USD at the paper's price of a call"
-        )
-    return "; ".join(told)
+def _answer(found: Found, asked: Mapping[str, Asked]) -> str:
+    return "; ".join(
+        f"{point}: {by['all'].share:.1%} of sound wells to a gate, {asked[point].questions:.1f} "
+        f"questions a plate, {asked[point].questions * PAPER_CALL:.2f} USD at the paper's price "
+        "of a call"
+        for point, by in found.items()
+    )
 
 
 EXPERIMENT = Experiment(

@@ -5,39 +5,48 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from ...dryrun.runner import DryRunSettings, dry_run
 from ...preflight.rehearsal import Script
-from ...reasoning import Backend, Reply, Request, load_prices
+from ...reasoning import Backend, Reply, Request, State, load_prices, request_size
 from ...sidecar import Analyser, RunAnalyser, make_analyser
 from ...sidecar.config import CascadeSettings
 from ...sidecar.judging import make_detector
 from ...vision.camera import Frame
 from ...vision.types import Detector, Image, TipDetection
-from ...vocabulary import Gate, Keyframe, Outcome, Route, Verdict
+from ...vocabulary import Keyframe, Outcome, Route, Verdict
 
 CALIBRATION = 6
 
-POINTS: dict[str, CascadeSettings] = {
-    "cascade": CascadeSettings(first_wells="trust"),
-    "the paper's band": CascadeSettings(first_wells="trust", preset="paper"),
-    "always-gate": CascadeSettings(first_wells="trust", always_gate=True),
-}
-"""Operating points without a model: the volumetric gate stands where the paper's model does.
+PLAIN = "cascade"
 
-The paper's band: PCA of the run's own first wells, median ± 0.7·MAD."""
+MODEL_POINTS = ("cascade, {}", "the paper's cascade, {}", "always-VLM, {}")
+"""Operating points with a model, whose name goes into the braces."""
 
-MODEL_POINTS: dict[str, CascadeSettings] = {
-    "cascade, {}": CascadeSettings(first_wells="trust", gates=("volumetric", "vlm")),
-    "the paper's cascade, {}": CascadeSettings(
-        first_wells="trust", preset="paper", gates=("vlm",), spot_check=0.0
-    ),
-    "always-VLM, {}": CascadeSettings(
-        first_wells="trust", preset="paper", gates=("vlm",), always_gate=True
-    ),
-}
-"""Operating points with a model, by its name."""
+
+def plain_points(pca: Path) -> dict[str, CascadeSettings]:
+    """Operating points without a model: the volumetric gate stands where the paper's model does.
+
+    Args:
+        pca: The paper's world model, fitted on earlier normals.
+    """
+    trust = CascadeSettings(first_wells="trust")
+    paper = trust.model_copy(update={"preset": "paper", "model": pca})
+    return {
+        PLAIN: trust,
+        "the paper's band": paper,
+        "always-gate": trust.model_copy(update={"always_gate": True}),
+    }
+
+
+def _model_point(form: str, pca: Path) -> CascadeSettings:
+    trust = CascadeSettings(first_wells="trust")
+    if form == MODEL_POINTS[0]:
+        return trust.model_copy(update={"gates": ("volumetric", "vlm")})
+    paper = {"preset": "paper", "model": pca, "gates": ("vlm",), "spot_check": 0.0}
+    return trust.model_copy(update=paper | {"always_gate": form == MODEL_POINTS[2]})
 
 
 @dataclass(frozen=True)
@@ -46,15 +55,12 @@ class Word:
 
     Attributes:
         well: Number of the well in its run, from 0.
-        outcome, route, gate: Of the verdict.
-        costs: Of asking models: ``calls``, ``tokens_in``, ``amount``, ``seconds`` and the like.
+        outcome, route: Of the verdict.
     """
 
     well: int
     outcome: Outcome
     route: Route
-    gate: Gate
-    costs: tuple[Mapping[str, Any], ...] = ()
 
     @property
     def held(self) -> bool:
@@ -67,46 +73,62 @@ class Word:
         return self.route not in (Route.CALIBRATION, Route.SILENT_PASS)
 
 
-class Heard:
-    """A backend, and whether it ever answered."""
+class Counted:
+    """Stands between an operating point and its model, if there is one, and counts.
 
-    def __init__(self, backend: Backend) -> None:
-        self.name = backend.name
-        self.answered = 0
+    Attributes:
+        name: The model's.
+        tokens: Of each question, estimated.
+        replies: What came of each.
+    """
+
+    def __init__(self, backend: Backend | None = None) -> None:
+        self.name = "a model" if backend is None else backend.name
+        self.tokens: list[int] = []
+        self.replies: list[Reply] = []
         self._backend = backend
 
     def ask(self, request: Request) -> Reply:
-        """As the backend does."""
-        reply = self._backend.ask(request)
-        self.answered += reply.answered
+        """As the backend does; without one, no answer: the well goes to the operator."""
+        self.tokens.append(request_size(request).total)
+        if self._backend is None:
+            reply = Reply(State.NO_MODEL, self.name, detail="It is only counted.", attempts=0)
+        else:
+            reply = self._backend.ask(request)
+        self.replies.append(reply)
         return reply
+
+    @property
+    def answered(self) -> bool:
+        """Whether any question was."""
+        return any(reply.answered for reply in self.replies)
+
+
+def counted(backends: Sequence[Backend | None]) -> dict[str, Counted]:
+    """A counter for each of :data:`MODEL_POINTS` and backend, by the point's name."""
+    counters = [(form, Counted(one)) for one in backends for form in MODEL_POINTS]
+    return {form.format(one.name): one for form, one in counters}
 
 
 def analysers(
-    points: Mapping[str, CascadeSettings], model_points: Mapping[str, Backend]
+    pca: Path, points: Mapping[str, CascadeSettings], asking: Mapping[str, Counted]
 ) -> dict[str, Analyser]:
     """Operating points by name.
 
     Args:
+        pca: The paper's world model.
         points: Those without a model.
-        model_points: Models by the name of one of :data:`MODEL_POINTS`, with its model's name in.
+        asking: Those with one, from :func:`counted`.
     """
     from ...reasoning.gate_tiers import VlmTiers
 
     detector = _Remembering(make_detector())
     made = {name: make_analyser(one, detector=detector) for name, one in points.items()}
-    for name, backend in model_points.items():
-        settings = next(
-            one for form, one in MODEL_POINTS.items() if form.format(backend.name) == name
-        )
-        gates = {"vlm": VlmTiers([backend], load_prices())}
-        made[name] = make_analyser(settings, gates, detector)
+    for name, model in asking.items():
+        form = next(one for one in MODEL_POINTS if one.format(model.name) == name)
+        gates = {"vlm": VlmTiers([model], load_prices())}
+        made[name] = make_analyser(_model_point(form, pca), gates, detector)
     return made
-
-
-def points_of(backends: Sequence[Backend]) -> dict[str, Backend]:
-    """All of :data:`MODEL_POINTS` for each backend."""
-    return {form.format(one.name): one for one in backends for form in MODEL_POINTS}
 
 
 def judged_run(
@@ -127,8 +149,7 @@ def judged_run(
     """
     jury = _Jury(analysers_, struck)
     faults = () if struck is None else (f"{fault}@#{struck + 1}",)
-    cascade = POINTS["cascade"]
-    dry_run(script, DryRunSettings(faults, seed=seed, rules="off", cascade=cascade), jury)
+    dry_run(script, DryRunSettings(faults, seed=seed, rules="off"), jury)
     return jury.words
 
 
@@ -157,11 +178,8 @@ class _JuryRun:
 
     def judge(self, trajectory: int) -> tuple[Verdict, Mapping[str, Any]]:
         judged = {name: one.judge(trajectory) for name, one in self.inner.items()}
-        for name, (verdict, evidence) in judged.items():
-            costs = tuple(evidence.get("costs") or ())
-            self.jury.words[name].append(
-                Word(trajectory, verdict.outcome, verdict.route, verdict.gate, costs)
-            )
+        for name, (verdict, _) in judged.items():
+            self.jury.words[name].append(Word(trajectory, verdict.outcome, verdict.route))
             if verdict.outcome is Outcome.UNDECIDED and trajectory != self.jury.struck:
                 self.inner[name].confirm(trajectory)
         return next(iter(judged.values()))

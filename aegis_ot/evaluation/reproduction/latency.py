@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import statistics
-import tempfile
+import time
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 from ...dryrun.runner import UNATTENDED, DryRunSettings, dry_run
 from ...errors import StoreError
-from ...sidecar import Analyser, make_analyser
-from ...sidecar.overview import run_overview
-from ...sidecar.store import Store
+from ...sidecar import Analyser, Judged, RunAnalyser, make_analyser
+from ...vision.camera import Frame
+from ...vocabulary import Keyframe, KeyframeKind
 from ..layer2.figures import COLOURS, Canvas
 from .context import Context
 from .experiment import Experiment, Outcome, Picture, table
@@ -80,35 +79,69 @@ def run(context: Context) -> Outcome:
 def _paused(analyser: Analyser, seed: int) -> dict[str, float] | None:
     """The times of one run that was stopped at its planted failure; ``None`` if it was not."""
     fault = f"{KINDS['partial dispense']}@#{STRUCK + 1}"
-    with tempfile.TemporaryDirectory(prefix="aegis-ot-") as place:
-        settings = DryRunSettings(
-            (fault,), "stop", seed, rules="off", data=Path(place), cascade=UNATTENDED, rate=RATE
-        )
-        done = dry_run(script_of("red", WELLS), settings, analyser)
-        store = Store(Path(place))
-        try:
-            overview = run_overview(store, str(done.reported.account["run"]))
-        finally:
-            store.close()
-    if done.outcome != "stopped" or not overview["trajectories"]:
+    timed = _Timed(analyser)
+    settings = DryRunSettings((fault,), "stop", seed, "off", cascade=UNATTENDED, rate=RATE)
+    done = dry_run(script_of("red", WELLS), settings, timed)
+    holds = [one for one in done.reported.account["holds"] if one["trajectory"] == STRUCK]
+    if done.outcome != "stopped" or not holds or len(done.wells) != STRUCK + 1:
         return None
-    last = overview["trajectories"][-1]
-    if last["trajectory"] != STRUCK or last["hold"] is None or last["judged_at"] is None:
-        return None
-    return _times(last)
-
-
-def _times(well: Mapping[str, Any]) -> dict[str, float]:
-    frames = {keyframe["kind"]: keyframe for keyframe in well["keyframes"]}
-    dispense, after = frames["dispense"], frames["post_dispense"]
-    exposure = sum(keyframe["exposed_after_s"] or 0.0 for keyframe in (dispense, after))
+    begun = timed.triggers[STRUCK, KeyframeKind.DISPENSE]
+    seen = timed.seen[STRUCK, KeyframeKind.POST_DISPENSE]
+    waits = [
+        timed.waits[STRUCK, kind] for kind in (KeyframeKind.DISPENSE, KeyframeKind.POST_DISPENSE)
+    ]
     return {
-        "exposure_s": exposure,
-        "frames_s": after["captured"] - dispense["robot_time"] - exposure,
-        "verdict_s": well["judged_at"] - after["captured"],
-        "halt_s": well["hold"]["at"] - well["judged_at"],
-        "total_s": well["hold"]["at"] - dispense["robot_time"],
+        "exposure_s": sum(waits),
+        "frames_s": seen - begun - sum(waits),
+        "verdict_s": timed.judged[STRUCK] - seen,
+        "halt_s": holds[0]["at"] - timed.judged[STRUCK],
+        "total_s": holds[0]["at"] - begun,
     }
+
+
+class _Timed:
+    """An analyser, and when it was told what; all times on the clock of this machine, s.
+
+    Attributes:
+        triggers: When the robot stood still for a keyframe.
+        waits: From there to the beginning of the exposure.
+        seen: When the frame was here.
+        judged: When the verdict was in.
+    """
+
+    def __init__(self, analyser: Analyser) -> None:
+        self._analyser = analyser
+        self._run: RunAnalyser | None = None
+        self.triggers: dict[tuple[int, KeyframeKind], float] = {}
+        self.waits: dict[tuple[int, KeyframeKind], float] = {}
+        self.seen: dict[tuple[int, KeyframeKind], float] = {}
+        self.judged: dict[int, float] = {}
+
+    def begin(self, run: str, history: Sequence[Judged] = ()) -> RunAnalyser:
+        """It follows one run."""
+        self._run = self._analyser.begin(run, history)
+        return self
+
+    def observe(self, keyframe: Keyframe, frame: Frame) -> None:
+        """A frame is here."""
+        assert self._run is not None
+        key, now = (keyframe.trajectory, keyframe.kind), time.time()
+        self.triggers[key], self.seen[key] = keyframe.robot_time, now
+        exposed = now - (time.monotonic() - frame.exposed_at)
+        self.waits[key] = exposed - keyframe.robot_time
+        self._run.observe(keyframe, frame)
+
+    def judge(self, trajectory: int) -> Judged:
+        """A verdict is wanted."""
+        assert self._run is not None
+        judged = self._run.judge(trajectory)
+        self.judged[trajectory] = time.time()
+        return judged
+
+    def confirm(self, trajectory: int) -> None:
+        """The operator found it right."""
+        assert self._run is not None
+        self._run.confirm(trajectory)
 
 
 def _spread(values: Sequence[float]) -> str:

@@ -11,7 +11,15 @@ from ...vocabulary import Outcome as Said
 from ..layer2.metrics import wilson
 from .context import Context
 from .experiment import NOT_RUN, Experiment, Outcome, Table, table
-from .jury import MODEL_POINTS, POINTS, Heard, Word, analysers, judged_run, points_of
+from .jury import (
+    MODEL_POINTS,
+    PLAIN,
+    Word,
+    analysers,
+    counted,
+    judged_run,
+    plain_points,
+)
 from .layer1 import NO_MODEL
 
 KINDS = {
@@ -58,8 +66,9 @@ def script_of(reagent: str, wells: int, volume: float = 140.0) -> Script:
 
 def run(context: Context) -> Outcome:
     """Every cell of the matrix, the same frames for all operating points."""
-    heard = [Heard(backend) for backend in context.backends]
-    points = analysers(POINTS, points_of(heard))
+    pca = context.papers_model()
+    asking = counted(context.backends)
+    points = analysers(pca, plain_points(pca), asking)
     replicates = context.options.replicates
     cells = list(product(KINDS, REAGENTS, range(replicates)))
     context.progress.begin("Live runs on the simulated robot", len(cells))
@@ -70,7 +79,7 @@ def run(context: Context) -> Outcome:
         for point, said in words.items():
             found.setdefault((point, kind, reagent), []).append(said)
         context.progress.step()
-    silent = [point for one in heard if not one.answered for point in points_of([one])]
+    silent = [point for point, one in asking.items() if one.replies and not one.answered]
     shown = [point for point in points if point not in silent]
     return Outcome(
         data=(
@@ -78,7 +87,7 @@ def run(context: Context) -> Outcome:
             f"fault in well {STRUCK + 1}, p1000, 140 µL, {replicates} runs a cell, accelerated",
         ),
         answers={
-            "live-cascade": _short("cascade", found),
+            "live-cascade": _short(PLAIN, found),
             "live-always": _short_always(shown, found),
         },
         tables=(_matrix(shown, found), _false_pauses(shown, found), _not_run(context, silent)),
@@ -86,7 +95,8 @@ def run(context: Context) -> Outcome:
             "Caught: the run is held at the planted well, failed or left to the operator (in "
             "brackets Wilson's 95 % interval). The paper counts what its vision model failed.",
             "Without a model the volumetric gate stands where the paper's model does. 'The "
-            "paper's band' is its triage: a PCA of the run's own first wells, median ± 0.7·MAD.",
+            "paper's band' is its triage: a PCA of 26 earlier normal wells of the same camera, "
+            "median ± 0.7·MAD of the run's first six wells.",
             "All operating points judge the same frames; the first six wells are taken for "
             "normal, as in the paper. An air bubble could not be staged in the paper's runs.",
         ),

@@ -168,9 +168,9 @@ def _kept(experiment: Experiment, context: Context) -> Entry | None:
         if kept["key"] != key(experiment, context):
             return None
         outcome = Outcome.from_json(kept["outcome"])
-        told = [kept[name] for name in ("seconds", "date", "command", "version", "seed")]
+        told = {name: kept[name] for name in ("seconds", "date", "command", "version", "seed")}
     except (OSError, ValueError, KeyError, TypeError):
         return None
     if not all((context.options.out / one.file).is_file() for one in outcome.pictures):
         return None
-    return Entry(experiment, outcome, "", *told, taken_up=True)
+    return Entry(experiment, outcome, **told, taken_up=True)
