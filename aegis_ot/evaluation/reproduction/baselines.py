@@ -48,12 +48,10 @@ def run(context: Context) -> Outcome:
         answers.append(
             f"{data.name}: AUROC {shown}; {len(worse)} of {len(BASELINES) - 1} worse than pca"
         )
-    alone = (
-        "; vision model alone in the table" if context.backends else f"; vision model {NO_MODEL}"
-    )
+    alone = "vision model alone: see the table" if context.backends else f"vision model {NO_MODEL}"
     return Outcome(
         data=tuple(context.describe(data) for data, _ in sets),
-        answers={"baselines": "; ".join(answers) + alone},
+        answers={"baselines": (*answers, alone)},
         tables=tuple(tables),
         notes=(
             "The paper gives no settings of its baselines; these are the libraries' usual ones "

@@ -52,7 +52,7 @@ def run(context: Context) -> Outcome:
             "calibration": (
                 f"preset paper: {paper.wells} wells, median ± {paper.multiplier:g}·MAD, floor "
                 f"{paper.score_floor:g}: sends {_span(s[0] for s in shares.values())} of normal "
-                f"wells to the gate; the package's preset: {_span(ours.values())}"
+                f"wells to the gate; the package's preset: {_span(ours.values())}",
             )
         },
         tables=(

@@ -65,7 +65,7 @@ def run(context: Context) -> Outcome:
         }
     return Outcome(
         data=tuple(context.describe(data) for data, _ in sets),
-        answers={"world-model": "; ".join(model), "components": "; ".join(sweep)},
+        answers={"world-model": tuple(model), "components": tuple(sweep)},
         tables=tuple(tables),
         pictures=tuple(pictures),
         notes=(

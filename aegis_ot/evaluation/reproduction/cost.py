@@ -86,8 +86,8 @@ def run(context: Context) -> Outcome:
         answers={"routed": _answer(found, asked)},
         tables=(_shares(found), _costs(asked, call), _models(context, silent)),
         notes=(
-            "Questions are counted on sound wells; nobody answers them here unless a model is "
-            "given. The paper's plate costs are its routed share times 96 times the call.",
+            f"Questions of {wells} wells, told for 96. They are counted on sound wells; nobody "
+            "answers them here unless a model is given. The paper's plate costs are its routed share times 96 times the call.",
             f"A question of ours holds about {tokens:.0f} tokens (estimate, four cropped "
             f"pictures); with an answer of {ANSWER_TOKENS} it comes to "
             + (f"{call:.4f} USD" if call is not None else "an unknown price")
@@ -166,8 +166,8 @@ def _models(context: Context, silent: Sequence[str]) -> Table:
     return table("With a model that answers", header, rows or [("all", "run, see above")])
 
 
-def _answer(found: Found, asked: Mapping[str, Asked]) -> str:
-    return "; ".join(
+def _answer(found: Found, asked: Mapping[str, Asked]) -> tuple[str, ...]:
+    return tuple(
         f"{point}: {by['all'].share:.1%} of sound wells to a gate, {asked[point].questions:.1f} "
         f"questions a plate, {asked[point].questions * PAPER_CALL:.2f} USD at the paper's price "
         "of a call"

@@ -31,7 +31,7 @@ def run(context: Context) -> Outcome:
             )  # fmt: skip
     return Outcome(
         data=tuple(context.describe(data) for data in used),
-        answers={"detector": "; ".join(answers)},
+        answers={"detector": tuple(answers)},
         tables=(
             table(
                 "The shipped detector (the paper: mAP50 0.995)",

@@ -43,7 +43,7 @@ class Outcome:
     Attributes:
         data: What it stands on, each beginning with ``simulated``, ``rendered``, ``real`` or
             ``protocols``.
-        answers: Our counterpart of rows of the paper's table, by their key.
+        answers: Our counterpart of rows of the paper's table, by their key; a line each.
         tables: For the page.
         pictures: For the page.
         notes: What a reader has to know.
@@ -52,7 +52,7 @@ class Outcome:
     """
 
     data: tuple[str, ...]
-    answers: Mapping[str, str]
+    answers: Mapping[str, tuple[str, ...]]
     tables: tuple[Table, ...] = ()
     pictures: tuple[Picture, ...] = ()
     notes: tuple[str, ...] = ()
@@ -68,7 +68,7 @@ class Outcome:
         """From plain values; raises what malformed ones raise."""
         return cls(
             tuple(kept["data"]),
-            dict(kept["answers"]),
+            {row: tuple(lines) for row, lines in kept["answers"].items()},
             tuple(
                 Table(one["title"], tuple(one["header"]), tuple(map(tuple, one["rows"])))
                 for one in kept["tables"]

@@ -58,7 +58,7 @@ def run(context: Context) -> Outcome:
             "fleet": (
                 f"N = 1, 2, 4, 8, 16: {walls} s (scaled back by {SCALE:g}); "
                 f"{points[0].seconds / last.seconds:.2f}x at 16, bound "
-                f"{last.alone_s / last.least_s:.2f}x; detected {detected} of {last.protocols}"
+                f"{last.alone_s / last.least_s:.2f}x; detected {detected} of {last.protocols}",
             )
         },
         tables=(_table(points),),

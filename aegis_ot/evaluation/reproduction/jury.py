@@ -20,7 +20,7 @@ from ...vocabulary import Keyframe, Outcome, Route, Verdict
 
 CALIBRATION = 6
 
-PLAIN = "cascade"
+ALWAYS = "always-gate"
 
 MODEL_POINTS = ("cascade, {}", "the paper's cascade, {}", "always-VLM, {}")
 """Operating points with a model, whose name goes into the braces."""
@@ -35,9 +35,9 @@ def plain_points(pca: Path) -> dict[str, CascadeSettings]:
     trust = CascadeSettings(first_wells="trust")
     paper = trust.model_copy(update={"preset": "paper", "model": pca})
     return {
-        PLAIN: trust,
+        "cascade": trust,
         "the paper's band": paper,
-        "always-gate": trust.model_copy(update={"always_gate": True}),
+        ALWAYS: trust.model_copy(update={"always_gate": True}),
     }
 
 

@@ -59,7 +59,7 @@ def run(context: Context) -> Outcome:
         answers={
             "latency": (
                 f"{_spread(total)} from the failed dispense to the halt ({len(paused)} of {RUNS} "
-                "runs paused), without the robot's own motion and without a vision model"
+                "runs paused), without the robot's own motion and without a vision model",
             )
         },
         tables=(table("Where the time goes, s", ("part", "mean ± standard deviation"), rows),),

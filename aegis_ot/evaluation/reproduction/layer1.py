@@ -131,12 +131,12 @@ def _left_out(
             yield name, "none", NO_MODEL, "", "", "", PAPER[name]
 
 
-def _answers(results: list[Layer1Result]) -> dict[str, str]:
+def _answers(results: list[Layer1Result]) -> dict[str, tuple[str, ...]]:
     alone = results[0]
-    said = {
+    said: dict[str, tuple[str, ...]] = {
         "rules-only": (
             f"{alone.adjusted.f1} adjusted, {alone.strict.f1} strict (rules over the rehearsed "
-            f"trace, no regex); {alone.adjusted.false_negatives} bugs missed"
+            f"trace, no regex); {alone.adjusted.false_negatives} bugs missed",
         )
     }
     for row, judges in (("hybrid", ("trace-blind", "hybrid")), ("llm-only", ("llm-only",))):
@@ -146,13 +146,13 @@ def _answers(results: list[Layer1Result]) -> dict[str, str]:
             for r in results
             if r.judge == judge
         ]
-        said[row] = "; ".join(found) or NO_MODEL
+        said[row] = tuple(found) or (NO_MODEL,)
     mean = statistics.fmean(row.seconds for row in alone.rows)
     asked = [
         f"{statistics.median(row.seconds for row in r.rows):.1f} s with {r.judge}, {r.model}"
         for r in results[1:]
     ]
-    said["time"] = "; ".join([f"{mean:.2f} s without a model", *asked])
+    said["time"] = (f"{mean:.2f} s without a model", *asked)
     return said
 
 

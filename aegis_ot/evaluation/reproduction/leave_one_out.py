@@ -68,12 +68,19 @@ def name_of(scorer: str) -> str:
 
 
 def short(result: Layer2Result) -> str:
-    """The five figures on one line."""
-    told = ", ".join(f"{shown} {result.metrics[name]}" for name, shown in METRICS.items())
-    return (
-        f"{name_of(result.scorer)} on {result.dataset}: {told}; {result.flagged_normals} normals "
-        "flagged"
+    """The five figures on one line, with the intervals that the paper gives."""
+    value = {name: result.metrics[name] for name in METRICS}
+    rates = ", ".join(
+        f"{METRICS[name]} {_number(value[name].value)}" for name in ("f1", "precision", "recall")
     )
+    return (
+        f"{name_of(result.scorer)} on {result.dataset}: AP {value['average_precision']}, "
+        f"AUROC {value['auroc']}, {rates}; {result.flagged_normals} normals flagged"
+    )
+
+
+def _number(value: float) -> str:
+    return "not defined" if np.isnan(value) else f"{value:.3f}"
 
 
 def run(context: Context, pipette: str, experiment: str) -> Outcome:
@@ -91,14 +98,14 @@ def run(context: Context, pipette: str, experiment: str) -> Outcome:
         for file in draw_figures(found, folder / data.name):
             caption = f"{_CAPTIONS.get(file.stem, file.stem)}: {title}"
             pictures.append(Picture(context.picture(Path(file)), caption))
-    answers = {"data": "; ".join(_counts(data) for data, _ in sets)}
+    answers = {"data": tuple(_counts(data) for data, _ in sets)}
     figures = {f"{one.dataset} {one.scorer}": one.to_json() for one in results}
     if pipette == "p20":
-        answers["p20"] = "; ".join(map(short, results))
+        answers["p20"] = tuple(map(short, results))
         tables += [_complexity(context, data, tips) for data, tips in sets]
     else:
-        answers["lopo"] = "; ".join(map(short, results))
-        answers["failure-types"] = "; ".join(map(_short_groups, results))
+        answers["lopo"] = tuple(map(short, results))
+        answers["failure-types"] = tuple(map(_short_groups, results))
     return Outcome(
         data=tuple(context.describe(data) for data, _ in sets),
         answers=answers,
@@ -117,7 +124,7 @@ def _counts(data: Dataset) -> str:
     return (
         f"{data.name}: {len(data.records)} trajectories on {len(data.plates)} plates: "
         f"{kinds['normal']} normal, {kinds['failure']} failures, {kinds['no-tip']} no-tip; "
-        f"{reagents} ({label(data.source)} frames)"
+        f"{reagents}"
     )
 
 

@@ -12,8 +12,8 @@ from ..layer2.metrics import wilson
 from .context import Context
 from .experiment import NOT_RUN, Experiment, Outcome, Table, table
 from .jury import (
+    ALWAYS,
     MODEL_POINTS,
-    PLAIN,
     Word,
     analysers,
     counted,
@@ -87,7 +87,7 @@ def run(context: Context) -> Outcome:
             f"fault in well {STRUCK + 1}, p1000, 140 µL, {replicates} runs a cell, accelerated",
         ),
         answers={
-            "live-cascade": _short(PLAIN, found),
+            "live-cascade": tuple(_short(point, found) for point in list(points)[:2]),
             "live-always": _short_always(shown, found),
         },
         tables=(_matrix(shown, found), _false_pauses(shown, found), _not_run(context, silent)),
@@ -181,14 +181,12 @@ def _short(point: str, found: Found) -> str:
         told.append(f"{kind} {shares}")
     runs = [run for (name, _, _), all_ in found.items() if name == point for run in all_]
     pauses = sum(word.held for run in runs for word in _sound(run))
-    return "; ".join(told) + f"; {pauses} false pauses in {len(runs)} runs"
+    return f"{point}: {'; '.join(told)}; {pauses} false pauses in {len(runs)} runs"
 
 
-def _short_always(shown: Sequence[str], found: Found) -> str:
-    models = [point for point in shown if point.startswith("always-VLM")]
-    if not models:
-        return f"{NO_MODEL}. Every well to the volumetric gate: {_short('always-gate', found)}"
-    return ". ".join(f"{point}: {_short(point, found)}" for point in models)
+def _short_always(shown: Sequence[str], found: Found) -> tuple[str, ...]:
+    models = [_short(point, found) for point in shown if point.startswith("always-VLM")]
+    return (*(models or [f"always-VLM {NO_MODEL}"]), _short(ALWAYS, found))
 
 
 EXPERIMENT = Experiment(

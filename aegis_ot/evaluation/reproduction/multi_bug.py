@@ -22,7 +22,7 @@ def run(context: Context) -> Outcome:
             results.append(result)
     return Outcome(
         data=(f"protocols: examples/{FOLDER}, {len(labels)} protocols",),
-        answers={"multi-bug": "; ".join(_short(result) for result in results)},
+        answers={"multi-bug": tuple(map(_short, results))},
         tables=(
             table(
                 "By protocol (the paper: 8/8 and one more that the bugs would cause)",

@@ -49,18 +49,18 @@ def reproduction_json(entries: Sequence[Entry]) -> dict[str, Any]:
     }
 
 
-def _answers(row: PaperRow, entries: Sequence[Entry]) -> list[tuple[Entry, str]]:
+def _answers(row: PaperRow, entries: Sequence[Entry]) -> list[tuple[Entry, tuple[str, ...]]]:
     """Who answers a row, and what; the reason where there is no answer."""
     told = []
     for entry in entries:
         if row.key not in entry.experiment.rows:
             continue
         if entry.outcome is not None:
-            answer = entry.outcome.answers.get(row.key, "")
+            answer = entry.outcome.answers.get(row.key, ())
         elif entry.problem:
-            answer = f"failed: {entry.problem}"
+            answer = (f"failed: {entry.problem}",)
         else:
-            answer = f"{NOT_RUN}: left out with --only"
+            answer = (f"{NOT_RUN} yet, or left out with --only",)
         told.append((entry, answer))
     return told
 

@@ -30,14 +30,14 @@ def run(context: Context) -> Outcome:
     return Outcome(
         data=("protocols: the rule database and the benchmark of this version",),
         answers={
-            "rules": f"{sum(rules.values())} over {len(rules)} assay families",
+            "rules": (f"{sum(rules.values())} over {len(rules)} assay families",),
             "benchmark": (
                 f"{len(labels)} protocols: {figures['correct']} correct, {len(bad)} with one bug "
-                f"each; {len(several)} more with 2-3 bugs, {bugs} in all"
+                f"each; {len(several)} more with 2-3 bugs, {bugs} in all",
             ),
             "scoring": (
                 f"{len(relabelled)} tutorial protocols ({', '.join(relabelled)}) pass in strict "
-                "and fail in adjusted scoring"
+                "and fail in adjusted scoring",
             ),
         },
         tables=(table("Rules by family", ("family", "rules"), list(rules.items())),),

@@ -31,7 +31,7 @@ def test_wilsons_interval_is_that_of_the_paper(hits: int, low: float, high: floa
 
 def test_rules_and_benchmark_are_counted(context: Context) -> None:
     outcome = rules.EXPERIMENT.run(context)
-    assert outcome.answers["rules"] == "22 over 5 assay families"
+    assert outcome.answers["rules"] == ("22 over 5 assay families",)
     assert outcome.figures["correct"] == 11
     assert sum(outcome.figures["with_several_bugs"].values()) == 8
 
@@ -62,7 +62,7 @@ def test_layer_1_without_a_model_says_what_was_not_run(
     assert len(outcome.figures["results"]) == 1
     for name in ("hybrid", "trace-blind", "llm-only"):
         assert rows[name][2] == NO_MODEL
-    assert outcome.answers["llm-only"] == NO_MODEL
+    assert outcome.answers["llm-only"] == (NO_MODEL,)
     assert outcome.timings
     assert "seconds" not in outcome.figures["results"][0]
 

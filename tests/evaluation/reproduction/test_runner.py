@@ -41,7 +41,7 @@ class Counting:
         picture.write_bytes(PNG)
         return Outcome(
             ("simulated: three frames",),
-            {"fleet": f"answer of {self.experiment.name}"},
+            {"fleet": (f"answer of {self.experiment.name}",)},
             (table("A table", ("a", "b"), [(1, f"{NOT_RUN}: no model")]),),
             (Picture(context.picture(picture), "A picture"),),
             ("A note.",),
@@ -126,7 +126,7 @@ def test_only_what_is_chosen_is_run_and_the_rest_is_shown_as_it_was(tmp_path: Pa
     entries, _, pages = play(tmp_path, one, two, three, only="two")
     assert [entry.state for entry in entries] == ["done", "done", "not run"]
     assert (one.runs, two.runs, three.runs) == (1, 1, 0)
-    assert "not run: left out with --only" in pages[-1]
+    assert "not run yet, or left out with --only" in pages[-1]
 
 
 def test_every_row_of_the_papers_table_has_an_experiment_and_is_on_the_page(
