@@ -87,7 +87,8 @@ def run(context: Context) -> Outcome:
         tables=(_shares(found), _costs(asked, call), _models(context, silent)),
         notes=(
             f"Questions of {wells} wells, told for 96. They are counted on sound wells; nobody "
-            "answers them here unless a model is given. The paper's plate costs are its routed share times 96 times the call.",
+            "answers them here unless a model is given. The paper's plate costs are its routed "
+            "share times 96 times the call.",
             f"A question of ours holds about {tokens:.0f} tokens (estimate, four cropped "
             f"pictures); with an answer of {ANSWER_TOKENS} it comes to "
             + (f"{call:.4f} USD" if call is not None else "an unknown price")
