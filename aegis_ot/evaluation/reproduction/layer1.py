@@ -9,7 +9,7 @@ from typing import Any
 
 from ...checking import Asking, CheckSettings
 from ...preflight import Database, load_database
-from ...reasoning import Backend, Configuration
+from ...reasoning import Backend, Configuration, Usage
 from ..layer1 import (
     Checking,
     Label,
@@ -81,7 +81,7 @@ def run(context: Context) -> Outcome:
     drawn = draw_ablation(results, context.pictures("layer1"))
     return Outcome(
         data=("protocols: examples/benchmark, 24 protocols with planted mistakes",),
-        answers=_answers(results),
+        answers=_answers(results, silent),
         tables=(
             table(
                 "F1 with 95 % bootstrap intervals over protocols",
@@ -131,7 +131,10 @@ def _left_out(
             yield name, "none", NO_MODEL, "", "", "", PAPER[name]
 
 
-def _answers(results: list[Layer1Result]) -> dict[str, tuple[str, ...]]:
+def _answers(
+    results: list[Layer1Result], silent: list[tuple[str, str, str]]
+) -> dict[str, tuple[str, ...]]:
+    left_out = {row[0]: row[2] for row in _left_out(results, silent)}
     alone = results[0]
     said: dict[str, tuple[str, ...]] = {
         "rules-only": (
@@ -146,11 +149,12 @@ def _answers(results: list[Layer1Result]) -> dict[str, tuple[str, ...]]:
             for r in results
             if r.judge == judge
         ]
-        said[row] = tuple(found) or (NO_MODEL,)
+        said[row] = tuple(found) or (left_out[judges[-1]],)
     mean = statistics.fmean(row.seconds for row in alone.rows)
     asked = [
         f"{statistics.median(row.seconds for row in r.rows):.1f} s with {r.judge}, {r.model}"
         for r in results[1:]
+        if r.bill is not None and r.bill.usage != Usage()  # an imported answer has no time
     ]
     said["time"] = (f"{mean:.2f} s without a model", *asked)
     return said

@@ -71,6 +71,7 @@ def test_a_model_that_gives_no_answer_is_not_scored(tmp_path: Path, one_protocol
     outcome = layer1.EXPERIMENT.run(Context(Options(tmp_path), [ScriptedBackend([])]))
     rows = {row[0]: row for row in outcome.tables[0].rows}
     assert rows["hybrid"][2].startswith(f"{NOT_RUN}: the model gave no answer")
+    assert outcome.answers["llm-only"] == (rows["llm-only"][2],)
     assert len(outcome.figures["results"]) == 1
 
 
