@@ -174,6 +174,10 @@ def _notes(results: Sequence[Layer2Result]) -> Iterator[str]:
         "pca is the paper's scorer at the paper's threshold (each plate's first normal well); "
         "ensemble is this package's, at p < 0.05."
     )
+    yield (
+        "The ensemble was developed with the project's rendered sets in sight, and not with these "
+        "simulated ones."
+    )
     for result in results:
         yield from (
             f"{name_of(result.scorer)}, {result.dataset}: {note}" for note in result.notes()
