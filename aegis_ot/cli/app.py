@@ -76,6 +76,7 @@ from . import (  # noqa: E402
     layer2,  # noqa: F401
     llm,  # noqa: F401
     onto_robot,  # noqa: F401
+    reproductions,  # noqa: F401
     robots,  # noqa: F401
     rulebook,  # noqa: F401
     runs,  # noqa: F401

@@ -52,6 +52,7 @@ class DryRunSettings:
         timeout_s: Longest rehearsal, s.
         data: Folder of a sidecar to keep the run in; ``None``: it is not kept.
         cascade: What the analyser was made with; the run's report says it.
+        rate: Frames per second of a camera that runs freely; ``None``: a frame whenever asked.
     """
 
     faults: tuple[str, ...] = ()
@@ -62,6 +63,7 @@ class DryRunSettings:
     timeout_s: float = 120.0
     data: Path | None = None
     cascade: CascadeSettings = field(default_factory=CascadeSettings)
+    rate: float | None = None
 
 
 class Progress:
@@ -104,7 +106,10 @@ def dry_run(
         if is_rejected(report) and settings.rules == "on":
             return _rejected(script.file_name, report)
     camera = SimulatedCamera(
-        settings.seed, settings.faults, _parameters(planner.keyframes, settings.seed)
+        settings.seed,
+        settings.faults,
+        _parameters(planner.keyframes, settings.seed),
+        rate=settings.rate,
     )
     camera.expect(planner.keyframes)
     nowhere = camera.plan.unmatched(planner.keyframes)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from sklearn.metrics import precision_recall_curve, roc_curve
 
 from ...vision.scorers import make_scorer
@@ -14,7 +15,7 @@ from ...vision.scorers.pca import COMPONENTS
 from ...vision.types import TrajectorySample
 from .progress import Progress
 from .result import Layer2Result
-from .studies import component_sweep, explained_variance, sample_complexity
+from .studies import SweepPoint, component_sweep, explained_variance, sample_complexity
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000")
 """Told apart with any colour vision (Okabe and Ito, 2008)."""
@@ -59,7 +60,7 @@ def draw_figures(
     """
     several = [results] if isinstance(results, Layer2Result) else list(results)
     first = several[0]
-    canvas = _Canvas(Path(folder), f"{first.dataset} ({first.source} frames), {first.protocol}")
+    canvas = Canvas(Path(folder), f"{first.dataset} ({first.source} frames), {first.protocol}")
     canvas.draw("precision_recall", lambda axes: _precision_recall(axes, several))
     canvas.draw("roc", lambda axes: _roc(axes, several))
     canvas.draw("failure_types", lambda axes: _bars(axes, several), width=8.0)
@@ -67,14 +68,30 @@ def draw_figures(
         name = "scores" if len(several) == 1 else f"scores_{result.scorer}"
         canvas.draw(name, lambda axes, shown=result: _strip(axes, shown), width=7.0)  # type: ignore[misc]
     if samples:
-        canvas.draw("scree", lambda axes: _scree(axes, samples))
-        canvas.draw("components", lambda axes: _sweep(axes, samples, progress))
+        explained, points = explained_variance(samples), component_sweep(samples, progress)
+        draw_components(canvas, explained, points)
         canvas.draw("sample_complexity", lambda axes: _complexity(axes, samples, first, progress))
     return canvas.paths
 
 
-class _Canvas:
-    """Draws one figure after another in one style."""
+def draw_components(
+    canvas: Canvas, explained: NDArray[np.float64], points: Sequence[SweepPoint]
+) -> None:
+    """The paper's two figures on the number of components (SI C)."""
+    canvas.draw("scree", lambda axes: _scree(axes, explained))
+    canvas.draw("components", lambda axes: _sweep(axes, points))
+
+
+class Canvas:
+    """Draws one figure after another in one style, as PNG files.
+
+    Args:
+        folder: Where to write; made if need be.
+        title: Of all figures: what they stand on.
+
+    Attributes:
+        paths: The files, in the order drawn.
+    """
 
     def __init__(self, folder: Path, title: str) -> None:
         self._folder, self._title = folder, title
@@ -82,6 +99,7 @@ class _Canvas:
         folder.mkdir(parents=True, exist_ok=True)
 
     def draw(self, name: str, drawing: Drawing, width: float = 5.4) -> None:
+        """One figure of one pair of axes."""
         # The object interface of matplotlib: no window system, no state shared between threads.
         from matplotlib import rc_context
         from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -188,8 +206,7 @@ def _strip(axes: Any, result: Layer2Result) -> None:
     axes.set(ylabel=f"{result.scorer} score above its plate's threshold")
 
 
-def _scree(axes: Any, samples: Sequence[TrajectorySample]) -> None:
-    explained = explained_variance(samples)
+def _scree(axes: Any, explained: NDArray[np.float64]) -> None:
     axes.plot(np.arange(1, len(explained) + 1), explained, "o-", ms=3, color=COLOURS[0])
     axes.axvline(COMPONENTS, ls=":", c=_GREY)
     if len(explained) >= COMPONENTS:
@@ -198,8 +215,7 @@ def _scree(axes: Any, samples: Sequence[TrajectorySample]) -> None:
     axes.set(xlabel="components (pca)", ylabel="variance explained", ylim=(0, 1.03))
 
 
-def _sweep(axes: Any, samples: Sequence[TrajectorySample], progress: Progress | None) -> None:
-    points = component_sweep(samples, progress)
+def _sweep(axes: Any, points: Sequence[SweepPoint]) -> None:
     along = [point.components for point in points]
     for colour, name in zip(COLOURS, ("f1", "precision", "recall"), strict=False):
         values = [getattr(point, name) for point in points]
