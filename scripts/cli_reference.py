@@ -1,4 +1,4 @@
-"""Writes ``docs/reference/cli.md`` from the commands themselves: ``python -m scripts.cli_reference``."""
+"""Writes ``docs/reference/cli.md`` from the commands: ``python -m scripts.cli_reference``."""
 
 from __future__ import annotations
 
@@ -43,11 +43,11 @@ def page() -> str:
 def _section(path: tuple[str, ...], command: Any) -> str:
     arguments = [p for p in command.params if p.param_type_name == "argument"]
     options = [p for p in command.params if p.param_type_name == "option"]
-    usage = " ".join(["aegis-ot", *path, *map(_placeholder, arguments), "[OPTIONS]" * bool(options)])
+    usage = " ".join(["aegis-ot", *path, *map(_placeholder, arguments), "[OPTIONS]"])
     paragraphs = [" ".join(part.split()) for part in (command.help or "").split("\n\n")]
-    lines = [f"## {' '.join(path)}", f"```text\n{usage.strip()}\n```", *paragraphs]
+    lines = [f"## {' '.join(path)}", f"```text\n{usage}\n```", *paragraphs]
     rows = [_row(f"`{_placeholder(p)}`", p) for p in arguments]
-    rows += [_row(", ".join(f"`{name}`" for name in (*p.opts, *p.secondary_opts)), p) for p in options]
+    rows += [_row(_names(p), p) for p in options]
     if rows:
         lines.append("\n".join(["| | default | |", "|---|---|---|", *rows]))
     return "\n\n".join(lines)
@@ -56,6 +56,10 @@ def _section(path: tuple[str, ...], command: Any) -> str:
 def _placeholder(argument: Any) -> str:
     name = argument.name.upper() + ("..." if argument.nargs == -1 else "")
     return name if argument.required else f"[{name}]"
+
+
+def _names(option: Any) -> str:
+    return ", ".join(f"`{name}`" for name in (*option.opts, *option.secondary_opts))
 
 
 def _row(name: str, parameter: Any) -> str:
