@@ -22,7 +22,7 @@ class Live(NamedTuple):
 
 
 async def make_hardware(robot: str) -> Any:
-    """Simulated hardware of an ``"OT-2"`` or ``"Flex"``; it waits and is cancelled as a real one."""
+    """Simulated hardware of an ``"OT-2"`` or ``"Flex"``; waits and is cancelled as a real one."""
     if robot == "OT-2":
         hardware: Any = await API.build_hardware_simulator(
             attached_instruments={
