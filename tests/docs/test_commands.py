@@ -34,7 +34,7 @@ WHY_NOT = {
 }
 """Why a block is not run: said above it, where the reader sees it."""
 
-ELSEWHERE = {"pip", "python3", ".", "sudo", "podman", "export", "opentrons_simulate"}
+ELSEWHERE = {"pip", "python3", ".", "sudo", "podman", "ollama", "export", "opentrons_simulate"}
 """Programs that only blocks with a title may call."""
 
 SLOW = {
