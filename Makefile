@@ -4,7 +4,7 @@ VENV   ?= .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: demo test check lint types contracts matrix bench clean
+.PHONY: demo test check lint types contracts docs matrix bench clean
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -27,6 +27,12 @@ types: $(STAMP)
 
 contracts: $(STAMP)
 	$(BIN)/lint-imports
+
+# The documentation as a site, in out/site; what is generated is written anew.
+docs: $(STAMP)
+	$(BIN)/aegis-ot rules docs
+	$(BIN)/python -m scripts.cli_reference
+	$(BIN)/mkdocs build --strict
 
 check: lint types contracts test
 

@@ -22,6 +22,9 @@ from .app import BROKEN, CLEAN, FINDINGS
 
 console = Console(highlight=False)
 
+_WIDE = 100
+"""What the table of wells needs at most, columns."""
+
 _COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
 
 
@@ -65,7 +68,8 @@ def show(result: DryRun) -> None:
         console.print(Text(result.detail, style="red"))
         console.print(f"{result.protocol}: rejected before anything moved.")
         return
-    console.print(_table(result.wells))
+    # Cells of a squeezed table say nothing: a narrow terminal wraps its lines instead.
+    console.print(_table(result.wells, _WIDE if console.width < _WIDE else None), crop=False)
     passed = sum(row.outcome is Outcome.PASS for row in result.wells)
     console.print(
         f"{result.protocol}: {counted(len(result.wells), 'well')} watched on simulated frames, "
@@ -84,8 +88,8 @@ def show(result: DryRun) -> None:
         console.print(result.detail, style="red", markup=False)
 
 
-def _table(rows: Sequence[WellRow]) -> Table:
-    table = Table(box=None, pad_edge=False, header_style="bold")
+def _table(rows: Sequence[WellRow], width: int | None = None) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="bold", width=width)
     for heading, side in (
         ("#", "right"), ("well", "left"), ("µL", "right"), ("score", "right"),
         ("limit", "right"), ("p", "right"), ("route", "left"), ("gate", "left"),

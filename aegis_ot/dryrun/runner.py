@@ -15,6 +15,7 @@ from typing import Any
 
 from pydantic import SecretStr
 
+from ..checking.guard_arguments import guard_arguments
 from ..errors import AegisError, ConfigurationError, RehearsalError, RunAborted
 from ..guard import guard
 from ..instrumentation import Event, Operation, OperationKind, tapped
@@ -100,7 +101,8 @@ def dry_run(
     planner.finish()
     report = None
     if settings.rules != "off":
-        guard_settings = load_settings(rules=settings.rules)
+        said = guard_arguments(script.text)
+        guard_settings = load_settings(**{**said, "rules": settings.rules})
         report = check_recording(recording, guard_settings)
         progress.checked(report)
         if is_rejected(report) and settings.rules == "on":

@@ -1,7 +1,7 @@
 """Many robots: one agent per robot, on Academy. Neither layer knows of it.
 
 An agent owns one robot's Layer 1 validator and its Layer 2 session; a coordinator gives it
-protocols. See ``docs/fleet.md``.
+protocols. See ``docs/how-to/fleet.md``.
 """
 
 from .config import FleetConfig, RobotConfig

@@ -130,7 +130,7 @@ class CallReader:
             volume=self._volume(kind, values),
             from_top=from_top,
             from_bottom=from_bottom,
-            from_liquid=_over_liquid(values),
+            from_liquid=0.0 if name in _PROBES else _over_liquid(values),
             position=_position(location),
             in_place=bool(values.get("in_place", False)),
             line=site.line,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -10,13 +11,20 @@ from ..errors import RehearsalError
 
 _TIMEOUT_S = 600.0
 _TIMED = """
-import io, logging, sys, time
+import io, json, logging, sys, time
 logging.disable(logging.CRITICAL)
 import opentrons.simulate as simulate
 text = open(sys.argv[1], encoding="utf-8").read()
 began = time.perf_counter()
-simulate.simulate(io.StringIO(text), sys.argv[2], log_level="none")
-print("SECONDS", time.perf_counter() - began)
+told = {}
+try:
+    simulate.simulate(io.StringIO(text), sys.argv[2], log_level="none")
+    told["seconds"] = time.perf_counter() - began
+except Exception as error:
+    # What the App would show of it; the engine's error prints as its whole record.
+    engine = error.args[0] if error.args and isinstance(error.args[0], list) else ()
+    told["error"] = "; ".join(one.detail for one in engine) or f"{type(error).__name__}: {error}"
+print("TOLD", json.dumps(told))
 """
 
 
@@ -28,7 +36,7 @@ def simulation_s(protocol: Path, name: str) -> float:
         name: Under which it is simulated.
 
     Raises:
-        RehearsalError: It does not simulate; with the last line that was said.
+        RehearsalError: It does not simulate; with what was said.
     """
     try:
         done = subprocess.run(
@@ -41,7 +49,10 @@ def simulation_s(protocol: Path, name: str) -> float:
     except subprocess.TimeoutExpired:
         raise RehearsalError(f"{name} did not simulate within {_TIMEOUT_S:g} s.") from None
     for line in done.stdout.splitlines():
-        if line.startswith("SECONDS "):
-            return float(line.split()[1])
+        if line.startswith("TOLD "):
+            told = json.loads(line[5:])
+            if "seconds" in told:
+                return float(told["seconds"])
+            raise RehearsalError(f"{name} does not simulate: {told['error']}")
     said = [line for line in done.stderr.splitlines() if line.strip()]
     raise RehearsalError(f"{name} does not simulate: {said[-1] if said else 'nothing was said'}")

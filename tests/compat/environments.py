@@ -80,9 +80,9 @@ def _runs(python: str, version: str) -> bool:
 MATRIX = (
     # As on many an OT-2: pydantic 1, and an engine that knows no later commands.
     Environment("py310-ot82", "3.10", "opentrons==8.2.0", robots=("ot2",), newest=21),
-    Environment("py310-ot8", "3.10", "opentrons==8.8.2"),
-    Environment("py313-ot8", "3.13", "opentrons==8.8.2"),
-    Environment("py311-ot9", "3.11", "opentrons==9.0.0"),
+    Environment("py310-ot8", "3.10", "opentrons==8.8.2", newest=27),
+    Environment("py313-ot8", "3.13", "opentrons==8.8.2", newest=27),
+    Environment("py311-ot9", "3.11", "opentrons==9.0.0", newest=28),
     Environment("py312-ot10", "3.12", "opentrons>=10,<11", robots=("flex",)),
 )
 

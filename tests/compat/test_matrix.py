@@ -13,6 +13,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from opentrons.protocols.api_support.definitions import MAX_SUPPORTED_VERSION
 
 from .environments import MATRIX, ROOT, Environment
 
@@ -58,7 +59,7 @@ def ready(environment: Environment) -> Environment:
 @pytest.mark.slow
 @pytest.mark.timeout(900)
 def test_liquid_commands_are_unchanged_here():
-    assert problems_of(sys.executable, ("ot2", "flex")) == []
+    assert problems_of(sys.executable, ("ot2", "flex"), MAX_SUPPORTED_VERSION.minor) == []
 
 
 @pytest.mark.slow
@@ -67,6 +68,23 @@ def test_liquid_commands_are_unchanged_here():
 def test_liquid_commands_are_unchanged(environment):
     python = ready(environment).interpreter
     assert problems_of(python, environment.robots, environment.newest) == []
+
+
+def flex_stories_of(python: str | Path) -> dict[str, str]:
+    told = json.loads(run_in(python, "-m", "tests.compat.flex_live"))
+    assert len(told) == 4
+    return {story: problem for story, problem in told.items() if problem}
+
+
+def test_a_live_flex_is_guarded_here():
+    assert flex_stories_of(sys.executable) == {}
+
+
+@pytest.mark.parametrize(
+    "environment", [e for e in MATRIX if "flex" in e.robots], ids=lambda e: e.name
+)
+def test_a_live_flex_is_guarded(environment):
+    assert flex_stories_of(ready(environment).interpreter) == {}
 
 
 ALONE = """

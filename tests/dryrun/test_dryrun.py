@@ -43,6 +43,27 @@ def test_a_normal_run_has_no_flagged_well():
     assert {row.route for row in result.wells[:6]} == {Route.CALIBRATION}
 
 
+def test_layer_1_hears_what_the_guard_says_in_the_protocol():
+    text = """from aegis_ot import guard
+@guard(roles={"source": ["2:A1"]})
+def run(protocol):
+    plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 1)
+    reservoir = protocol.load_labware("nest_12_reservoir_15ml", 2)
+    tips = protocol.load_labware("opentrons_96_tiprack_300ul", 3)
+    p300 = protocol.load_instrument("p300_single_gen2", "left", [tips])
+    p300.transfer(150, reservoir["A1"], plate["A1"])
+metadata = {"apiLevel": "2.16"}
+"""
+    told = dry_run(Script(text, "told.py"), DryRunSettings(), make_analyser())
+    silent = dry_run(
+        Script(text.replace('roles={"source": ["2:A1"]}', ""), "silent.py"),
+        DryRunSettings(),
+        make_analyser(),
+    )
+    assert not told.report.undecided
+    assert silent.report.undecided
+
+
 def test_a_planted_fault_stops_the_run_before_another_well_is_touched(stopped):
     assert stopped.outcome == "stopped"
     assert [row.address for row in stopped.flagged] == ["1:A2"]

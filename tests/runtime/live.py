@@ -7,6 +7,7 @@ pause come from the event loop.
 from __future__ import annotations
 
 import asyncio
+import inspect
 import sys
 import tempfile
 import threading
@@ -15,19 +16,17 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from opentrons.hardware_control import API
 from opentrons.protocol_reader import ProtocolReader
 from opentrons.protocols.parse import PythonParseMode
-from opentrons.types import Mount
 
 from aegis_ot.instrumentation.tap import tapped
 from aegis_ot.runtime import Watcher
 from aegis_ot.settings import Settings
 
-from ..support.live_engine import make_live
+from ..support.live_engine import make_hardware, make_live
 
 _TEXT = """
-metadata = {{"apiLevel": "{api}"}}
+{kind} = {{"apiLevel": "{api}"{robot}}}
 
 def run(protocol):
     import sys
@@ -51,10 +50,13 @@ class LiveRun:
         protocol: Callable[[Any], None] | str,
         settings: Settings | None = None,
         api: str = "2.15",
+        robot: str = "OT-2",
+        recover: Any = None,
     ) -> None:
         self._protocol = protocol
         self._settings = settings or Settings()
         self._api = api
+        self._robot, self._recover = robot, recover
         self._ready = threading.Event()
         self._thread = threading.Thread(target=lambda: asyncio.run(self._main()), daemon=True)
         self.watcher: Watcher | None = None
@@ -69,31 +71,48 @@ class LiveRun:
         return self
 
     def play(self) -> None:
-        self._loop.call_soon_threadsafe(self._orchestrator.play)
+        self._press("play")
 
     def pause(self) -> None:
-        self._loop.call_soon_threadsafe(self._orchestrator.pause)
+        self._press("pause")
 
     def stop(self) -> float:
         """Press stop; the time at which it was pressed."""
         pressed = time.monotonic()
-        asyncio.run_coroutine_threadsafe(self._orchestrator.stop(), self._loop)
+        self._press("stop")
         return pressed
+
+    def retry(self) -> None:
+        """Leave error recovery: the protocol goes on after the command that failed."""
+        self._press("resume_from_recovery", False)
 
     @property
     def status(self) -> str:
-        return str(self._orchestrator.get_run_status().value)
+        return str(self._ask("get_run_status").value)
 
     @property
     def told(self) -> str:
         """The errors in which the run ended, as the App shows them."""
-        return "\n".join(
-            error.model_dump_json() for error in self._orchestrator.get_state_summary().errors
-        )
+        return "\n".join(error.model_dump_json() for error in self._ask("get_state_summary").errors)
 
     def seen(self) -> list[Any]:
         """The commands so far, as the App would list them."""
-        return list(self._orchestrator.get_all_commands())
+        return list(self._ask("get_all_commands"))
+
+    def _press(self, name: str, *arguments: Any) -> None:
+        asyncio.run_coroutine_threadsafe(self._call(name, *arguments), self._loop)
+
+    def _ask(self, name: str) -> Any:
+        if not inspect.iscoroutinefunction(getattr(self._orchestrator, name)):
+            return getattr(self._orchestrator, name)()
+        if self._thread.is_alive():
+            return asyncio.run_coroutine_threadsafe(self._call(name), self._loop).result(10)
+        return asyncio.run(self._call(name))
+
+    async def _call(self, name: str, *arguments: Any) -> Any:
+        """Opentrons 10 made coroutines of the orchestrator's methods."""
+        done = getattr(self._orchestrator, name)(*arguments)
+        return await done if inspect.isawaitable(done) else done
 
     def wait_for_status(self, status: str, timeout: float = 10.0) -> None:
         until = time.monotonic() + timeout
@@ -130,7 +149,11 @@ class LiveRun:
     def _text(self, key: str) -> str:
         if isinstance(self._protocol, str):
             return self._protocol
-        return _TEXT.format(api=self._api, module="aegis_ot_live_harness", key=key)
+        kind = "requirements" if self._robot == "Flex" else "metadata"
+        robot = f', "robotType": "{self._robot}"' if self._robot == "Flex" else ""
+        return _TEXT.format(
+            api=self._api, robot=robot, kind=kind, module="aegis_ot_live_harness", key=key
+        )
 
     async def _main(self) -> None:
         try:
@@ -145,16 +168,14 @@ class LiveRun:
         if not isinstance(self._protocol, str):
             RUNNING[key] = self._guarded
         sys.modules.setdefault("aegis_ot_live_harness", sys.modules[__name__])
-        instruments = {
-            Mount.LEFT: {"model": "p300_single_v2.1", "id": "left", "name": "p300_single_gen2"}
-        }
-        hardware = await API.build_hardware_simulator(attached_instruments=instruments)
-        hardware._em_simulate = False  # wait and be cancelled as on a robot
+        hardware = await make_hardware(self._robot)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "live.py"
             path.write_text(self._text(key), encoding="utf-8")
             source = await ProtocolReader().read_saved([path], directory=None)
-            engine, runner, self._orchestrator = await make_live(hardware, source.config)
+            engine, runner, self._orchestrator = await make_live(
+                hardware, source.config, self._robot, self._recover
+            )
             self._loop = asyncio.get_running_loop()
             await runner.load(source, PythonParseMode.NORMAL, None, None)
             self._ready.set()

@@ -173,7 +173,8 @@ class _Builder:
         elif kind is OperationKind.TOUCH_TIP and well is not None and not well.empty:
             visit = self._visit(step, tip, well)
             contact = well.contact(step.from_top, step.from_bottom, step.from_liquid)
-            visit.contact = min(contact, Contact.NEAR)  # the wall, at most
+            # A touch meets the wall, at most; what tells its distance to the liquid is a probe.
+            visit.contact = min(contact, Contact.NEAR) if step.from_liquid is None else contact
             self._touch(visit)
 
     def _visit(self, step: Step, tip: Tip, well: Well) -> Visit:

@@ -108,6 +108,24 @@ def test_heights_over_the_meniscus_are_taken_at_their_word() -> None:
     assert [visit.touches for visit in trace.visits] == [True, False, True, True]
 
 
+@pytest.mark.parametrize("call", ["detect_liquid_presence", "measure_liquid_height"])
+def test_a_probe_meets_the_liquid_wherever_it_stands(call: str) -> None:
+    """Not at its height, which is unknown: it goes down until it feels the liquid."""
+    trace = traced(
+        flex(
+            f"""
+            water = protocol.define_liquid("Water", "", "#0000ff")
+            plate["A1"].load_liquid(water, 40)
+            single.pick_up_tip()
+            single.{call}(plate["A1"])
+            single.touch_tip(plate["A1"])
+            single.drop_tip()
+            """
+        )
+    )
+    assert [visit.contact.name for visit in trace.visits] == ["WET", "CLEAR"]
+
+
 @pytest.mark.parametrize("level", ["2.13", "2.20"])
 def test_a_point_of_a_plate_is_the_well_it_lies_in(level: str) -> None:
     trace = traced(

@@ -1,0 +1,152 @@
+"""Guarded runs on a live, simulated Flex: gripper, waste chute, error recovery, hold and stop.
+
+A plain program, so that it runs in an interpreter that has nothing but ``opentrons``::
+
+    python -m tests.compat.flex_live
+
+prints one JSON object: what went otherwise than it should, by story.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import sys
+import time
+import traceback
+from collections.abc import Callable
+from typing import Any
+
+from opentrons.protocol_engine.error_recovery_policy import ErrorRecoveryType
+
+from aegis_ot.settings import Settings
+from tests.runtime.fake_sidecar import FakeSidecar
+from tests.runtime.live import LiveRun
+
+API = "2.22"
+
+
+def gripper_and_chute(context: Any) -> None:
+    tips = context.load_labware("opentrons_flex_96_tiprack_200ul", "B2")
+    plate = context.load_labware("nest_96_wellplate_200ul_flat", "C2")
+    reservoir = context.load_labware("nest_12_reservoir_15ml", "C1")
+    chute = context.load_waste_chute()
+    pipette = context.load_instrument("flex_1channel_1000", "left", [tips])
+    pipette.pick_up_tip()
+    pipette.aspirate(60, reservoir["A1"])
+    pipette.dispense(50, plate["A1"])
+    pipette.dispense(10, chute)
+    pipette.drop_tip()
+    context.move_labware(plate, "D2", use_gripper=True)
+    pipette.transfer(50, reservoir["A2"], plate["B1"])
+    context.move_labware(plate, chute, use_gripper=True)
+
+
+def needs_liquid(context: Any) -> None:
+    tips = context.load_labware("opentrons_flex_96_tiprack_200ul", "B2")
+    plate = context.load_labware("nest_96_wellplate_200ul_flat", "C2")
+    reservoir = context.load_labware("nest_12_reservoir_15ml", "C1")
+    context.load_trash_bin("A3")
+    pipette = context.load_instrument("flex_1channel_1000", "left", [tips])
+    for name in ("A1", "B1"):
+        pipette.pick_up_tip()
+        pipette.require_liquid_presence(reservoir["A1"])
+        pipette.aspirate(50, reservoir["A1"])
+        pipette.dispense(50, plate[name])
+        pipette.drop_tip()
+
+
+def wait_for_recovery(config: Any, failed_command: Any, defined_error_data: Any) -> Any:
+    return ErrorRecoveryType.WAIT_FOR_RECOVERY
+
+
+def start(protocol: Callable[[Any], None], sidecar: FakeSidecar, recover: Any = None) -> LiveRun:
+    settings = Settings(sidecar=sidecar.url, run_id="run")
+    return LiveRun(protocol, settings, API, "Flex", recover).start()
+
+
+def kinds(run: LiveRun) -> list[str]:
+    return [command.commandType for command in run.commands]
+
+
+def a_good_run_moves_labware_and_throws_away(sidecar: FakeSidecar) -> None:
+    run = start(gripper_and_chute, sidecar).join(60)
+    assert run.error is None, run.error
+    assert run.status == "succeeded", run.told
+    assert len(sidecar.stored()) == 8
+    assert kinds(run).count("moveLabware") == 2
+    assert run.watcher is not None
+    assert "2 passed" in run.watcher.summary()
+
+
+def a_failed_well_is_told_before_the_gripper_or_the_chute_move(sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0] = "fail"
+    run = start(gripper_and_chute, sidecar)
+    run.wait_for_status("paused", 30)
+    before = [command.commandType for command in run.seen()]
+    assert before[-1] == "waitForResume"
+    assert before.count("dispense") == 1, "the rest is still in the tip"
+    assert "moveLabware" not in before
+    run.play()
+    run.join(60)
+    assert run.error is None, run.error
+    assert len(sidecar.stored()) == 8
+
+
+def a_stop_during_a_hold_is_quick(sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0] = None
+    run = start(gripper_and_chute, sidecar)
+    assert sidecar.asked.wait(30)
+    pressed = run.stop()
+    run.join()
+    assert run.ended_at - pressed < 1.0
+    assert [told["outcome"] for told in sidecar.finished] == ["stopped"]
+
+
+def error_recovery_goes_on_with_the_guard(sidecar: FakeSidecar) -> None:
+    """A simulated probe finds no liquid; each time a person looks, and goes on."""
+    run = start(needs_liquid, sidecar, wait_for_recovery)
+    for stored in (0, 4):
+        in_time(lambda n=stored: len(sidecar.stored()) == n and run.status == "awaiting-recovery")
+        run.retry()
+    run.join(30)
+    assert run.error is None, run.error
+    assert run.status == "succeeded", run.told
+    assert len(sidecar.stored()) == 8
+    assert run.watcher is not None
+    assert "2 passed" in run.watcher.summary()
+
+
+def in_time(condition: Callable[[], bool]) -> None:
+    until = time.monotonic() + 20.0
+    while not condition():
+        assert time.monotonic() < until
+        time.sleep(0.01)
+
+
+STORIES = (
+    a_good_run_moves_labware_and_throws_away,
+    a_failed_well_is_told_before_the_gripper_or_the_chute_move,
+    a_stop_during_a_hold_is_quick,
+    error_recovery_goes_on_with_the_guard,
+)
+
+
+def main() -> int:
+    logging.disable(logging.CRITICAL)
+    told = {}
+    for story in STORIES:
+        begun = time.perf_counter()
+        try:
+            with FakeSidecar() as sidecar:
+                story(sidecar)
+            told[story.__name__] = ""
+        except Exception:
+            told[story.__name__] = traceback.format_exc()
+        print(f"{time.perf_counter() - begun:.1f} s", story.__name__, file=sys.stderr)
+    print(json.dumps(told))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
