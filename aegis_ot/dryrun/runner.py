@@ -101,7 +101,7 @@ def dry_run(
     planner.finish()
     report = None
     if settings.rules != "off":
-        said = guard_arguments(script.text)
+        said = guard_arguments(script.text).values
         guard_settings = load_settings(**{**said, "rules": settings.rules})
         report = check_recording(recording, guard_settings)
         progress.checked(report)
