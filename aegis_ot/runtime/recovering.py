@@ -70,6 +70,7 @@ class Recovery:
         self._due: tuple[Plan, int] | None = None
         self._attempts: Counter[int] = Counter()
         self._actions: dict[int, str] = {}
+        self._words: dict[int, str] = {}
         self._spent: set[str] = set()
         self.strokes = Strokes()
         self.of_mount: dict[str, int] = {}
@@ -127,6 +128,7 @@ class Recovery:
         (plan, root), self._due = self._due, None
         mount = plan.failed.mount
         words = _in_words(plan)
+        self._words[root] = words
         self._say(f"Recovery {self._attempts[root]} of {self._settings.recover_limit}: {words}")
         self._tell(root, "begun", words)
         pipette = self._tap.instrument(mount)
@@ -200,10 +202,11 @@ class Recovery:
     def _ended(self, root: int, trajectory: int, verdict: Verdict | None) -> None:
         if verdict is not None and verdict.outcome is Outcome.PASS:
             self._result.recovered.add(root)
-            self._tell(root, "recovered", "The delivery was seen to pass.", trajectory)
+            state, said = "recovered", "It was seen to pass."
         else:
-            said = "no verdict" if verdict is None else verdict.reason or verdict.outcome.value
-            self._tell(root, "failed", f"The delivery did not pass: {said}", trajectory)
+            state = "failed"
+            said = "There is no verdict on it." if verdict is None else verdict.reason
+        self._tell(root, state, f"{self._words[root]} {said}", trajectory)
 
     def _tell(
         self, root: int, state: str, text: str, by: int | None = None, again: bool = False
@@ -225,7 +228,8 @@ def _in_words(plan: Plan) -> str:
     source = " and ".join(str(one) for one in plan.failed.sources)
     saved = "what is left in the tip goes back to its source, " if plan.saves else ""
     again = "again" if plan.action == "retry" else "more"
-    return (
+    words = (
         f"{saved}the failed tip goes to the trash, and a fresh one delivers "
         f"{plan.missing_ul:g} µL {again} from {source} into {well}."
     )
+    return words[0].upper() + words[1:]

@@ -18,8 +18,9 @@ EMPTY_MOST = 0.15
 """Share of the volume up to which a tip that was measured counts as empty: the share below which
 the volumetric gate sees no failure either."""
 
-SIGMA_MOST = 0.05
-"""Largest standard uncertainty of a remainder that is delivered after, as a share of the volume."""
+SIGMA_MOST = EMPTY_MOST / 2
+"""Largest standard uncertainty of a remainder that is delivered after, as a share of the volume:
+the well then ends within what the gate lets pass, in 95 of 100 cases."""
 
 _MOVES_LIQUID = (OperationKind.ASPIRATE, OperationKind.DISPENSE, OperationKind.BLOW_OUT)
 
@@ -80,6 +81,8 @@ def plan_recovery(
     Raises:
         NotAllowed: It is left to a person.
     """
+    if delivery is not None and delivery.keyframe.expected_ul > TRACE_UL:
+        raise NotAllowed("the tip holds liquid that is meant for other wells")
     if boundary is None or delivery is None or boundary.pipette.mount != delivery.keyframe.mount:
         raise NotAllowed("the run is not between two moves of this pipette")
     _check_situation(delivery, boundary)
@@ -110,8 +113,6 @@ def _check_situation(delivery: Delivery, boundary: Operation) -> None:
     drops = boundary.kind is OperationKind.DROP_TIP
     if drops and not boundary.disposal:
         raise NotAllowed("the protocol puts its tip back")
-    if keyframe.expected_ul > TRACE_UL:
-        raise NotAllowed("the tip holds liquid that is meant for other wells")
     if not drops and _air_left(boundary):
         raise NotAllowed("the tip holds air that the protocol will push out")
     if delivery.destination is None:
@@ -153,7 +154,7 @@ def _missing(keyframe: Keyframe, verdict: Verdict) -> float:
     if verdict.measured_ul is None or abs(verdict.measured_ul - left) > 3 * sigma + 1.0:
         raise NotAllowed("it failed by another measure than what is left in the tip")
     missing = round(left - keyframe.expected_ul, 1)
-    if not SIGMA_MOST * commanded < missing <= commanded:
+    if not EMPTY_MOST * commanded < missing <= commanded:
         raise NotAllowed(f"{left:.0f} µL left in the tip do not tell what is missing in the well")
     return missing
 
