@@ -63,7 +63,6 @@ def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any]
         settings = load_settings(**keywords)
         _announce(protocol, settings)
         recovers = recovers_by_itself(protocol, settings)
-        # A simulation that is watched and recovers is rehearsed first, like a run on a robot.
         if protocol.is_simulating() and not recovers:
             return _rehearse_by_running(call, protocol, settings, file_name, module)
         tips = KnownTips() if recovers else None

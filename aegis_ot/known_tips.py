@@ -33,7 +33,10 @@ class KnownTips:
 
 
 def recovers_by_itself(protocol: Any, settings: Settings) -> bool:
-    """Whether failed wells of this run may be put right without a person."""
+    """Whether failed wells of this run may be put right without a person.
+
+    A simulation in which that is so is rehearsed first, like a run on a robot.
+    """
     watches = settings.watch_simulation or not protocol.is_simulating()
     return bool(settings.recover) and settings.sidecar is not None and watches
 

@@ -4,12 +4,14 @@ anything is contaminated by it.
 ``python -m benchmarks.recovery [--runs N] [--seed FIRST] [--json OUT]``
 
 Each run is a whole dry run: the guard, a sidecar over a socket, simulated frames. One to three
-faults are planted that strike only the first delivery into their well. The same run without
-recovery is the comparison. Layer 1 then judges what the robot really did, once as it happened (what
-a fault kept back is taken out) and once as if every verdict of a failure had been wrong (the first
-delivery counts, so each recovery enters a well that was served already; findings about volumes are
-left out there, since such a well is given twice what it should). A new contamination is a finding that
-the protocol without faults does not have. All results are simulated.
+faults are planted that strike only the first delivery into their well, in the second column of the
+plate, when Layer 2 has calibrated. The same run without recovery is the comparison. A run that
+needs a person goes on afterwards, as if that person had resumed it.
+
+Layer 1 then judges what the robot really did, once as it happened (what a fault kept back is taken
+out) and once as if every verdict of a failure had been wrong (then each recovery enters a well that
+was served already). A new contamination is a finding of a rule about what tips carry that the
+protocol without faults does not have. All results are simulated.
 """
 
 from __future__ import annotations

@@ -22,7 +22,8 @@ def no_pictures(_sequence: int, _box: Box | None) -> tuple[None, None, str]:
 
 def state_of(trajectory: Mapping[str, Any]) -> str:
     """How a delivery stands, in one word: ``fail``, ``recovered`` (failed, and put right by the
-    robot), ``undecided``, ``pass``, ``calibration``, ``waiting`` (for its verdict), ``running`` (keyframes are still to come) or ``abandoned``.
+    robot), ``undecided``, ``pass``, ``calibration``, ``waiting`` (for its verdict), ``running``
+    (keyframes are still to come) or ``abandoned``.
     """
     if trajectory["abandoned"] is not None:
         return "abandoned"

@@ -48,9 +48,7 @@ class TipForecast:
             self.moving |= {self._racks[event.labware], event.text}
 
 
-def spare_tips(
-    instrument: Any, forecast: TipForecast, slot_of: Callable[[Any], str]
-) -> list[Any]:
+def spare_tips(instrument: Any, forecast: TipForecast, slot_of: Callable[[Any], str]) -> list[Any]:
     """Tips of the kind that is on the pipette now, the one to take first in front.
 
     Args:

@@ -123,9 +123,10 @@ class Watcher:
 
     def event(self, event: Event) -> None:
         """Of :class:`aegis_ot.instrumentation.Listener`."""
-        if not self._operator.busy:  # the guard's own pauses and comments are no events
-            if self._perform(self._tracker.event(event)):
-                self._operator.proceed()
+        if self._operator.busy:
+            return  # the guard's own pauses and comments are no events
+        if self._perform(self._tracker.event(event)):
+            self._operator.proceed()
 
     def end(self, error: BaseException | None, told: str = "") -> None:
         """After the protocol's last command, or when it raised ``error``.

@@ -115,7 +115,7 @@ def _roles(value: Any, site: Site) -> dict[str, tuple[str, ...]]:
 
 def _recover(value: Any, site: Site) -> dict[str, str]:
     known = ", ".join(f'"{kind}": "{action}"' for kind, action in RECOVERIES.items())
-    accepted = f"an object with any of {known} (or \"pause\" for one of them)"
+    accepted = f'an object with any of {known} (or "pause" for one of them)'
     if isinstance(value, str):
         try:
             value = json.loads(value)

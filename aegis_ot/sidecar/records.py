@@ -11,7 +11,8 @@ from .database import Database
 from .wire import Action, Decision, Hold, Recovery
 
 OF_A_RUN = (
-    "recoveries", "incidents", "actions", "decisions", "holds", "abandoned", "verdicts", "keyframes",
+    "recoveries", "incidents", "actions", "decisions", "holds", "abandoned", "verdicts",
+    "keyframes",
 )  # fmt: skip
 """Tables whose rows go with their run."""
 

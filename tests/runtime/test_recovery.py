@@ -177,9 +177,7 @@ def test_mixing_is_done_again_too(sidecar: FakeSidecar) -> None:
         ),
     ],
 )
-def test_what_is_not_certain_is_left_to_a_person(
-    body: str, why: str, sidecar: FakeSidecar
-) -> None:
+def test_what_is_not_certain_is_left_to_a_person(body: str, why: str, sidecar: FakeSidecar) -> None:
     sidecar.outcomes[0], sidecar.findings[0] = "fail", EMPTY
     sidecar_said = "The robot does not put it right by itself"
     with pytest.raises(Exception, match=sidecar_said) as raised:
@@ -226,9 +224,7 @@ def test_without_failures_the_commands_are_those_without_recovery(sidecar: FakeS
 
 
 def live(sidecar: FakeSidecar, body: str, api: str) -> LiveRun:
-    decorator = (
-        f"@guard(sidecar={sidecar.url!r}, run_id='run', rules='off', recover={RETRY!r})"
-    )
+    decorator = f"@guard(sidecar={sidecar.url!r}, run_id='run', rules='off', recover={RETRY!r})"
     return LiveRun(script(body, api, decorator).text).start()
 
 

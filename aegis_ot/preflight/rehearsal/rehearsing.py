@@ -93,9 +93,8 @@ def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.
     """
     protocol = load(script)
     limit = partial(interrupted_after, timeout_s, script.file_name)
-    with _stage(protocol, script, None, limit) as context:
-        with being_played(script):
-            _perform(protocol, context, limit, {}, wrap)
+    with _stage(protocol, script, None, limit) as context, being_played(script):
+        _perform(protocol, context, limit, {}, wrap)
 
 
 @contextmanager
