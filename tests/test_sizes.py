@@ -9,7 +9,7 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 11_100,
+    "preflight": 11_150,
     "preflight/checks": 2_450,
     "preflight/database": 400,
     "preflight/evidence": 1_000,
@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 800,
     "preflight/source": 700,
     "preflight/trace": 1_900,
-    "": 56_200,
+    "": 57_350,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""

@@ -218,7 +218,13 @@ def test_a_recovery_is_kept_and_its_well_counts_as_put_right(robot: Robot) -> No
     for trajectory in range(3):  # the second one fails
         robot.cycle(trajectory)
         robot.verdict(trajectory)
-    told = {"trajectory": 1, "attempt": 1, "action": "retry", "state": "begun", "text": "Once more."}
+    told = {
+        "trajectory": 1,
+        "attempt": 1,
+        "action": "retry",
+        "state": "begun",
+        "text": "Once more.",
+    }
     robot.http.post("/v1/runs/run-1/recovery", json=told).raise_for_status()
     failed = robot.overview()["trajectories"][1]
     assert (failed["verdict"]["outcome"], failed["recovered"]) == ("fail", False)
