@@ -46,8 +46,13 @@ def repeated(instrument: Any, operation: Operation, volume: float | None) -> Non
     arguments = dict(operation.arguments)
     if volume is not None:
         arguments["volume"] = volume
-    if _has_engine(instrument._core):
-        getattr(instrument._core, operation.method)(**arguments)
+    core = instrument._core
+    if _has_engine(core):
+        if operation.is_air and operation.well is None and not core.get_current_volume():
+            # Air drawn in place by an empty tip: whoever did that had prepared the plunger first,
+            # which no listener hears.
+            core.prepare_to_aspirate()
+        getattr(core, operation.method)(**arguments)
     else:
         # The class's own: a protocol may have put another method in front on its instance.
         _IN_CONTEXT[operation.method](type(instrument), instrument, arguments)

@@ -45,7 +45,7 @@ def script(body: str, api: str, decorator: str = "") -> Script:
 
 
 def simulated(
-    sidecar: FakeSidecar, body: str, api: str = "2.16", **settings: Any
+    sidecar: FakeSidecar, body: str = "", api: str = "2.16", text: str = "", **settings: Any
 ) -> tuple[list[str], list[str]]:
     """What the run log shows in the simulator, and the command types of the engine."""
     said: list[str] = []
@@ -72,7 +72,7 @@ def simulated(
 
         return run
 
-    play(script(body, api), wrap)
+    play(Script(text, "flex.py") if text else script(body, api), wrap)
     return said, types
 
 
@@ -221,6 +221,36 @@ def test_without_failures_the_commands_are_those_without_recovery(sidecar: FakeS
     ]
     assert with_it[1] == without[1]
     assert sidecar.recoveries == []
+
+
+def test_a_transfer_by_liquid_class_on_a_flex_is_done_again(sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0], sidecar.findings[0] = "fail", EMPTY
+    text = """
+requirements = {"robotType": "Flex", "apiLevel": "2.24"}
+def run(protocol):
+    tips = protocol.load_labware("opentrons_flex_96_tiprack_200ul", "C1")
+    plate = protocol.load_labware("corning_96_wellplate_360ul_flat", "C2")
+    trash = protocol.load_trash_bin("A3")
+    pipette = protocol.load_instrument("flex_1channel_1000", "left", [tips])
+    water = protocol.get_liquid_class("water")
+    pipette.transfer_with_liquid_class(
+        water, 50, plate.wells()[:2], plate.wells()[8:10], new_tip="always", trash_location=trash
+    )
+"""
+    _, types = simulated(sidecar, text=text)
+    picks = [place for place, kind in enumerate(types) if kind == "pickUpTip"]
+    failed, again = types[picks[0] : picks[1]], types[picks[1] : picks[2]]
+    assert pipetting(again) == pipetting(failed)
+    assert again.count("airGapInPlace") == failed.count("airGapInPlace") > 0
+    assert states(sidecar)[-1] == (0, "recovered", 1)
+    assert [f["expected_ul"] for f in sidecar.stored()[4:8]] == [50.0, 50.0, 0.0, 0.0]
+
+
+def test_it_works_with_a_hold_after_each_well(sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0], sidecar.findings[0] = "fail", EMPTY
+    _, types = simulated(sidecar, ONE_TIP, hold="well")
+    assert pipetting(types).count("pick") == 3
+    assert states(sidecar)[-1] == (0, "recovered", 1)
 
 
 def live(sidecar: FakeSidecar, body: str, api: str) -> LiveRun:
