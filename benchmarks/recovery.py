@@ -1,7 +1,7 @@
 """Runs with transient faults that the robot puts right by itself: how many need nobody, and whether
 anything is contaminated by it.
 
-``python -m benchmarks.recovery [--runs N] [--seed FIRST] [--json OUT]``
+``python -m benchmarks.recovery [--liquid dyed|clear] [--runs N] [--seed FIRST] [--json OUT]``
 
 Each run is a whole dry run: the guard, a sidecar over a socket, simulated frames. One to three
 faults are planted that strike only the first delivery into their well, in the second column of the
@@ -48,7 +48,7 @@ class Trial:
         alone: Whether it ended without a person.
         alone_without: The same without recovery.
         recovered: Deliveries put right.
-        missed: Planted faults that no verdict told.
+        missed: Planted faults that no verdict told, as long as no person was needed.
         why: Why a person was needed.
         contaminations: New findings, as it happened.
         contaminations_at_worst: New findings, had all verdicts been wrong.
@@ -67,36 +67,40 @@ class Trial:
     errors: tuple[float, ...]
 
 
-def measure(count: int, first: int) -> Iterator[Trial]:
+def measure(count: int, first: int, dyed: bool) -> Iterator[Trial]:
     """``count`` runs of each protocol."""
     for seed in range(first, first + count):
         for case in CASES:
-            yield _trial(case, seed)
+            yield _trial(case, seed, dyed)
 
 
-def _trial(case: Case, seed: int) -> Trial:
+def _trial(case: Case, seed: int, dyed: bool) -> Trial:
     chance = random.Random(f"{case.name}{seed}")
     places = sorted(chance.sample(range(len(case.wells)), chance.randint(1, 3)))
     kinds = [chance.choice(KINDS) for _ in places]
     faults = tuple(
         f"{kind}@1:{case.wells[place]}x1" for kind, place in zip(kinds, places, strict=True)
     )
-    without, _ = _run(case, faults, seed, {})
-    result, heard = _run(case, faults, seed, RECOVER)
+    text = case.text(dyed)
+    without, _ = _run(text, faults, seed, {})
+    result, heard = _run(text, faults, seed, RECOVER)
     alone = not result.flagged
+    # A person who resumes does not empty the tip, and what is left in it hides later faults.
+    first = next((n for n, row in enumerate(result.wells) if row.flagged), len(result.wells))
     failed = {row.address for row in result.wells if row.failure is not None}
-    new, worst = _contaminations(case, faults, heard)
+    passed = {row.address for row in result.wells[:first]} - failed
+    new, worst = _contaminations(case.assay, text, faults, heard)
     return Trial(
         case.name, faults, alone, not without.flagged,
         sum(row.recovered for row in result.wells),
-        sum(fault.split("@")[1].split("x")[0] not in failed for fault in faults),
+        sum(fault.split("@")[1].split("x")[0] in passed for fault in faults),
         _why(result), new, worst,
-        tuple(_errors(case, faults, result.wells)),
+        tuple(_errors(faults, result.wells)),
     )  # fmt: skip
 
 
 def _run(
-    case: Case, faults: Sequence[str], seed: int, recover: dict[str, str]
+    text: str, faults: Sequence[str], seed: int, recover: dict[str, str]
 ) -> tuple[Any, list[Any]]:
     """The dry run, and every operation that the simulated robot did."""
     from aegis_ot.dryrun import UNATTENDED, DryRunSettings, Progress, dry_run
@@ -112,23 +116,23 @@ def _run(
     settings = DryRunSettings(
         tuple(faults), recover=recover, seed=seed, rules="off", cascade=UNATTENDED
     )
-    script = Script(case.text, "recovery.py")
+    script = Script(text, "recovery.py")
     result = dry_run(script, settings, make_analyser(UNATTENDED), Heard())
     return result, recorder.log
 
 
 def _contaminations(
-    case: Case, faults: Sequence[str], steps: list[Any]
+    assay: str, text: str, faults: Sequence[str], steps: list[Any]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     from aegis_ot.instrumentation import Event
     from aegis_ot.preflight.checking import check_recording
     from aegis_ot.preflight.rehearsal import Script, record
     from aegis_ot.settings import load_settings
 
-    rehearsed = record(Script(case.text, "recovery.py"))
+    rehearsed = record(Script(text, "recovery.py"))
     # All that is loaded stands at the beginning of these protocols.
     loaded = [one for one in rehearsed.log if isinstance(one, Event)]
-    settings = load_settings(assay=case.assay)
+    settings = load_settings(assay=assay)
 
     def found(log: Sequence[Any]) -> set[str]:
         report = check_recording(replace(rehearsed, log=log), settings)
@@ -187,7 +191,7 @@ def _as_it_happened(steps: Sequence[Any], faults: Sequence[str]) -> list[Any]:
     return true
 
 
-def _errors(case: Case, faults: Sequence[str], rows: Sequence[Any]) -> Iterator[float]:
+def _errors(faults: Sequence[str], rows: Sequence[Any]) -> Iterator[float]:
     """What a topped-up well was given over what it should have been, as a share."""
     for fault in faults:
         kind, _, place = fault.partition("@")
@@ -214,7 +218,7 @@ def show(trials: Sequence[Trial]) -> str:
         lines.append(
             f"{name}: {alone} of {len(some)} runs needed nobody ({without} without recovery), "
             f"{right} of {sum(len(trial.faults) for trial in some)} faults put right, "
-            f"{missed} not seen by Layer 2."
+            f"{missed} not seen before a person was needed."
         )
     errors = [error for trial in trials for error in trial.errors]
     if errors:
@@ -236,16 +240,17 @@ def show(trials: Sequence[Trial]) -> str:
 def main() -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.recovery", description=__doc__)
-    parser.add_argument("--runs", type=int, default=5, help="of each protocol")
+    parser.add_argument("--liquid", choices=("dyed", "clear"), default="dyed")
+    parser.add_argument("--runs", type=int, default=3, help="of each protocol")
     parser.add_argument("--seed", type=int, default=7000, help="the first one")
     parser.add_argument("--json", type=Path, help="write every run here")
     asked = parser.parse_args()
     logging.disable(logging.WARNING)  # Opentrons tells that no robot is calibrated here
     trials: list[Trial] = []
-    for trial in measure(asked.runs, asked.seed):
+    for trial in measure(asked.runs, asked.seed, asked.liquid == "dyed"):
         trials.append(trial)
         sys.stderr.write(f"{len(trials)} of {asked.runs * len(CASES)} runs\r")
-    print(f"\n{show(trials)}")
+    print(f"\nLiquids are {asked.liquid}. {show(trials)}")
     if asked.json is not None:
         told = {"frames": "simulated", "seed": asked.seed, "runs": [asdict(t) for t in trials]}
         asked.json.write_text(json.dumps(told, indent=1), encoding="utf-8")
