@@ -1,7 +1,7 @@
 """Runs with transient faults that the robot puts right by itself: how many need nobody, and whether
 anything is contaminated by it.
 
-``python -m benchmarks.recovery [--liquid dyed|clear] [--runs N] [--seed FIRST] [--json OUT]``
+``python -m benchmarks.recovery [--runs N] [--seed FIRST] [--json OUT]``
 
 Each run is a whole dry run: the guard, a sidecar over a socket, simulated frames. One to three
 faults are planted that strike only the first delivery into their well, in the second column of the
@@ -67,29 +67,28 @@ class Trial:
     errors: tuple[float, ...]
 
 
-def measure(count: int, first: int, dyed: bool) -> Iterator[Trial]:
+def measure(count: int, first: int) -> Iterator[Trial]:
     """``count`` runs of each protocol."""
     for seed in range(first, first + count):
         for case in CASES:
-            yield _trial(case, seed, dyed)
+            yield _trial(case, seed)
 
 
-def _trial(case: Case, seed: int, dyed: bool) -> Trial:
+def _trial(case: Case, seed: int) -> Trial:
     chance = random.Random(f"{case.name}{seed}")
     places = sorted(chance.sample(range(len(case.wells)), chance.randint(1, 3)))
     kinds = [chance.choice(KINDS) for _ in places]
     faults = tuple(
         f"{kind}@1:{case.wells[place]}x1" for kind, place in zip(kinds, places, strict=True)
     )
-    text = case.text(dyed)
-    without, _ = _run(text, faults, seed, {})
-    result, heard = _run(text, faults, seed, RECOVER)
+    without, _ = _run(case.text, faults, seed, {})
+    result, heard = _run(case.text, faults, seed, RECOVER)
     alone = not result.flagged
     # A person who resumes does not empty the tip, and what is left in it hides later faults.
     first = next((n for n, row in enumerate(result.wells) if row.flagged), len(result.wells))
     failed = {row.address for row in result.wells if row.failure is not None}
     passed = {row.address for row in result.wells[:first]} - failed
-    new, worst = _contaminations(case.assay, text, faults, heard)
+    new, worst = _contaminations(case, faults, heard)
     return Trial(
         case.name, faults, alone, not without.flagged,
         sum(row.recovered for row in result.wells),
@@ -122,17 +121,17 @@ def _run(
 
 
 def _contaminations(
-    assay: str, text: str, faults: Sequence[str], steps: list[Any]
+    case: Case, faults: Sequence[str], steps: list[Any]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     from aegis_ot.instrumentation import Event
     from aegis_ot.preflight.checking import check_recording
     from aegis_ot.preflight.rehearsal import Script, record
     from aegis_ot.settings import load_settings
 
-    rehearsed = record(Script(text, "recovery.py"))
+    rehearsed = record(Script(case.text, "recovery.py"))
     # All that is loaded stands at the beginning of these protocols.
     loaded = [one for one in rehearsed.log if isinstance(one, Event)]
-    settings = load_settings(assay=assay)
+    settings = load_settings(assay=case.assay)
 
     def found(log: Sequence[Any]) -> set[str]:
         report = check_recording(replace(rehearsed, log=log), settings)
@@ -240,17 +239,16 @@ def show(trials: Sequence[Trial]) -> str:
 def main() -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.recovery", description=__doc__)
-    parser.add_argument("--liquid", choices=("dyed", "clear"), default="dyed")
     parser.add_argument("--runs", type=int, default=3, help="of each protocol")
     parser.add_argument("--seed", type=int, default=7000, help="the first one")
     parser.add_argument("--json", type=Path, help="write every run here")
     asked = parser.parse_args()
     logging.disable(logging.WARNING)  # Opentrons tells that no robot is calibrated here
     trials: list[Trial] = []
-    for trial in measure(asked.runs, asked.seed, asked.liquid == "dyed"):
+    for trial in measure(asked.runs, asked.seed):
         trials.append(trial)
         sys.stderr.write(f"{len(trials)} of {asked.runs * len(CASES)} runs\r")
-    print(f"\nLiquids are {asked.liquid}. {show(trials)}")
+    print(f"\n{show(trials)}")
     if asked.json is not None:
         told = {"frames": "simulated", "seed": asked.seed, "runs": [asdict(t) for t in trials]}
         asked.json.write_text(json.dumps(told, indent=1), encoding="utf-8")

@@ -14,7 +14,7 @@ def run(protocol):
     p300 = protocol.load_instrument("p300_single_gen2", "left", tips)
 
     def liquid(name, well, volume):
-        well.load_liquid(protocol.define_liquid(name + SHOWN, name, "#ff0000"), volume)
+        well.load_liquid(protocol.define_liquid(name, name, "#ff0000"), volume)
 """
 
 
@@ -34,10 +34,10 @@ class Case:
     body: str
     wells: tuple[str, ...]
 
-    def text(self, dyed: bool) -> str:
-        """The whole protocol; liquids that are not dyed are clear, and seen by their edges."""
-        shown = " with red dye" if dyed else ""
-        return f"SHOWN = {shown!r}\n{_HEAD}{self.body}"
+    @property
+    def text(self) -> str:
+        """The whole protocol."""
+        return _HEAD + self.body
 
 
 LATER = tuple(f"{row}2" for row in "ABCDEFGH")
