@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .errors import AegisError, ProtocolRejected, RehearsalError
 from .instrumentation import NameCollector, Tap, tapped
+from .known_tips import KnownTips, heard_by, recovers_by_itself
 from .protocol_frames import at_return_of, line_of, make_final, outermost, raise_in_protocol
 from .settings import Settings, load_settings
 
@@ -61,10 +62,12 @@ def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any]
     try:
         settings = load_settings(**keywords)
         _announce(protocol, settings)
-        if protocol.is_simulating():
+        recovers = recovers_by_itself(protocol, settings)
+        if protocol.is_simulating() and not recovers:
             return _rehearse_by_running(call, protocol, settings, file_name, module)
-        layer1 = _preflight(protocol, settings, file_name)
-        return _watched(call, protocol, settings, file_name, layer1)
+        tips = KnownTips() if recovers else None
+        layer1 = _preflight(protocol, settings, file_name, tips)
+        return _watched(call, protocol, settings, file_name, layer1, tips)
     except AegisError as error:
         make_final(error, protocol, file_name, sys._getframe(1))
         raise_in_protocol(error, file_name, line_of(run))
@@ -88,13 +91,14 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
     try:
         settings = load_settings(**keywords)
         _announce(protocol, settings)
-        layer1 = _preflight(protocol, settings, file_name)
-        watcher = _new_watcher(protocol, settings, file_name, layer1)
+        tips = KnownTips() if recovers_by_itself(protocol, settings) else None
+        layer1 = _preflight(protocol, settings, file_name, tips)
+        watcher = _new_watcher(protocol, settings, file_name, layer1, tips)
         with ExitStack() as beginning:
             beginning.callback(_GUARDED.reset, _GUARDED.set(weakref.ref(protocol)))
             if watcher is not None:
-                tap = Tap(protocol, [watcher], file_name)
-                watcher.begin(tap.lift)
+                tap = Tap(protocol, heard_by(watcher, tips), file_name)
+                watcher.begin(tap)
                 beginning.callback(tap.remove)
                 tap.install()
             ending = beginning.pop_all()
@@ -145,9 +149,11 @@ def _rehearse_by_running(
     return result
 
 
-def _preflight(protocol: Any, settings: Settings, file_name: str) -> _Layer1:
+def _preflight(
+    protocol: Any, settings: Settings, file_name: str, tips: KnownTips | None = None
+) -> _Layer1:
     """Rehearse and judge before anything moves; what there is to say of it."""
-    if settings.rules == "off":
+    if settings.rules == "off" and tips is None:
         return _Layer1("")
     from .preflight.rehearsal import find_script, record
     from .runtime.runstate import RunState
@@ -159,6 +165,7 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> _Layer1:
     try:
         recording = record(
             script,
+            [] if tips is None else [tips.forecast],
             # The property is refused below apiLevel 2.18.
             live_parameters=getattr(protocol, "_params", None),
             timeout_s=settings.rehearsal_timeout_s,
@@ -172,17 +179,24 @@ def _preflight(protocol: Any, settings: Settings, file_name: str) -> _Layer1:
         raise
     except Exception as error:  # as in _judge
         return _failed(error)
-    return _judge(recording, protocol, settings)
+    if tips is not None:
+        tips.forecast.complete = True
+    return _judge(recording, protocol, settings) if settings.rules != "off" else _Layer1("")
 
 
 def _watched(
-    call: Callable[[], Any], protocol: Any, settings: Settings, file_name: str, layer1: _Layer1
+    call: Callable[[], Any],
+    protocol: Any,
+    settings: Settings,
+    file_name: str,
+    layer1: _Layer1,
+    tips: KnownTips | None,
 ) -> Any:
-    watcher = _new_watcher(protocol, settings, file_name, layer1)
+    watcher = _new_watcher(protocol, settings, file_name, layer1, tips)
     if watcher is None:
         result = call()
     else:
-        with tapped(protocol, [watcher], file_name) as tap:
+        with tapped(protocol, heard_by(watcher, tips), file_name) as tap:
             result = _call_watched(call, watcher, tap)
     _say(protocol, layer1, watcher)
     return result
@@ -191,7 +205,7 @@ def _watched(
 def _call_watched(call: Callable[[], Any], watcher: Watcher | None, tap: Tap) -> Any:
     if watcher is None:
         return call()
-    watcher.begin(tap.lift)
+    watcher.begin(tap)
     try:
         result = call()
     except BaseException as error:
@@ -215,7 +229,11 @@ def _end(
 
 
 def _new_watcher(
-    protocol: Any, settings: Settings, file_name: str, layer1: _Layer1 | None = None
+    protocol: Any,
+    settings: Settings,
+    file_name: str,
+    layer1: _Layer1 | None = None,
+    tips: KnownTips | None = None,
 ) -> Watcher | None:
     """Layer 2, where a sidecar is configured.
 
@@ -226,7 +244,8 @@ def _new_watcher(
         return None
     from .runtime import Watcher
 
-    return Watcher(protocol, settings, file_name, layer1.report if layer1 else None)
+    knowledge = None if tips is None else tips.knowledge
+    return Watcher(protocol, settings, file_name, layer1.report if layer1 else None, knowledge)
 
 
 def _text_of(file_name: str, protocol: Any) -> str:

@@ -12,7 +12,16 @@ from .seen import state_of
 FORMATS = ((1, 1), (2, 3), (3, 4), (4, 6), (6, 8), (8, 12), (16, 24), (32, 48))
 """Rows and columns of the plates that there are; the smallest that has all wells is drawn."""
 
-GRAVITY = ("fail", "undecided", "waiting", "running", "abandoned", "pass", "calibration")
+GRAVITY = (
+    "fail",
+    "undecided",
+    "waiting",
+    "running",
+    "recovered",
+    "abandoned",
+    "pass",
+    "calibration",
+)
 """States from the one that a person must see to the one that needs nobody."""
 
 

@@ -21,8 +21,9 @@ def no_pictures(_sequence: int, _box: Box | None) -> tuple[None, None, str]:
 
 
 def state_of(trajectory: Mapping[str, Any]) -> str:
-    """How a delivery stands, in one word: ``fail``, ``undecided``, ``pass``, ``calibration``,
-    ``waiting`` (for its verdict), ``running`` (keyframes are still to come) or ``abandoned``.
+    """How a delivery stands, in one word: ``fail``, ``recovered`` (failed, and put right by the
+    robot), ``undecided``, ``pass``, ``calibration``, ``waiting`` (for its verdict), ``running``
+    (keyframes are still to come) or ``abandoned``.
     """
     if trajectory["abandoned"] is not None:
         return "abandoned"
@@ -30,6 +31,8 @@ def state_of(trajectory: Mapping[str, Any]) -> str:
     if trajectory.get("awaiting"):
         return "undecided"
     if verdict:
+        if verdict["outcome"] == "fail" and trajectory.get("recovered"):
+            return "recovered"
         calibrates = verdict["outcome"] == "pass" and verdict["route"] == "calibration"
         return "calibration" if calibrates else str(verdict["outcome"])
     kinds = {keyframe["kind"] for keyframe in trajectory["keyframes"]}

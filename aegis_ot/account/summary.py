@@ -28,7 +28,7 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         ``finished``; ``counts`` by state; ``plates``; ``wells``; ``flagged`` (numbers of the
         deliveries that failed, are undecided, or that a person decided); ``calibration`` per
         liquid and pipette; ``holds``; ``decisions``; ``latency`` (s); ``costs``; ``incidents``;
-        ``layer1``; ``guard`` and ``sidecar`` (settings and versions).
+        ``recoveries``; ``layer1``; ``guard`` and ``sidecar`` (settings and versions).
     """
     trajectories: Sequence[Mapping[str, Any]] = overview["trajectories"]
     states = Counter(state_of(trajectory) for trajectory in trajectories)
@@ -50,6 +50,7 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         "latency": _latency(trajectories),
         "costs": overview.get("costs"),
         "incidents": overview.get("incidents") or [],
+        "recoveries": _recoveries(overview),
         "layer1": overview.get("layer1"),
         "guard": overview.get("guard"),
         "sidecar": overview.get("sidecar"),
@@ -58,7 +59,8 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
 
 def is_flagged(trajectory: Mapping[str, Any]) -> bool:
     """Whether a person should look at it: it failed, is undecided, or somebody changed it."""
-    return state_of(trajectory) in ("fail", "undecided") or bool(trajectory["decisions"])
+    state = state_of(trajectory)
+    return state in ("fail", "undecided", "recovered") or bool(trajectory["decisions"])
 
 
 def _plate(plate: PlateMap) -> dict[str, Any]:
@@ -117,6 +119,14 @@ def _actions(overview: Mapping[str, Any]) -> list[dict[str, Any]]:
     return [
         action | {"well": wells.get(action["trajectory"], ""), "outcome": None}
         for action in overview.get("actions") or ()
+    ]
+
+
+def _recoveries(overview: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """What the robot did by itself about failed deliveries, with the well of each."""
+    wells = {t["trajectory"]: t["well"] for t in overview["trajectories"]}
+    return [
+        one | {"well": wells.get(one["trajectory"], "")} for one in overview.get("recoveries") or ()
     ]
 
 

@@ -71,9 +71,11 @@ def show(result: DryRun) -> None:
     # Cells of a squeezed table say nothing: a narrow terminal wraps its lines instead.
     console.print(_table(result.wells, _WIDE if console.width < _WIDE else None), crop=False)
     passed = sum(row.outcome is Outcome.PASS for row in result.wells)
+    recovered = sum(row.recovered for row in result.wells)
+    right = f"{recovered} failed and put right, " if recovered else ""
     console.print(
         f"{result.protocol}: {counted(len(result.wells), 'well')} watched on simulated frames, "
-        f"{passed} passed, {len(result.flagged)} flagged; run {result.outcome} "
+        f"{passed} passed, {right}{len(result.flagged)} flagged; run {result.outcome} "
         f"({result.seconds:.1f} s)."
     )
     for row in result.flagged:
@@ -99,6 +101,7 @@ def _table(rows: Sequence[WellRow], width: int | None = None) -> Table:
     for row in rows:
         verdict = row.outcome.value if row.outcome else "none"
         failure = f" ({row.failure.value})" if row.failure else ""
+        failure += ", put right" if row.recovered else ""
         table.add_row(
             str(row.trajectory),
             Text(row.address),

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from ..settings import load_settings
 from .app import app
 from .judging import one_of
 
@@ -19,6 +21,13 @@ def simulate(
         typer.Option(
             help="Plant a fault: partial:50@B3, no_aspirate@C4, no_dispense@#12, air_bubble@D1, "
             "no_tip@E1. May be given more than once."
+        ),
+    ] = None,
+    recover: Annotated[
+        list[str] | None,
+        typer.Option(
+            help="Let the robot put failed wells right: no_aspirate=retry, no_dispense=retry, "
+            "partial_dispense=top_up. May be given more than once."
         ),
     ] = None,
     on_fail: Annotated[
@@ -44,6 +53,7 @@ def simulate(
 
     settings = DryRunSettings(
         faults=tuple(fault or ()),
+        recover=load_settings(recover=_pairs(recover or ())).recover,
         on_fail=one_of("--on-fail", on_fail, ("continue", "stop")),
         seed=seed,
         rules=one_of("--rules", rules, ("on", "warn", "off")),
@@ -54,3 +64,9 @@ def simulate(
     if report is not None:
         write_report(report, [result])
     raise typer.Exit(exit_code(result))
+
+
+def _pairs(given: Sequence[str]) -> dict[str, str]:
+    """``["no_aspirate=retry"]`` as a setting."""
+    parts = (one.partition("=") for one in given)
+    return {kind.strip(): action.strip() for kind, _, action in parts}

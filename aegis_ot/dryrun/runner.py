@@ -8,7 +8,7 @@ import secrets
 import tempfile
 import time
 import urllib.request
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -46,6 +46,7 @@ class DryRunSettings:
 
     Attributes:
         faults: Planted faults, ``"partial:50@B3"``.
+        recover: As for the guard.
         on_fail: ``"continue"``: a pause is reported and the run goes on; ``"stop"``.
         seed: Of the simulated camera.
         rules: ``"on"``, ``"warn"`` or ``"off"``.
@@ -57,6 +58,7 @@ class DryRunSettings:
     """
 
     faults: tuple[str, ...] = ()
+    recover: Mapping[str, str] = field(default_factory=dict)
     on_fail: str = "continue"
     seed: int = 0
     rules: str = "on"
@@ -188,6 +190,7 @@ def _run(
                     run_id=run,
                     watch_simulation=True,
                     hold=settings.hold,
+                    recover=settings.recover,
                     on_fail="abort" if settings.on_fail == "stop" else "continue",
                     on_undecided="abort" if settings.on_fail == "stop" else "continue",
                     on_link_loss="abort",

@@ -22,6 +22,7 @@ class WellRow:
         volume_ul: Commanded, µL per channel.
         score: Anomaly score; ``None`` without frames.
         limit: Score up to which a well passes in this run; ``None`` before it is calibrated.
+        recovered: Whether it failed, and the robot put the well right.
         p_value: How often a normal well of this run looks this unusual.
         route: Where triage sent it.
         gate: Who settled it.
@@ -49,11 +50,12 @@ class WellRow:
     line: int | None = None
     limit: float | None = None
     p_value: float | None = None
+    recovered: bool = False
 
     @property
     def flagged(self) -> bool:
-        """Whether it failed or could not be settled."""
-        return self.outcome in (Outcome.FAIL, Outcome.UNDECIDED)
+        """Whether it failed, and was not put right, or could not be settled."""
+        return self.outcome in (Outcome.FAIL, Outcome.UNDECIDED) and not self.recovered
 
 
 @dataclass(frozen=True)
@@ -121,4 +123,5 @@ def _row(entry: Mapping[str, Any]) -> WellRow:
         line=last.get("line"),
         limit=(entry["evidence"].get("band") or (None, None))[1],
         p_value=entry["evidence"].get("p_value"),
+        recovered=bool(entry.get("recovered")),
     )

@@ -3,6 +3,7 @@
 from .labware import LabwareInfo, WellInfo
 from .names import NameBinding, NameCollector
 from .operation import Event, EventKind, Listener, Operation, OperationKind, Pipette
+from .repeating import is_repeatable
 from .tap import Tap, tapped
 from .value_reader import Row, is_spot
 
@@ -19,6 +20,7 @@ __all__ = [
     "Row",
     "Tap",
     "WellInfo",
+    "is_repeatable",
     "is_spot",
     "tapped",
 ]

@@ -138,6 +138,8 @@ class CallReader:
             call=site.call,
             mixing=site.mixing,
             core=self._weak_core,
+            method=name,
+            arguments=values,
         )
         aimed = getattr(getattr(location, "labware", None), "is_well", False) and not disposal
         self._targets.append((operation, location, well_core if aimed else None))

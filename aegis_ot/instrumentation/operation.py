@@ -8,7 +8,7 @@ The core of an ``InstrumentContext`` is where every path meets, at every apiLeve
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any, Protocol
@@ -97,6 +97,10 @@ class Operation:
     mixing: bool = False
     core: Callable[[], Any] = field(default=_no_core, repr=False, compare=False)
     """Gives the instrument core, as a weak reference does: ``None`` once the run is over."""
+    method: str = field(default="", repr=False, compare=False)
+    """Name of the core's method that was called."""
+    arguments: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
+    """What it was called with, by name: enough to do the same again."""
 
     @property
     def well(self) -> WellRef | None:

@@ -15,9 +15,10 @@ from types import MethodType
 from typing import Any
 
 from .calls import CORE_METHODS, CallReader
-from .callsite import ProtocolStack
+from .callsite import CallSite, ProtocolStack
 from .events import EventTap
 from .operation import Listener, Operation, Pipette
+from .repeating import repeated
 from .wells import WellResolver
 
 
@@ -39,6 +40,7 @@ class Tap:
         self._readers: dict[str, CallReader] = {}
         self._events = EventTap(self._core, self.wells, self._listeners, self.stack, self._replace)
         self._protocol = protocol
+        self._instead: CallSite | None = None
 
     def install(self) -> None:
         """Wrap what is loaded already, and whatever is loaded from now on."""
@@ -60,6 +62,29 @@ class Tap:
         comes down from above the other. No listener hears of it.
         """
         self._readers[operation.pipette.key].move_above(operation)
+
+    def instrument(self, mount: str) -> Any:
+        """The pipette that the protocol loaded on ``"left"`` or ``"right"``."""
+        return self._protocol.loaded_instruments[mount]
+
+    def slot_of(self, labware: Any) -> str:
+        """Where a labware that the protocol loaded stands; ``""`` off deck."""
+        return self.wells.slot(self.wells.register(labware._core).key)
+
+    def repeat(self, operation: Operation, volume: float | None = None) -> None:
+        """Do an earlier operation again, as a command of the same pipette.
+
+        Listeners hear of it as they did before, with the source line that first caused it.
+
+        Args:
+            operation: Heard by a listener in this run.
+            volume: Instead of its own, µL.
+        """
+        self._instead = CallSite(operation.lines, operation.call, operation.mixing)
+        try:
+            repeated(self.instrument(operation.pipette.mount), operation, volume)
+        finally:
+            self._instead = None
 
     def _tapped_load_instrument(self, original: Callable[..., Any]) -> Callable[..., Any]:
         def load_instrument(core: Any, *args: Any, **kwargs: Any) -> Any:
@@ -89,7 +114,7 @@ class Tap:
         def method(core: Any, *args: Any, **kwargs: Any) -> Any:
             if reader.busy:  # a legacy core moves by its own move_to inside an aspirate
                 return original(*args, **kwargs)
-            site = self.stack.call_site()
+            site = self._instead or self.stack.call_site()
             operation = reader.read(name, args, kwargs, site)
             if operation is None:
                 return original(*args, **kwargs)

@@ -175,6 +175,11 @@ class Courier:
         self._messages.append(lambda most: self._link.report_hold(self._run, body, most))
         self._tell()
 
+    def report_recovery(self, told: Mapping[str, Any]) -> None:
+        """Tell likewise of a recovery."""
+        self._messages.append(lambda most: self._link.report_recovery(self._run, told, most))
+        self._tell()
+
     def finish(
         self, outcome: str, detail: str, abandoned: Mapping[int, str], timeout_s: float
     ) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from ..errors import LinkError, RunAborted
 from ..http_client import SLICE_S, CheckStop
+from ..instrumentation import Operation
 from ..settings import Settings
 from ..vocabulary import Gate, Outcome, Verdict
 from .courier import Courier
@@ -14,6 +15,7 @@ from .link import SidecarLink
 from .linkloss import LinkLoss
 from .operator import Answer, Operator
 from .page_answers import PageAnswers
+from .recovering import Recovery
 from .runstate import RunState
 from .steps import Hold
 from .stopping import Waits
@@ -33,6 +35,7 @@ class Holding:
         result: Holds and verdicts are counted here.
         link: Makes a further connection to the sidecar.
         run: Identifier of the run.
+        recovery: Puts failed wells right where it may; asked before the policies.
     """
 
     def __init__(
@@ -46,7 +49,9 @@ class Holding:
         result: WatchSummary,
         link: Callable[[CheckStop], SidecarLink],
         run: str,
+        recovery: Recovery | None = None,
     ) -> None:
+        self._recovery = recovery
         self._link = link
         self._run = run
         self._courier = courier
@@ -57,8 +62,12 @@ class Holding:
         self._waits = waits
         self._result = result
 
-    def hold(self, step: Hold) -> None:
+    def hold(self, step: Hold, boundary: Operation | None = None) -> None:
         """Stand still until every verdict of ``step`` is in and dealt with.
+
+        Args:
+            step: Which.
+            boundary: What the protocol does next, if a recovery may come before it.
 
         Raises:
             RunAborted: A policy, or the operator, ends the run.
@@ -71,7 +80,8 @@ class Holding:
                 verdict, ended_by = self._await(number, deadline)
             finally:
                 self._result.held(time.monotonic() - began)
-            self._resolve(step, number, verdict, ended_by, time.monotonic() - began)
+            held = time.monotonic() - began
+            self._resolve(step, number, verdict, ended_by, held, boundary)
 
     def _await(self, number: int, deadline: float) -> tuple[Verdict | None, str]:
         """Poll in short waits until the verdict is in; else why there is none."""
@@ -101,7 +111,13 @@ class Holding:
                 return None, "timeout"
 
     def _resolve(
-        self, step: Hold, number: int, verdict: Verdict | None, ended_by: str, seconds: float
+        self,
+        step: Hold,
+        number: int,
+        verdict: Verdict | None,
+        ended_by: str,
+        seconds: float,
+        boundary: Operation | None,
     ) -> None:
         settings = self._settings
         policy: str | None = None
@@ -123,6 +139,10 @@ class Holding:
                 policy = settings.on_undecided
         if step.final and settings.hold == "off":
             policy = "continue" if policy else None  # too late to change anything
+        if self._recovery is not None:
+            refused = self._recovery.judged(number, verdict, boundary)
+            policy = "recover" if refused is None else policy
+            text = f"{text} {refused}" if refused else text
         self._courier.report_hold(number, seconds, ended_by, policy)
         if policy == "continue":
             self._operator.comment(f"{text} The run goes on, as configured.")

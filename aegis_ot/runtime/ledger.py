@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ..vocabulary import Keyframe, KeyframeKind, WellRef
 from .hand import Hand
 from .steps import Trajectory
@@ -14,6 +16,7 @@ class Ledger:
 
     Attributes:
         trajectories: How many have begun.
+        recovering: The failed trajectory that a pipette is recovering just now, by mount.
         reagents: Name of the liquid that was loaded into a well.
     """
 
@@ -21,6 +24,7 @@ class Ledger:
         self._run = run
         self._sequence = 0
         self.trajectories = 0
+        self.recovering: Mapping[str, int] = {}
         self.reagents: dict[WellRef, str] = {}
 
     def begin(self, hand: Hand) -> Trajectory:
@@ -34,6 +38,7 @@ class Ledger:
             commanded_ul=hand.contents.liquid,
             reagent=" + ".join(names) or None,
             line=hand.draw.line if hand.draw is not None else None,
+            recovers=self.recovering.get(hand.pipette.mount),
         )
         self.trajectories += 1
         return trajectory
@@ -57,6 +62,7 @@ class Ledger:
             reagent=trajectory.reagent,
             position=hand.position,
             line=trajectory.line,
+            recovers=trajectory.recovers,
         )
         self._sequence += 1
         trajectory.frames += 1

@@ -71,6 +71,16 @@ class LegacyRun:
             self._handler(kept)
 
     @contextmanager
+    def aside(self) -> Iterator[None]:
+        """Commands that the guard does itself come before the one that is kept back."""
+        kept, self._kept = self._kept, None
+        try:
+            yield
+        finally:
+            self.announce()
+            self._kept = kept
+
+    @contextmanager
     def speaking(self) -> Iterator[None]:
         """What is announced now are the guard's own words."""
         self._speaking = True

@@ -139,6 +139,10 @@ class SidecarLink:
         """Say how long the robot held, and what ended it."""
         self._request("POST", f"/v1/runs/{quote(run, safe='')}/hold", dict(hold), timeout_s)
 
+    def report_recovery(self, run: str, told: Mapping[str, Any], timeout_s: float) -> None:
+        """Say how the robot puts a failed delivery right, or why it does not."""
+        self._request("POST", f"/v1/runs/{quote(run, safe='')}/recovery", dict(told), timeout_s)
+
     def finish(self, run: str, outcome: str, detail: str, timeout_s: float) -> None:
         """Say how the run ended."""
         body = {"outcome": outcome, "detail": detail}

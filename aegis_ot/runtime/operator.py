@@ -6,7 +6,7 @@ import select
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from enum import Enum
 from typing import Any
 
@@ -60,6 +60,10 @@ class Operator:
         """Nothing more is to be said before the operation that the protocol asked for."""
         if self._legacy_run is not None:
             self._legacy_run.announce()
+
+    def aside(self) -> AbstractContextManager[None]:
+        """While the guard does commands of its own, before the operation that waits."""
+        return nullcontext() if self._legacy_run is None else self._legacy_run.aside()
 
     def comment(self, text: str) -> None:
         """Write into the run log."""

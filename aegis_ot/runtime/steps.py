@@ -61,6 +61,7 @@ class Trajectory:
         reagent: Name of the liquid, if known.
         line: Source line of the operation that caused the next keyframe.
         frames: How many of its four keyframes exist.
+        recovers: The failed trajectory of which this is a recovery.
         delivered: Whether liquid has left the tip into the destination.
     """
 
@@ -72,4 +73,5 @@ class Trajectory:
     line: int | None = None
     destinations: tuple[WellRef, ...] = ()
     frames: int = 0
+    recovers: int | None = None
     delivered: bool = False

@@ -16,6 +16,7 @@ class WatchSummary:
         verdicts: Verdict by trajectory, as far as one is in and counts.
         places: Destination of each trajectory in plain words.
         lost: Trajectories without a verdict that counts, and why.
+        recovered: Failed trajectories that the robot put right by itself.
         abandoned: Trajectories that were never delivered.
         keyframes: Keyframes acknowledged.
         hold_s: Time spent at boundaries, s.
@@ -27,6 +28,7 @@ class WatchSummary:
     verdicts: dict[int, Verdict] = field(default_factory=dict)
     places: dict[int, str] = field(default_factory=dict)
     lost: dict[int, str] = field(default_factory=dict)
+    recovered: set[int] = field(default_factory=set)
     abandoned: set[int] = field(default_factory=set)
     keyframes: int = 0
     hold_s: float = 0.0
@@ -51,11 +53,14 @@ class WatchSummary:
         """One line for a comment in the run log."""
         if not self.watching:
             return "Layer 2 does not watch this simulation."
-        failed = self.of(Outcome.FAIL)
+        failed = tuple(n for n in self.of(Outcome.FAIL) if n not in self.recovered)
+        recovered = tuple(sorted(self.recovered))
         undecided = self.of(Outcome.UNDECIDED)
         parts = [f"{len(self.of(Outcome.PASS))} passed"]
         if failed:
             parts.append(f"{len(failed)} failed ({self._wells(failed)})")
+        if recovered:
+            parts.append(f"{len(recovered)} put right ({self._wells(recovered)})")
         if undecided:
             parts.append(f"{len(undecided)} undecided ({self._wells(undecided)})")
         if self.lost:

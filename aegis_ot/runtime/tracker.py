@@ -9,7 +9,7 @@ The table of what each kind of call yields is ``docs/reference/keyframes.md``.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from ..instrumentation import Event, EventKind, Operation, OperationKind
 from .awaiting import EXPELLING, Awaiting, describe, is_on
@@ -53,6 +53,10 @@ class Tracker:
     def trajectories(self) -> int:
         """How many trajectories have begun."""
         return self._ledger.trajectories
+
+    def mark_recoveries(self, of_mount: Mapping[str, int]) -> None:
+        """Trajectories that begin while their mount stands in ``of_mount`` recover that one."""
+        self._ledger.recovering = of_mount
 
     def before(self, operation: Operation) -> list[Step]:
         """What has to be done before ``operation``, in order."""

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from ..errors import LinkError, RunAborted
 from ..http_client import CheckStop
-from ..instrumentation import Event, Operation
+from ..instrumentation import Event, Operation, Tap
 from ..settings import Settings
 from ..vocabulary import Keyframe, KeyframeKind
 from .courier import Courier
@@ -17,6 +17,7 @@ from .holding import Holding
 from .link import SidecarLink
 from .linkloss import LinkLoss
 from .operator import Operator
+from .recovering import Recovery, TipKnowledge
 from .refusal import refuse_everything
 from .runstate import RunState
 from .steps import Abandon, Capture, Hold, Lift, Step
@@ -49,10 +50,16 @@ class Watcher:
         settings: In force for this run; ``settings.sidecar`` must not be ``None``.
         file_name: ``co_filename`` of the protocol's code.
         layer1: Layer 1's report, for the sidecar's page.
+        tips: What Layer 1 knows of them; without it nothing is recovered.
     """
 
     def __init__(
-        self, protocol: Any, settings: Settings, file_name: str, layer1: Any = None
+        self,
+        protocol: Any,
+        settings: Settings,
+        file_name: str,
+        layer1: Any = None,
+        tips: TipKnowledge | None = None,
     ) -> None:
         self._settings = settings
         self._simulating = bool(protocol.is_simulating())
@@ -63,6 +70,8 @@ class Watcher:
         self._operator = Operator(protocol, self._simulating, self._waits.rest)
         self._tracker = Tracker(self.run_id, settings.hold, settings.lift, working_volume)
         self._lift: LiftMove = lambda operation: None
+        self._tips = tips
+        self._recovery: Recovery | None = None
         self._line: _Line | None = None
         self._about = about_run(protocol, self.run_id, file_name, self._simulating) | {
             "guard": about_guard(settings),
@@ -76,20 +85,20 @@ class Watcher:
 
     # What the guard calls
 
-    def begin(self, lift: LiftMove) -> None:
+    def begin(self, tap: Tap) -> None:
         """Before the protocol's first command.
 
         Args:
-            lift: Moves the tip to the top of the wells of a recent operation, unheard.
+            tap: On the protocol's instruments; this watcher is one of its listeners.
 
         Raises:
             RunAborted: The sidecar is away, and the policy says so.
         """
-        self._lift = lift
+        self._lift = tap.lift
         if not self.result.watching:
             return
         self._operator.begin()
-        self._line = line = self._connect()
+        self._line = line = self._connect(tap)
         try:
             self._stoppable(lambda: line.loss.insist(line.loss.register))
         except BaseException:
@@ -99,16 +108,25 @@ class Watcher:
 
     def before(self, operation: Operation) -> None:
         """Of :class:`aegis_ot.instrumentation.Listener`."""
-        self._perform(self._tracker.before(operation))
+        goes_on = self._perform(self._tracker.before(operation), operation)
+        if self._recovery is not None:
+            self._recover(self._recovery, operation)
+        if goes_on:
+            self._operator.proceed()
 
     def after(self, operation: Operation) -> None:
         """Of :class:`aegis_ot.instrumentation.Listener`."""
-        self._perform(self._tracker.after(operation))
+        if self._recovery is not None:
+            self._recovery.strokes.done(operation)
+        if self._perform(self._tracker.after(operation)):
+            self._operator.proceed()
 
     def event(self, event: Event) -> None:
         """Of :class:`aegis_ot.instrumentation.Listener`."""
-        if not self._operator.busy:  # the guard's own pauses and comments are no events
-            self._perform(self._tracker.event(event))
+        if self._operator.busy:
+            return  # the guard's own pauses and comments are no events
+        if self._perform(self._tracker.event(event)):
+            self._operator.proceed()
 
     def end(self, error: BaseException | None, told: str = "") -> None:
         """After the protocol's last command, or when it raised ``error``.
@@ -126,6 +144,7 @@ class Watcher:
                 outcome, detail = "aborted", self._aborted
             elif error is None:
                 self._perform(self._tracker.finish())
+                self._operator.proceed()
             else:
                 outcome = "failed"
                 detail = told or f"{type(error).__name__}: {error}"
@@ -147,9 +166,10 @@ class Watcher:
 
     # Steps
 
-    def _perform(self, steps: Iterable[Step]) -> None:
+    def _perform(self, steps: Sequence[Step], boundary: Operation | None = None) -> bool:
+        """Do all steps; whether the run went on until then."""
         if self._stopped:
-            return
+            return False
         if self._aborted:
             # The protocol caught it (`except Exception`) and goes on; the robot must not.
             raise RunAborted(self._aborted)
@@ -163,18 +183,32 @@ class Watcher:
                 elif isinstance(step, Capture):
                     self._capture(step.keyframe)
                 elif isinstance(step, Hold):
-                    self._connected().holding.hold(step)
+                    free = boundary if step is steps[-1] else None
+                    self._connected().holding.hold(step, free)
                 else:
                     self._abandon(step)
 
         self._stoppable(perform)
-        self._operator.proceed()
+        return True
+
+    def _recover(self, recovery: Recovery, operation: Operation) -> None:
+        """Put right what failed, before ``operation``; what is done is watched like the rest."""
+        while recovery.is_due and not self._stopped:
+            with self._operator.aside():
+                self._stoppable(recovery.carry_out)
+            self._perform(self._tracker.before(operation), operation)
+        if not self._stopped and recovery.needs_clean_tip(operation):
+            with self._operator.aside():
+                self._stoppable(lambda: recovery.give_clean_tip(operation))
+            self._perform(self._tracker.before(operation), operation)
 
     def _capture(self, keyframe: Keyframe) -> None:
         if keyframe.kind is KeyframeKind.DISPENSE:
             self.result.places[keyframe.trajectory] = ", ".join(
                 str(well) for well in keyframe.destinations[:1]
             )
+        if self._recovery is not None:
+            self._recovery.strokes.captured(keyframe)
         line = self._connected()
         courier = line.courier
         courier.offer(replace(keyframe, robot_time=time.time()))
@@ -201,7 +235,7 @@ class Watcher:
 
     # The line to the sidecar
 
-    def _connect(self) -> _Line:
+    def _connect(self, tap: Tap) -> _Line:
         url, token = self._settings.sidecar, self._settings.token
         assert url is not None
 
@@ -218,9 +252,15 @@ class Watcher:
             self._simulating,
             self.result,
         )
+        if self._settings.recover and self._tips is not None:
+            self._recovery = Recovery(
+                self._settings, self._tips, tap, self._operator.comment, courier.report_recovery,
+                self._waits.check, self.result,
+            )  # fmt: skip
+            self._tracker.mark_recoveries(self._recovery.of_mount)
         holding = Holding(
             courier, loss, self._settings, self._operator, self._state, self._waits, self.result,
-            link, self.run_id,
+            link, self.run_id, self._recovery,
         )  # fmt: skip
         return _Line(courier, loss, holding)
 
@@ -232,6 +272,7 @@ class Watcher:
     def _say_goodbye(self, outcome: str, detail: str) -> None:
         line, self._line = self._line, None
         self._lift = lambda operation: None
+        self._recovery = None
         self._refuse = lambda error: None
         leftover = self._tracker.break_off(f"the run {outcome}")
         if line is None:

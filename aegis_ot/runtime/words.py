@@ -49,6 +49,7 @@ def about_guard(settings: Settings) -> dict[str, Any]:
         "on_undecided": settings.on_undecided,
         "on_link_loss": settings.on_link_loss,
         "verdict_timeout_s": settings.verdict_timeout_s,
+        "recover": ", ".join(f"{kind}: {action}" for kind, action in settings.recover.items()),
     }
 
 

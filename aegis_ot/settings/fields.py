@@ -29,6 +29,11 @@ class Settings:
         on_undecided: The same for a well that no gate could settle.
         on_link_loss: The same for a sidecar that is away, refuses, answers nonsense, or gives
             no frame or no verdict in time.
+        recover: What the robot does by itself about a failed well before ``on_fail`` is asked: kind
+            of failure to action, as in ``{"no_aspirate": "retry", "partial_dispense": "top_up"}``;
+            see ``docs/how-to/recovery.md``.
+        recover_limit: Most recoveries of one well.
+        recover_run_limit: Most recoveries of one run.
         watch_simulation: Whether Layer 2 also acts in simulation.
         lift: Whether moves to the top of the well are inserted for two of the keyframes.
         capture_timeout_s: Longest wait for one keyframe, retries included, s.
@@ -53,6 +58,9 @@ class Settings:
     on_fail: str = "pause"
     on_undecided: str = "pause"
     on_link_loss: str = "pause"
+    recover: Mapping[str, str] = field(default_factory=dict)
+    recover_limit: int = 2
+    recover_run_limit: int = 8
     watch_simulation: bool = False
     lift: bool = True
     capture_timeout_s: float = 10.0

@@ -17,6 +17,8 @@ from urllib.parse import urlsplit
 from ..errors import ConfigurationError
 
 POLICIES = ("pause", "continue", "abort")
+RECOVERIES = {"no_aspirate": "retry", "no_dispense": "retry", "partial_dispense": "top_up"}
+"""What can be done by itself about each kind of failure; of others too little is known."""
 
 
 @dataclass(frozen=True)
@@ -111,6 +113,29 @@ def _roles(value: Any, site: Site) -> dict[str, tuple[str, ...]]:
         raise site.error(value, accepted) from None
 
 
+def _recover(value: Any, site: Site) -> dict[str, str]:
+    known = ", ".join(f'"{kind}": "{action}"' for kind, action in RECOVERIES.items())
+    accepted = f'an object with any of {known} (or "pause" for one of them)'
+    if isinstance(value, str):
+        try:
+            value = json.loads(value)
+        except ValueError:
+            raise site.error(value, accepted + ", written as JSON") from None
+    if not isinstance(value, Mapping) or not all(
+        kind in RECOVERIES and action in (RECOVERIES[kind], "pause")
+        for kind, action in value.items()
+    ):
+        raise site.error(value, accepted)
+    return {kind: action for kind, action in value.items() if action != "pause"}
+
+
+def _count(value: Any, site: Site) -> int:
+    text = str(value).strip()
+    if isinstance(value, bool) or not text.isascii() or not text.isdigit() or int(text) > 1000:
+        raise site.error(value, "a whole number from 0 to 1000")
+    return int(text)
+
+
 def _sidecar(value: Any, site: Site) -> str | None:
     accepted = '"http://HOST:PORT", "https://HOST:PORT", or None'
     text = _optional_text(value, site, accepted)
@@ -168,6 +193,9 @@ READERS: dict[str, Callable[[Any, Site], Any]] = {
     "on_fail": _choice(*POLICIES),
     "on_undecided": _choice(*POLICIES),
     "on_link_loss": _choice(*POLICIES),
+    "recover": _recover,
+    "recover_limit": _count,
+    "recover_run_limit": _count,
     "watch_simulation": _flag,
     "lift": _flag,
     "capture_timeout_s": _seconds,

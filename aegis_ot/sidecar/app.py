@@ -38,6 +38,7 @@ from .wire import (
     Decision,
     Finish,
     Hold,
+    Recovery,
     RunStart,
     WireError,
     check_run,
@@ -174,6 +175,11 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
     @app.post("/v1/runs/{run}/hold", openapi_extra=takes(Hold))
     async def hold(run: Run, body: Annotated[Hold, _body(Hold)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.hold, run, body)
+        return {}
+
+    @app.post("/v1/runs/{run}/recovery", openapi_extra=takes(Recovery))
+    async def recovery(run: Run, body: Annotated[Recovery, _body(Recovery)]) -> dict[str, Any]:
+        await run_in_threadpool(sidecar.recovery, run, body)
         return {}
 
     @app.post("/v1/runs/{run}/finish", openapi_extra=takes(Finish))

@@ -25,4 +25,6 @@ def effective(verdict: Verdict, decisions: list[dict[str, Any]]) -> Verdict:
         reason=f"{last['by']} decided {outcome.value}{note}. Before: {verdict.reason}".rstrip(),
         measured_ul=verdict.measured_ul,
         expected_ul=verdict.expected_ul,
+        left_ul=verdict.left_ul,
+        left_sigma_ul=verdict.left_sigma_ul,
     )

@@ -8,10 +8,11 @@ from typing import Any
 
 from ..vocabulary import Verdict, from_json, to_json
 from .database import Database
-from .wire import Action, Decision, Hold
+from .wire import Action, Decision, Hold, Recovery
 
 OF_A_RUN = (
-    "incidents", "actions", "decisions", "holds", "abandoned", "verdicts", "keyframes",
+    "recoveries", "incidents", "actions", "decisions", "holds", "abandoned", "verdicts",
+    "keyframes",
 )  # fmt: skip
 """Tables whose rows go with their run."""
 
@@ -94,6 +95,22 @@ class Records(Database):
         names = ("trajectory", "seconds", "resolution", "policy", "paused_s", "answered", "at")
         rows = self._read("SELECT * FROM holds WHERE run = ?", run)
         return {row["trajectory"]: {name: row[name] for name in names} for row in rows}
+
+    def add_recovery(self, run: str, told: Recovery) -> None:
+        """Keep what the robot does by itself about a failed delivery; the last word counts."""
+        self._write(
+            'INSERT INTO recoveries (run, trajectory, attempt, action, state, "by", text, at) '
+            "VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT (run, trajectory, attempt) DO UPDATE "
+            'SET state = excluded.state, "by" = excluded."by", text = excluded.text',
+            (run, told.trajectory, told.attempt, told.action, told.state, told.by, told.text,
+             time.time()),
+        )  # fmt: skip
+
+    def recoveries(self, run: str) -> list[dict[str, Any]]:
+        """Recoveries in the order in which they began."""
+        names = ("trajectory", "attempt", "action", "state", "by", "text", "at")
+        rows = self._read("SELECT * FROM recoveries WHERE run = ? ORDER BY at", run)
+        return [{name: row[name] for name in names} for row in rows]
 
     def add_decision(self, run: str, trajectory: int, decision: Decision) -> None:
         """Keep the operator's decision; every one is kept, the last one counts."""

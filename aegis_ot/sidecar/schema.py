@@ -55,6 +55,13 @@ MIGRATIONS: tuple[str, ...] = (
     CREATE INDEX incidents_of ON incidents (run, kind);
     CREATE INDEX keyframes_of ON keyframes (run, captured);
     """,
+    """
+    CREATE TABLE recoveries (
+        run TEXT NOT NULL REFERENCES runs, trajectory INTEGER NOT NULL, attempt INTEGER NOT NULL,
+        action TEXT NOT NULL, state TEXT NOT NULL, "by" INTEGER, text TEXT NOT NULL,
+        at REAL NOT NULL, PRIMARY KEY (run, trajectory, attempt)
+    );
+    """,
 )
 """One script per version, ``user_version`` counting those done. Only ever append."""
 

@@ -28,7 +28,7 @@ from .notifications import Message, Notifier
 from .overview import run_overview
 from .sessions import Session
 from .store import Store
-from .wire import Finish, Hold, RunStart, WireError
+from .wire import Finish, Hold, Recovery, RunStart, WireError
 
 log = logging.getLogger(__name__)
 
@@ -154,6 +154,13 @@ class Sidecar:
                     hold.trajectory,
                 )
             )
+
+    def recovery(self, run: str, told: Recovery) -> None:
+        """Keep what the robot does by itself about a failed delivery."""
+        self.require(run)
+        self.store.add_recovery(run, told)
+        event("recovery", run=run, **told.model_dump())
+        self.bell.ring()
 
     def tell(self, notice: Notice) -> None:
         """Tell people of an incident, once; trouble is kept with its run until it is over."""

@@ -67,6 +67,7 @@ class GuardWords(Body):
     on_undecided: Word = ""
     on_link_loss: Word = ""
     verdict_timeout_s: Annotated[float, Field(ge=0, le=86_400)] | None = None
+    recover: Word = ""
 
 
 class Layer1Finding(Body):
@@ -132,6 +133,19 @@ class Hold(Body):
     policy: Word | None = None
     paused_s: Annotated[float, Field(ge=0)] | None = None
     answered: Word | None = None
+
+
+class Recovery(Body):
+    """What the robot does by itself about a failed delivery, told when it begins and again when
+    it has ended. ``by`` is the delivery that put it right, or failed to.
+    """
+
+    trajectory: Count
+    attempt: Count
+    action: Literal["retry", "top_up"]
+    state: Literal["begun", "recovered", "failed", "refused"]
+    by: Count | None = None
+    text: Text = ""
 
 
 class Finish(Body):

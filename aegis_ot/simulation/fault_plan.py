@@ -50,6 +50,9 @@ class FaultPlan:
       so a blow-out between two trajectories does not empty a simulated tip.
     - ``no_tip``: no tip in view in this trajectory, and nothing drawn.
 
+    A transient fault (``C4x1``) strikes only the first deliveries into its well: a recovery finds
+    it gone.
+
     A well address means the *destination*. While a trajectory's destination is still unknown (a
     robot learns it only after the aspirate), a well-addressed fault is not yet seen; from then
     on the tip looks as if the fault had struck from the beginning. Give ``expect`` the keyframes
@@ -65,6 +68,8 @@ class FaultPlan:
         self._mounts: dict[tuple[str, str], _Mount] = {}
         self._answers: OrderedDict[tuple[str, int], PhysicalState] = OrderedDict()
         self._destinations: dict[int, tuple[WellRef, ...]] = {}
+        self._recoveries: dict[str, set[int]] = {}
+        self._struck: dict[tuple[str, Fault], dict[int, None]] = {}
 
     def expect(self, keyframes: Iterable[Keyframe]) -> None:
         """Learn the destinations of the coming trajectories from a rehearsal's keyframes."""
@@ -87,6 +92,8 @@ class FaultPlan:
     def apply(self, keyframe: Keyframe) -> PhysicalState:
         """What the pipette truly holds at this keyframe."""
         key = (keyframe.run, keyframe.sequence)
+        if keyframe.recovers is not None:
+            self._recoveries.setdefault(keyframe.run, set()).add(keyframe.trajectory)
         if key in self._answers:
             return self._answers[key]
         state = self._advance(keyframe)
@@ -114,6 +121,7 @@ class FaultPlan:
         contents = []
         for channel, start in enumerate(mount.start):
             faults = [f for f in self.faults if self._strikes(f, keyframe, channel)]
+            faults = [f for f in faults if self._still(f, keyframe)]
             struck.update(dict.fromkeys(faults))
             contents.append(self._replay(start, mount.changes, {f.kind: f for f in faults}))
         mount.contents = tuple(contents)
@@ -158,10 +166,26 @@ class FaultPlan:
             film_to_ul=max(content.film_to_ul, content.liquid_ul),
         )
 
+    def _still(self, fault: Fault, keyframe: Keyframe) -> bool:
+        """Whether a transient fault still strikes the trajectory that it would strike."""
+        if fault.where.times is None:
+            return True
+        struck = self._struck.setdefault((keyframe.run, fault), {})
+        if len(struck) < fault.where.times:
+            struck[keyframe.trajectory] = None
+        return keyframe.trajectory in struck
+
+    def _planned(self, keyframe: Keyframe) -> tuple[WellRef, ...]:
+        """Where the rehearsal says that the trajectory goes; it knows of no recoveries."""
+        trajectory = keyframe.trajectory if keyframe.recovers is None else keyframe.recovers
+        recoveries = self._recoveries.get(keyframe.run, ())
+        earlier = sum(number < trajectory for number in recoveries)
+        return self._destinations.get(trajectory - earlier, ())
+
     def _strikes(self, fault: Fault, keyframe: Keyframe, channel: int) -> bool:
         if fault.where.number is not None:
             return fault.where.number == keyframe.trajectory + 1
-        wells = keyframe.destinations or self._destinations.get(keyframe.trajectory, ())
+        wells = keyframe.destinations or self._planned(keyframe)
         if len(wells) == max(keyframe.channels, 1):
             return fault.where.matches(wells[channel])
         # Channels that share a well (a reservoir) share its fault.

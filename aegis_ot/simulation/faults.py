@@ -8,6 +8,7 @@ A fault is written ``KIND@WELL``, as the command line takes it::
     air_bubble@D1        air in the column drawn for D1 (8 % of the volume; air_bubble:15@D1)
     no_tip@E1            no tip on the nozzle while E1 is served
     partial:50@2:B3      only in the labware in slot 2
+    no_aspirate@C4x1     only the first time that C4 is served; x2: the first two times
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ from ..vocabulary import WellRef
 
 FORMS = (
     "KIND@WELL with KIND partial:PERCENT, no_aspirate, no_dispense, air_bubble[:PERCENT] or "
-    "no_tip, and WELL a destination such as B3, 2:B3 (slot 2) or #12 (the 12th trajectory); "
+    "no_tip, and WELL a destination such as B3, 2:B3 (slot 2), B3x1 (the first time only) or #12 "
+    "(the 12th trajectory); "
     "for example partial:50@B3"
 )
 
@@ -45,16 +47,19 @@ class Where:
         well: ``"B3"``, or ``""`` where ``number`` is set.
         slot: Deck slot of the well, or ``""`` for any.
         number: Trajectory of the run counted from 1, or ``None``.
+        times: A transient fault: so many first deliveries into the well; ``None`` for all.
     """
 
     well: str = ""
     slot: str = ""
     number: int | None = None
+    times: int | None = None
 
     def __str__(self) -> str:
         if self.number is not None:
             return f"#{self.number}"
-        return f"{self.slot}:{self.well}" if self.slot else self.well
+        times = "" if self.times is None else f"x{self.times}"
+        return (f"{self.slot}:{self.well}" if self.slot else self.well) + times
 
     def matches(self, well: WellRef) -> bool:
         """Whether it means this well."""
@@ -140,9 +145,11 @@ def _parse_where(text: str, place: str) -> Where:
             raise _wrong(text, f"{place!r} is no trajectory number (they count from #1)")
         return Where(number=int(place[1:]))
     slot, colon, well = place.rpartition(":")
-    slot, well = slot.strip(), well.strip()
+    slot, well, times = slot.strip(), well.strip(), None
+    if limited := re.fullmatch(r"(.*\d)X([1-9])", well):
+        well, times = limited[1], int(limited[2])
     if not re.fullmatch(r"[A-Z]{1,2}[1-9]\d?", well):
         raise _wrong(text, f"{well!r} is no well name")
     if colon and not re.fullmatch(r"\d{1,2}|[A-D][1-4]", slot):
         raise _wrong(text, f"{slot!r} is no deck slot")
-    return Where(well=well, slot=slot)
+    return Where(well=well, slot=slot, times=times)

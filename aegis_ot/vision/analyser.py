@@ -141,6 +141,8 @@ class RunAnalyser:
             well = _Well(stream, liquid_of(last), case, dict(seen.looks), clean)
             decision = self._learn(well, trajectory, decision)
         self._leftovers.note(last, case, decision)
+        emptied = case.readings.get(KeyframeKind.POST_DISPENSE)
+        readable = emptied is not None and not emptied.vague
         verdict = Verdict(
             self.run,
             trajectory,
@@ -152,6 +154,8 @@ class RunAnalyser:
             decision.reason,
             decision.measured_ul,
             decision.expected_ul,
+            emptied.volume_ul if readable and emptied else None,
+            emptied.sigma_ul if readable and emptied else None,
         )
         kept = self._leftovers.known(last)
         evidence = evidence_of(liquid_of(last), stream, case, seen, triage, decision, kept)

@@ -78,6 +78,8 @@ class Keyframe:
         position: Tip end on the deck (x, y, z), mm; ``None`` if unknown.
         robot_time: Seconds since the epoch on the robot's clock.
         line: Source line of the protocol that caused it.
+        recovers: The failed trajectory of which this one is a recovery; ``None`` for the
+            protocol's own.
         late: Sent after the robot had moved on (the link was down): the frame does not show the
             moment, and must not be judged as if it did.
     """
@@ -100,6 +102,7 @@ class Keyframe:
     robot_time: float = 0.0
     line: int | None = None
     late: bool = False
+    recovers: int | None = None
 
 
 @dataclass(frozen=True)
@@ -117,6 +120,9 @@ class Verdict:
         reason: One sentence for the operator.
         measured_ul: What the volumetric gate read after the dispense, µL.
         expected_ul: What should have been left after the dispense, µL.
+        left_ul: What the column in the emptied tip (POST_DISPENSE) measures, µL; ``None`` where it
+            cannot be read.
+        left_sigma_ul: Standard uncertainty of that, µL.
     """
 
     run: str
@@ -129,3 +135,5 @@ class Verdict:
     reason: str = ""
     measured_ul: float | None = None
     expected_ul: float | None = None
+    left_ul: float | None = None
+    left_sigma_ul: float | None = None

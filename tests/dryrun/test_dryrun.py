@@ -125,3 +125,20 @@ def test_one_fault_on_a_tip_that_is_used_again_flags_one_well(fault):
     result = dry_run(Script(again, "one_tip.py"), settings, make_analyser())
     assert [row.address for row in result.flagged] == ["1:D1"]
     assert "as reported there" in result.wells[4].reason
+
+
+def test_transient_faults_are_put_right_and_told():
+    faults = ("no_aspirate@1:H1x1", "partial:50@1:B2x1")
+    recover = {"no_aspirate": "retry", "partial_dispense": "top_up"}
+    settings = DryRunSettings(faults=faults, recover=recover, on_fail="stop")
+    result = dry_run(SCRIPT, settings, make_analyser())
+    assert (result.outcome, result.flagged) == ("succeeded", ())
+    right = [row for row in result.wells if row.recovered]
+    assert [(row.address, row.failure.value) for row in right] == [
+        ("1:H1", "no_aspirate"), ("1:B2", "partial_dispense"),
+    ]  # fmt: skip
+    topped_up = result.wells[-1]
+    assert topped_up.address == "1:B2"
+    assert topped_up.volume_ul == pytest.approx(75.0, abs=15.0)
+    page = run_report_html([result.reported])
+    assert "put right by delivery 8" in page

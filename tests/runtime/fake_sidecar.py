@@ -22,6 +22,7 @@ class FakeSidecar:
     Attributes:
         keyframes: Those stored, per run, in order; a resent one is stored once.
         outcomes: Verdict by trajectory number; ``"pass"`` by default, ``None`` for never.
+        findings: Further members of the verdict, by trajectory number.
         requests: ``(method, path, body)`` of every request that was read.
         fault: What to do instead of answering.
     """
@@ -30,6 +31,8 @@ class FakeSidecar:
         self.token = token
         self.keyframes: dict[str, list[dict[str, Any]]] = {}
         self.outcomes: dict[int, str | None] = {}
+        self.findings: dict[int, dict[str, Any]] = {}
+        self.recoveries: list[dict[str, Any]] = []
         self.decided: dict[int, str] = {}
         self.actions: dict[int, str] = {}
         self.requests: list[tuple[str, str, Any]] = []
@@ -124,6 +127,9 @@ class Handler(BaseHTTPRequestHandler):
         elif words[3] == "hold":
             owner.holds.append(self.body)
             self.answer(200, {})
+        elif words[3] == "recovery":
+            owner.recoveries.append(self.body)
+            self.answer(200, {})
         elif words[5] == "abandon":
             owner.abandoned.append(int(words[4]))
             self.answer(200, {})
@@ -156,6 +162,7 @@ class Handler(BaseHTTPRequestHandler):
         verdict["reason"] = "the column is too long"
         if outcome == "fail":
             verdict["failure"] = "partial_dispense"
+        verdict.update(owner.findings.get(number, {}))
         if number in owner.decided:
             verdict.update(outcome=owner.decided[number], gate="operator")
         return verdict

@@ -133,7 +133,7 @@ class LiveRun:
         code_file = self._protocol.__code__.co_filename
         try:
             with tapped(protocol, [self.watcher], code_file) as tap:
-                self.watcher.begin(tap.lift)
+                self.watcher.begin(tap)
                 try:
                     self._protocol(protocol)
                 except BaseException as error:

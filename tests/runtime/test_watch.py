@@ -49,7 +49,7 @@ def watch(
     watcher = Watcher(context, settings, "some/folder/protocol.py")
     with tapped(context, [watcher], protocol.__code__.co_filename) as tap:
         try:
-            watcher.begin(tap.lift)
+            watcher.begin(tap)
             try:
                 protocol(context)
             except BaseException as error:
@@ -102,7 +102,7 @@ def test_an_analysis_inserts_the_same_moves_and_talks_to_nobody(sidecar: FakeSid
         watcher = Watcher(context, settings(sidecar, **more), "p.py")
         protocol = wells(2)
         with tapped(context, [watcher], protocol.__code__.co_filename) as tap:
-            watcher.begin(tap.lift)
+            watcher.begin(tap)
             protocol(context)
             watcher.end(None)
         state = context._core._engine_client.state

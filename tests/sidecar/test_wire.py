@@ -212,3 +212,31 @@ def test_unusable_run_names_are_refused(url: str, name: str) -> None:
         answer = robot.http.put("/v1/runs/" + quote(name, safe=""), json={"run": name})
         assert answer.status_code in (404, 422)
         assert answer.json()["error"]["message"]
+
+
+def test_a_recovery_is_kept_and_its_well_counts_as_put_right(robot: Robot) -> None:
+    for trajectory in range(3):  # the second one fails
+        robot.cycle(trajectory)
+        robot.verdict(trajectory)
+    told = {
+        "trajectory": 1,
+        "attempt": 1,
+        "action": "retry",
+        "state": "begun",
+        "text": "Once more.",
+    }
+    robot.http.post("/v1/runs/run-1/recovery", json=told).raise_for_status()
+    failed = robot.overview()["trajectories"][1]
+    assert (failed["verdict"]["outcome"], failed["recovered"]) == ("fail", False)
+    robot.http.post(
+        "/v1/runs/run-1/recovery", json=told | {"state": "recovered", "by": 2}
+    ).raise_for_status()
+    overview = robot.overview()
+    assert overview["trajectories"][1]["recovered"]
+    assert [(one["state"], one["by"]) for one in overview["recoveries"]] == [("recovered", 2)]
+    account = robot.http.get("/runs/run-1/report.json").json()
+    assert account["counts"]["recovered"] == 1
+    for page in ("/runs/run-1", "/runs/run-1/report.html"):
+        assert "put right by delivery 2. Once more." in robot.http.get(page).text
+    wrong = robot.http.post("/v1/runs/run-1/recovery", json=told | {"action": "hope"})
+    assert wrong.status_code == 422

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import pytest
 
@@ -66,6 +67,7 @@ def liquid(plan: FaultPlan, frames: list[Keyframe]) -> list[float]:
         ("air_bubble@D1", Fault(FaultKind.AIR_BUBBLE, Where("D1"), 0.08)),
         ("air_bubble:15@C2:D1", Fault(FaultKind.AIR_BUBBLE, Where("D1", "C2"), 0.15)),
         ("no_tip@10:E1", Fault(FaultKind.NO_TIP, Where("E1", "10"))),
+        ("no_aspirate@2:C11x2", Fault(FaultKind.NO_ASPIRATE, Where("C11", "2", times=2))),
     ],
 )
 def test_accepted_forms(text: str, fault: Fault) -> None:
@@ -178,3 +180,17 @@ def test_a_mistyped_well_is_found() -> None:
     plan = FaultPlan(["no_tip@A1", "no_tip@H9", "no_tip@#3"])
     missing = plan.unmatched(run_of(["A1", "B1"]))
     assert [str(fault) for fault in missing] == ["no_tip@H9", "no_tip@#3"]
+
+
+def test_a_transient_fault_is_gone_when_the_well_is_served_again() -> None:
+    assert liquid(FaultPlan(["no_aspirate@A1x1"]), run_of(["A1", "A1"]))[1::4] == [0.0, 100.0]
+
+
+def test_a_recovery_goes_where_the_failed_delivery_was_planned_to_go() -> None:
+    planned = run_of(["A1", "B1"], known=True)
+    plan = FaultPlan(["no_aspirate@A1x1", "no_aspirate@B1x1"])
+    plan.expect(planned)
+    frames = run_of(["A1", "A1", "B1"])
+    frames[4:8] = [replace(frame, recovers=0) for frame in frames[4:8]]
+    # At the ASPIRATE keyframe, where no destination is told, only the rehearsal knows.
+    assert liquid(plan, frames)[::4] == [0.0, 100.0, 0.0]

@@ -19,7 +19,7 @@ from .loading import load
 from .parameters import Limit, copied_parameters, lacking_files, plain_values, runtime_parameters
 from .recording import Recorder, Recording
 from .refusals import is_unexecuted, never_executed, stopped
-from .script import Script
+from .script import Script, being_played
 from .simulated_context import simulated_context
 from .virtual_time import builtins_in_virtual_time
 
@@ -93,7 +93,7 @@ def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.
     """
     protocol = load(script)
     limit = partial(interrupted_after, timeout_s, script.file_name)
-    with _stage(protocol, script, None, limit) as context:
+    with _stage(protocol, script, None, limit) as context, being_played(script):
         _perform(protocol, context, limit, {}, wrap)
 
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import functools
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import CodeType, FrameType, FunctionType, MethodType
@@ -32,6 +34,9 @@ class Script:
     csv_parameters: Mapping[str, Any] = field(default_factory=dict)
     extra_labware: Mapping[str, Any] = field(default_factory=dict)
     data_files: Mapping[str, bytes] = field(default_factory=dict)
+
+
+_PLAYED: ContextVar[Script | None] = ContextVar("aegis_ot_played", default=None)
 
 
 def find_home(run: Any) -> tuple[str, Mapping[str, Any]]:
@@ -73,6 +78,16 @@ def _function_behind(run: Any) -> FunctionType | None:
     return None
 
 
+@contextmanager
+def being_played(script: Script) -> Iterator[None]:
+    """Let :func:`find_script` find ``script``: no loader of Opentrons' is on the stack."""
+    token = _PLAYED.set(script)
+    try:
+        yield
+    finally:
+        _PLAYED.reset(token)
+
+
 def find_script(file_name: str, protocol: Any) -> Script | None:
     """The script that is running right now, or ``None`` where its text cannot be had.
 
@@ -84,6 +99,9 @@ def find_script(file_name: str, protocol: Any) -> Script | None:
         file_name: ``co_filename`` of the protocol's code.
         protocol: The live ``ProtocolContext``; its custom labware is taken along.
     """
+    played = _PLAYED.get()
+    if played is not None and played.file_name == file_name:
+        return played
     loader = _loader(sys._getframe(1))
     if loader is not None:
         loaded = loader["proto"]

@@ -1,0 +1,46 @@
+"""What Layer 1 tells Layer 2 of a run's tips, for runs in which failed wells may be put right."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from .settings import Settings
+
+if TYPE_CHECKING:
+    from .instrumentation import Listener
+    from .runtime import Watcher
+
+
+class KnownTips:
+    """Gathered in the rehearsal and in the run.
+
+    Attributes:
+        forecast: Listens to the rehearsal.
+        recorder: Listens to the run, before the watcher.
+        knowledge: What the watcher asks.
+    """
+
+    def __init__(self) -> None:
+        from .preflight.rehearsal import Recorder
+        from .preflight.tip_history import touched_by_tip
+        from .runtime import TipForecast, TipKnowledge
+
+        self.forecast = TipForecast()
+        self.recorder = Recorder()
+        self.knowledge = TipKnowledge(
+            self.forecast, lambda well: touched_by_tip(self.recorder, well)
+        )
+
+
+def recovers_by_itself(protocol: Any, settings: Settings) -> bool:
+    """Whether failed wells of this run may be put right without a person.
+
+    A simulation in which that is so is rehearsed first, like a run on a robot.
+    """
+    watches = settings.watch_simulation or not protocol.is_simulating()
+    return bool(settings.recover) and settings.sidecar is not None and watches
+
+
+def heard_by(watcher: Watcher, tips: KnownTips | None) -> list[Listener]:
+    """The listeners of a run."""
+    return [watcher] if tips is None else [tips.recorder, watcher]
