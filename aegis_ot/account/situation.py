@@ -199,6 +199,7 @@ def _trouble(incident: Mapping[str, Any]) -> Situation:
     titles = {
         "camera": "The camera is in trouble",
         "store": "The store is in trouble",
+        "model": "The vision model does not answer",
         "hold": "A hold ended without a verdict",
     }
     title = titles.get(incident["kind"], f"Trouble: {incident['kind']}")

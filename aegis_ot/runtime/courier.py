@@ -68,6 +68,7 @@ class Courier:
         self._sent: list[Keyframe] = []
         self._pending: deque[Keyframe] = deque()
         self._messages: deque[Message] = deque()
+        self._lost: tuple[float, str] | None = None
         self._unheard = False  # a message was not taken; the next keyframe shows who is there
         self._next_look = 0.0
         self._pause_s = _FIRST_REST_S
@@ -122,6 +123,7 @@ class Courier:
         try:
             self._link.health(_GLANCE_S)
             self._send_all(time.monotonic() + timeout_s, _CATCH_UP_S)
+            self._note_outage()
             self._flush_messages(time.monotonic() + _REQUEST_S)
         except LinkError:
             self._pause_s = min(_LONGEST_REST_S, self._pause_s * 2)
@@ -235,12 +237,15 @@ class Courier:
         while True:
             try:
                 attempt(limit)
+                self._note_outage()
                 return
             except SidecarRefused:
                 raise  # asking again changes nothing
             except LinkError as error:
                 if not isinstance(error, SidecarUnreachable):
                     answered = error
+                elif self._lost is None:
+                    self._lost = began, str(error)
                 if time.monotonic() + wait >= deadline:
                     # The last attempt is often cut short: what was answered before says more.
                     raise answered or error from None
@@ -270,6 +275,16 @@ class Courier:
                 continue
             self._sent.append(self._pending.popleft())
             self._unheard = False
+
+    def _note_outage(self) -> None:
+        """There was no link, and there is again: the run's report says for how long."""
+        lost, self._lost = self._lost, None
+        if lost is None or (seconds := time.monotonic() - lost[0]) < _SILENT_S:
+            return
+        self._messages.append(
+            lambda most: self._link.report_outage(self._run, seconds, lost[1], most)
+        )
+        self._unheard = False
 
     def _close_gap(self, gap: SequenceGap, keyframe: Keyframe) -> None:
         if gap.expected > keyframe.sequence:

@@ -37,8 +37,8 @@ class SequenceGap(LinkError):
 
 
 class CameraSilent(LinkError):
-    """503: the sidecar is there, its camera gave no frame that tells anything; the keyframe may be
-    sent again."""
+    """503: the sidecar is there, but its camera gave no frame that tells anything, or its store is
+    full; the keyframe may be sent again."""
 
 
 @dataclass(frozen=True)
@@ -139,6 +139,11 @@ class SidecarLink:
         """Say how long the robot held, and what ended it."""
         self._request("POST", f"/v1/runs/{quote(run, safe='')}/hold", dict(hold), timeout_s)
 
+    def report_outage(self, run: str, seconds: float, text: str, timeout_s: float) -> None:
+        """Say that there was no link for so long."""
+        body = {"kind": "link", "seconds": round(seconds, 1), "text": text[:1000]}
+        self._request("POST", f"/v1/runs/{quote(run, safe='')}/incident", body, timeout_s)
+
     def finish(self, run: str, outcome: str, detail: str, timeout_s: float) -> None:
         """Say how the run ended."""
         body = {"outcome": outcome, "detail": detail}
@@ -178,10 +183,15 @@ class SidecarLink:
             raise RunUnknown(f"The sidecar at {self.url} does not know this run{said}.")
         if status == 409:
             raise self._gap(answer, said)
-        if status == 503:
+        if status == 503 and _error_code(answer) == "camera":
             raise CameraSilent(
                 f"The sidecar at {self.url} got no usable frame from its camera{said}. Its page "
                 "shows what the camera sees."
+            )
+        if status == 503:
+            raise CameraSilent(
+                f"The sidecar at {self.url} cannot take what it is sent{said}. Look at the "
+                "workstation, and at the sidecar's page."
             )
         if status in (400, 405, 413, 415, 422):
             raise SidecarRefused(
@@ -216,6 +226,11 @@ class SidecarLink:
 
 def _trajectory(run: str, number: int) -> str:
     return f"/v1/runs/{quote(run, safe='')}/trajectories/{number}"
+
+
+def _error_code(answer: Any) -> Any:
+    error = answer.get("error") if isinstance(answer, dict) else None
+    return error.get("code") if isinstance(error, dict) else None
 
 
 def _error_text(answer: Any) -> str:

@@ -38,6 +38,7 @@ from .wire import (
     Decision,
     Finish,
     Hold,
+    Incident,
     RunStart,
     WireError,
     check_run,
@@ -174,6 +175,13 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
     @app.post("/v1/runs/{run}/hold", openapi_extra=takes(Hold))
     async def hold(run: Run, body: Annotated[Hold, _body(Hold)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.hold, run, body)
+        return {}
+
+    @app.post("/v1/runs/{run}/incident", openapi_extra=takes(Incident))
+    async def incident(run: Run, body: Annotated[Incident, _body(Incident)]) -> dict[str, Any]:
+        await run_in_threadpool(sidecar.require, run)
+        said = f"The robot had no link to the sidecar for {body.seconds:.0f} s. {body.text}".strip()
+        await run_in_threadpool(sidecar.note, run, body.kind, said, body.seconds)
         return {}
 
     @app.post("/v1/runs/{run}/finish", openapi_extra=takes(Finish))

@@ -136,6 +136,13 @@ class Records(Database):
             )
         )
 
+    def add_incident(self, run: str, kind: str, text: str, at: float, ended: float) -> None:
+        """Keep trouble that is over."""
+        self._write(
+            "INSERT INTO incidents (run, kind, text, at, ended) VALUES (?, ?, ?, ?, ?)",
+            (run, kind, text, at, ended),
+        )
+
     def end_incidents(self, run: str, kind: str) -> bool:
         """Keep that trouble is over; whether there was any."""
         return bool(

@@ -6,7 +6,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 from ..errors import StoreError
 from ..vision.camera import Frame
@@ -14,6 +14,7 @@ from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, Outcome, Verdict
 from .analysis import Analyser
 from .bell import Bell
+from .clocks import ClockWatch, tell_leap
 from .decisions import effective
 from .journal import event
 from .notices import Notice
@@ -26,8 +27,20 @@ log = logging.getLogger(__name__)
 Grab = Callable[[Keyframe, float, ViewWatch | None], Frame]
 """Grabs the first frame exposed at or after a moment, in which the view shows what it should;
 raises CameraError."""
-Tell = Callable[[Notice], None]
-"""Keeps an incident, and tells people of it."""
+
+
+class Troubles(Protocol):
+    """Keeps what befalls runs (the sidecar's own :class:`~.service.Sidecar`)."""
+
+    def tell(self, notice: Notice) -> None:
+        """A bad verdict, or trouble that begins: people are told."""
+
+    def over(self, run: str, kind: str) -> None:
+        """Trouble of this kind is over, if there was any."""
+
+    def note(self, run: str, kind: str, seen: str) -> None:
+        """Trouble that is over by now."""
+
 
 ASKS_S = 3.0
 """A robot that holds asks every 0.15 s; one that has not asked for so long does something else."""
@@ -40,7 +53,7 @@ class Session:
         run: Identifier of the run; known to the store.
         store, analyser, bell: Shared by all sessions.
         grab: Takes a frame.
-        tell: Hears of bad verdicts and of trouble.
+        troubles: Hears of bad verdicts and of trouble.
         operator_timeout: How long an undecided verdict is held back for the operator, s.
         view: Looks at each frame before it counts; ``None``: every frame counts.
 
@@ -55,7 +68,7 @@ class Session:
         analyser: Analyser,
         bell: Bell,
         grab: Grab,
-        tell: Tell,
+        troubles: Troubles,
         operator_timeout: float = 0.0,
         view: ViewWatch | None = None,
     ) -> None:
@@ -64,7 +77,10 @@ class Session:
         self._store = store
         self._bell = bell
         self._grab = grab
-        self._tell = tell
+        self._troubles = troubles
+        self._clocks = {"workstation": ClockWatch(), "robot": ClockWatch()}
+        self._unkept: list[tuple[Verdict, dict[str, Any]]] = []
+        self._in_trouble: set[str] = set()
         self._operator_timeout = operator_timeout
         self._view = view
         self._capturing = threading.Lock()
@@ -117,9 +133,15 @@ class Session:
                 )
             frame = self._grab(keyframe, moment, self._view)
             captured = Captured(keyframe, max(0.0, frame.exposed_at - moment), time.time())
-            self._store.add_keyframe(captured, frame.jpeg)
-            self._store.reopen(self.run)
+            try:
+                self._store.add_keyframe(captured, frame.jpeg)
+                self._store.reopen(self.run)
+            except StoreError as error:
+                self._trouble("store", "the store is in trouble", str(error))
+                raise
             self._next += 1
+            self.catch_up()
+            self._look_at_clocks(keyframe, moment)
             self._resumed()
             self._worker.submit(keyframe, frame)
         self._bell.ring()
@@ -255,7 +277,8 @@ class Session:
             self._store.add_verdict(verdict, evidence)
         except StoreError as error:
             log.error("The verdict on trajectory %d was not kept: %s", verdict.trajectory, error)
-            self._tell(Notice(self.run, "store", "the store is in trouble", str(error)))
+            self._unkept.append((verdict, evidence))
+            self._trouble("store", "the store is in trouble", str(error))
         with self._state:
             self._verdicts[verdict.trajectory] = verdict
             if verdict.outcome is Outcome.UNDECIDED and self._operator_timeout > 0:
@@ -265,4 +288,34 @@ class Session:
               route=verdict.route.value, gate=verdict.gate.value, score=verdict.score,
               failure=verdict.failure.value if verdict.failure else None)  # fmt: skip
         if verdict.outcome is not Outcome.PASS:
-            self._tell(Notice.of_verdict(verdict))
+            self._troubles.tell(Notice.of_verdict(verdict))
+        if said := evidence.get("model_trouble"):
+            self._trouble("model", "the vision model does not answer", str(said))
+        elif evidence.get("costs"):
+            self._recovered("model")
+
+    def catch_up(self) -> None:
+        """The store takes what is written again: keep what it could not."""
+        while self._unkept and "store" in self._in_trouble:
+            self._store.add_verdict(*self._unkept[0])
+            del self._unkept[0]
+        self._recovered("store")
+
+    def _trouble(self, kind: str, what: str, seen: str) -> None:
+        self._in_trouble.add(kind)
+        self._troubles.tell(Notice(self.run, kind, what, seen))
+
+    def _recovered(self, kind: str) -> None:
+        if kind in self._in_trouble:
+            self._in_trouble.discard(kind)
+            self._troubles.over(self.run, kind)
+
+    def _look_at_clocks(self, keyframe: Keyframe, moment: float) -> None:
+        """Times of a run are those of wall clocks: tell where one was set meanwhile."""
+        told = {"workstation": (time.time(), time.monotonic())}
+        if keyframe.robot_time and not keyframe.late:
+            told["robot"] = (keyframe.robot_time, moment)
+        for whose, (clock, when) in told.items():
+            leap = self._clocks[whose].look(clock, when)
+            if leap:
+                self._troubles.note(self.run, "clock", tell_leap(whose, leap))

@@ -134,6 +134,14 @@ class Hold(Body):
     answered: Word | None = None
 
 
+class Incident(Body):
+    """What befell a run on the robot's side: for so long it had no link to the sidecar."""
+
+    kind: Literal["link"]
+    seconds: Annotated[float, Field(ge=0, le=1e7)]
+    text: Text = ""
+
+
 class Finish(Body):
     """A run ends."""
 

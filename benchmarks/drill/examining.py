@@ -7,7 +7,6 @@ import urllib.request
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
 
 from aegis_ot.sidecar.store import Store
 

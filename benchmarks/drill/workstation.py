@@ -1,4 +1,4 @@
-"""What stands on the bench beside the robot: a sidecar process, its camera, its network, its VLM."""
+"""What stands beside the robot: a sidecar process, its camera, its network, its VLM."""
 
 from __future__ import annotations
 
@@ -229,7 +229,7 @@ class VisionModel:
 
 def _completion() -> dict[str, Any]:
     one = {"verdict": "pass", "confidence": "high", "failure": "none", "reason": "as it should be"}
-    said = json.dumps({lens: one for lens in ("skeptical", "routine", "expert")})
+    said = json.dumps(dict.fromkeys(("skeptical", "routine", "expert"), one))
     return {
         "id": "drill", "object": "chat.completion", "model": "drill",
         "choices": [{"index": 0, "finish_reason": "stop",

@@ -35,6 +35,7 @@ class FakeSidecar:
         self.requests: list[tuple[str, str, Any]] = []
         self.connections: list[socket.socket] = []
         self.holds: list[dict[str, Any]] = []
+        self.incidents: list[dict[str, Any]] = []
         self.finished: list[dict[str, Any]] = []
         self.abandoned: list[int] = []
         self.fault: Fault | None = None
@@ -120,6 +121,9 @@ class Handler(BaseHTTPRequestHandler):
             self.keyframe(owner.keyframes[run])
         elif words[3] == "finish":
             owner.finished.append(self.body)
+            self.answer(200, {})
+        elif words[3] == "incident":
+            owner.incidents.append(self.body)
             self.answer(200, {})
         elif words[3] == "hold":
             owner.holds.append(self.body)
