@@ -13,7 +13,7 @@ from typing import Any
 from ..errors import LinkError, SidecarRefused, SidecarUnreachable
 from ..http_client import SLICE_S
 from ..vocabulary import Keyframe, Verdict
-from .link import CameraSilent, RunUnknown, SequenceGap, SidecarLink
+from .link import CameraSilent, Order, RunUnknown, SequenceGap, SidecarLink
 
 _FIRST_TRY_S = 3.0
 """How long a first try may take before somebody is told that it is tried again, s."""
@@ -68,6 +68,7 @@ class Courier:
         self._sent: list[Keyframe] = []
         self._pending: deque[Keyframe] = deque()
         self._messages: deque[Message] = deque()
+        self._obeyed: Order | None = None
         self._lost: tuple[float, str] | None = None
         self._unheard = False  # a message was not taken; the next keyframe shows who is there
         self._next_look = 0.0
@@ -150,9 +151,17 @@ class Courier:
         self._messages.append(self._abandonment(number, reason))
         self._tell()
 
-    def action(self, number: int) -> str | None:
-        """Ask once what a person told the robot that is paused at a trajectory."""
-        return self._link.action(self._run, number, _REQUEST_S)
+    def action(self, number: int, within_s: float) -> str | None:
+        """Ask once what a person told the robot that is paused at a trajectory so long, s."""
+        return self._link.action(self._run, number, within_s, _REQUEST_S)
+
+    def order(self) -> Order | None:
+        """What a person told the moving robot on the sidecar's page; each order once."""
+        order = self._link.order
+        if order == self._obeyed:
+            return None
+        self._obeyed = order
+        return order
 
     def report_hold(
         self,

@@ -54,6 +54,21 @@ class Captured:
     exposed_after_s: float | None
 
 
+@dataclass(frozen=True)
+class Order:
+    """What a person tells a robot that moves, on the sidecar's page.
+
+    Attributes:
+        action: ``"pause"`` or ``"stop"``.
+        by: Who.
+        at: When, on the sidecar's clock: an order has a moment of its own.
+    """
+
+    action: str
+    by: str
+    at: float
+
+
 class SidecarLink:
     """Speaks to one sidecar about one run.
 
@@ -63,12 +78,16 @@ class SidecarLink:
         check_stop: Called at least every 0.15 s during every wait; whatever it raises ends the
             request and reaches the caller.
 
+    Attributes:
+        order: The last one that came with an answer.
+
     Every method raises :class:`SidecarUnreachable`, :class:`SidecarRefused` or
     :class:`SidecarGarbled`, with the address, what happened and what to do.
     """
 
     def __init__(self, url: str, token: str | None, check_stop: CheckStop) -> None:
         self.url = url
+        self.order: Order | None = None
         self._http = HttpClient(url, token, check_stop)
 
     def health(self, timeout_s: float) -> dict[str, Any]:
@@ -104,6 +123,7 @@ class SidecarLink:
         answer = self._request("POST", path, to_json(keyframe), timeout_s)
         if answer.get("captured") is not True or answer.get("sequence") != keyframe.sequence:
             raise self._garbled(f"it did not acknowledge keyframe {keyframe.sequence}")
+        self.order = _order_of(answer) or self.order
         delay: Any = answer.get("exposed_after_s")
         known = isinstance(delay, (int, float)) and not isinstance(delay, bool)
         return Captured(keyframe.sequence, float(delay) if known else None)
@@ -114,6 +134,7 @@ class SidecarLink:
         answer = self._request("GET", path, None, timeout_s)
         if "verdict" not in answer:
             raise self._garbled(f"its answer for trajectory {number} holds no verdict field")
+        self.order = _order_of(answer) or self.order
         if answer["verdict"] is None:
             return None
         try:
@@ -124,10 +145,11 @@ class SidecarLink:
             raise self._garbled(f"it sent another trajectory's verdict for trajectory {number}")
         return verdict
 
-    def action(self, run: str, number: int, timeout_s: float) -> str | None:
-        """What a person told the robot that is paused at a trajectory: ``"resume"``, ``"stop"``,
-        or ``None`` as long as nobody did."""
-        answer = self._request("GET", f"{_trajectory(run, number)}/action", None, timeout_s)
+    def action(self, run: str, number: int, within_s: float, timeout_s: float) -> str | None:
+        """What a person told the robot that has been paused at a trajectory for ``within_s``
+        seconds: ``"resume"``, ``"stop"``, or ``None`` as long as nobody did."""
+        path = f"{_trajectory(run, number)}/action?within={within_s:.2f}"
+        answer = self._request("GET", path, None, timeout_s)
         action = answer.get("action")
         return str(action.get("action")) if isinstance(action, dict) else None
 
@@ -222,6 +244,16 @@ class SidecarLink:
         self, what: str, remedy: str = "check that the address is that of an aegis-ot sidecar"
     ) -> SidecarGarbled:
         return SidecarGarbled(f"The sidecar at {self.url} makes no sense: {what}; {remedy}.")
+
+
+def _order_of(answer: Mapping[str, Any]) -> Order | None:
+    """An order, if the answer brings one that makes sense."""
+    told = answer.get("order")
+    if not isinstance(told, dict) or told.get("action") not in ("pause", "stop"):
+        return None
+    at = told.get("at")
+    known = isinstance(at, (int, float)) and not isinstance(at, bool)
+    return Order(told["action"], str(told.get("by", ""))[:200], float(at) if known else 0.0)
 
 
 def _trajectory(run: str, number: int) -> str:

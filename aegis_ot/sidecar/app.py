@@ -39,6 +39,7 @@ from .wire import (
     Finish,
     Hold,
     Incident,
+    Order,
     RunStart,
     WireError,
     check_run,
@@ -59,6 +60,7 @@ Run = Annotated[str, Depends(_run_name)]
 Number = Annotated[int, Path(ge=0, le=MAX_COUNT)]
 After = Annotated[int | None, Query(ge=0, le=2**53)]
 Wait = Annotated[float, Query(ge=0, allow_inf_nan=False)]
+Within = Annotated[float | None, Query(ge=0, allow_inf_nan=False)]
 Ago = Annotated[float, Query(ge=-HISTORY_S, le=HISTORY_S, allow_inf_nan=False)]
 """How long before its arrival the moment of a keyframe was, s; negative: it is still to come."""
 
@@ -143,11 +145,13 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         keyframe = parse(Keyframe, await read_body(request))
         _must_match(run, keyframe.run)
         moment = arrived - ago
-        captured = await run_in_threadpool(lambda: sidecar.session(run).capture(keyframe, moment))
+        session = await run_in_threadpool(sidecar.session, run)
+        captured = await run_in_threadpool(session.capture, keyframe, moment)
         return {
             "sequence": keyframe.sequence,
             "captured": True,
             "exposed_after_s": captured.exposed_after_s,
+            "order": session.ordered(),
         }
 
     @app.get("/v1/runs/{run}/trajectories/{number}/verdict")
@@ -155,14 +159,19 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         session = await run_in_threadpool(sidecar.session, run)
         found = await sidecar.bell.until(lambda: session.ask(number), min(wait, MAX_WAIT))
         answer: dict[str, Any] = {"verdict": None if found is None else to_json(found)}
+        answer["order"] = session.ordered()
         if found is None and session.awaiting_operator(number):
             answer["awaiting"] = "operator"
         return answer
 
     @app.get("/v1/runs/{run}/trajectories/{number}/action")
-    async def action(run: Run, number: Number, wait: Wait = 0.0) -> dict[str, Any]:
+    async def action(
+        run: Run, number: Number, wait: Wait = 0.0, within: Within = None
+    ) -> dict[str, Any]:
         session = await run_in_threadpool(sidecar.session, run)
-        found = await sidecar.bell.until(lambda: session.action(number), min(wait, MAX_WAIT))
+        found = await sidecar.bell.until(
+            lambda: session.action(number, within), min(wait, MAX_WAIT)
+        )
         return {"action": found}
 
     @app.post("/v1/runs/{run}/trajectories/{number}/abandon", openapi_extra=takes(Abandon))
@@ -247,6 +256,12 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
         run: Run, number: Number, body: Annotated[Action, _body(Action)]
     ) -> dict[str, Any]:
         await run_in_threadpool(lambda: sidecar.session(run).act(number, body))
+        return {}
+
+
+    @app.post("/v1/runs/{run}/order", openapi_extra=takes(Order))
+    async def order(run: Run, body: Annotated[Order, _body(Order)]) -> dict[str, Any]:
+        await run_in_threadpool(lambda: sidecar.session(run).order(body))
         return {}
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from ..vocabulary import Verdict, from_json, to_json
 from .database import Database
-from .wire import Action, Decision, Hold
+from .wire import Action, Decision, Hold, Order
 
 OF_A_RUN = (
     "incidents", "actions", "decisions", "holds", "abandoned", "verdicts", "keyframes",
@@ -112,7 +112,7 @@ class Records(Database):
             )
         return found
 
-    def add_action(self, run: str, trajectory: int, action: Action) -> None:
+    def add_action(self, run: str, trajectory: int, action: Action | Order) -> None:
         """Keep what a person told the robot to do."""
         self._write(
             'INSERT INTO actions (run, trajectory, action, "by", note, at) '

@@ -27,7 +27,7 @@ from .messages import compose
 from .notices import Notice
 from .notifications import Message, Notifier
 from .overview import run_overview
-from .sessions import Session
+from .sessions import OPERATOR, Session
 from .store import Store
 from .wire import Finish, Hold, RunStart, WireError
 
@@ -141,11 +141,13 @@ class Sidecar:
         """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
         self.require(run)
         self.store.add_hold(run, hold)
-        if (self.store.run(run) or {}).get("mode") != "watch":  # there keyframes come in a pause
-            self.session(run).held(hold.trajectory, hold.policy)
+        watched = (self.store.run(run) or {}).get("mode") == "watch"
+        if not watched or hold.resolution == OPERATOR:  # there keyframes come in a pause
+            self.session(run).held(hold)
         self.bell.ring()
         event("hold", run=run, **hold.model_dump())
-        if hold.resolution not in ("verdict", "stopped") and hold.paused_s is None:
+        expected = hold.resolution in ("verdict", "stopped", OPERATOR)
+        if not expected and hold.paused_s is None:
             policy = f"; then: {hold.policy}" if hold.policy else ""
             self.tell(
                 Notice(
@@ -194,6 +196,7 @@ class Sidecar:
         self.require(run)
         overview = run_overview(self.store, run)
         session = self._sessions.get(run)
+        overview["order"] = None if session is None else session.ordered()
         for trajectory in overview["trajectories"]:
             number = trajectory["trajectory"]
             waits = session is not None and session.awaiting_operator(number)

@@ -18,8 +18,9 @@ from .clocks import ClockWatch, tell_leap
 from .decisions import effective
 from .journal import event
 from .notices import Notice
+from .orders import Orders
 from .store import Captured, Store
-from .wire import Action, Decision, WireError
+from .wire import Action, Decision, Hold, Order, WireError
 from .worker import AnalysisWorker
 
 log = logging.getLogger(__name__)
@@ -42,6 +43,8 @@ class Troubles(Protocol):
         """Trouble that is over by now."""
 
 
+OPERATOR = "operator"
+"""Resolution of a hold that a person ordered."""
 ASKS_S = 3.0
 """A robot that holds asks every 0.15 s; one that has not asked for so long does something else."""
 
@@ -87,12 +90,13 @@ class Session:
         self._state = threading.Lock()
         store.forget_torn(run)
         self._next = store.next_sequence(run)
+        self._at = 0
         judged = store.verdicts(run)
         self._verdicts: dict[int, Verdict] = {v.trajectory: v for v, _, _ in judged}
         self._decisions = store.decisions(run)
         self._release: dict[int, float] = {}
         self._asks: dict[int, tuple[float, float]] = {}
-        self._actions = {action["trajectory"]: action for action in store.actions(run)}
+        self._orders = Orders(store.actions(run), store.holds(run))
         self._paused: set[int] = set()
         self._worker = AnalysisWorker(
             run, analyser, [(v, evidence) for v, evidence, _ in judged], store, self._publish
@@ -140,6 +144,7 @@ class Session:
                 self._trouble("store", "the store is in trouble", str(error))
                 raise
             self._next += 1
+            self._at = keyframe.trajectory
             self.catch_up()
             self._look_at_clocks(keyframe, moment)
             self._resumed()
@@ -189,12 +194,16 @@ class Session:
         self._worker.drop(trajectory)
         self._bell.ring()
 
-    def held(self, trajectory: int, policy: str | None) -> None:
+    def held(self, hold: Hold) -> None:
         """The robot says how a hold ended: by a pause, if the operator is to look at the well."""
         with self._state:
-            verdict = self._verdicts.get(trajectory)
-            if policy == "pause" and verdict is not None and verdict.outcome is Outcome.UNDECIDED:
-                self._paused.add(trajectory)
+            if hold.resolution == OPERATOR:
+                self._orders.taken()
+                return
+            verdict = self._verdicts.get(hold.trajectory)
+            undecided = verdict is not None and verdict.outcome is Outcome.UNDECIDED
+            if hold.policy == "pause" and undecided:
+                self._paused.add(hold.trajectory)
 
     def _resumed(self) -> None:
         """The robot moves: whoever was asked by a pause has looked, and let the run go on."""
@@ -228,14 +237,28 @@ class Session:
         """A person tells the robot, paused at this trajectory, to go on or to end the run."""
         with self._state:
             self._store.add_action(self.run, trajectory, action)
-            self._actions[trajectory] = action.model_dump()
+            self._orders.answer(trajectory, action)
         self._bell.ring()
         event("action", run=self.run, trajectory=trajectory, action=action.action, by=action.by)
 
-    def action(self, trajectory: int) -> dict[str, Any] | None:
-        """What a person told the robot about this trajectory last; ``None`` if nothing."""
+    def order(self, order: Order) -> None:
+        """A person tells the moving robot to pause, or to end the run, at its next exchange."""
         with self._state:
-            return self._actions.get(trajectory)
+            self._store.add_action(self.run, self._at, order)
+            self._orders.order(order)
+        self._bell.ring()
+        event("action", run=self.run, action=order.action, by=order.by)
+
+    def action(self, trajectory: int, within_s: float | None = None) -> dict[str, Any] | None:
+        """What a person told the robot that is paused at this trajectory last, within the last so
+        many seconds; ``None`` if nothing."""
+        with self._state:
+            return self._orders.answered(trajectory, within_s)
+
+    def ordered(self) -> dict[str, Any] | None:
+        """What the moving robot is to do, until it says that it does; ``None`` if nothing."""
+        with self._state:
+            return self._orders.pending
 
     def close(self) -> None:
         """End the worker. Idempotent."""

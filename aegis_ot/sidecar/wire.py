@@ -165,6 +165,14 @@ class Action(Body):
     note: Text = ""
 
 
+class Order(Body):
+    """The operator tells a robot that moves to pause, or to end the run."""
+
+    action: Literal["pause", "stop"]
+    by: Annotated[str, Field(min_length=1, max_length=200)]
+    note: Text = ""
+
+
 @functools.cache
 def _adapter(shape: Any) -> TypeAdapter[Any]:
     """Building one takes milliseconds, using it microseconds."""

@@ -1,8 +1,8 @@
 """``python -m benchmarks.drill [--scale S] [--only NAME ...] [--seed N] [--keep FOLDER]``.
 
-A sidecar in a process of its own, killed and restarted 20 times within a run, then runs in which its
-disk is full, its camera is unplugged and back, its vision model is down, its clock and the robot's
-are set, and the connection is cut for 30 s. The robot is Opentrons' own engine on its hardware
+A sidecar in a process of its own, killed and restarted 20 times within a run, then runs in which
+its disk is full, its camera is unplugged and back, its vision model is down, its clock and the
+robot's are set, and the connection is cut for 30 s. The robot is Opentrons' own engine on its hardware
 simulator; frames are simulated. After each: no record that was acknowledged may be lost, no hold
 may hang, and the run's report must name what happened.
 

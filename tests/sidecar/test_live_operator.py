@@ -79,3 +79,39 @@ def test_a_run_is_stopped_from_the_page(stage: Stage, robot: RobotServer) -> Non
     overview = stage.overview()
     assert overview["finished"]["outcome"] == "stopped"
     assert [(one["action"], one["by"]) for one in overview["actions"]] == [("stop", "Ada")]
+
+
+def test_a_moving_robot_is_paused_and_resumed_and_an_old_answer_does_not_count(
+    config: SidecarConfig, robot: RobotServer
+) -> None:
+    camera = StubCamera()
+    camera.gate.clear()
+    with running_sidecar(config, camera, StubAnalyser(fails=[0])) as url:
+        run = robot.run = LiveRun(two_wells, Settings(sidecar=url, run_id="run")).start()
+        stage = Stage(url, run)
+        in_time(lambda: stage.http.get("/v1/runs/run").status_code == 200)
+        form = {"by": "Ada", "note": "wrong plate?", "answer": "pause"}
+        assert stage.http.post("/runs/run/order", data=form).status_code == 303
+        assert stage.asked() == ["ordered"]
+        camera.gate.set()
+        run.wait_for_status("paused")
+        in_time(lambda: stage.asked() == ["paused"])
+        assert "Ada paused it from this page" in stage.http.get("/").text
+        stage.answer("resume")
+        # The same delivery fails later: what was said to the first pause must not end this one.
+        in_time(lambda: any("failed" in c.params.message for c in pauses(run)))
+        in_time(lambda: stage.asked() == ["paused"])
+        time.sleep(1.2)  # two questions of the robot, one every 0.5 s
+        assert run.status == "paused"
+        assert [action for _, action in robot.told] == ["play"]
+        stage.answer("stop")
+        run.join()
+        in_time(lambda: stage.overview()["finished"] is not None)
+        assert [(a["action"], a["by"]) for a in stage.overview()["actions"]] == [
+            ("pause", "Ada"), ("resume", "Ada"), ("stop", "Ada"),
+        ]  # fmt: skip
+        stage.http.close()
+
+
+def pauses(run: LiveRun) -> list[Any]:
+    return [command for command in run.seen() if command.commandType == "waitForResume"]
