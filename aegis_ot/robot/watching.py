@@ -294,7 +294,9 @@ class _Watch:
         except RobotError as error:
             self._screen.says(f"NOT {did.upper()}, though {why}: {error}")
         else:
-            self._screen.says(f"{did.capitalize()} by the watch: {why}. Motion ends with the current move.")
+            self._screen.says(
+                f"{did.capitalize()} by the watch: {why}. Motion ends with the current move."
+            )
             if trajectory is not None and policy == "pause":
                 self._pauses.begin(trajectory, cause)
 

@@ -258,7 +258,6 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
         await run_in_threadpool(lambda: sidecar.session(run).act(number, body))
         return {}
 
-
     @app.post("/v1/runs/{run}/order", openapi_extra=takes(Order))
     async def order(run: Run, body: Annotated[Order, _body(Order)]) -> dict[str, Any]:
         await run_in_threadpool(lambda: sidecar.session(run).order(body))

@@ -148,8 +148,15 @@ class Handler(BaseHTTPRequestHandler):
             return
         if sequence == len(stored):
             stored.append(self.body)
-        self.answer(200, {"sequence": sequence, "captured": True, "exposed_after_s": 0.01,
-                          "order": self.owner.order})
+        self.answer(
+            200,
+            {
+                "sequence": sequence,
+                "captured": True,
+                "exposed_after_s": 0.01,
+                "order": self.owner.order,
+            },
+        )
 
     def verdict(self, run: str, number: int, wait: float) -> dict[str, Any] | None:
         owner = self.owner
