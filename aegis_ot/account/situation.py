@@ -171,7 +171,7 @@ def _ordered(overview: Mapping[str, Any]) -> Iterator[Situation]:
     order = overview.get("order")
     if order:
         what = {"pause": "pause", "stop": "end the run"}[order["action"]]
-        text = "It does so at its next step in a delivery or the next hold; its own screen does at once."
+        text = "It does so at its next step of a delivery or in a hold, its own screen at once."
         yield Situation("ordered", f"{order['by']} told the robot to {what}", text)
 
 

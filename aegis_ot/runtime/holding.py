@@ -21,7 +21,6 @@ from .stopping import Waits
 from .summary import WatchSummary
 from .words import tell_verdict
 
-
 _STOP_S = 5.0
 """How long the robot's server may take to stop the run that it was told to stop, s."""
 

@@ -251,7 +251,7 @@ def _order_of(answer: Mapping[str, Any]) -> Order | None:
     told = answer.get("order")
     if not isinstance(told, dict) or told.get("action") not in ("pause", "stop"):
         return None
-    at = told.get("at")
+    at: Any = told.get("at")
     known = isinstance(at, (int, float)) and not isinstance(at, bool)
     return Order(told["action"], str(told.get("by", ""))[:200], float(at) if known else 0.0)
 

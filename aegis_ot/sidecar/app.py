@@ -28,6 +28,7 @@ from .pages import page_router
 from .reasoning_routes import opinion_router, opinions_of
 from .security import Doorkeeper
 from .service import Sidecar
+from .sessions import Session
 from .wire import (
     MAX_BODY,
     MAX_COUNT,
@@ -151,18 +152,16 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
             "sequence": keyframe.sequence,
             "captured": True,
             "exposed_after_s": captured.exposed_after_s,
-            "order": session.ordered(),
-        }
+        } | _order(session)
 
     @app.get("/v1/runs/{run}/trajectories/{number}/verdict")
     async def verdict(run: Run, number: Number, wait: Wait = 0.0) -> dict[str, Any]:
         session = await run_in_threadpool(sidecar.session, run)
         found = await sidecar.bell.until(lambda: session.ask(number), min(wait, MAX_WAIT))
         answer: dict[str, Any] = {"verdict": None if found is None else to_json(found)}
-        answer["order"] = session.ordered()
         if found is None and session.awaiting_operator(number):
             answer["awaiting"] = "operator"
-        return answer
+        return answer | _order(session)
 
     @app.get("/v1/runs/{run}/trajectories/{number}/action")
     async def action(
@@ -262,6 +261,12 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
     async def order(run: Run, body: Annotated[Order, _body(Order)]) -> dict[str, Any]:
         await run_in_threadpool(lambda: sidecar.session(run).order(body))
         return {}
+
+
+def _order(session: Session) -> dict[str, Any]:
+    """What the moving robot is to do goes with every answer that it waits for."""
+    order = session.ordered()
+    return {} if order is None else {"order": order}
 
 
 async def _now() -> float:

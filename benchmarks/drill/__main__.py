@@ -2,9 +2,9 @@
 
 A sidecar in a process of its own, killed and restarted 20 times within a run, then runs in which
 its disk is full, its camera is unplugged and back, its vision model is down, its clock and the
-robot's are set, and the connection is cut for 30 s. The robot is Opentrons' own engine on its hardware
-simulator; frames are simulated. After each: no record that was acknowledged may be lost, no hold
-may hang, and the run's report must name what happened.
+robot's are set, and the connection is cut for 30 s. The robot is Opentrons' own engine on its
+hardware simulator; frames are simulated. After each: no record that was acknowledged may be lost,
+no hold may hang, and the run's report must name what happened.
 
 ``--scale 0.2`` does a fifth of the restarts and waits a fifth of the times. Exit status 1:
 something was wrong. Linux only: the disk is "full" by a limit on the size of the process's files.
