@@ -210,7 +210,7 @@ class SidecarLink:
                 f"The sidecar at {self.url} got no usable frame from its camera{said}. Its page "
                 "shows what the camera sees."
             )
-        if status == 503:
+        if status in (429, 503):
             raise CameraSilent(
                 f"The sidecar at {self.url} cannot take what it is sent{said}. Look at the "
                 "workstation, and at the sidecar's page."
