@@ -1,7 +1,7 @@
 """Ten robots on one sidecar, a keyframe a second each.
 
-``python -m benchmarks.ten_robots [--minutes 10] [--robots 10]``. The sidecar is a process of its own
-with its own detector and analyser; its camera is a video of simulated frames, 640x480 at 30
+``python -m benchmarks.ten_robots [--minutes 10] [--robots 10]``. The sidecar is a process of its
+own with its own detector and analyser; its camera is a video of simulated frames, 640x480 at 30
 frames/s, in which each second shows another moment of a delivery. What the robots send does not
 fit it, so verdicts are of no interest: the load is. Robots and sidecar share this machine. Printed:
 what was lost, how long acknowledgements and verdicts took, and how the process's memory grew.

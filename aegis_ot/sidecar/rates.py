@@ -8,8 +8,8 @@ from collections import OrderedDict
 from collections.abc import Callable
 
 PER_SECOND = 400.0
-"""Requests of one address that are answered for as long as it likes: about half of what a sidecar can.
-A robot that holds asks seven times a second; who waits for each answer stays below."""
+"""Requests of one address that are answered for as long as it likes, about half of what a sidecar
+can. A robot that holds asks seven times a second; who waits for each answer stays below."""
 AT_ONCE = 2000
 """Requests that may come in a burst."""
 MOST_KNOWN = 1000
