@@ -33,8 +33,6 @@ from .keyframe_cost import FPS, about, make_keyframe
 
 ABOVE_FRAME_MS = 100.0
 _EXPOSURES = 3
-_WARM_UP = 0.25
-"""Share of the time after which memory is looked at: caches are filled by then."""
 
 
 @dataclass
@@ -71,12 +69,12 @@ def figures(minutes: float = 10.0, robots: int = 10) -> Iterator[Figure]:
         "last keyframe to verdict, 95th percentile", f"{len(verdicts)} deliveries", "simulated",
         1e3 * _p95(verdicts), "ms", note=f"median {1e3 * statistics.median(verdicts):.0f} ms",
     )  # fmt: skip
-    settled = memory[int(_WARM_UP * len(memory))]
+    quarters = [memory[min(len(memory) - 1, n * len(memory) // 4)] for n in range(5)]
+    settled = quarters[1]
     yield Figure(
-        "growth of the sidecar's memory after warm-up", data, "simulated",
+        "growth of the sidecar's memory after the first quarter", data, "simulated",
         memory[-1] - settled, "MB",
-        note=f"{memory[0]:.0f} MB at the start, {settled:.0f} after warm-up, {memory[-1]:.0f} at "
-        "the end",
+        note=f"MB at the start and after each quarter: {', '.join(f'{q:.0f}' for q in quarters)}",
     )  # fmt: skip
     for robot in heard:
         if robot.trouble:
@@ -196,10 +194,10 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=10.0)
     parser.add_argument("--robots", type=int, default=10)
     given = parser.parse_args()
-    load = os.getloadavg()[0]
-    print(f"{os.cpu_count()} cores, load before the start {load:.1f}.", flush=True)
+    print(f"{os.cpu_count()} cores, load before the start {os.getloadavg()[0]:.1f}.", flush=True)
     for figure in figures(given.minutes, given.robots):
         print(figure.line(), flush=True)
+    print(f"Load at the end {os.getloadavg()[0]:.1f}; robots and sidecar alone make about 1.")
 
 
 if __name__ == "__main__":

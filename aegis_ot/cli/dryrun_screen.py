@@ -22,6 +22,8 @@ from .app import BROKEN, CLEAN, FINDINGS
 
 console = Console(highlight=False)
 
+_WIDE = 100
+"""Columns of a screen on which route and gate are shown as well; the report always has them."""
 _COLOURS = {Outcome.PASS: "green", Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
 
 
@@ -65,7 +67,10 @@ def show(result: DryRun) -> None:
         console.print(Text(result.detail, style="red"))
         console.print(f"{result.protocol}: rejected before anything moved.")
         return
-    console.print(_table(result.wells))
+    if result.wells:
+        console.print(_table(result.wells))
+    else:
+        console.print("It delivers no liquid: there is nothing to watch.", style="yellow")
     passed = sum(row.outcome is Outcome.PASS for row in result.wells)
     console.print(
         f"{result.protocol}: {counted(len(result.wells), 'well')} watched on simulated frames, "
@@ -86,9 +91,11 @@ def show(result: DryRun) -> None:
 
 def _table(rows: Sequence[WellRow]) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold")
+    wide = console.width >= _WIDE
     for heading, side in (
         ("#", "right"), ("well", "left"), ("µL", "right"), ("score", "right"),
-        ("limit", "right"), ("p", "right"), ("route", "left"), ("gate", "left"),
+        ("limit", "right"), ("p", "right"),
+        *((("route", "left"), ("gate", "left")) if wide else ()),
         ("verdict", "left"), ("hold s", "right"),
     ):  # fmt: skip
         table.add_column(heading, justify=side, no_wrap=True)  # type: ignore[arg-type]
@@ -100,8 +107,7 @@ def _table(rows: Sequence[WellRow]) -> Table:
             Text(row.address),
             f"{row.volume_ul:g}",
             *("-" if n is None else f"{n:.2g}" for n in (row.score, row.limit, row.p_value)),
-            row.route.value if row.route else "-",
-            row.gate.value,
+            *((row.route.value if row.route else "-", row.gate.value) if wide else ()),
             Text(verdict + failure, style=_COLOURS.get(row.outcome or Outcome.UNDECIDED, "")),
             f"{row.hold_s:.2f}",
         )
