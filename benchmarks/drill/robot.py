@@ -57,6 +57,7 @@ class Robot:
     told: Acknowledged = field(default_factory=Acknowledged)
     clock_ahead_s: float = 0.0
     pauses: int = 0
+    commands: list[Any] = field(default_factory=list)
 
     def play(self, step: Callable[[int], None], may_resume: Callable[[], bool]) -> str:
         """Run to the end.
@@ -85,7 +86,7 @@ class Robot:
                 paused = now
                 time.sleep(0.02)
             try:
-                live.join()
+                self.commands = live.join().commands
             except BaseException as error:
                 return f"{type(error).__name__}: {error}"
         return ""

@@ -20,6 +20,8 @@ from typing import Any
 from aegis_ot.simulation import SessionParameters, SimulatedCamera
 from aegis_ot.vocabulary import Keyframe
 
+EXPOSURES = 4
+"""Pictures of each keyframe that differ by their noise; then they come again."""
 FPS = 10.0
 """Of the simulated camera; each frame is rendered in the drill's own process."""
 
@@ -98,9 +100,18 @@ class Sidecar:
 
 
 class StreamCamera:
-    """The simulated camera as an MJPEG stream on loopback, with a cable that can be pulled."""
+    """The simulated camera as an MJPEG stream on loopback, with a cable that can be pulled.
 
-    def __init__(self, seed: int) -> None:
+    Args:
+        seed: Of its session.
+        fps: Frames per second.
+    """
+
+    def __init__(self, seed: int, fps: float = FPS) -> None:
+        self._drawn: dict[int, list[bytes]] = {}
+        self._now: list[bytes] = []
+        self._turn = 0
+        self._showing = threading.Lock()
         self._camera = SimulatedCamera(seed, (), SessionParameters.webcam(seed))
         self._plugged = threading.Event()
         self._plugged.set()
@@ -117,9 +128,10 @@ class StreamCamera:
                 with contextlib.suppress(OSError):
                     while camera._plugged.is_set():
                         began = time.monotonic()
-                        self.wfile.write(camera._part())
-                        self.wfile.flush()
-                        time.sleep(max(0.0, 1 / FPS - (time.monotonic() - began)))
+                        with camera._showing:  # no picture of before is sent after a move
+                            self.wfile.write(camera._part())
+                            self.wfile.flush()
+                        time.sleep(max(0.0, 1 / fps - (time.monotonic() - began)))
 
             def log_message(self, *_: object) -> None:
                 """Quiet."""
@@ -129,7 +141,9 @@ class StreamCamera:
 
     def show(self, keyframe: Keyframe) -> None:
         """The robot stands at this keyframe."""
-        self._camera.announce(keyframe)
+        with self._showing:
+            self._camera.announce(keyframe)
+            self._now = self._drawn.setdefault(keyframe.sequence, [])
 
     def plug(self, there: bool) -> None:
         """Pull the cable, or put it back."""
@@ -142,7 +156,13 @@ class StreamCamera:
         self._server.server_close()
 
     def _part(self) -> bytes:
-        jpeg = self._camera.frame_after(time.monotonic(), 5.0).jpeg
+        drawn = self._now
+        if len(drawn) < EXPOSURES:
+            drawn.append(self._camera.frame_after(time.monotonic(), 5.0).jpeg)
+            jpeg = drawn[-1]
+        else:
+            self._turn += 1
+            jpeg = drawn[self._turn % EXPOSURES]
         head = f"--frame\r\nContent-Type: image/jpeg\r\nContent-Length: {len(jpeg)}\r\n\r\n"
         return head.encode() + jpeg + b"\r\n"
 
