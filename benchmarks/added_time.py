@@ -2,8 +2,9 @@
 
 ``python -m benchmarks.added_time [--wells 16]``: the same protocol on Opentrons' own engine without
 and with the guard. The hardware simulator moves in no time, so each motion is given one here,
-roughly an OT-2's: the guard's own lift takes time, and scoring overlaps with motion. The sidecar is a process of its
-own; its camera is a stream over loopback of simulated frames, 640x480 at 30 frames/s.
+roughly an OT-2's: the guard's own lift takes time, and scoring overlaps with motion. The sidecar
+is a process of its own; its camera is a stream over loopback of simulated frames, 640x480 at 30
+frames/s.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ def figures(wells: int = 16) -> Iterator[Figure]:
     with tempfile.TemporaryDirectory() as folder, _motion():
         bare = _per_well(_unguarded(wells))
         camera = StreamCamera(3, FPS)
-        seen = {"camera": {"spec": camera.spec, "latency_s": 0.04}}
+        seen = {"camera": {"spec": camera.spec, "latency_s": 0.02}}
         sidecar = Sidecar(Path(folder), seen)
         with closing(camera):
             sidecar.start()
@@ -104,12 +105,12 @@ def _motion() -> Iterator[None]:
 
     move, places = API.move_to, dict[Any, Any]()
 
-    async def move_to(self: Any, mount: Any, place: Any, *args: Any, **kwargs: Any) -> Any:
-        before = places.get(mount, place)
-        across = math.hypot(place.x - before.x, place.y - before.y) / SPEED_MM_S[0]
-        await asyncio.sleep(max(across, abs(place.z - before.z) / SPEED_MM_S[1]))
-        places[mount] = place
-        return await move(self, mount, place, *args, **kwargs)
+    async def move_to(self: Any, mount: Any, abs_position: Any, **kwargs: Any) -> Any:
+        to, before = abs_position, places.get(mount, abs_position)
+        across = math.hypot(to.x - before.x, to.y - before.y) / SPEED_MM_S[0]
+        await asyncio.sleep(max(across, abs(to.z - before.z) / SPEED_MM_S[1]))
+        places[mount] = to
+        return await move(self, mount, to, **kwargs)
 
     changed = {name: slow(name, seconds) for name, seconds in MOTION_S.items()}
     with mock.patch.multiple(API, move_to=move_to, **changed):

@@ -89,7 +89,7 @@ class Robot:
                 self.commands = live.join().commands
             except BaseException as error:
                 return f"{type(error).__name__}: {error}"
-        return ""
+        return "" if live.error is None else f"{type(live.error).__name__}: {live.error}"
 
     @contextlib.contextmanager
     def _recorded(self) -> Iterator[None]:
