@@ -98,7 +98,7 @@ def _table(rows: Sequence[WellRow]) -> Table:
         *((("route", "left"), ("gate", "left")) if wide else ()),
         ("verdict", "left"), ("hold s", "right"),
     ):  # fmt: skip
-        table.add_column(heading, justify=side, no_wrap=True)  # type: ignore[arg-type]
+        table.add_column(heading, justify=side, no_wrap=True)
     for row in rows:
         verdict = row.outcome.value if row.outcome else "none"
         failure = f" ({row.failure.value})" if row.failure else ""
