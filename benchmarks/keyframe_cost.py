@@ -44,9 +44,9 @@ def measure() -> tuple[list[float], list[float]]:
     taken, delays = [], []
     with _sidecar() as url:
         link = SidecarLink(url, None, lambda: None)
-        link.start(_RUN, _about(), 10)
+        link.start(_RUN, about(), 10)
         for number in range(KEYFRAMES + 4):
-            keyframe = _keyframe(number)
+            keyframe = make_keyframe(_RUN, number)
             # The robot moves meanwhile; at random, or the camera's phase would decide.
             time.sleep(rng.uniform(0.08, 0.16))
             begun = time.perf_counter()
@@ -78,18 +78,20 @@ def _sidecar() -> Iterator[str]:
             process.wait(10)
 
 
-def _about() -> dict[str, object]:
+def about(run: str = _RUN) -> dict[str, object]:
+    """Of a registration."""
     return {
-        "run": _RUN, "protocol": "bench.py", "robot": "OT-2 Standard", "api_level": "2.20",
+        "run": run, "protocol": "bench.py", "robot": "OT-2 Standard", "api_level": "2.20",
         "simulated": True, "started": time.time(), "package": "bench",
     }  # fmt: skip
 
 
-def _keyframe(number: int) -> Keyframe:
+def make_keyframe(run: str, number: int) -> Keyframe:
+    """One of a run whose deliveries follow each other, four each."""
     kinds = tuple(KeyframeKind)
     well = WellRef("labware-2", f"{'ABCDEFGH'[number // 4 % 8]}1", "plate", "3")
     return Keyframe(
-        run=_RUN, sequence=number, trajectory=number // 4, kind=kinds[number % 4],
+        run=run, sequence=number, trajectory=number // 4, kind=kinds[number % 4],
         pipette="p300_single_gen2", mount="right", channels=1, tip="1:A1", sources=(well,),
         destinations=(well,), commanded_ul=100.0, expected_ul=100.0, capacity_ul=300.0,
         robot_time=time.time(),

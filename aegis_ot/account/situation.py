@@ -27,7 +27,7 @@ class Situation:
     """Something that a person should see at once.
 
     Attributes:
-        kind: ``"paused"``, ``"question"``, ``"holding"``, ``"camera"``, ``"store"``,
+        kind: ``"paused"``, ``"ordered"``, ``"question"``, ``"holding"``, ``"camera"``, ``"store"``,
             ``"notification"`` or ``"silent"``.
         title: In a few words.
         text: What was seen.
@@ -63,7 +63,7 @@ def situations(overview: Mapping[str, Any], now: float) -> list[Situation]:
     if overview.get("finished"):
         return []
     trajectories = overview["trajectories"]
-    found = [*_paused(overview), *_questions(overview, trajectories)]
+    found = [*_paused(overview), *_ordered(overview), *_questions(overview, trajectories)]
     found += _holding(overview, trajectories)
     for incident in overview.get("incidents") or ():
         if incident["ended"] is None:
@@ -128,11 +128,17 @@ def _paused(overview: Mapping[str, Any]) -> Iterator[Situation]:
             continue
         if hold["at"] < moved and overview.get("mode") != "watch":
             continue  # it moves; a watched robot ends its move first, and says when it goes on
+        told = _told(overview, trajectory)
+        if hold["resolution"] == "operator":
+            who = _who_paused(overview)
+            text = f"{who} paused it from this page.{told}"
+            where = trajectory["trajectory"], trajectory["well"]
+            yield Situation("paused", "The robot is paused", text, *where)
+            continue
         verdict = trajectory["verdict"] or {}
         failure = str(verdict.get("failure") or "").replace("_", " ")
         outcome = str(verdict.get("outcome") or "no verdict")
         what = failure or {"pass": "passed", "fail": "failed"}.get(outcome, outcome)
-        told = _told(overview, trajectory)
         reason = verdict.get("reason") or f"No verdict: {hold['resolution']}."
         yield Situation(
             "paused",
@@ -147,10 +153,26 @@ def _paused(overview: Mapping[str, Any]) -> Iterator[Situation]:
 def _told(overview: Mapping[str, Any], trajectory: Mapping[str, Any]) -> str:
     """What a person has told the robot already."""
     for action in reversed(overview.get("actions") or ()):
+        if action["action"] == "pause" or action["at"] < trajectory["hold"]["at"]:
+            return ""
         if action["trajectory"] == trajectory["trajectory"]:
             word = {"resume": "go on", "stop": "end the run"}[action["action"]]
             return f" {action['by']} told the robot to {word}; it has not answered yet."
     return ""
+
+
+def _who_paused(overview: Mapping[str, Any]) -> str:
+    actions = reversed(overview.get("actions") or ())
+    return next((str(one["by"]) for one in actions if one["action"] == "pause"), "Somebody")
+
+
+def _ordered(overview: Mapping[str, Any]) -> Iterator[Situation]:
+    """What a person told the robot while it moved, until it does it."""
+    order = overview.get("order")
+    if order:
+        what = {"pause": "pause", "stop": "end the run"}[order["action"]]
+        text = "It does so at its next step of a delivery or in a hold, its own screen at once."
+        yield Situation("ordered", f"{order['by']} told the robot to {what}", text)
 
 
 def _questions(
@@ -199,6 +221,7 @@ def _trouble(incident: Mapping[str, Any]) -> Situation:
     titles = {
         "camera": "The camera is in trouble",
         "store": "The store is in trouble",
+        "model": "The vision model does not answer",
         "hold": "A hold ended without a verdict",
     }
     title = titles.get(incident["kind"], f"Trouble: {incident['kind']}")

@@ -19,6 +19,7 @@ from ..errors import ConfigurationError
 from ..reports import RENDERERS, SHOW_ROLES, check_text
 from ..vocabulary import VerdictWord, counted
 from .app import BROKEN, CLEAN, app
+from .counting import Counting
 from .judging import (
     Assay,
     CsvParameters,
@@ -132,7 +133,8 @@ def check(
             baseline=read_baseline(known) if known and not write_baseline else None,
         )
         projects.append(Project(own, settings, database))
-    run = check_projects(projects, files)
+    with Counting(len(files)) as counting:
+        run = check_projects(projects, files, counting.done)
     if write_baseline:
         write_text(write_baseline, baseline_text(write_baseline, run.protocols))
         count = sum(len(checked.findings) for checked in run.protocols)

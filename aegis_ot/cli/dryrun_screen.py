@@ -68,8 +68,12 @@ def show(result: DryRun) -> None:
         console.print(Text(result.detail, style="red"))
         console.print(f"{result.protocol}: rejected before anything moved.")
         return
-    # Cells of a squeezed table say nothing: a narrow terminal wraps its lines instead.
-    console.print(_table(result.wells, _WIDE if console.width < _WIDE else None), crop=False)
+    if result.wells:
+        # Cells of a squeezed table say nothing: a narrow terminal wraps its lines instead.
+        width = _WIDE if console.width < _WIDE else None
+        console.print(_table(result.wells, width), crop=False)
+    else:
+        console.print("It delivers no liquid: there is nothing to watch.", style="yellow")
     passed = sum(row.outcome is Outcome.PASS for row in result.wells)
     recovered = sum(row.recovered for row in result.wells)
     right = f"{recovered} failed and put right, " if recovered else ""
@@ -94,7 +98,8 @@ def _table(rows: Sequence[WellRow], width: int | None = None) -> Table:
     table = Table(box=None, pad_edge=False, header_style="bold", width=width)
     for heading, side in (
         ("#", "right"), ("well", "left"), ("µL", "right"), ("score", "right"),
-        ("limit", "right"), ("p", "right"), ("route", "left"), ("gate", "left"),
+        ("limit", "right"), ("p", "right"),
+        ("route", "left"), ("gate", "left"),
         ("verdict", "left"), ("hold s", "right"),
     ):  # fmt: skip
         table.add_column(heading, justify=side, no_wrap=True)  # type: ignore[arg-type]

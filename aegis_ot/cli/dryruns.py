@@ -10,7 +10,7 @@ import typer
 
 from ..settings import load_settings
 from .app import app
-from .judging import one_of
+from .judging import Timeout, one_of, seconds_of
 
 
 @app.command()
@@ -41,6 +41,7 @@ def simulate(
     parameter: Annotated[
         list[str] | None, typer.Option(help="Runtime parameter as NAME=VALUE.")
     ] = None,
+    timeout: Timeout = None,
     report: Annotated[Path | None, typer.Option(help="Write an HTML report here.")] = None,
     data: Annotated[
         Path | None,
@@ -57,6 +58,7 @@ def simulate(
         on_fail=one_of("--on-fail", on_fail, ("continue", "stop")),
         seed=seed,
         rules=one_of("--rules", rules, ("on", "warn", "off")),
+        timeout_s=seconds_of(timeout),
         data=data,
     )
     script = read_script(protocol, labware or (), parameter or ())

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Annotated
@@ -16,7 +15,6 @@ from ..errors import ConfigurationError
 from ..evaluation.layer1 import (
     Checking,
     Layer1Result,
-    Prediction,
     draw_ablation,
     evaluate_layer1,
     read_labels,
@@ -25,6 +23,7 @@ from ..preflight import load_database
 from ..reasoning import Configuration, load_prices
 from .app import BROKEN, CLEAN, app
 from .checks import write_text
+from .counting import Counting
 from .datasets import writable_folder
 from .judging import Labware, Rules, one_of, split
 from .models import RecordFolder, backend_of
@@ -93,18 +92,17 @@ def layer1(
             timeout_s=timeout,
             asking=asking,
         )
-        progress = _Progress(len(labels))
-        result = evaluate_layer1(
-            folder.resolve(),
-            labels,
-            Checking(settings, database),
-            asking.configuration if asking else Configuration.RULES_ONLY.value,
-            seed=seed,
-            prices=table,
-            model=asking.backend.name if asking else "",
-            done=progress.done,
-        )
-        progress.end()
+        with Counting(len(labels)) as counting:
+            result = evaluate_layer1(
+                folder.resolve(),
+                labels,
+                Checking(settings, database),
+                asking.configuration if asking else Configuration.RULES_ONLY.value,
+                seed=seed,
+                prices=table,
+                model=asking.backend.name if asking else "",
+                done=counting.done,
+            )
         typer.echo(result.text(), nl=False)
         results.append(result)
     if json_out is not None:
@@ -139,26 +137,3 @@ def _askings(
                     f"--config {name} asks a model. Name one with --model or in AEGIS_OT_MODEL."
                 )
             yield Asking(backend, name)
-
-
-class _Progress:
-    """How far it is, on a terminal only."""
-
-    def __init__(self, total: int) -> None:
-        self._total = total
-        self._count = 0
-        self._shown = sys.stderr.isatty()
-
-    def done(self, prediction: Prediction) -> None:
-        self._count += 1
-        if self._shown:
-            print(
-                f"\r{self._count}/{self._total} {prediction.file:40}",
-                end="",
-                file=sys.stderr,
-                flush=True,
-            )
-
-    def end(self) -> None:
-        if self._shown:
-            print("\r" + " " * 60 + "\r", end="", file=sys.stderr, flush=True)

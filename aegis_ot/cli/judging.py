@@ -81,7 +81,7 @@ def settings_of(
         parameters=read_values(parameter or ()),
         csv_parameters=read_csv_paths(csv or ()),
         labware=read_labware(labware or [Path(p) for p in configured.labware]),
-        timeout_s=_seconds(timeout, configured.timeout),
+        timeout_s=seconds_of(timeout, configured.timeout),
         waivers=_waivers(database, configured),
         waiver_root=configured.folder,
     )
@@ -202,7 +202,12 @@ def _waivers(database: Database, configured: Configuration) -> tuple[ConfiguredW
     return configured.waivers
 
 
-def _seconds(given: float | None, configured: float | None) -> float:
+def seconds_of(given: float | None, configured: float | None = None) -> float:
+    """The longest rehearsal, s.
+
+    Raises:
+        ConfigurationError: It is no length of time.
+    """
     if given is None:
         return configured or DEFAULT_TIMEOUT_S
     if not 0 < given <= 86_400:

@@ -9,12 +9,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ConfigurationError
+from ..vocabulary import counted
 from .app import app
 from .datasets import open_dataset, tip_finder
 from .judging import one_of
 
 if TYPE_CHECKING:
     from ..vision.models import ModelFile
+
+ENOUGH = 20
+"""Normal wells from which a model can say that a well looks as one normal in twenty does."""
 
 
 @app.command()
@@ -80,6 +84,15 @@ def _describe(path: Path, model: ModelFile) -> str:
             f"  {used.get('name')} ({used.get('source')}): {used.get('normals')} normal wells"
             f"{left_out}"
         )
+    told = recordings if isinstance(recordings, list) else []
+    normals = sum(int(used.get("normals") or 0) for used in told)
+    if told and normals < ENOUGH:
+        lines.append(
+            f"  Few: {counted(normals, 'normal well')} cannot tell one in twenty from the rest. "
+            f"Record {ENOUGH} or more."
+        )
+    if len(told) == 1 and not told[0].get("plates"):
+        lines.append("  What it would catch is not known: that takes wells of two runs or plates.")
     seen = model.data.get("smallest")
-    lines += [f"  {Smallest(**told)}" for told in (seen if isinstance(seen, list) else [])]
+    lines += [f"  {Smallest(**one)}" for one in (seen if isinstance(seen, list) else [])]
     return "\n".join(lines)

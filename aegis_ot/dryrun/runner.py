@@ -8,7 +8,7 @@ import secrets
 import tempfile
 import time
 import urllib.request
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ from typing import Any
 from pydantic import SecretStr
 
 from ..checking.guard_arguments import guard_arguments
+from ..checking.problems import problem_of
 from ..errors import AegisError, ConfigurationError, RehearsalError, RunAborted
 from ..guard import guard
 from ..instrumentation import Event, Operation, OperationKind, tapped
@@ -99,7 +100,8 @@ def dry_run(
     """
     progress = progress or Progress()
     planner = Planner()
-    recording = record(script, [planner], timeout_s=settings.timeout_s)
+    with _no_exit(script.file_name):
+        recording = record(script, [planner], timeout_s=settings.timeout_s)
     planner.finish()
     report = None
     if settings.rules != "off":
@@ -144,6 +146,17 @@ def dry_run(
     reported = report_run(overview, frames.get, notes)
     seconds = time.monotonic() - begun
     return DryRun(script.file_name, report, reported, wells, outcome, detail, touched, seconds)
+
+
+@contextlib.contextmanager
+def _no_exit(file_name: str) -> Iterator[None]:
+    """A protocol that ends the process would end this one, without a word."""
+    try:
+        yield
+    except SystemExit as error:
+        problem = problem_of(error, file_name)
+        where = f"{file_name}, line {problem.line}" if problem.line else file_name
+        raise RehearsalError(f"{where}: {problem.message}", problem.line) from None
 
 
 def _rejected(file_name: str, report: Any) -> DryRun:
@@ -198,7 +211,8 @@ def _run(
                 return robot.under(guarded, script.file_name)
 
             try:
-                play(script, wrap)
+                with _no_exit(script.file_name):
+                    play(script, wrap)
             except RunAborted as error:
                 outcome, detail = "stopped", str(error)
             except RehearsalError:

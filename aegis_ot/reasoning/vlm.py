@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import cv2
@@ -90,9 +91,8 @@ class VlmGate:
             return self._undecided(f"The frames cannot be cut ({error.err}).")
         reply = self._backend.ask(request)
         if reply.value is None:
-            return self._undecided(
-                f"The vision model gave no answer ({reply.state.value}): {reply.detail}"
-            )
+            said = f"The vision model gave no answer ({reply.state.value}): {reply.detail}"
+            return replace(self._undecided(said), trouble=said)
         return self.decide(reply.value)
 
     def decide(self, answer: Mapping[str, Any]) -> GateDecision:

@@ -26,13 +26,16 @@ class PagePauses:
         self._act = act
         self._number: int | None = None
         self._began = 0.0
+        self._why = ""
         self._next = 0.0
         self._on_page = False
 
-    def begin(self, trajectory: int) -> None:
-        """The robot was paused because of a delivery."""
+    def begin(self, trajectory: int, why: str = "verdict") -> None:
+        """The robot was paused: because of a delivery, or because a person said so
+        (``"operator"``)."""
         self._number, self._began, self._on_page = trajectory, time.monotonic(), False
-        self._courier.report_hold(trajectory, 0.0, "verdict", "pause")
+        self._why = why
+        self._courier.report_hold(trajectory, 0.0, why, "pause")
 
     def look_around(self) -> None:
         """Do what a person said on the page, twice a second at most."""
@@ -40,7 +43,7 @@ class PagePauses:
             return
         self._next = time.monotonic() + _EVERY_S
         with contextlib.suppress(LinkError, RobotError):
-            action = self._courier.action(self._number)
+            action = self._courier.action(self._number, time.monotonic() - self._began)
             if action in _DOES:
                 self._act(_DOES[action])
                 self._on_page = True
@@ -52,5 +55,5 @@ class PagePauses:
         number, self._number = self._number, None
         where = "page" if self._on_page else "robot"
         self._courier.report_hold(
-            number, 0.0, "verdict", "pause", time.monotonic() - self._began, where
+            number, 0.0, self._why, "pause", time.monotonic() - self._began, where
         )

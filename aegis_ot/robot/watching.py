@@ -138,6 +138,7 @@ class _Watch:
         self._guarded = False
         self._followed_since: float | None = None
         self._lost = False
+        self._heard_at = 0
 
     def begin(self) -> None:
         self._courier.register(self._policies.capture_timeout_s)
@@ -166,6 +167,7 @@ class _Watch:
         if not self._lost:
             self._followed_since = time.monotonic()
         self._pauses.look_around()
+        self._obey()
         if not self._awaited or self._courier.away:
             return
         number = self._awaited[0]
@@ -257,6 +259,7 @@ class _Watch:
         courier = self._courier
         self._link.moments[keyframe.sequence] = self._clock.local(moment)
         courier.offer(keyframe)
+        self._heard_at = keyframe.trajectory
         if keyframe.kind is KeyframeKind.POST_DISPENSE:
             self._awaited.append(keyframe.trajectory)
         if courier.away and not courier.look(self._policies.capture_timeout_s):
@@ -272,19 +275,30 @@ class _Watch:
         self._courier.give_up()
         self._apply(self._policies.on_link_loss, "the sidecar is away")
 
-    def _apply(self, policy: str, why: str, trajectory: int | None = None) -> None:
-        if policy != "pause":
+    def _obey(self) -> None:
+        """Do what a person told the robot on the sidecar's page; heard with its answers."""
+        order = self._courier.order()
+        if order is not None:
+            self._apply(order.action, f"{order.by} says so", self._heard_at, "operator")
+
+    def _apply(
+        self, policy: str, why: str, trajectory: int | None = None, cause: str = "verdict"
+    ) -> None:
+        did = {"pause": "paused", "stop": "stopped"}.get(policy)
+        if did is None:
             return
         try:
-            self._robot.act(self._run.id, "pause")
+            self._robot.act(self._run.id, policy)
         except RobotRefused:
-            self._screen.says(f"Not paused: {why}, but the run is not running.")
+            self._screen.says(f"Not {did}: {why}, but the run is not running.")
         except RobotError as error:
-            self._screen.says(f"NOT PAUSED, though {why}: {error}")
+            self._screen.says(f"NOT {did.upper()}, though {why}: {error}")
         else:
-            self._screen.says(f"Paused by the watch: {why}. Motion ends with the current move.")
-            if trajectory is not None:
-                self._pauses.begin(trajectory)
+            self._screen.says(
+                f"{did.capitalize()} by the watch: {why}. Motion ends with the current move."
+            )
+            if trajectory is not None and policy == "pause":
+                self._pauses.begin(trajectory, cause)
 
     def _is_plausible(self, completed: float) -> bool:
         """Whether a command ended between the last look and now: else a clock was set meanwhile."""

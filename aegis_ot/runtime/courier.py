@@ -13,7 +13,7 @@ from typing import Any
 from ..errors import LinkError, SidecarRefused, SidecarUnreachable
 from ..http_client import SLICE_S
 from ..vocabulary import Keyframe, Verdict
-from .link import CameraSilent, RunUnknown, SequenceGap, SidecarLink
+from .link import CameraSilent, Order, RunUnknown, SequenceGap, SidecarLink
 
 _FIRST_TRY_S = 3.0
 """How long a first try may take before somebody is told that it is tried again, s."""
@@ -68,6 +68,8 @@ class Courier:
         self._sent: list[Keyframe] = []
         self._pending: deque[Keyframe] = deque()
         self._messages: deque[Message] = deque()
+        self._obeyed: Order | None = None
+        self._lost: tuple[float, str] | None = None
         self._unheard = False  # a message was not taken; the next keyframe shows who is there
         self._next_look = 0.0
         self._pause_s = _FIRST_REST_S
@@ -122,6 +124,7 @@ class Courier:
         try:
             self._link.health(_GLANCE_S)
             self._send_all(time.monotonic() + timeout_s, _CATCH_UP_S)
+            self._note_outage()
             self._flush_messages(time.monotonic() + _REQUEST_S)
         except LinkError:
             self._pause_s = min(_LONGEST_REST_S, self._pause_s * 2)
@@ -148,9 +151,17 @@ class Courier:
         self._messages.append(self._abandonment(number, reason))
         self._tell()
 
-    def action(self, number: int) -> str | None:
-        """Ask once what a person told the robot that is paused at a trajectory."""
-        return self._link.action(self._run, number, _REQUEST_S)
+    def action(self, number: int, within_s: float) -> str | None:
+        """Ask once what a person told the robot that is paused at a trajectory so long, s."""
+        return self._link.action(self._run, number, within_s, _REQUEST_S)
+
+    def order(self) -> Order | None:
+        """What a person told the moving robot on the sidecar's page; each order once."""
+        order = self._link.order
+        if order == self._obeyed:
+            return None
+        self._obeyed = order
+        return order
 
     def report_hold(
         self,
@@ -240,12 +251,15 @@ class Courier:
         while True:
             try:
                 attempt(limit)
+                self._note_outage()
                 return
             except SidecarRefused:
                 raise  # asking again changes nothing
             except LinkError as error:
                 if not isinstance(error, SidecarUnreachable):
                     answered = error
+                elif self._lost is None:
+                    self._lost = began, str(error)
                 if time.monotonic() + wait >= deadline:
                     # The last attempt is often cut short: what was answered before says more.
                     raise answered or error from None
@@ -275,6 +289,16 @@ class Courier:
                 continue
             self._sent.append(self._pending.popleft())
             self._unheard = False
+
+    def _note_outage(self) -> None:
+        """There was no link, and there is again: the run's report says for how long."""
+        lost, self._lost = self._lost, None
+        if lost is None or (seconds := time.monotonic() - lost[0]) < _SILENT_S:
+            return
+        self._messages.append(
+            lambda most: self._link.report_outage(self._run, seconds, lost[1], most)
+        )
+        self._unheard = False
 
     def _close_gap(self, gap: SequenceGap, keyframe: Keyframe) -> None:
         if gap.expected > keyframe.sequence:

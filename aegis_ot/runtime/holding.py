@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from typing import NoReturn
 
 from ..errors import LinkError, RunAborted
 from ..http_client import SLICE_S, CheckStop
@@ -14,13 +15,16 @@ from .courier import Courier
 from .link import SidecarLink
 from .linkloss import LinkLoss
 from .operator import Answer, Operator
-from .page_answers import PageAnswers
+from .page_answers import PageAnswers, act_on_current_run
 from .recovering import Recovery
-from .runstate import RunState
+from .runstate import RunState, can_be_resumed
 from .steps import Hold
 from .stopping import Waits
 from .summary import WatchSummary
 from .words import tell_verdict
+
+_STOP_S = 5.0
+"""How long the robot's server may take to stop the run that it was told to stop, s."""
 
 
 class Holding:
@@ -98,6 +102,7 @@ class Holding:
             verdict = None
             try:
                 verdict = courier.verdict(number)
+                deadline += self.obey(number)
             except LinkError:
                 # The same patience as for a keyframe.
                 self._link_loss.insist(self._link_loss.register)
@@ -155,19 +160,53 @@ class Holding:
                 lambda told: self._courier.report_hold(number, seconds, ended_by, policy, *told),
             )
 
+    def obey(self, number: int) -> float:
+        """Do what a person told the moving robot on the sidecar's page, if anybody did.
+
+        Args:
+            number: Trajectory at which the robot hears of it.
+
+        Returns:
+            For how long it was paused, s.
+
+        Raises:
+            RunAborted, Stopping: The person ends the run.
+        """
+        order = self._courier.order()
+        if order is None:
+            return 0.0
+        if order.action == "stop":
+            self._end(f"{order.by} ended the run on the sidecar's page.")
+        began = time.monotonic()
+        self._courier.report_hold(number, 0.0, "operator", "pause")
+        self._pause(
+            number,
+            f"{order.by} paused the run on the sidecar's page. Resume to go on, or cancel the run.",
+            lambda told: self._courier.report_hold(number, 0.0, "operator", "pause", *told),
+        )
+        return time.monotonic() - began
+
+    def _end(self, text: str) -> NoReturn:
+        """Stop as the App's button does; where nobody can, by an error."""
+        if can_be_resumed() and act_on_current_run("stop"):
+            self._waits.rest(_STOP_S)
+        raise RunAborted(text)
+
     def _pause(self, number: int, text: str, report: Callable[[tuple[float, str]], None]) -> None:
         """Wait for a person, then tell how long that took and where it was answered."""
         began = time.monotonic()
         page = PageAnswers(self._link, self._run, number, lambda: self._state.paused)
-        answered = self._operator.pause(text, lambda: self._told(number), page)
+        answered = self._operator.pause(
+            text, lambda: self._told(number, time.monotonic() - began), page
+        )
         if answered:
             report((time.monotonic() - began, answered))
             self._hear_decision(number)
 
-    def _told(self, number: int) -> Answer | None:
+    def _told(self, number: int, within_s: float) -> Answer | None:
         """What a person told on the sidecar's page, where the run cannot be resumed."""
         try:
-            action = self._courier.action(number)
+            action = self._courier.action(number, within_s)
         except LinkError:
             return None
         return {"resume": Answer.RESUME, "stop": Answer.ABORT}.get(action or "")

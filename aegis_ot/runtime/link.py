@@ -37,8 +37,8 @@ class SequenceGap(LinkError):
 
 
 class CameraSilent(LinkError):
-    """503: the sidecar is there, its camera gave no frame that tells anything; the keyframe may be
-    sent again."""
+    """503: the sidecar is there, but its camera gave no frame that tells anything, or its store is
+    full; the keyframe may be sent again."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +54,21 @@ class Captured:
     exposed_after_s: float | None
 
 
+@dataclass(frozen=True)
+class Order:
+    """What a person tells a robot that moves, on the sidecar's page.
+
+    Attributes:
+        action: ``"pause"`` or ``"stop"``.
+        by: Who.
+        at: When, on the sidecar's clock: an order has a moment of its own.
+    """
+
+    action: str
+    by: str
+    at: float
+
+
 class SidecarLink:
     """Speaks to one sidecar about one run.
 
@@ -63,12 +78,16 @@ class SidecarLink:
         check_stop: Called at least every 0.15 s during every wait; whatever it raises ends the
             request and reaches the caller.
 
+    Attributes:
+        order: The last one that came with an answer.
+
     Every method raises :class:`SidecarUnreachable`, :class:`SidecarRefused` or
     :class:`SidecarGarbled`, with the address, what happened and what to do.
     """
 
     def __init__(self, url: str, token: str | None, check_stop: CheckStop) -> None:
         self.url = url
+        self.order: Order | None = None
         self._http = HttpClient(url, token, check_stop)
 
     def health(self, timeout_s: float) -> dict[str, Any]:
@@ -104,6 +123,7 @@ class SidecarLink:
         answer = self._request("POST", path, to_json(keyframe), timeout_s)
         if answer.get("captured") is not True or answer.get("sequence") != keyframe.sequence:
             raise self._garbled(f"it did not acknowledge keyframe {keyframe.sequence}")
+        self.order = _order_of(answer) or self.order
         delay: Any = answer.get("exposed_after_s")
         known = isinstance(delay, (int, float)) and not isinstance(delay, bool)
         return Captured(keyframe.sequence, float(delay) if known else None)
@@ -114,6 +134,7 @@ class SidecarLink:
         answer = self._request("GET", path, None, timeout_s)
         if "verdict" not in answer:
             raise self._garbled(f"its answer for trajectory {number} holds no verdict field")
+        self.order = _order_of(answer) or self.order
         if answer["verdict"] is None:
             return None
         try:
@@ -124,10 +145,11 @@ class SidecarLink:
             raise self._garbled(f"it sent another trajectory's verdict for trajectory {number}")
         return verdict
 
-    def action(self, run: str, number: int, timeout_s: float) -> str | None:
-        """What a person told the robot that is paused at a trajectory: ``"resume"``, ``"stop"``,
-        or ``None`` as long as nobody did."""
-        answer = self._request("GET", f"{_trajectory(run, number)}/action", None, timeout_s)
+    def action(self, run: str, number: int, within_s: float, timeout_s: float) -> str | None:
+        """What a person told the robot that has been paused at a trajectory for ``within_s``
+        seconds: ``"resume"``, ``"stop"``, or ``None`` as long as nobody did."""
+        path = f"{_trajectory(run, number)}/action?within={within_s:.2f}"
+        answer = self._request("GET", path, None, timeout_s)
         action = answer.get("action")
         return str(action.get("action")) if isinstance(action, dict) else None
 
@@ -142,6 +164,11 @@ class SidecarLink:
     def report_recovery(self, run: str, told: Mapping[str, Any], timeout_s: float) -> None:
         """Say how the robot puts a failed delivery right, or why it does not."""
         self._request("POST", f"/v1/runs/{quote(run, safe='')}/recovery", dict(told), timeout_s)
+
+    def report_outage(self, run: str, seconds: float, text: str, timeout_s: float) -> None:
+        """Say that there was no link for so long."""
+        body = {"kind": "link", "seconds": round(seconds, 1), "text": text[:1000]}
+        self._request("POST", f"/v1/runs/{quote(run, safe='')}/incident", body, timeout_s)
 
     def finish(self, run: str, outcome: str, detail: str, timeout_s: float) -> None:
         """Say how the run ended."""
@@ -182,10 +209,15 @@ class SidecarLink:
             raise RunUnknown(f"The sidecar at {self.url} does not know this run{said}.")
         if status == 409:
             raise self._gap(answer, said)
-        if status == 503:
+        if status == 503 and _error_code(answer) == "camera":
             raise CameraSilent(
                 f"The sidecar at {self.url} got no usable frame from its camera{said}. Its page "
                 "shows what the camera sees."
+            )
+        if status in (429, 503):
+            raise CameraSilent(
+                f"The sidecar at {self.url} cannot take what it is sent{said}. Look at the "
+                "workstation, and at the sidecar's page."
             )
         if status in (400, 405, 413, 415, 422):
             raise SidecarRefused(
@@ -218,8 +250,23 @@ class SidecarLink:
         return SidecarGarbled(f"The sidecar at {self.url} makes no sense: {what}; {remedy}.")
 
 
+def _order_of(answer: Mapping[str, Any]) -> Order | None:
+    """An order, if the answer brings one that makes sense."""
+    told = answer.get("order")
+    if not isinstance(told, dict) or told.get("action") not in ("pause", "stop"):
+        return None
+    at: Any = told.get("at")
+    known = isinstance(at, (int, float)) and not isinstance(at, bool)
+    return Order(told["action"], str(told.get("by", ""))[:200], float(at) if known else 0.0)
+
+
 def _trajectory(run: str, number: int) -> str:
     return f"/v1/runs/{quote(run, safe='')}/trajectories/{number}"
+
+
+def _error_code(answer: Any) -> Any:
+    error = answer.get("error") if isinstance(answer, dict) else None
+    return error.get("code") if isinstance(error, dict) else None
 
 
 def _error_text(answer: Any) -> str:

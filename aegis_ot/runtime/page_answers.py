@@ -9,6 +9,7 @@ from __future__ import annotations
 import http.client
 import json
 import threading
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -53,6 +54,7 @@ class PageAnswers:
         self._run = run
         self._number = number
         self._paused = paused
+        self._began = time.monotonic()
         self._over = threading.Event()
         self._link = link(self._check)
         self._thread = threading.Thread(target=self._work, name="page-answers", daemon=True)
@@ -73,7 +75,8 @@ class PageAnswers:
         try:
             while not self._over.wait(_EVERY_S):
                 try:
-                    action = self._link.action(self._run, self._number, _ASK_S)
+                    within = time.monotonic() - self._began
+                    action = self._link.action(self._run, self._number, within, _ASK_S)
                 except LinkError:
                     continue
                 if action in _DOES and self._paused() and not self._over.is_set():

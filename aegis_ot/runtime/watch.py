@@ -217,6 +217,7 @@ class Watcher:
             courier.move_on()
             return
         line.loss.insist(lambda: courier.deliver(timeout))
+        line.holding.obey(keyframe.trajectory)
 
     def _abandon(self, step: Abandon) -> None:
         self.result.abandoned.add(step.trajectory)

@@ -8,6 +8,7 @@ from ..errors import AegisError
 from .config import SidecarConfig
 from .journal import event, set_up
 from .judging import make_analyser, make_detector
+from .reasoning_routes import gates_of
 from .server import serve
 from .token_file import kept_token
 
@@ -18,7 +19,7 @@ def main(arguments: list[str]) -> int:
         config = SidecarConfig.load(arguments[0] if arguments else None, find_token=kept_token)
         set_up(config.log)
         detector = make_detector(config.cascade)
-        analyser = make_analyser(config.cascade, detector=detector)
+        analyser = make_analyser(config.cascade, gates_of(config), detector)
         serve(
             config,
             analyser=analyser,

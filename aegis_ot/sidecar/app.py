@@ -28,6 +28,7 @@ from .pages import page_router
 from .reasoning_routes import opinion_router, opinions_of
 from .security import Doorkeeper
 from .service import Sidecar
+from .sessions import Session
 from .wire import (
     MAX_BODY,
     MAX_COUNT,
@@ -38,6 +39,8 @@ from .wire import (
     Decision,
     Finish,
     Hold,
+    Incident,
+    Order,
     Recovery,
     RunStart,
     WireError,
@@ -59,6 +62,7 @@ Run = Annotated[str, Depends(_run_name)]
 Number = Annotated[int, Path(ge=0, le=MAX_COUNT)]
 After = Annotated[int | None, Query(ge=0, le=2**53)]
 Wait = Annotated[float, Query(ge=0, allow_inf_nan=False)]
+Within = Annotated[float | None, Query(ge=0, allow_inf_nan=False)]
 Ago = Annotated[float, Query(ge=-HISTORY_S, le=HISTORY_S, allow_inf_nan=False)]
 """How long before its arrival the moment of a keyframe was, s; negative: it is still to come."""
 
@@ -143,12 +147,13 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         keyframe = parse(Keyframe, await read_body(request))
         _must_match(run, keyframe.run)
         moment = arrived - ago
-        captured = await run_in_threadpool(lambda: sidecar.session(run).capture(keyframe, moment))
+        session = await run_in_threadpool(sidecar.session, run)
+        captured = await run_in_threadpool(session.capture, keyframe, moment)
         return {
             "sequence": keyframe.sequence,
             "captured": True,
             "exposed_after_s": captured.exposed_after_s,
-        }
+        } | _order(session)
 
     @app.get("/v1/runs/{run}/trajectories/{number}/verdict")
     async def verdict(run: Run, number: Number, wait: Wait = 0.0) -> dict[str, Any]:
@@ -157,12 +162,16 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         answer: dict[str, Any] = {"verdict": None if found is None else to_json(found)}
         if found is None and session.awaiting_operator(number):
             answer["awaiting"] = "operator"
-        return answer
+        return answer | _order(session)
 
     @app.get("/v1/runs/{run}/trajectories/{number}/action")
-    async def action(run: Run, number: Number, wait: Wait = 0.0) -> dict[str, Any]:
+    async def action(
+        run: Run, number: Number, wait: Wait = 0.0, within: Within = None
+    ) -> dict[str, Any]:
         session = await run_in_threadpool(sidecar.session, run)
-        found = await sidecar.bell.until(lambda: session.action(number), min(wait, MAX_WAIT))
+        found = await sidecar.bell.until(
+            lambda: session.action(number, within), min(wait, MAX_WAIT)
+        )
         return {"action": found}
 
     @app.post("/v1/runs/{run}/trajectories/{number}/abandon", openapi_extra=takes(Abandon))
@@ -180,6 +189,13 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
     @app.post("/v1/runs/{run}/recovery", openapi_extra=takes(Recovery))
     async def recovery(run: Run, body: Annotated[Recovery, _body(Recovery)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.recovery, run, body)
+        return {}
+
+    @app.post("/v1/runs/{run}/incident", openapi_extra=takes(Incident))
+    async def incident(run: Run, body: Annotated[Incident, _body(Incident)]) -> dict[str, Any]:
+        await run_in_threadpool(sidecar.require, run)
+        said = f"The robot had no link to the sidecar for {body.seconds:.0f} s. {body.text}".strip()
+        await run_in_threadpool(sidecar.note, run, body.kind, said, body.seconds)
         return {}
 
     @app.post("/v1/runs/{run}/finish", openapi_extra=takes(Finish))
@@ -246,6 +262,17 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
     ) -> dict[str, Any]:
         await run_in_threadpool(lambda: sidecar.session(run).act(number, body))
         return {}
+
+    @app.post("/v1/runs/{run}/order", openapi_extra=takes(Order))
+    async def order(run: Run, body: Annotated[Order, _body(Order)]) -> dict[str, Any]:
+        await run_in_threadpool(lambda: sidecar.session(run).order(body))
+        return {}
+
+
+def _order(session: Session) -> dict[str, Any]:
+    """What the moving robot is to do goes with every answer that it waits for."""
+    order = session.ordered()
+    return {} if order is None else {"order": order}
 
 
 async def _now() -> float:

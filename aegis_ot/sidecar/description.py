@@ -9,9 +9,9 @@ from fastapi.openapi.utils import get_openapi
 from pydantic import TypeAdapter
 
 from ..vocabulary import Keyframe
-from .wire import Abandon, Action, Decision, Finish, Hold, Recovery, RunStart
+from .wire import Abandon, Action, Decision, Finish, Hold, Incident, Order, Recovery, RunStart
 
-BODIES = (RunStart, Keyframe, Abandon, Hold, Recovery, Finish, Decision, Action)
+BODIES = (RunStart, Keyframe, Abandon, Hold, Recovery, Incident, Finish, Decision, Action, Order)
 _REF = "#/components/schemas/"
 _ERROR = {
     "type": "object",

@@ -11,6 +11,7 @@ TODO = {
     "undecided": "Look at the frames and decide on the page.",
     "camera": "Look at the camera, its cable and its view; the robot sends the keyframe again.",
     "store": "Look at the workstation's disk: free space, permissions.",
+    "model": "Look at the model's service, key and network; flagged wells come to you meanwhile.",
     "hold": "Look at the robot, and at the sidecar's page.",
     "silent": "See whether the robot is on and in the network.",
 }

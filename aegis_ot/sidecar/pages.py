@@ -20,7 +20,7 @@ from .journal import event
 from .security import COOKIE_S, LoginThrottle, client_of, same, set_cookie
 from .service import Sidecar
 from .views import history_view, live_run, run_address, run_view
-from .wire import MAX_COUNT, Action, Decision, ReadBody, WireError, check_run
+from .wire import MAX_COUNT, Action, Decision, Order, ReadBody, WireError, check_run
 
 FOLDER = Path(__file__).parent / "templates"
 STATIC = {"page.js": "text/javascript", "page.css": "text/css", "parts.css": "text/css"}
@@ -102,6 +102,13 @@ def _reading(router: APIRouter, sidecar: Sidecar) -> None:
 def _answering(router: APIRouter, sidecar: Sidecar, read_body: ReadBody) -> None:
     @router.post("/runs/{run}/wells/{number}")
     async def answer(request: Request, run: str, number: int) -> Response:
+        return await answered(request, run, number)
+
+    @router.post("/runs/{run}/order")
+    async def order(request: Request, run: str) -> Response:
+        return await answered(request, run, None)
+
+    async def answered(request: Request, run: str, number: int | None) -> Response:
         form = _form(await read_body(request))
         back = form.get("back") or run_address(check_run(run), number)
         try:
@@ -119,11 +126,18 @@ def _answering(router: APIRouter, sidecar: Sidecar, read_body: ReadBody) -> None
         return response
 
 
-def _answer(sidecar: Sidecar, run: str, number: int, words: list[str], by: str, note: str) -> None:
-    """``pass`` or ``fail`` says what happened in the well, ``resume`` or ``stop`` what to do."""
+def _answer(
+    sidecar: Sidecar, run: str, number: int | None, words: list[str], by: str, note: str
+) -> None:
+    """``pass`` or ``fail`` says what happened in the well, ``resume`` or ``stop`` what to do;
+    without a well, ``pause`` or ``stop`` is for the robot that moves."""
     session = sidecar.session(run)
     for word in words:
-        if word in ("pass", "fail"):
+        if number is None and word in ("pause", "stop"):
+            session.order(Order(action=word, by=by, note=note))  # type: ignore[arg-type]
+        elif number is None:
+            raise WireError(422, "answer", f"There is no order {word!r}.")
+        elif word in ("pass", "fail"):
             session.decide(number, Decision(outcome=Outcome(word), by=by, note=note))  # type: ignore[arg-type]
         elif word in ("resume", "stop"):
             session.act(number, Action(action=word, by=by, note=note))  # type: ignore[arg-type]

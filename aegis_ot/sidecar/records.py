@@ -8,7 +8,7 @@ from typing import Any
 
 from ..vocabulary import Verdict, from_json, to_json
 from .database import Database
-from .wire import Action, Decision, Hold, Recovery
+from .wire import Action, Decision, Hold, Order, Recovery
 
 OF_A_RUN = (
     "recoveries", "incidents", "actions", "decisions", "holds", "abandoned", "verdicts",
@@ -129,7 +129,7 @@ class Records(Database):
             )
         return found
 
-    def add_action(self, run: str, trajectory: int, action: Action) -> None:
+    def add_action(self, run: str, trajectory: int, action: Action | Order) -> None:
         """Keep what a person told the robot to do."""
         self._write(
             'INSERT INTO actions (run, trajectory, action, "by", note, at) '
@@ -151,6 +151,13 @@ class Records(Database):
                 "(SELECT 1 FROM incidents WHERE run = ? AND kind = ? AND ended IS NULL)",
                 (run, kind, text, time.time(), run, kind),
             )
+        )
+
+    def add_incident(self, run: str, kind: str, text: str, at: float, ended: float) -> None:
+        """Keep trouble that is over."""
+        self._write(
+            "INSERT INTO incidents (run, kind, text, at, ended) VALUES (?, ?, ?, ?, ?)",
+            (run, kind, text, at, ended),
         )
 
     def end_incidents(self, run: str, kind: str) -> bool:

@@ -17,6 +17,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from .config import SidecarConfig, is_loopback
 from .journal import event
+from .rates import PER_SECOND, RateLimit
 from .wire import WireError
 
 COOKIE = "aegis_ot"
@@ -43,6 +44,7 @@ class Doorkeeper:
         self._app = app
         self._token = None if config.token is None else config.token.get_secret_value()
         self._slowed = 0
+        self._rate = RateLimit()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
@@ -50,7 +52,7 @@ class Doorkeeper:
             return
         if scope["type"] != "http":
             return
-        refusal = self._judge(scope)
+        refusal = self._judge_rate(scope) or self._judge(scope)
         if refusal is None:
             await self._app(scope, receive, send)
         else:
@@ -71,6 +73,16 @@ class Doorkeeper:
         finally:
             self._slowed -= 1
         return refusal
+
+    def _judge_rate(self, scope: Scope) -> Response | None:
+        if self._rate.takes(client_of(scope)):
+            return None
+        answer = _refuse(
+            429, "rate", f"More than {PER_SECOND:g} requests a second came from this address.",
+            "Ask less often.",
+        )  # fmt: skip
+        answer.headers["Retry-After"] = "1"
+        return answer
 
     def _judge(self, scope: Scope) -> Response | None:
         headers = Headers(scope=scope)

@@ -21,12 +21,13 @@ from .bell import Bell
 from .cameras import BoundCameras, FreeRunning, Health, camera_health
 from .config import SidecarConfig
 from .housekeeping import Housekeeper, Tidied
+from .incidents import Incidents
 from .journal import event
 from .messages import compose
 from .notices import Notice
 from .notifications import Message, Notifier
 from .overview import run_overview
-from .sessions import Session
+from .sessions import OPERATOR, Session
 from .store import Store
 from .wire import Finish, Hold, Recovery, RunStart, WireError
 
@@ -70,6 +71,7 @@ class Sidecar:
         self._analyser = analyser
         self.notifier = Notifier(config.notifications.urls, self._compose, self._undelivered)
         self.store = Store(config.data, alone=True)
+        self._incidents = Incidents(self.store)
         # A test pattern shows no pipette, and is not meant to.
         watched = config.camera.watch_view and camera.kind != "pattern"
         self._detector = detector if watched else None
@@ -121,7 +123,7 @@ class Sidecar:
                     self._analyser,
                     self.bell,
                     self._grab,
-                    self.tell,
+                    self,
                     self.config.operator.timeout_s,
                     None if self._detector is None else ViewWatch(self._detector),
                 )
@@ -139,11 +141,13 @@ class Sidecar:
         """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
         self.require(run)
         self.store.add_hold(run, hold)
-        if (self.store.run(run) or {}).get("mode") != "watch":  # there keyframes come in a pause
-            self.session(run).held(hold.trajectory, hold.policy)
+        watched = (self.store.run(run) or {}).get("mode") == "watch"
+        if not watched or hold.resolution == OPERATOR:  # there keyframes come in a pause
+            self.session(run).held(hold)
         self.bell.ring()
         event("hold", run=run, **hold.model_dump())
-        if hold.resolution not in ("verdict", "stopped") and hold.paused_s is None:
+        expected = hold.resolution in ("verdict", "stopped", OPERATOR)
+        if not expected and hold.paused_s is None:
             policy = f"; then: {hold.policy}" if hold.policy else ""
             self.tell(
                 Notice(
@@ -164,24 +168,28 @@ class Sidecar:
 
     def tell(self, notice: Notice) -> None:
         """Tell people of an incident, once; trouble is kept with its run until it is over."""
-        if notice.trajectory is None:
-            with contextlib.suppress(StoreError):  # trouble of the store cannot be kept in it
-                if not self.store.begin_incident(notice.run, notice.kind, notice.seen):
-                    return
-            event("incident", run=notice.run, kind=notice.kind, seen=notice.seen)
+        if notice.trajectory is None and not self._incidents.begin(
+            notice.run, notice.kind, notice.seen
+        ):
+            return
         self.notifier.send(notice)
         self.bell.ring()
 
     def over(self, run: str, kind: str) -> None:
         """Trouble of this kind is over."""
-        if self.store.end_incidents(run, kind):
-            event("over", run=run, kind=kind)
+        if self._incidents.end(run, kind):
             self.bell.ring()
+
+    def note(self, run: str, kind: str, seen: str, lasted_s: float = 0.0) -> None:
+        """Keep trouble that is over; nobody is told of it."""
+        self._incidents.note(run, kind, seen, lasted_s)
+        self.bell.ring()
 
     def finish(self, run: str, finish: Finish) -> None:
         """Keep how the run ended."""
-        self.session(run)  # after a restart: judges what had not been judged
+        session = self.session(run)  # after a restart: judges what had not been judged
         self.store.finish(run, finish)
+        session.catch_up()
         event("finish", run=run, outcome=finish.outcome, detail=finish.detail)
         self.bell.ring()
 
@@ -195,6 +203,7 @@ class Sidecar:
         self.require(run)
         overview = run_overview(self.store, run)
         session = self._sessions.get(run)
+        overview["order"] = None if session is None else session.ordered()
         for trajectory in overview["trajectories"]:
             number = trajectory["trajectory"]
             waits = session is not None and session.awaiting_operator(number)
@@ -231,14 +240,11 @@ class Sidecar:
         if run in self._met:
             return
         self._met.add(run)
-        for kind in ("camera", "store"):  # of an earlier process; what goes on begins anew
+        for kind in ("camera", "store", "model"):  # of an earlier process; what goes on begins anew
             self.store.end_incidents(run, kind)
         row = self.store.run(run)
         if row is not None and not row["finished"] and self.store.next_sequence(run):
-            said = "The sidecar was started anew within this run."
-            self.store.begin_incident(run, "restart", said)
-            self.store.end_incidents(run, "restart")
-            event("incident", run=run, kind="restart", seen=said)
+            self._incidents.note(run, "restart", "The sidecar was started anew within this run.")
 
     def _tidied(self, done: Tidied) -> None:
         for run in done.removed:
@@ -256,8 +262,7 @@ class Sidecar:
 
     def _undelivered(self, notice: Notice, why: str) -> None:
         with contextlib.suppress(StoreError):
-            self.store.begin_incident(notice.run, "notification", why)
-            self.store.end_incidents(notice.run, "notification")
+            self._incidents.note(notice.run, "notification", why)
         self.bell.ring()
 
     def _grab(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:

@@ -6,7 +6,7 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 from ..errors import StoreError
 from ..vision.camera import Frame
@@ -14,11 +14,13 @@ from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, Outcome, Verdict
 from .analysis import Analyser
 from .bell import Bell
+from .clocks import ClockWatch, tell_leap
 from .decisions import effective
 from .journal import event
 from .notices import Notice
+from .orders import Orders
 from .store import Captured, Store
-from .wire import Action, Decision, WireError
+from .wire import Action, Decision, Hold, Order, WireError
 from .worker import AnalysisWorker
 
 log = logging.getLogger(__name__)
@@ -26,9 +28,23 @@ log = logging.getLogger(__name__)
 Grab = Callable[[Keyframe, float, ViewWatch | None], Frame]
 """Grabs the first frame exposed at or after a moment, in which the view shows what it should;
 raises CameraError."""
-Tell = Callable[[Notice], None]
-"""Keeps an incident, and tells people of it."""
 
+
+class Troubles(Protocol):
+    """Keeps what befalls runs (the sidecar's own :class:`~.service.Sidecar`)."""
+
+    def tell(self, notice: Notice) -> None:
+        """A bad verdict, or trouble that begins: people are told."""
+
+    def over(self, run: str, kind: str) -> None:
+        """Trouble of this kind is over, if there was any."""
+
+    def note(self, run: str, kind: str, seen: str) -> None:
+        """Trouble that is over by now."""
+
+
+OPERATOR = "operator"
+"""Resolution of a hold that a person ordered."""
 ASKS_S = 3.0
 """A robot that holds asks every 0.15 s; one that has not asked for so long does something else."""
 
@@ -40,7 +56,7 @@ class Session:
         run: Identifier of the run; known to the store.
         store, analyser, bell: Shared by all sessions.
         grab: Takes a frame.
-        tell: Hears of bad verdicts and of trouble.
+        troubles: Hears of bad verdicts and of trouble.
         operator_timeout: How long an undecided verdict is held back for the operator, s.
         view: Looks at each frame before it counts; ``None``: every frame counts.
 
@@ -55,7 +71,7 @@ class Session:
         analyser: Analyser,
         bell: Bell,
         grab: Grab,
-        tell: Tell,
+        troubles: Troubles,
         operator_timeout: float = 0.0,
         view: ViewWatch | None = None,
     ) -> None:
@@ -64,19 +80,23 @@ class Session:
         self._store = store
         self._bell = bell
         self._grab = grab
-        self._tell = tell
+        self._troubles = troubles
+        self._clocks = {"workstation": ClockWatch(), "robot": ClockWatch()}
+        self._unkept: list[tuple[Verdict, dict[str, Any]]] = []
+        self._in_trouble: set[str] = set()
         self._operator_timeout = operator_timeout
         self._view = view
         self._capturing = threading.Lock()
         self._state = threading.Lock()
         store.forget_torn(run)
         self._next = store.next_sequence(run)
+        self._at = 0
         judged = store.verdicts(run)
         self._verdicts: dict[int, Verdict] = {v.trajectory: v for v, _, _ in judged}
         self._decisions = store.decisions(run)
         self._release: dict[int, float] = {}
         self._asks: dict[int, tuple[float, float]] = {}
-        self._actions = {action["trajectory"]: action for action in store.actions(run)}
+        self._orders = Orders(store.actions(run), store.holds(run))
         self._paused: set[int] = set()
         self._worker = AnalysisWorker(
             run, analyser, [(v, evidence) for v, evidence, _ in judged], store, self._publish
@@ -117,9 +137,16 @@ class Session:
                 )
             frame = self._grab(keyframe, moment, self._view)
             captured = Captured(keyframe, max(0.0, frame.exposed_at - moment), time.time())
-            self._store.add_keyframe(captured, frame.jpeg)
-            self._store.reopen(self.run)
+            try:
+                self._store.add_keyframe(captured, frame.jpeg)
+                self._store.reopen(self.run)
+            except StoreError as error:
+                self._trouble("store", "the store is in trouble", str(error))
+                raise
             self._next += 1
+            self._at = keyframe.trajectory
+            self.catch_up()
+            self._look_at_clocks(keyframe, moment)
             self._resumed()
             self._worker.submit(keyframe, frame)
         self._bell.ring()
@@ -167,12 +194,16 @@ class Session:
         self._worker.drop(trajectory)
         self._bell.ring()
 
-    def held(self, trajectory: int, policy: str | None) -> None:
+    def held(self, hold: Hold) -> None:
         """The robot says how a hold ended: by a pause, if the operator is to look at the well."""
         with self._state:
-            verdict = self._verdicts.get(trajectory)
-            if policy == "pause" and verdict is not None and verdict.outcome is Outcome.UNDECIDED:
-                self._paused.add(trajectory)
+            if hold.resolution == OPERATOR:
+                self._orders.taken()
+                return
+            verdict = self._verdicts.get(hold.trajectory)
+            undecided = verdict is not None and verdict.outcome is Outcome.UNDECIDED
+            if hold.policy == "pause" and undecided:
+                self._paused.add(hold.trajectory)
 
     def _resumed(self) -> None:
         """The robot moves: whoever was asked by a pause has looked, and let the run go on."""
@@ -206,14 +237,28 @@ class Session:
         """A person tells the robot, paused at this trajectory, to go on or to end the run."""
         with self._state:
             self._store.add_action(self.run, trajectory, action)
-            self._actions[trajectory] = action.model_dump()
+            self._orders.answer(trajectory, action)
         self._bell.ring()
         event("action", run=self.run, trajectory=trajectory, action=action.action, by=action.by)
 
-    def action(self, trajectory: int) -> dict[str, Any] | None:
-        """What a person told the robot about this trajectory last; ``None`` if nothing."""
+    def order(self, order: Order) -> None:
+        """A person tells the moving robot to pause, or to end the run, at its next exchange."""
         with self._state:
-            return self._actions.get(trajectory)
+            self._store.add_action(self.run, self._at, order)
+            self._orders.order(order)
+        self._bell.ring()
+        event("action", run=self.run, action=order.action, by=order.by)
+
+    def action(self, trajectory: int, within_s: float | None = None) -> dict[str, Any] | None:
+        """What a person told the robot that is paused at this trajectory last, within the last so
+        many seconds; ``None`` if nothing."""
+        with self._state:
+            return self._orders.answered(trajectory, within_s)
+
+    def ordered(self) -> dict[str, Any] | None:
+        """What the moving robot is to do, until it says that it does; ``None`` if nothing."""
+        with self._state:
+            return self._orders.pending
 
     def close(self) -> None:
         """End the worker. Idempotent."""
@@ -255,7 +300,8 @@ class Session:
             self._store.add_verdict(verdict, evidence)
         except StoreError as error:
             log.error("The verdict on trajectory %d was not kept: %s", verdict.trajectory, error)
-            self._tell(Notice(self.run, "store", "the store is in trouble", str(error)))
+            self._unkept.append((verdict, evidence))
+            self._trouble("store", "the store is in trouble", str(error))
         with self._state:
             self._verdicts[verdict.trajectory] = verdict
             if verdict.outcome is Outcome.UNDECIDED and self._operator_timeout > 0:
@@ -265,4 +311,34 @@ class Session:
               route=verdict.route.value, gate=verdict.gate.value, score=verdict.score,
               failure=verdict.failure.value if verdict.failure else None)  # fmt: skip
         if verdict.outcome is not Outcome.PASS:
-            self._tell(Notice.of_verdict(verdict))
+            self._troubles.tell(Notice.of_verdict(verdict))
+        if said := evidence.get("model_trouble"):
+            self._trouble("model", "the vision model does not answer", str(said))
+        elif evidence.get("costs"):
+            self._recovered("model")
+
+    def catch_up(self) -> None:
+        """The store takes what is written again: keep what it could not."""
+        while self._unkept and "store" in self._in_trouble:
+            self._store.add_verdict(*self._unkept[0])
+            del self._unkept[0]
+        self._recovered("store")
+
+    def _trouble(self, kind: str, what: str, seen: str) -> None:
+        self._in_trouble.add(kind)
+        self._troubles.tell(Notice(self.run, kind, what, seen))
+
+    def _recovered(self, kind: str) -> None:
+        if kind in self._in_trouble:
+            self._in_trouble.discard(kind)
+            self._troubles.over(self.run, kind)
+
+    def _look_at_clocks(self, keyframe: Keyframe, moment: float) -> None:
+        """Times of a run are those of wall clocks: tell where one was set meanwhile."""
+        told = {"workstation": (time.time(), time.monotonic())}
+        if keyframe.robot_time and not keyframe.late:
+            told["robot"] = (keyframe.robot_time, moment)
+        for whose, (clock, when) in told.items():
+            leap = self._clocks[whose].look(clock, when)
+            if leap:
+                self._troubles.note(self.run, "clock", tell_leap(whose, leap))

@@ -71,6 +71,7 @@ def run_view(sidecar: Sidecar, run: str, chosen: int | None, here: str) -> dict[
         "situations": asked,
         "asked": [one for one in asked if one.asks],
         "asked_here": any(one.asks and well and one.trajectory == well.trajectory for one in asked),
+        "can_order": not overview["finished"] and not any(one.kind == "paused" for one in asked),
         "doing": doing(overview),
         "well": well,
         "here": here,

@@ -148,6 +148,14 @@ class Recovery(Body):
     text: Text = ""
 
 
+class Incident(Body):
+    """What befell a run on the robot's side: for so long it had no link to the sidecar."""
+
+    kind: Literal["link"]
+    seconds: Annotated[float, Field(ge=0, le=1e7)]
+    text: Text = ""
+
+
 class Finish(Body):
     """A run ends."""
 
@@ -167,6 +175,14 @@ class Action(Body):
     """The operator tells a paused robot to go on, or to end the run."""
 
     action: Literal["resume", "stop"]
+    by: Annotated[str, Field(min_length=1, max_length=200)]
+    note: Text = ""
+
+
+class Order(Body):
+    """The operator tells a robot that moves to pause, or to end the run."""
+
+    action: Literal["pause", "stop"]
     by: Annotated[str, Field(min_length=1, max_length=200)]
     note: Text = ""
 

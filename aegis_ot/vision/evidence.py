@@ -41,6 +41,7 @@ def evidence_of(
         "unusable_frames": [kind.value for kind in seen.unusable],
         "p_value": case.p_value,
         "costs": [asdict(cost) for cost in decision.costs],
+        "model_trouble": decision.trouble,
         "channels": channels,
         "tips_judged": 1,
         "calibration": {

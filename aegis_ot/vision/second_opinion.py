@@ -59,7 +59,7 @@ class SecondOpinion:
             return passed
         said = self._model.examine(case)
         if said.outcome is not Outcome.FAIL:
-            return passed
+            return replace(passed, costs=passed.costs + said.costs, trouble=said.trouble)
         unflagged = "Nothing flagged this well, but a vision model fails it."
         reason = in_sentences(unflagged, said.reason)
         return replace(said, outcome=Outcome.UNDECIDED, reason=reason)

@@ -284,3 +284,15 @@ def test_what_is_no_protocol_is_told_in_one_line(
     assert result.code == 2
     assert result.out.splitlines()[0].startswith(f"{name}: error: cannot be judged: ")
     assert words in result.out.splitlines()[0]
+
+
+def test_a_protocol_that_moves_no_liquid_is_told(aegis: Command, tmp_path: Path) -> None:
+    (tmp_path / "idle.py").write_text(
+        'metadata = {"apiLevel": "2.15"}\n'
+        "def run(protocol):\n"
+        '    protocol.load_labware("opentrons_96_tiprack_300ul", "1")\n'
+    )
+    result = aegis("check", "idle.py")
+    assert "It moves no liquid: there is nothing to judge." in result.out
+    assert "undecided" not in result.out
+    assert result.code == 0

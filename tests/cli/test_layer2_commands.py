@@ -126,6 +126,7 @@ def test_fit_writes_a_model_that_can_be_verified(aegis: Command, drawn: Path) ->
     shown = aegis("world-model", "lab.model")
     assert shown.code == 0
     assert "set (synthetic): 5 normal wells" in shown.out
+    assert "Few: 5 normal wells" in shown.out
     Path("lab.model").write_bytes(Path("lab.model").read_bytes()[:-40])
     broken = aegis("world-model", "lab.model")
     assert broken.code == 2

@@ -91,6 +91,18 @@ def test_a_protocol_that_raises_tells_its_line():
         dry_run(broken, DryRunSettings(), make_analyser())
 
 
+def test_a_protocol_that_ends_the_process_is_told():
+    leaving = Script("import sys\n" + TEXT + "    sys.exit(0)\n", "leaving.py")
+    with pytest.raises(RehearsalError, match=r"leaving.py, line 13: .*sys.exit"):
+        dry_run(leaving, DryRunSettings(), make_analyser())
+
+
+def test_a_protocol_that_does_not_end_is_told():
+    endless = Script(TEXT + "    while True: pass\n", "endless.py")
+    with pytest.raises(RehearsalError, match="did not end within 2 s"):
+        dry_run(endless, DryRunSettings(timeout_s=2.0), make_analyser())
+
+
 def test_a_fault_that_makes_no_sense_is_explained():
     with pytest.raises(ConfigurationError, match="explode"):
         dry_run(SCRIPT, DryRunSettings(faults=("explode@A1",)), make_analyser())

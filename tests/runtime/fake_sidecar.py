@@ -35,9 +35,11 @@ class FakeSidecar:
         self.recoveries: list[dict[str, Any]] = []
         self.decided: dict[int, str] = {}
         self.actions: dict[int, str] = {}
+        self.order: dict[str, Any] | None = None
         self.requests: list[tuple[str, str, Any]] = []
         self.connections: list[socket.socket] = []
         self.holds: list[dict[str, Any]] = []
+        self.incidents: list[dict[str, Any]] = []
         self.finished: list[dict[str, Any]] = []
         self.abandoned: list[int] = []
         self.fault: Fault | None = None
@@ -124,6 +126,9 @@ class Handler(BaseHTTPRequestHandler):
         elif words[3] == "finish":
             owner.finished.append(self.body)
             self.answer(200, {})
+        elif words[3] == "incident":
+            owner.incidents.append(self.body)
+            self.answer(200, {})
         elif words[3] == "hold":
             owner.holds.append(self.body)
             self.answer(200, {})
@@ -138,7 +143,8 @@ class Handler(BaseHTTPRequestHandler):
             self.answer(200, {"action": told and {"action": told, "by": "Ada", "note": ""}})
         else:
             wait = float(parse_qs(parts.query).get("wait", ["0"])[0])
-            self.answer(200, {"verdict": self.verdict(run, int(words[4]), wait)})
+            verdict = self.verdict(run, int(words[4]), wait)
+            self.answer(200, {"verdict": verdict, "order": owner.order})
 
     def keyframe(self, stored: list[dict[str, Any]]) -> None:
         sequence = self.body["sequence"]
@@ -148,7 +154,15 @@ class Handler(BaseHTTPRequestHandler):
             return
         if sequence == len(stored):
             stored.append(self.body)
-        self.answer(200, {"sequence": sequence, "captured": True, "exposed_after_s": 0.01})
+        self.answer(
+            200,
+            {
+                "sequence": sequence,
+                "captured": True,
+                "exposed_after_s": 0.01,
+                "order": self.owner.order,
+            },
+        )
 
     def verdict(self, run: str, number: int, wait: float) -> dict[str, Any] | None:
         owner = self.owner

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
 from aegis_ot.account import situations
+from aegis_ot.runtime.link import SidecarLink
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from tests.runtime.live import LiveRun
 from tests.runtime.test_live import in_time, two_wells
 from tests.runtime.test_page_answers import RobotServer, robot
 
+from .browser import CHROMIUM, chromium
 from .helpers import StubAnalyser, StubCamera
 
 __all__ = ["robot"]  # a fixture
@@ -79,3 +82,80 @@ def test_a_run_is_stopped_from_the_page(stage: Stage, robot: RobotServer) -> Non
     overview = stage.overview()
     assert overview["finished"]["outcome"] == "stopped"
     assert [(one["action"], one["by"]) for one in overview["actions"]] == [("stop", "Ada")]
+
+
+def test_a_moving_robot_is_paused_and_resumed_and_an_old_answer_does_not_count(
+    config: SidecarConfig, robot: RobotServer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    camera = StubCamera()
+    camera.gate.clear()
+    asked: list[int] = []
+    action = SidecarLink.action
+
+    def ask(link: SidecarLink, *told: Any) -> str | None:
+        answer = action(link, *told)
+        asked.append(told[1])
+        return answer
+
+    monkeypatch.setattr(SidecarLink, "action", ask)
+    with running_sidecar(config, camera, StubAnalyser(fails=[0])) as url:
+        run = robot.run = LiveRun(two_wells, Settings(sidecar=url, run_id="run")).start()
+        stage = Stage(url, run)
+        in_time(lambda: stage.http.get("/v1/runs/run").status_code == 200)
+        form = {"by": "Ada", "note": "wrong plate?", "answer": "pause"}
+        assert stage.http.post("/runs/run/order", data=form).status_code == 303
+        assert stage.asked() == ["ordered"]
+        camera.gate.set()
+        run.wait_for_status("paused")
+        in_time(lambda: stage.asked() == ["paused"])
+        assert "Ada paused it from this page" in stage.http.get("/").text
+        stage.answer("resume")
+        # The same delivery fails later: what was said to the first pause must not end this one.
+        in_time(lambda: any("failed" in c.params.message for c in pauses(run)))
+        in_time(lambda: stage.asked() == ["paused"])
+        before = len(asked)
+        in_time(lambda: len(asked) > before + 1)
+        assert run.status == "paused"
+        assert [action for _, action in robot.told] == ["play"]
+        stage.answer("stop")
+        run.join()
+        in_time(lambda: stage.overview()["finished"] is not None)
+        assert [(a["action"], a["by"]) for a in stage.overview()["actions"]] == [
+            ("pause", "Ada"), ("resume", "Ada"), ("stop", "Ada"),
+        ]  # fmt: skip
+        stage.http.close()
+
+
+def pauses(run: LiveRun) -> list[Any]:
+    return [command for command in run.seen() if command.commandType == "waitForResume"]
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium on this machine")
+def test_pause_resume_and_stop_are_pressed_while_the_robot_moves(
+    config: SidecarConfig, robot: RobotServer, tmp_path: Path
+) -> None:
+    camera = StubCamera()
+    camera.gate.clear()
+    with running_sidecar(config, camera, StubAnalyser()) as url, chromium(tmp_path) as tab:
+        run = robot.run = LiveRun(two_wells, Settings(sidecar=url, run_id="run")).start()
+        tab.open(url)
+        tab.until("document.querySelector('#order button[value=pause]')")
+        tab.run("document.querySelector('#order input[name=by]').value = 'Ada'")
+        tab.run("document.querySelector('#order button[value=pause]').click()")
+        tab.until("document.querySelector('.asks.ordered').textContent.includes('Ada told')")
+        camera.gate.set()
+        tab.until("document.querySelector('.asks.paused button[value=resume]')")
+        assert run.status == "paused"
+        assert tab.run("document.querySelector('#order button')") is None
+        camera.gate.clear()  # the robot stands at its next keyframe
+        tab.run("document.querySelector('.asks.paused button[value=resume]').click()")
+        tab.until("document.querySelector('#order button[value=stop]')")
+        # The name is remembered; the second press needs the fold opened.
+        tab.run("document.querySelector('#stop summary').click()")
+        tab.run("document.querySelector('#order button[value=stop]').click()")
+        tab.until("document.querySelector('.asks.ordered').textContent.includes('end the run')")
+        camera.gate.set()
+        run.join()
+        tab.until("document.querySelector('h1 .badge.stopped')")
+        assert [action for _, action in robot.told] == ["play", "stop"]
+        assert tab.errors == []

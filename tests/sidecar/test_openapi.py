@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from urllib.parse import quote
+
 import httpx
 import pytest
 
@@ -10,11 +12,16 @@ schemathesis = pytest.importorskip("schemathesis")
 from hypothesis import HealthCheck, Phase, given, settings  # noqa: E402
 from hypothesis import strategies as st  # noqa: E402
 from hypothesis.errors import Unsatisfiable  # noqa: E402
+from starlette.testclient import TestClient  # noqa: E402
 
 GenerationMode = schemathesis.GenerationMode
 
-from aegis_ot.sidecar import SidecarConfig, running_sidecar  # noqa: E402
+from aegis_ot.sidecar import SidecarConfig, create_app, running_sidecar  # noqa: E402
+from aegis_ot.sidecar.app import read_body  # noqa: E402
 from aegis_ot.sidecar.config import CameraSettings  # noqa: E402
+from aegis_ot.sidecar.pages import page_router  # noqa: E402
+
+from .helpers import Robot, StubAnalyser, StubCamera  # noqa: E402
 
 EXAMPLES = 15
 """Requests an operation; all of them take about 20 s."""
@@ -25,7 +32,10 @@ def schema(tmp_path_factory: pytest.TempPathFactory):
     pattern = CameraSettings(spec="pattern")
     config = SidecarConfig(port=0, data=tmp_path_factory.mktemp("fuzz"), camera=pattern)
     with running_sidecar(config) as url:
-        httpx.put(f"{url}/v1/runs/known", json={"run": "known"}, trust_env=False)
+        with Robot(url, "known") as robot:
+            robot.register()
+            robot.cycle(0)
+            robot.verdict(0)
         yield schemathesis.openapi.from_url(f"{url}/v1/openapi.json")
 
 
@@ -63,6 +73,53 @@ def _fuzz(operation, mode) -> None:
         assert mode is GenerationMode.NEGATIVE  # nothing can be wrong with it
 
 
+VALUES = st.one_of(st.text(max_size=20), st.integers().map(str))
+QUERY = st.dictionaries(st.sampled_from(["well", "q", "skip", "number", "token"]), VALUES)
+FORM = st.dictionaries(
+    st.sampled_from(["by", "answer", "note", "back", "token"]),
+    st.one_of(VALUES, st.sampled_from(["pass resume", "fail", "stop", "pause", "Ada"])),
+)
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory):
+    """The application without a socket, with a run that holds a well."""
+    config = SidecarConfig(port=0, data=tmp_path_factory.mktemp("pages"))
+    app = create_app(config, StubCamera(), StubAnalyser(fails=[0]))
+    with TestClient(
+        app, "http://127.0.0.1", raise_server_exceptions=False, follow_redirects=False
+    ) as client:
+        robot = Robot("http://127.0.0.1", "known")
+        robot.http = client
+        robot.register()
+        robot.cycle(0)
+        robot.verdict(0)
+        yield app, client
+
+
+def test_no_page_makes_the_sidecar_fail(pages) -> None:
+    app, client = pages
+    routes = page_router(app.state.sidecar, read_body).routes
+    asked = sorted((method, route.path) for route in routes for method in route.methods)
+    assert len(asked) >= 11
+    for method, path in asked:
+        _fuzz_page(client, method, path)
+
+
+def _fuzz_page(client, method: str, path: str) -> None:
+    @given(run=VALUES | st.just("known"), number=VALUES | st.just("0"), query=QUERY, form=FORM)
+    @settings(max_examples=2 * EXAMPLES, deadline=None, derandomize=True, database=None)
+    def ask(run: str, number: str, query: dict[str, str], form: dict[str, str]) -> None:
+        given = {"{run}": run, "{name}": run, "{number}": number}
+        address = path
+        for name, value in given.items():
+            address = address.replace(name, quote(value, safe=""))
+        answer = client.request(method, address, params=query, data=form or None)
+        assert answer.status_code < 500, f"{method} {address} {query} {form}: {answer.text[:400]}"
+
+    ask()
+
+
 def test_every_reference_leads_somewhere(url: str) -> None:
     described = httpx.get(f"{url}/v1/openapi.json", trust_env=False).json()
     schemas = described["components"]["schemas"]
@@ -71,4 +128,12 @@ def test_every_reference_leads_somewhere(url: str) -> None:
         text = text.replace(f"'#/components/schemas/{name}'", "")
     assert "#/components/schemas/" not in text
     assert "#/$defs" not in text
-    assert {"RunStart", "Keyframe", "Hold", "Finish", "Decision", "Action"} <= schemas.keys()
+    assert {
+        "RunStart",
+        "Keyframe",
+        "Hold",
+        "Finish",
+        "Decision",
+        "Action",
+        "Order",
+    } <= schemas.keys()

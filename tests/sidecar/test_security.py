@@ -14,9 +14,10 @@ import pytest
 from pydantic import SecretStr
 
 from aegis_ot.errors import ConfigurationError
-from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.sidecar import SidecarConfig, running_sidecar, security
 from aegis_ot.sidecar.config import NotificationSettings
 from aegis_ot.sidecar.journal import set_up
+from aegis_ot.sidecar.rates import RateLimit
 from aegis_ot.sidecar.token_file import kept_token
 
 from .helpers import Robot, StubAnalyser, StubCamera
@@ -134,6 +135,29 @@ def test_wrong_logins_are_slowed_and_logged(guarded: str, caplog: pytest.LogCapt
     told = [record.facts for record in caplog.records if record.getMessage() == "login"]
     assert [fact["ok"] for fact in told] == [False] * 4 + [True]
     assert {fact["address"] for fact in told} == {"127.0.0.1"}
+
+
+def test_an_address_that_asks_too_much_is_told_to_wait(
+    config: SidecarConfig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(security, "RateLimit", lambda: RateLimit(per_second=0.0, at_once=3))
+    with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+        answers = [robot.http.get("/v1/health") for _ in range(4)]
+    assert [answer.status_code for answer in answers] == [200, 200, 200, 429]
+    assert answers[3].json()["error"]["code"] == "rate"
+    assert answers[3].headers["retry-after"] == "1"
+
+
+def test_addresses_have_buckets_of_their_own_that_fill_again() -> None:
+    now = [0.0]
+    limit = RateLimit(per_second=2.0, at_once=2.0, now=lambda: now[0])
+    assert [limit.takes("a") for _ in range(3)] == [True, True, False]
+    assert limit.takes("b")
+    now[0] += 0.5
+    assert [limit.takes("a") for _ in range(2)] == [True, False]
+    for number in range(2000):
+        limit.takes(f"10.0.{number}")
+    assert len(limit._left) == 1000
 
 
 def test_no_secret_is_in_the_log_or_the_store(

@@ -80,7 +80,9 @@ def _paused(analyser: Analyser, seed: int) -> dict[str, float] | None:
     """The times of one run that was stopped at its planted failure; ``None`` if it was not."""
     fault = f"{KINDS['partial dispense']}@#{STRUCK + 1}"
     timed = _Timed(analyser)
-    settings = DryRunSettings((fault,), "stop", seed, "off", cascade=UNATTENDED, rate=RATE)
+    settings = DryRunSettings(
+        (fault,), on_fail="stop", seed=seed, rules="off", cascade=UNATTENDED, rate=RATE
+    )
     done = dry_run(script_of("red", WELLS), settings, timed)
     holds = [one for one in done.reported.account["holds"] if one["trajectory"] == STRUCK]
     if done.outcome != "stopped" or not holds or len(done.wells) != STRUCK + 1:

@@ -141,16 +141,20 @@ def _report(
     waivers = read_waivers(recording.text, reading.facts)
     standing, waived = apply_waivers(findings_of(broken), waivers)
     known = [rule.id for rule in reading.database.rules]
+    idle = (
+        [] if reading.trace.visits else [Remark("It moves no liquid: there is nothing to judge.")]
+    )
     return Report(
         file=recording.file,
         family=reading.families[0].family if reading.families else "",
         verdict=verdict_of(standing),
         findings=tuple(standing),
-        undecided=tuple(dict.fromkeys(undecided)),
+        undecided=() if idle else tuple(dict.fromkeys(undecided)),
         roles=tuple(_evidence(reading.roles)),
         families=reading.families,
         waived=tuple(waived),
         remarks=(
+            *idle,
             *_misplaced(reading),
             *_conflicts(reading.roles),
             *waiver_remarks(waivers, waived, judged, known),

@@ -89,6 +89,7 @@ class GateDecision:
         failure: What went wrong, for a fail.
         measured_ul, expected_ul: Left in the tip, µL, where it was measured.
         costs: Of all that was asked, one entry for each model.
+        trouble: Why a model gave no answer at all, where it should have.
     """
 
     outcome: Outcome
@@ -98,6 +99,7 @@ class GateDecision:
     measured_ul: float | None = None
     expected_ul: float | None = None
     costs: tuple[Cost, ...] = ()
+    trouble: str = ""
 
 
 class ConfirmingGate(Protocol):

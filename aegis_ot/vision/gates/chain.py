@@ -46,11 +46,12 @@ def _ask(gates: Sequence[ConfirmingGate], case: Case) -> GateDecision:
     if not decisions:
         return GateDecision(Outcome.UNDECIDED, Gate.NONE, "No gate is configured.")
     costs = tuple(cost for decision in decisions for cost in decision.costs)
+    trouble = next((one.trouble for one in decisions if one.trouble), "")
     first, last = decisions[0], decisions[-1]
     if last.outcome is not Outcome.UNDECIDED:
-        return replace(last, costs=costs)
+        return replace(last, costs=costs, trouble=trouble)
     reason = in_sentences(first.reason, last.reason)
-    return replace(first, gate=last.gate, reason=reason, failure=None, costs=costs)
+    return replace(first, gate=last.gate, reason=reason, failure=None, costs=costs, trouble=trouble)
 
 
 def in_sentences(*reasons: str) -> str:

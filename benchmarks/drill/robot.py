@@ -1,0 +1,136 @@
+"""The robot of the drill: a guarded run on Opentrons' own engine, and what it was told."""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from typing import Any
+from unittest import mock
+
+from aegis_ot.runtime import page_answers
+from aegis_ot.runtime.link import Captured, SidecarLink
+from aegis_ot.settings import Settings
+from aegis_ot.vocabulary import Keyframe, Verdict
+from tests.runtime.live import LiveRun
+
+PATIENCE_S = 300.0
+"""A run that takes longer hangs."""
+_NOBODY = ("127.0.0.1", 9)
+
+
+@dataclass
+class Acknowledged:
+    """What the sidecar has told the robot that it has, or that is so.
+
+    Attributes:
+        keyframes: Sequence numbers.
+        verdicts: Outcome by trajectory, as told first.
+        holds: Trajectories whose hold was reported.
+        finished: The outcome of the run, once it was taken.
+    """
+
+    keyframes: set[int] = field(default_factory=set)
+    verdicts: dict[int, str] = field(default_factory=dict)
+    holds: set[int] = field(default_factory=set)
+    finished: str = ""
+
+
+@dataclass
+class Robot:
+    """One guarded run.
+
+    Args:
+        run: Its identifier.
+        url: Of the sidecar, as the robot knows it.
+        wells: How many it fills.
+        show: Told of each keyframe before it is sent: what the camera sees from now on.
+        more: Settings of the guard.
+    """
+
+    run: str
+    url: str
+    wells: int
+    show: Callable[[Keyframe], None]
+    more: dict[str, Any]
+    told: Acknowledged = field(default_factory=Acknowledged)
+    clock_ahead_s: float = 0.0
+    pauses: int = 0
+    commands: list[Any] = field(default_factory=list)
+
+    def play(self, step: Callable[[int], None], may_resume: Callable[[], bool]) -> str:
+        """Run to the end.
+
+        Args:
+            step: Called again and again with how many keyframes are acknowledged.
+            may_resume: Whether the operator, who stands before a paused robot, resumes it.
+
+        Returns:
+            How the run failed; empty if it did not.
+        """
+        settings = Settings(sidecar=self.url, run_id=self.run, **self.more)
+        began = time.monotonic()
+        with self._recorded(), mock.patch.object(page_answers, "ROBOT_SERVER", _NOBODY):
+            live = LiveRun(lambda protocol: fill(protocol, self.wells), settings).start()
+            paused = False
+            while live._thread.is_alive():
+                if time.monotonic() - began > PATIENCE_S:
+                    live.stop()
+                    return f"hung after {len(self.told.keyframes)} keyframes, {live.status}"
+                step(len(self.told.keyframes))
+                now = live.status == "paused"
+                self.pauses += now and not paused
+                if now and may_resume():
+                    live.play()
+                paused = now
+                time.sleep(0.02)
+            try:
+                self.commands = live.join().commands
+            except BaseException as error:
+                return f"{type(error).__name__}: {error}"
+        return "" if live.error is None else f"{type(live.error).__name__}: {live.error}"
+
+    @contextlib.contextmanager
+    def _recorded(self) -> Iterator[None]:
+        """Note what the link hears, and move the robot's clock and picture."""
+        told = self.told
+        keyframe, verdict = SidecarLink.keyframe, SidecarLink.verdict
+        hold, finish = SidecarLink.report_hold, SidecarLink.finish
+
+        def sent(link: SidecarLink, frame: Keyframe, *rest: Any) -> Captured:
+            self.show(frame)
+            ahead = replace(frame, robot_time=frame.robot_time + self.clock_ahead_s)
+            captured = keyframe(link, ahead, *rest)
+            told.keyframes.add(frame.sequence)
+            return captured
+
+        def asked(link: SidecarLink, run: str, number: int, *rest: Any) -> Verdict | None:
+            found = verdict(link, run, number, *rest)
+            if found is not None:
+                told.verdicts.setdefault(number, found.outcome.value)
+            return found
+
+        def held(link: SidecarLink, run: str, body: Any, most: float) -> None:
+            hold(link, run, body, most)
+            told.holds.add(body["trajectory"])
+
+        def ended(link: SidecarLink, run: str, outcome: str, *rest: Any) -> None:
+            finish(link, run, outcome, *rest)
+            told.finished = outcome
+
+        with mock.patch.multiple(
+            SidecarLink, keyframe=sent, verdict=asked, report_hold=held, finish=ended
+        ):
+            yield
+
+
+def fill(protocol: Any, wells: int) -> None:
+    """The protocol: 100 µL of a dye into each well, with a new tip."""
+    tips = protocol.load_labware("opentrons_96_tiprack_300ul", "1")
+    source = protocol.load_labware("nest_12_reservoir_15ml", "2")["A1"]
+    plate = protocol.load_labware("corning_96_wellplate_360ul_flat", "3")
+    dye = protocol.define_liquid(name="red dye", description="", display_color="#FF0000")
+    source.load_liquid(liquid=dye, volume=14_000)
+    pipette = protocol.load_instrument("p300_single_gen2", "left", [tips])
+    pipette.transfer(100, source, plate.wells()[:wells], new_tip="always")

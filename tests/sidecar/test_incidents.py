@@ -1,0 +1,93 @@
+"""Trouble is kept with its run, whatever it was, and named in the report."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import pytest
+
+from aegis_ot.errors import StoreError
+from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.sidecar.clocks import ClockWatch
+from aegis_ot.sidecar.store import Store
+from tests.runtime.test_live import in_time
+
+from .helpers import Robot, StubAnalyser, StubCamera
+
+
+def incidents(robot: Robot) -> list[tuple[str, bool]]:
+    return [(one["kind"], one["ended"] is not None) for one in robot.overview()["incidents"]]
+
+
+def test_a_full_disk_is_named_when_it_is_over_and_its_verdicts_are_kept(
+    config: SidecarConfig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write, full = Store._write, [False]
+
+    def maybe(self: Store, statement: str, values: tuple[Any, ...]) -> int:
+        if full[0]:
+            raise StoreError("No space left on device.")
+        return write(self, statement, values)
+
+    monkeypatch.setattr(Store, "_write", maybe)
+    analyser = StubAnalyser()
+    analyser.gate.clear()
+    with running_sidecar(config, StubCamera(), analyser) as url, Robot(url) as robot:
+        robot.register()
+        robot.cycle(0)
+        full[0] = True
+        analyser.gate.set()
+        assert robot.verdict(0)["verdict"]["outcome"] == "pass"  # the robot need not wait
+        answer = robot.send(4)
+        assert (answer.status_code, answer.json()["error"]["code"]) == (503, "store")
+        full[0] = False
+        assert robot.send(4).status_code == 200
+        assert incidents(robot) == [("store", True)]
+    store = Store(config.data)
+    assert [verdict.trajectory for verdict, _, _ in store.verdicts("run-1")] == [0]
+    store.close()
+
+
+def test_a_vision_model_that_is_down_is_told_once_until_it_answers(config: SidecarConfig) -> None:
+    cost = {"model": "m", "calls": 1, "tokens_in": 1, "tokens_out": 1, "amount": None,
+            "currency": "USD", "seconds": 0.1}  # fmt: skip
+    said = [{"model_trouble": "It is down."}, {"model_trouble": "Still."}, {"costs": [cost]}]
+
+    class Judge(StubAnalyser):
+        def begin(self, run: str, history: Any = ()) -> Any:
+            inner = super().begin(run, history)
+            judge = inner.judge
+            inner.judge = lambda number: (judge(number)[0], said[number])  # type: ignore[method-assign]
+            return inner
+
+    with running_sidecar(config, StubCamera(), Judge()) as url, Robot(url) as robot:
+        robot.register()
+        for number in range(3):
+            robot.cycle(number)
+            in_time(lambda: incidents(robot) == [("model", number == 2)])  # noqa: B023
+
+
+def test_a_robots_clock_that_is_set_is_named(robot: Robot) -> None:
+    for sequence in range(4):
+        robot.send(sequence, robot_time=time.time() + (3600 if sequence >= 2 else 0))
+    (one,) = robot.overview()["incidents"]
+    assert one["kind"] == "clock"
+    assert "robot's clock was set 3600 s ahead" in one["text"]
+
+
+def test_one_late_word_is_no_leap() -> None:
+    clock = ClockWatch()
+    said = [(100.0, 0.0), (101.0, 1.0), (102.0, 12.0), (113.0, 13.0), (4000.0, 14.0)]
+    assert [clock.look(*one) for one in said] == [0.0] * 5
+    assert clock.look(4001.0, 15.0) == pytest.approx(3886.0)
+    assert clock.look(4002.0, 16.0) == 0.0
+
+
+def test_a_lost_link_is_told_by_the_robot(robot: Robot) -> None:
+    body = {"kind": "link", "seconds": 31.0, "text": "It gave no answer."}
+    assert robot.post("incident", body).status_code == 200
+    (one,) = robot.overview()["incidents"]
+    assert one["ended"] - one["at"] == pytest.approx(31.0)
+    assert "no link to the sidecar for 31 s" in one["text"]
+    assert robot.post("incident", body | {"kind": "else"}).status_code == 422
