@@ -62,6 +62,8 @@ class Trajectory:
         line: Source line of the operation that caused the next keyframe.
         frames: How many of its four keyframes exist.
         delivered: Whether liquid has left the tip into the destination.
+        nozzles: The active nozzles, where there are several.
+        targets: The well under each of them, once the destination is known.
     """
 
     number: int
@@ -73,3 +75,5 @@ class Trajectory:
     destinations: tuple[WellRef, ...] = ()
     frames: int = 0
     delivered: bool = False
+    nozzles: tuple[str, ...] = ()
+    targets: tuple[WellRef | None, ...] = ()
