@@ -1,0 +1,158 @@
+"""A run whose pipettes may have several channels: each visible tip is judged by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from ...vocabulary import Keyframe, is_row
+from ..analyser import MOST_OPEN, Judged, RunAnalyser
+from ..camera import Frame
+from ..types import FREE, is_image
+from .finder import FirstChannel, RowFinder, SeenRow, channel_keyframe
+from .lane import NO_FRAME, Lane
+from .verdicts import Channel, row_verdict
+
+Head = tuple[str, str, float, tuple[str, ...]]
+"""Mount, pipette, working volume of the tips, µL, and the active nozzles."""
+
+
+@dataclass
+class _OpenRow:
+    """A trajectory of several tips whose keyframes are coming in."""
+
+    head: Head
+    last: Keyframe
+    waiting: list[tuple[Keyframe, Frame]] = field(default_factory=list)
+    hidden: set[int] = field(default_factory=set)
+    trouble: str = ""
+    images: list[Any] = field(default_factory=list)
+
+
+class ChannelAnalyser(RunAnalyser):
+    """Judges single tips as :class:`RunAnalyser` does, and rows of tips tip by tip.
+
+    A row's tips are found together (:class:`RowFinder`), then each nozzle is followed by a
+    :class:`Lane`. Tips that others hide are ``unobserved``: no pass and no fail. Of tips that do
+    not stand in one row (a 96-channel head), one is judged, and all are unobserved.
+    """
+
+    first_channel: FirstChannel = "auto"
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._rows: dict[int, _OpenRow] = {}
+        self._blocks: dict[int, Keyframe] = {}
+        self._finders: dict[Head, RowFinder] = {}
+        self._lanes: dict[tuple[str, str], Lane] = {}
+
+    def observe(self, keyframe: Keyframe, frame: Frame) -> None:
+        """A keyframe was captured: find its tips and measure while the robot moves on."""
+        if keyframe.channels > 1 and not is_row(keyframe.nozzles):
+            self._blocks[keyframe.trajectory] = keyframe
+        if keyframe.channels == 1 or not is_row(keyframe.nozzles):
+            super().observe(keyframe, frame)
+            return
+        head = keyframe.mount, keyframe.pipette, keyframe.capacity_ul, keyframe.nozzles
+        row = self._rows.setdefault(keyframe.trajectory, _OpenRow(head, keyframe))
+        while len(self._rows) > MOST_OPEN:
+            self._close(min(self._rows))
+        row.last = keyframe
+        row.waiting.append((keyframe, frame))
+        if head not in self._finders:
+            self._finders[head] = RowFinder(self._detector, keyframe, self.first_channel)
+        finder = self._finders[head]
+        if not finder.oriented:
+            if keyframe.kind not in FREE or not is_image(frame.image):
+                return  # a tip in a well shows less of how far it is
+            finder.orient(frame.image)
+        self._look_at_rows(row, finder)
+
+    def judge(self, trajectory: int) -> Judged:
+        """The trajectory is complete: its verdict, and what stands behind it."""
+        row = self._rows.get(trajectory)
+        if row is None:
+            return self._judge_block(trajectory, super().judge(trajectory))
+        finder = self._finders[row.head]
+        self._look_at_rows(row, finder)
+        nozzles = row.head[3]
+        targets = row.last.targets or (None,) * len(nozzles)
+        channels = []
+        for number, (nozzle, well) in enumerate(zip(nozzles, targets, strict=True)):
+            judged = None
+            if number not in row.hidden and not row.trouble:
+                judged = self._lane(row.head, nozzle).judge(trajectory)
+                self._stream(row.last).catch_up()
+            channels.append(Channel(nozzle, well, judged, number in row.hidden))
+        self._close(trajectory)
+        return row_verdict(row.last, channels, row.trouble, finder.assumed)
+
+    def confirm(self, trajectory: int) -> None:
+        """The operator looked at an undecided trajectory and found it right."""
+        super().confirm(trajectory)
+        for lane in self._lanes.values():
+            lane.confirm(trajectory)
+
+    def recall(self, history: Sequence[Judged]) -> None:
+        """Restore the bands from what was judged before a restart."""
+        single: list[Judged] = []
+        for verdict, evidence in history:
+            lanes = evidence.get("lanes") if isinstance(evidence, Mapping) else None
+            if not isinstance(lanes, Mapping):
+                single.append((verdict, evidence))
+                continue
+            for nozzle, its in lanes.items():
+                mount = str(((its.get("calibration") or {}).get("stream") or [""])[0]).split(" ")[0]
+                self._lane((mount, "", 0.0, ()), str(nozzle)).recall([(verdict, its)])
+        super().recall(single)
+
+    def _look_at_rows(self, row: _OpenRow, finder: RowFinder) -> None:
+        for keyframe, frame in row.waiting:
+            image = frame.image
+            seen = finder.find(image, keyframe) if is_image(image) else None
+            row.images.append(image)
+            if seen is not None and keyframe.kind in FREE:
+                row.trouble = row.trouble or seen.trouble
+                row.hidden |= {n for n, hides in enumerate(seen.hidden) if hides}
+            self._tell(row, keyframe, frame, seen)
+        row.waiting.clear()
+
+    def _tell(self, row: _OpenRow, keyframe: Keyframe, frame: Frame, seen: SeenRow | None) -> None:
+        for number, nozzle in enumerate(row.head[3]):
+            lane, one = self._lane(row.head, nozzle), channel_keyframe(keyframe, number)
+            if seen is None or seen.trouble or seen.hidden[number]:
+                lane.observe(one, NO_FRAME)
+            elif number not in row.hidden:
+                lane.see(one, frame, seen.tips[number])
+
+    def _lane(self, head: Head, nozzle: str) -> Lane:
+        key = head[0], nozzle
+        if key not in self._lanes:
+            self._lanes[key] = Lane(self, nozzle)
+        return self._lanes[key]
+
+    def _close(self, trajectory: int) -> None:
+        row = self._rows.pop(trajectory)
+        for nozzle in row.head[3]:
+            lane = self._lane(row.head, nozzle)
+            lane.forget(trajectory)
+            lane.done(row.images)
+
+    def _judge_block(self, trajectory: int, judged: Judged) -> Judged:
+        keyframe = self._blocks.pop(trajectory, None)
+        if keyframe is None:
+            return judged
+        verdict, evidence = judged
+        names = keyframe.nozzles or tuple(str(number + 1) for number in range(keyframe.channels))
+        wells = keyframe.targets or keyframe.destinations
+        each = wells if len(wells) == len(names) else (None,) * len(names)
+        unseen = tuple(
+            Channel(nozzle, well, hidden=True).verdict("")
+            for nozzle, well in zip(names, each, strict=True)
+        )
+        told = f"One of {len(names)} tips was judged; which one cannot be told."
+        reason = f"{verdict.reason} {told}".strip()
+        return replace(verdict, reason=reason, channels=unseen), evidence
+
+

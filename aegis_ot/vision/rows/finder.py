@@ -1,0 +1,194 @@
+"""The tips of a multi-channel pipette in one frame, each with its nozzle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from ...vocabulary import Keyframe
+from ..tips import TipGeometry, tip_for
+from ..types import FREE, Detector, Image, RowDetector, TipDetection
+from .fit import PITCH_MM, Row, find_row
+from .hiding import HIDDEN, covered
+from .places import RowPlaces
+
+FirstChannel = Literal["auto", "left", "right"]
+"""On which side of the frame the first channel is; ``"auto"``: see :class:`RowFinder`."""
+
+_TAPERED = 0.025
+"""A row whose far end is smaller by this share is seen at an angle: its depth can be told."""
+
+_STEEP = 0.65
+"""Below this many pitches from tip to tip, tips overlap: one that is not found may be hidden."""
+
+_STEPS = 0.3, 1.15
+"""Steps of a row, pitches; what looks like a row of other steps is none."""
+
+_OFF_SCALE = 0.08
+
+
+@dataclass(frozen=True)
+class SeenRow:
+    """What a frame shows of a row, one entry per nozzle in their order.
+
+    Attributes:
+        tips: The tip on each; ``None`` where there is none, or none is seen.
+        hidden: Whether other tips hide it.
+        trouble: Why the tips cannot be told apart; empty if they can.
+        whole: Whether every tip was found.
+    """
+
+    tips: tuple[TipDetection | None, ...]
+    hidden: tuple[bool, ...]
+    trouble: str = ""
+    whole: bool = False
+
+
+class RowFinder:
+    """Finds one run's rows of tips and puts names to them.
+
+    Channels are told by their order in the frame. Which end is the first: as ``first`` says, or
+    from the depth of the row, if it is seen at an angle. Cameras stand before the deck or beside
+    it, so a column's first channel (``A1``, at the back) is the far one. A row seen squarely shows
+    no depth: then the camera is taken to stand at the left side, the first channel on the left.
+
+    Args:
+        detector: Finds tips.
+        keyframe: The first one of this pipette and tip.
+        first: On which side the first channel is.
+    """
+
+    def __init__(self, detector: Detector, keyframe: Keyframe, first: FirstChannel) -> None:
+        self._detector = detector
+        self._tip: TipGeometry = tip_for(keyframe.pipette, keyframe.capacity_ul)
+        self._count = len(keyframe.nozzles)
+        self._column = keyframe.nozzles[0][1:] == keyframe.nozzles[-1][1:]
+        self._places = RowPlaces()
+        self._left: bool | None = None if first == "auto" else first == "left"
+        self.assumed = False
+        """Whether nothing told which end is the first channel."""
+
+    @property
+    def oriented(self) -> bool:
+        """Whether it is known, or has been assumed, which end is the first channel."""
+        return self._left is not None
+
+    def orient(self, image: Image) -> None:
+        """Settle from a free frame which end is the first channel."""
+        if self._left is None:
+            row = self._row(image)
+            self._left = True
+            if row is None or row.span < self._count:
+                return
+            slope = row.taper * (self._count - 1)
+            if self._column and abs(slope) >= _TAPERED:
+                self._left = slope < 0  # what is nearer on the right is farther on the left
+            self.assumed = self._column and abs(slope) < _TAPERED
+
+    def find(self, image: Image, keyframe: Keyframe) -> SeenRow:
+        """The tips of one frame; in one that hangs in wells, ``trouble`` where not all are found."""
+        row = self._row(image)
+        free = keyframe.kind in FREE
+        if row is not None and row.span == len(row.heats) == self._count:
+            if free:
+                self._places.note(keyframe.position, row)
+            return self._seen(row, 0)
+        if not free:
+            return self._nothing("Labware hides the row.")
+        if row is not None and row.step_lengths * self._tip.length_mm / PITCH_MM >= _STEEP:
+            offset = self._places.offset(keyframe.position, row, self._count)
+            if offset is not None:
+                return self._seen(row, offset)
+            return self._nothing(
+                f"Only {len(row.heats)} of {self._count} tips are seen, and which are missing "
+                "cannot be told."
+            )
+        known = self._places.last
+        if known is not None and not any(self._hidden(known, 0)):
+            if self._detector.detect(image) is None:
+                return self._nothing()
+            return self._nothing(f"Most of the {self._count} tips are not seen.")
+        return self._along(image)
+
+    def _row(self, image: Image) -> Row | None:
+        if not isinstance(self._detector, RowDetector):
+            return None
+        seed = getattr(self._detector, "best_guess", self._detector.detect)(image)
+        if seed is None:
+            return None
+        row = self._row_at(image, seed)
+        if row is not None and abs(row.length(row.span / 2) / seed.length - 1) > _OFF_SCALE:
+            better = self._row_at(image, self._detection(row, (row.span - 1) // 2))
+            row = better if better is not None and len(better.heats) >= len(row.heats) else row
+        if row is None:
+            return None
+        step = row.step_lengths * self._tip.length_mm / PITCH_MM
+        enough = len(row.heats) == self._count or (
+            len(row.heats) >= max(3, self._count / 2) and step >= _STEEP
+        )
+        return row if enough and _STEPS[0] <= step <= 1.3 * _STEPS[1] else None
+
+    def _row_at(self, image: Image, seed: TipDetection) -> Row | None:
+        assert isinstance(self._detector, RowDetector)
+        pitch = PITCH_MM / self._tip.length_mm * seed.length
+        reach = 1.3 * (self._count - 1) * pitch + 0.3 * seed.length
+        ends = self._detector.ends(image, seed, reach)
+        return find_row(ends, seed.length, self._tip.length_mm, self._count)
+
+    def _seen(self, row: Row, offset: int) -> SeenRow:
+        """Name the tips of a row of which ``offset`` are missing to the left of the first."""
+        numbers = [number - offset for number in range(self._count)]
+        hidden = self._hidden(row, offset)
+        tips = [self._detection(row, n) if n in row.heats else None for n in numbers]
+        if not self._left:
+            tips, hidden = tips[::-1], hidden[::-1]
+        shown = tuple(None if hides else tip for tip, hides in zip(tips, hidden, strict=True))
+        return SeenRow(shown, tuple(hidden), "", None not in tips)
+
+    def _hidden(self, row: Row, offset: int) -> list[bool]:
+        shares = covered(row, self._tip, range(-offset, self._count - offset))
+        return [shares[number - offset] > HIDDEN for number in range(self._count)]
+
+    def _detection(self, row: Row, number: int) -> TipDetection:
+        collar_x, collar_y, orifice_x, orifice_y = map(float, row.best(number))
+        scale = row.length(number) / self._tip.length_mm
+        radius = 1.1 * float(self._tip.outer_radius(self._tip.length_mm)) * scale
+        left, right = min(collar_x, orifice_x) - radius, max(collar_x, orifice_x) + radius
+        return TipDetection(
+            max(left, 0.0), max(collar_y, 0.0), right - max(left, 0.0),
+            orifice_y - max(collar_y, 0.0), min(row.heats.get(number, 0.0), 1.0),
+            (orifice_x, orifice_y), (collar_x, collar_y),
+        )  # fmt: skip
+
+    def _nothing(self, trouble: str = "") -> SeenRow:
+        return SeenRow((None,) * self._count, (False,) * self._count, trouble)
+
+    def _along(self, image: Image) -> SeenRow:
+        """Tips one behind another: the nearest one, and the others hidden by it."""
+        near = self._count - 1 if self._column else 0
+        tips: list[TipDetection | None] = [None] * self._count
+        tips[near] = self._detector.detect(image)
+        return SeenRow(tuple(tips), tuple(number != near for number in range(self._count)))
+
+
+def channel_keyframe(keyframe: Keyframe, number: int) -> Keyframe:
+    """What a keyframe says of one of its channels, as of a single tip."""
+    target = keyframe.targets[number] if keyframe.targets else None
+    sources = keyframe.sources
+    each = len(sources) == keyframe.channels
+    return replace(
+        keyframe,
+        channels=1,
+        sources=(sources[number],) if each else sources,
+        destinations=() if target is None else (target,),
+        nozzles=(),
+        targets=(),
+    )
+
+
+def mean_heat(row: SeenRow) -> float:
+    """How clearly its tips are seen, 0 to 1; 0 without any."""
+    seen = [tip.confidence for tip in row.tips if tip is not None]
+    return float(np.mean(seen)) if seen else 0.0
