@@ -97,7 +97,7 @@ class RunAnalyser:
         if detection is not None:
             self._look(self._stream(keyframe), trajectory, kind, detection)
         if kind is KeyframeKind.ASPIRATE:
-            self._stream(keyframe).catch_up()
+            self._catch_up(self._stream(keyframe))
         if kind is KeyframeKind.DISPENSE:
             sample = self._sample(keyframe.trajectory, trajectory)
             self._stream(keyframe).scorer.look_ahead(sample)
@@ -247,6 +247,10 @@ class RunAnalyser:
             for kind in FREE
             if settled.get(kind) is None and tip.excuses(kind, settled, seen.frames)
         )
+
+    def _catch_up(self, stream: Stream) -> None:
+        """Do what can be done for a liquid while the robot moves."""
+        stream.catch_up()
 
     def _tip(self, stream: Stream) -> TipConsistency:
         """What is known of the tip that this analyser follows."""

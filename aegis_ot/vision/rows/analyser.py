@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ...vocabulary import Keyframe, is_row
+from ...vocabulary import Keyframe, KeyframeKind, is_row
 from ..analyser import MOST_OPEN, Judged, RunAnalyser
 from ..camera import Frame
 from ..types import FREE, is_image
@@ -27,7 +27,6 @@ class _OpenRow:
     waiting: list[tuple[Keyframe, Frame]] = field(default_factory=list)
     hidden: set[int] = field(default_factory=set)
     trouble: str = ""
-    images: list[Any] = field(default_factory=list)
 
 
 class ChannelAnalyser(RunAnalyser):
@@ -83,7 +82,6 @@ class ChannelAnalyser(RunAnalyser):
             judged = None
             if number not in row.hidden and not row.trouble:
                 judged = self._lane(row.head, nozzle).judge(trajectory)
-                self._stream(row.last).catch_up()
             channels.append(Channel(nozzle, well, judged, number in row.hidden))
         self._close(trajectory)
         return row_verdict(row.last, channels, row.trouble, finder.assumed)
@@ -111,11 +109,12 @@ class ChannelAnalyser(RunAnalyser):
         for keyframe, frame in row.waiting:
             image = frame.image
             seen = finder.find(image, keyframe) if is_image(image) else None
-            row.images.append(image)
             if seen is not None and keyframe.kind in FREE:
                 row.trouble = row.trouble or seen.trouble
                 row.hidden |= {n for n, hides in enumerate(seen.hidden) if hides}
             self._tell(row, keyframe, frame, seen)
+            if keyframe.kind is KeyframeKind.ASPIRATE:
+                self._stream(keyframe).catch_up(len(row.head[3]))
         row.waiting.clear()
 
     def _tell(self, row: _OpenRow, keyframe: Keyframe, frame: Frame, seen: SeenRow | None) -> None:
@@ -135,9 +134,7 @@ class ChannelAnalyser(RunAnalyser):
     def _close(self, trajectory: int) -> None:
         row = self._rows.pop(trajectory)
         for nozzle in row.head[3]:
-            lane = self._lane(row.head, nozzle)
-            lane.forget(trajectory)
-            lane.done(row.images)
+            self._lane(row.head, nozzle).forget(trajectory)
 
     def _judge_block(self, trajectory: int, judged: Judged) -> Judged:
         keyframe = self._blocks.pop(trajectory, None)

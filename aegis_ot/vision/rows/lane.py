@@ -21,18 +21,20 @@ class _Told:
     """A detector that knows one tip of each frame, because the row was found as a whole."""
 
     def __init__(self) -> None:
-        self._known: list[tuple[Image, TipDetection | None]] = []
+        self._known: dict[int, list[tuple[Image, TipDetection | None]]] = {}
 
-    def tell(self, image: Image, tip: TipDetection | None) -> None:
-        self._known.append((image, tip))
+    def tell(self, trajectory: int, image: Image, tip: TipDetection | None) -> None:
+        """Where the tip is in a frame of a trajectory."""
+        self._known.setdefault(trajectory, []).append((image, tip))
 
-    def forget(self, images: list[Image]) -> None:
-        self._known = [
-            known for known in self._known if not any(known[0] is image for image in images)
-        ]
+    def forget(self, trajectory: int) -> None:
+        """Its frames will not be asked about again."""
+        self._known.pop(trajectory, None)
 
     def detect(self, image: Image) -> TipDetection | None:
-        return next((tip for known, tip in self._known if known is image), None)
+        """The tip that was told of this frame."""
+        known = (pair for pairs in self._known.values() for pair in pairs)
+        return next((tip for one, tip in known if one is image), None)
 
     best_guess = detect
 
@@ -59,23 +61,18 @@ class Lane(RunAnalyser):
 
     def see(self, keyframe: Keyframe, frame: Frame, tip: TipDetection | None) -> None:
         """A keyframe of this channel alone, and where its tip is in the frame."""
-        self._told.tell(frame.image, tip)
-        self.observe(keyframe, frame)
+        # Its own view of the same pixels: what is measured in a frame is kept by the frame.
+        own = replace(frame, image=frame.image.view())
+        self._told.tell(keyframe.trajectory, own.image, tip)
+        self.observe(keyframe, own)
 
     def forget(self, trajectory: int) -> None:
-        """Nothing more is asked of this trajectory's frames."""
-        seen = self._open.pop(trajectory, None)
-        if seen is not None:
-            self._told.forget(list(seen.frames.values()))
+        """Nothing more is asked of this trajectory."""
+        self._open.pop(trajectory, None)
+        self._told.forget(trajectory)
 
-    def done(self, frames: list[Image]) -> None:
-        """The trajectory that these frames belong to has been judged."""
-        self._told.forget(frames)
-
-    def frames_of(self, trajectory: int) -> list[Image]:
-        """The frames that are kept of a trajectory."""
-        seen = self._open.get(trajectory)
-        return [] if seen is None else list(seen.frames.values())
+    def _catch_up(self, stream: Stream) -> None:
+        """The run does so once for all nozzles."""
 
     def _tip(self, stream: Stream) -> TipConsistency:
         # Liquids of one pipette share their stream's tip: so they do here.
