@@ -80,7 +80,11 @@ def _clutter(image: Plane, parameters: SessionParameters, rng: np.random.Generat
 def _slots(image: Plane, camera: Pinhole, parameters: SessionParameters) -> None:
     """The seams between deck slots."""
     shade = tuple(0.75 * c for c in parameters.deck)
-    lines = [[(x, -200.0, 0.0), (x, BACK_MM, 0.0)] for x in (-265, -132.5, 0, 132.5, 265)]
+    lines = [
+        [(x, -200.0, 0.0), (x, BACK_MM, 0.0)]
+        for x in (-265, -132.5, 0, 132.5, 265)
+        if x < parameters.panel_right_mm
+    ]
     lines += [
         [(-600.0, y, 0.0), (min(600.0, parameters.panel_right_mm), y, 0.0)]
         for y in (-45.0, 45.5, 136.0)

@@ -11,7 +11,7 @@ from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
 from .calibration import CalibrationState
 from .camera import Frame
 from .cascade import Triage
-from .consistency import TipConsistency, once_each, second_look
+from .consistency import once_each, second_look
 from .delivery import Delivery, delivery_of
 from .evidence import evidence_of
 from .first_wells import FirstWells, Liquid, liquid_of
@@ -50,7 +50,7 @@ class RunAnalyser:
     Calibration is per liquid and pipette: see :class:`~.stream.Stream`.
 
     It follows one tip; of several, the one that the detector picks. The tips of a multi-channel
-    pipette are followed by one each: see :mod:`.rows`.
+    pipette are followed by one analyser each: see :mod:`.rows`.
 
     Args:
         run: Identifier of the run.
@@ -97,7 +97,7 @@ class RunAnalyser:
         if detection is not None:
             self._look(self._stream(keyframe), trajectory, kind, detection)
         if kind is KeyframeKind.ASPIRATE:
-            self._catch_up(self._stream(keyframe))
+            self._stream(keyframe).catch_up()
         if kind is KeyframeKind.DISPENSE:
             sample = self._sample(keyframe.trajectory, trajectory)
             self._stream(keyframe).scorer.look_ahead(sample)
@@ -226,15 +226,15 @@ class RunAnalyser:
 
     def _settle(self, stream: Stream, seen: OpenTrajectory) -> None:
         """Put the detections right by the run's own tip, and look again where one changed."""
-        tip, guess = self._tip(stream), getattr(self._detector, "best_guess", None)
+        guess = getattr(self._detector, "best_guess", None)
         if guess is not None:
             guess = once_each(guess)
             seen.detections.update(second_look(guess, seen.detections, seen.frames))
-            seen.detections.update(tip.recognise(guess, seen.detections, seen.frames))
+            seen.detections.update(stream.tip.recognise(guess, seen.detections, seen.frames))
             missing = [kind for kind in FREE if seen.detections.get(kind, ...) is None]
             guesses = [guess(seen.frames[kind]) for kind in missing]
-            seen.clearly_absent = tip.clearly_absent(guesses)
-        settled = tip.settle(seen.detections, seen.frames)
+            seen.clearly_absent = stream.tip.clearly_absent(guesses)
+        settled = stream.tip.settle(seen.detections, seen.frames)
         for kind, detection in settled.items():
             if detection is seen.detections[kind] and (detection is None or kind in seen.looks):
                 continue
@@ -245,16 +245,8 @@ class RunAnalyser:
         seen.excused = tuple(
             kind
             for kind in FREE
-            if settled.get(kind) is None and tip.excuses(kind, settled, seen.frames)
+            if settled.get(kind) is None and stream.tip.excuses(kind, settled, seen.frames)
         )
-
-    def _catch_up(self, stream: Stream) -> None:
-        """Do what can be done for a liquid while the robot moves."""
-        stream.catch_up()
-
-    def _tip(self, stream: Stream) -> TipConsistency:
-        """What is known of the tip that this analyser follows."""
-        return stream.tip
 
     def _stream(self, keyframe: Keyframe) -> Stream:
         return self._stream_of(liquid_of(keyframe))

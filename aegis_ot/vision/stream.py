@@ -128,20 +128,15 @@ class Stream:
         if len(self._first) < self.settings.wells:
             self._first.append((dict(looks), sample))
 
-    def catch_up(self, at_once: int = 1) -> None:
+    def catch_up(self) -> None:
         """What can be done while the robot moves: adapt, and look at the first wells again.
 
         The first wells are taken for normal, the very first one unseen. Beside those after it,
         it can be told whether it was.
-
-        Args:
-            at_once: How many wells are judged together: the tips of a row.
         """
         self.scorer.adapt()
         known = self.learned
-        if not isinstance(self.reader, MeasuredColumns) or not (
-            2 <= known <= max(self.settings.wells, at_once)
-        ):
+        if not isinstance(self.reader, MeasuredColumns) or not 2 <= known <= self.settings.wells:
             return
         for looks, sample in list(self._first):
             others = [(its, other.expected_ul) for its, other in self._first if other is not sample]

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from ...vocabulary import Keyframe, KeyframeKind, is_row
+from ...vocabulary import Keyframe, is_row
 from ..analyser import MOST_OPEN, Judged, RunAnalyser
 from ..camera import Frame
 from ..types import FREE, is_image
@@ -62,11 +62,9 @@ class ChannelAnalyser(RunAnalyser):
         if head not in self._finders:
             self._finders[head] = RowFinder(self._detector, keyframe, self.first_channel)
         finder = self._finders[head]
-        if not finder.oriented:
-            if keyframe.kind not in FREE or not is_image(frame.image):
-                return  # a tip in a well shows less of how far it is
-            finder.orient(frame.image)
-        self._look_at_rows(row, finder)
+        if finder.oriented or keyframe.kind in FREE:
+            # Before a row was seen hanging free, those in wells tell little.
+            self._look_at_rows(row, finder)
 
     def judge(self, trajectory: int) -> Judged:
         """The trajectory is complete: its verdict, and what stands behind it."""
@@ -106,15 +104,17 @@ class ChannelAnalyser(RunAnalyser):
         super().recall(single)
 
     def _look_at_rows(self, row: _OpenRow, finder: RowFinder) -> None:
+        found = {
+            keyframe.sequence: finder.find(frame.image, keyframe)
+            for keyframe, frame in sorted(row.waiting, key=lambda pair: pair[0].kind not in FREE)
+            if is_image(frame.image)
+        }
         for keyframe, frame in row.waiting:
-            image = frame.image
-            seen = finder.find(image, keyframe) if is_image(image) else None
+            seen = found.get(keyframe.sequence)
             if seen is not None and keyframe.kind in FREE:
                 row.trouble = row.trouble or seen.trouble
                 row.hidden |= {n for n, hides in enumerate(seen.hidden) if hides}
             self._tell(row, keyframe, frame, seen)
-            if keyframe.kind is KeyframeKind.ASPIRATE:
-                self._stream(keyframe).catch_up(len(row.head[3]))
         row.waiting.clear()
 
     def _tell(self, row: _OpenRow, keyframe: Keyframe, frame: Frame, seen: SeenRow | None) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from ...vocabulary import Keyframe
 from ..tips import TipGeometry, tip_for
 from ..types import FREE, Detector, Image, RowDetector, TipDetection
-from .fit import PITCH_MM, Row, find_row
+from .fit import PITCH_MM, Row, find_in_wells, find_row
 from .hiding import HIDDEN, covered
 from .places import RowPlaces
 
@@ -72,31 +72,20 @@ class RowFinder:
 
     @property
     def oriented(self) -> bool:
-        """Whether it is known, or has been assumed, which end is the first channel."""
-        return self._left is not None
-
-    def orient(self, image: Image) -> None:
-        """Settle from a free frame which end is the first channel."""
-        if self._left is None:
-            row = self._row(image)
-            self._left = True
-            if row is None or row.span < self._count:
-                return
-            slope = row.taper * (self._count - 1)
-            if self._column and abs(slope) >= _TAPERED:
-                self._left = slope < 0  # what is nearer on the right is farther on the left
-            self.assumed = self._column and abs(slope) < _TAPERED
+        """Whether a row was seen, and which end is the first channel is known or assumed."""
+        return self._left is not None and self._places.last is not None
 
     def find(self, image: Image, keyframe: Keyframe) -> SeenRow:
         """The tips of one frame; in one that hangs in wells, ``trouble`` where not all are found."""
+        if keyframe.kind not in FREE:
+            known = self._places.last
+            row = None if known is None else self._row_in_wells(image, known)
+            return self._nothing("Labware hides the row.") if row is None else self._seen(row, 0)
         row = self._row(image)
-        free = keyframe.kind in FREE
         if row is not None and row.span == len(row.heats) == self._count:
-            if free:
-                self._places.note(keyframe.position, row)
+            self._places.note(keyframe.position, row)
+            self._orient(row)
             return self._seen(row, 0)
-        if not free:
-            return self._nothing("Labware hides the row.")
         if row is not None and row.step_lengths * self._tip.length_mm / PITCH_MM >= _STEEP:
             offset = self._places.offset(keyframe.position, row, self._count)
             if offset is not None:
@@ -111,6 +100,16 @@ class RowFinder:
                 return self._nothing()
             return self._nothing(f"Most of the {self._count} tips are not seen.")
         return self._along(image)
+
+    def _orient(self, row: Row) -> None:
+        """Settle from the first whole row which end is the first channel."""
+        if self._left is not None:
+            return
+        slope = row.taper * (self._count - 1)
+        tapered = abs(slope) >= _TAPERED
+        # A column's first channel is the far one: on the left if the right end is nearer.
+        self._left = slope < 0 if self._column and tapered else True
+        self.assumed = self._column and not tapered
 
     def _row(self, image: Image) -> Row | None:
         if not isinstance(self._detector, RowDetector):
@@ -130,11 +129,25 @@ class RowFinder:
         )
         return row if enough and _STEPS[0] <= step <= 1.3 * _STEPS[1] else None
 
+    def _row_in_wells(self, image: Image, known: Row) -> Row | None:
+        seed = getattr(self._detector, "best_guess", self._detector.detect)(image)
+        if seed is None or not isinstance(self._detector, RowDetector):
+            return None
+        # In a well a tip looks shorter than it is: the scale is that of the free one.
+        length = known.length((self._count - 1) / 2)
+        x, y = seed.collar
+        ends = self._detector.ends(
+            image, replace(seed, orifice=(x, y + length)), self._reach(length)
+        )
+        return find_in_wells(ends, known, self._tip.length_mm)
+
+    def _reach(self, length: float) -> float:
+        pitch = PITCH_MM / self._tip.length_mm * length
+        return 1.3 * (self._count - 1) * pitch + 0.3 * length
+
     def _row_at(self, image: Image, seed: TipDetection) -> Row | None:
         assert isinstance(self._detector, RowDetector)
-        pitch = PITCH_MM / self._tip.length_mm * seed.length
-        reach = 1.3 * (self._count - 1) * pitch + 0.3 * seed.length
-        ends = self._detector.ends(image, seed, reach)
+        ends = self._detector.ends(image, seed, self._reach(seed.length))
         return find_row(ends, seed.length, self._tip.length_mm, self._count)
 
     def _seen(self, row: Row, offset: int) -> SeenRow:

@@ -7,7 +7,7 @@ hang at the same height, and those farther away look smaller and closer together
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -95,6 +95,35 @@ def find_row(ends: Ends, length: float, tip_mm: float, count: int) -> Row | None
     """
     tips = _pairs(ends, length)
     widest = 1.25 * PITCH_MM / tip_mm * length
+    chain = _best_chain(tips, length, widest, count)
+    return None if chain is None else _fitted(tips, chain)
+
+
+def find_in_wells(ends: Ends, known: Row, tip_mm: float) -> Row | None:
+    """A row whose tips hang in wells, by its collars alone: labware hides the lower ends.
+
+    Args:
+        ends: What looks like an end of a tip, px.
+        known: The same row where it hangs free; as long and as tapered it is here.
+        tip_mm: Of a tip, mm.
+    """
+    count, middle = known.span, (known.span - 1) / 2
+    length = known.length(middle)
+    down = known.ends(middle)[2:] - known.ends(middle)[:2]
+    rows = [(c.x, c.y, c.x + down[0], c.y + down[1], c.heat) for c in ends.collars]
+    tips = np.array(sorted(rows)).reshape(-1, 5)
+    chain = _best_chain(tips, length, 1.5 * PITCH_MM / tip_mm * length, count)
+    if chain is None or len(chain) < count:
+        return None
+    row = _fitted(tips, chain, known.taper)
+    # Each as long as where it hung free; in the middle of the row it is so already.
+    longer = np.array([(known.ends(i)[2:] - known.ends(i)[:2]) - down for i in range(count)])
+    places = {i: place + np.append([0.0, 0.0], longer[i]) for i, place in row.places.items()}
+    return replace(row, places=places)
+
+
+def _best_chain(tips: Floats, length: float, widest: float, count: int) -> dict[int, int] | None:
+    """The tips in line that look most like tips together; ``None`` without two."""
     best: tuple[float, dict[int, int]] | None = None
     for first in range(len(tips)):
         for second in range(first + 1, len(tips)):
@@ -106,7 +135,7 @@ def find_row(ends: Ends, length: float, tip_mm: float, count: int) -> Row | None
             score = sum(tips[at, 4] for at in chain.values()) - 0.2 * holes
             if best is None or score > best[0]:
                 best = score, chain
-    return None if best is None else _fitted(tips, best[1])
+    return None if best is None else best[1]
 
 
 def _pairs(ends: Ends, length: float) -> Floats:
@@ -177,15 +206,19 @@ def _at(tips: Floats, place: Floats, step: float, length: float) -> int | None:
     return at if off[at] <= 1 else None
 
 
-def _fitted(tips: Floats, chain: dict[int, int]) -> Row:
-    """Least squares over both ends of all tips, those that stray counting less."""
+def _fitted(tips: Floats, chain: dict[int, int], taper: float | None = None) -> Row:
+    """Least squares over both ends of all tips, those that stray counting less.
+
+    ``taper``: where it is known better than from these tips.
+    """
+    given = taper
     base = min(chain)
     numbers = np.array(sorted(chain)) - base
     seen = tips[[chain[int(number) + base] for number in numbers]]
     places, heats = seen[:, :4], seen[:, 4]
     weight = np.ones_like(places)
     for _ in range(4):
-        start, step, taper = _solve(numbers, places, weight)
+        start, step, taper = _solve(numbers, places, weight, given)
         off = (start + numbers[:, None] * step) / (1 + numbers[:, None] * taper) - places
         scale = np.maximum(0.7, 1.5 * np.median(np.abs(off), axis=0))
         weight = 1 / np.maximum(1.0, np.abs(off) / scale)
@@ -194,16 +227,19 @@ def _fitted(tips: Floats, chain: dict[int, int]) -> Row:
     return Row(start, step, taper, found, own)
 
 
-def _solve(numbers: NDArray[Any], places: Floats, weight: Floats) -> tuple[Floats, Floats, float]:
+def _solve(
+    numbers: NDArray[Any], places: Floats, weight: Floats, given: float | None
+) -> tuple[Floats, Floats, float]:
     """``places·(1 + c·i) = p + q·i`` is linear in p, q (four each) and c."""
+    taper = 0.0 if given is None and len(numbers) < 4 else given  # too few to tell it
     rows, values = [], []
     for column in range(4):
         for number, place, w in zip(numbers, places[:, column], weight[:, column], strict=True):
             row = np.zeros(9)
-            row[column], row[4 + column], row[8] = w, w * number, -w * number * place
+            row[column], row[4 + column] = w, w * number
+            if taper is None:
+                row[8] = -w * number * place
             rows.append(row)
-            values.append(w * place)
-    if len(numbers) < 4:  # too few to tell the taper
-        rows = [np.append(row[:8], 0.0) for row in rows]
+            values.append(w * place * (1.0 + number * (taper or 0.0)))
     solved = np.linalg.lstsq(np.array(rows), np.array(values), rcond=None)[0]
-    return solved[:4], solved[4:8], float(solved[8])
+    return solved[:4], solved[4:8], float(solved[8]) if taper is None else taper

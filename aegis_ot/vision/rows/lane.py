@@ -9,8 +9,7 @@ import numpy as np
 from ...vocabulary import Keyframe
 from ..analyser import RunAnalyser
 from ..camera import Frame
-from ..consistency import TipConsistency
-from ..stream import OpenTrajectory, Stream
+from ..stream import OpenTrajectory
 from ..types import Image, TipDetection, TrajectorySample
 
 NO_FRAME = Frame(b"", np.zeros((0, 0, 3), np.uint8), 0.0)
@@ -42,8 +41,8 @@ class _Told:
 class Lane(RunAnalyser):
     """Judges what one nozzle delivers.
 
-    Liquids, bands and column heights are learned together with the other nozzles, for their tips
-    are alike. Where the tip hangs in the frame is its own, and what a failure left in it.
+    It learns from its own wells, as the run of a single-channel pipette does: behind each nozzle
+    the frame shows something else. What is asked of the operator is asked for all together.
 
     Args:
         run: The analyser of the whole run.
@@ -55,9 +54,7 @@ class Lane(RunAnalyser):
         super().__init__(
             run.run, self._told, run._make_stream, run._gates, run._first, run._second
         )
-        self._streams = run._streams
         self._nozzle = nozzle
-        self._own_tip: dict[int, TipConsistency] = {}
 
     def see(self, keyframe: Keyframe, frame: Frame, tip: TipDetection | None) -> None:
         """A keyframe of this channel alone, and where its tip is in the frame."""
@@ -70,13 +67,6 @@ class Lane(RunAnalyser):
         """Nothing more is asked of this trajectory."""
         self._open.pop(trajectory, None)
         self._told.forget(trajectory)
-
-    def _catch_up(self, stream: Stream) -> None:
-        """The run does so once for all nozzles."""
-
-    def _tip(self, stream: Stream) -> TipConsistency:
-        # Liquids of one pipette share their stream's tip: so they do here.
-        return self._own_tip.setdefault(id(stream.tip), TipConsistency())
 
     def _sample(self, trajectory: int, seen: OpenTrajectory) -> TrajectorySample:
         sample = super()._sample(trajectory, seen)
