@@ -87,7 +87,7 @@ def keyframes_of(run: Run, columns: int) -> Iterator[list[Any]]:
 
 
 def judged(run: Run, columns: int) -> Iterator[tuple[str, Any, tuple[float, float]]]:
-    """Planted fault, verdict, and what the row cost: s to observe its last frame, and to judge."""
+    """Planted fault, verdict, and what the row cost: processor s to observe its last frame, and to judge."""
     from aegis_ot.sidecar import make_analyser
     from aegis_ot.simulation import SessionParameters, SimulatedCamera
 
@@ -98,12 +98,12 @@ def judged(run: Run, columns: int) -> Iterator[tuple[str, Any, tuple[float, floa
         for keyframe in keyframes:
             camera.announce(keyframe)
             frame = camera.frame_after(0.0, 5.0)
-            begun = time.perf_counter()
+            begun = time.process_time()
             analyser.observe(keyframe, frame)
-            observed = time.perf_counter() - begun
-        begun = time.perf_counter()
+            observed = time.process_time() - begun
+        begun = time.process_time()
         verdict, _ = analyser.judge(number)
-        cost = observed, time.perf_counter() - begun
+        cost = observed, time.process_time() - begun
         yield run.fault(number + 1), verdict, cost
         if verdict.outcome.value == "undecided" and "No liquid is seen" in verdict.reason:
             analyser.confirm(number)
@@ -170,7 +170,7 @@ def show(found: Sequence[dict[str, Any]]) -> str:
     lines = [
         f"Rows of eight tips on simulated frames, seeds {first} to {last}",
         f"{'angle':>5} {'unobserved':>11} {'rows stopped falsely':>21} {'asked':>6} "
-        f"{'named of planted, seen':>23} {'not seen':>9} {'last frame + verdict, ms (median, p95)':>40}",
+        f"{'named of planted, seen':>23} {'not seen':>9} {'last frame + verdict, CPU ms (median, p95)':>40}",
     ]
     for one in found:
         counts = one["counts"]

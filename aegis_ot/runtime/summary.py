@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..vocabulary import Outcome, Verdict
+from ..vocabulary import Outcome, Verdict, unobserved
 
 
 @dataclass
@@ -60,6 +60,9 @@ class WatchSummary:
             parts.append(f"{len(undecided)} undecided ({self._wells(undecided)})")
         if self.lost:
             parts.append(f"{len(self.lost)} not judged ({self._wells(tuple(sorted(self.lost)))})")
+        hidden = unobserved(self.verdicts.values())
+        if hidden:
+            parts.append(f"{len(hidden)} wells unobserved: the camera did not see their tips")
         return (
             f"Layer 2 watched {self.watched} deliveries: {', '.join(parts)}; "
             f"held {self.hold_s:.1f} s in all, {self.longest_hold_s:.2f} s at most."

@@ -4,7 +4,7 @@ Whatever crosses from one room to another, or from the robot to the workstation,
 these. They carry no behaviour beyond naming themselves and turning into plain JSON.
 """
 
-from .channels import is_row, named_wells
+from .channels import is_row, named_wells, unobserved, with_places
 from .findings import Finding, Remark, Severity, Site, Undecided, VerdictWord
 from .sentences import counted, one_line
 from .trajectories import (
@@ -44,4 +44,6 @@ __all__ = [
     "named_wells",
     "one_line",
     "to_json",
+    "unobserved",
+    "with_places",
 ]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from .trajectories import ChannelVerdict
+from .trajectories import ChannelOutcome, ChannelVerdict, Verdict
 
 
 def is_row(nozzles: Sequence[str]) -> bool:
@@ -33,6 +33,23 @@ def named_wells(channels: Iterable[ChannelVerdict]) -> str:
             runs.append([name])
     return ", ".join(
         f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs
+    )
+
+
+def with_places(channels: Sequence[ChannelVerdict]) -> str:
+    """The same with where the first of them is: ``"A3 to E3 of plate (slot 2)"``."""
+    named, first = named_wells(channels), next((c.well for c in channels if c.well), None)
+    place = "" if first is None else str(first).removeprefix(first.name)
+    return named + (place if first is not None and place != str(first) else "")
+
+
+def unobserved(verdicts: Iterable[Verdict]) -> tuple[ChannelVerdict, ...]:
+    """The channels that the camera could not see."""
+    return tuple(
+        channel
+        for verdict in verdicts
+        for channel in verdict.channels
+        if channel.outcome is ChannelOutcome.UNOBSERVED
     )
 
 
