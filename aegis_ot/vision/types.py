@@ -31,6 +31,7 @@ class TipDetection:
         confidence: 0 to 1.
         orifice: Lower end of the tip axis (x, y), px.
         collar: Upper end of the tip axis (x, y), px.
+        apart: How far from it the next tip of its row hangs, px; ``None`` for a single one.
     """
 
     x: float
@@ -40,6 +41,7 @@ class TipDetection:
     confidence: float
     orifice: tuple[float, float]
     collar: tuple[float, float]
+    apart: float | None = None
 
     @property
     def length(self) -> float:

@@ -172,7 +172,7 @@ class RowFinder:
         return TipDetection(
             max(left, 0.0), max(collar_y, 0.0), right - max(left, 0.0),
             orifice_y - max(collar_y, 0.0), min(row.heats.get(number, 0.0), 1.0),
-            (orifice_x, orifice_y), (collar_x, collar_y),
+            (orifice_x, orifice_y), (collar_x, collar_y), row.apart(number),
         )  # fmt: skip
 
     def _nothing(self, trouble: str = "") -> SeenRow:

@@ -76,6 +76,11 @@ class Row:
         ends = self.ends(number)
         return float(np.hypot(*(ends[2:] - ends[:2])))
 
+    def apart(self, number: int) -> float:
+        """How far beside a tip the nearer of its neighbours' places is, px."""
+        here = self.ends(number)[0]
+        return float(min(abs(self.ends(number + way)[0] - here) for way in (-1, 1)))
+
     @property
     def step_lengths(self) -> float:
         """Distance from tip to tip in the middle of the row, tip lengths."""
