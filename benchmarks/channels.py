@@ -49,9 +49,8 @@ class Run:
         """Planted in column (1, 2, ...): every second one from the second on has one."""
         if column % 2:
             return ""
-        place = self.seed * 7 + column // 2
-        kind = FAULTS[place % len(FAULTS)]
-        return f"{kind}@{ROWS[(place * 3 + self.seed) % 8]}{column}"
+        kind = FAULTS[(self.seed + 3 * (column // 2)) % len(FAULTS)]
+        return f"{kind}@{ROWS[(3 * self.seed + column // 2) % 8]}{column}"
 
 
 def runs(angle: float, first: int, count: int) -> Iterator[Run]:

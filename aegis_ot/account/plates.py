@@ -103,7 +103,7 @@ def _cell(
     name: str, trajectory: Mapping[str, Any], channel: Mapping[str, Any] | None
 ) -> PlateCell:
     state, said = state_of(trajectory), channel or trajectory["verdict"] or {}
-    if channel is not None and state in ("pass", "calibration", "fail", "undecided"):
+    if channel is not None and state in ("pass", "calibration", "fail", "undecided", "unobserved"):
         calibrates = state == "calibration" and channel["outcome"] == "pass"
         state = state if calibrates else str(channel["outcome"])
     return PlateCell(

@@ -22,7 +22,8 @@ def no_pictures(_sequence: int, _box: Box | None) -> tuple[None, None, str]:
 
 def state_of(trajectory: Mapping[str, Any]) -> str:
     """How a delivery stands, in one word: ``fail``, ``undecided``, ``pass``, ``calibration``,
-    ``waiting`` (for its verdict), ``running`` (keyframes are still to come) or ``abandoned``.
+    ``waiting`` (for its verdict), ``running`` (keyframes are still to come), ``abandoned``, or
+    ``unobserved`` where the camera saw none of its tips.
     """
     if trajectory["abandoned"] is not None:
         return "abandoned"
@@ -30,6 +31,9 @@ def state_of(trajectory: Mapping[str, Any]) -> str:
     if trajectory.get("awaiting"):
         return "undecided"
     if verdict:
+        told = verdict.get("channels") or ()
+        if told and all(channel["outcome"] == "unobserved" for channel in told):
+            return "unobserved"
         calibrates = verdict["outcome"] == "pass" and verdict["route"] == "calibration"
         return "calibration" if calibrates else str(verdict["outcome"])
     kinds = {keyframe["kind"] for keyframe in trajectory["keyframes"]}

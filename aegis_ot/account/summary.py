@@ -40,9 +40,7 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         **{name: overview.get(name, "") for name in ALWAYS},
         "frames": "simulated" if overview.get("simulated") else "real",
         "finished": overview.get("finished"),
-        "counts": dict(states)
-        | {"wells": len(trajectories)}
-        | ({"unobserved": len(unseen)} if unseen else {}),
+        "counts": dict(states) | {"wells": len(trajectories)},
         "unobserved": unseen,
         "plates": [_plate(plate) for plate in plate_maps(trajectories)],
         "wells": [_well(trajectory) for trajectory in trajectories],

@@ -34,8 +34,10 @@ class WatchSummary:
     outages: int = 0
 
     def of(self, outcome: Outcome) -> tuple[int, ...]:
-        """Trajectories with this outcome, rising."""
-        return tuple(sorted(n for n, v in self.verdicts.items() if v.outcome is outcome))
+        """Trajectories with this outcome, rising; those of which no tip was seen have none."""
+        return tuple(
+            sorted(n for n, v in self.verdicts.items() if v.outcome is outcome and _seen(v))
+        )
 
     @property
     def watched(self) -> int:
@@ -72,3 +74,8 @@ class WatchSummary:
         named = [self.places.get(n) or f"trajectory {n}" for n in numbers[:most]]
         rest = len(numbers) - most
         return ", ".join(named) + (f" and {rest} more" if rest > 0 else "")
+
+
+def _seen(verdict: Verdict) -> bool:
+    """Whether the camera saw any of its tips."""
+    return not verdict.channels or len(unobserved([verdict])) < len(verdict.channels)

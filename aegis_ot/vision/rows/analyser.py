@@ -17,6 +17,8 @@ from .verdicts import Channel, row_verdict
 Head = tuple[str, str, float, tuple[str, ...]]
 """Mount, pipette, working volume of the tips, µL, and the active nozzles."""
 
+_COLUMN = tuple(f"{row}1" for row in "ABCDEFGH")
+
 
 @dataclass
 class _OpenRow:
@@ -33,8 +35,8 @@ class ChannelAnalyser(RunAnalyser):
     """Judges single tips as :class:`RunAnalyser` does, and rows of tips tip by tip.
 
     A row's tips are found together (:class:`RowFinder`), then each nozzle is followed by a
-    :class:`Lane`. Tips that others hide are ``unobserved``: no pass and no fail. Of tips that do
-    not stand in one row (a 96-channel head), one is judged, and all are unobserved.
+    :class:`Lane`. Tips that others hide are ``unobserved``: no pass and no fail. So are all that do
+    not stand in one row, as those of a whole 96-channel head.
     """
 
     first_channel: FirstChannel = "auto"
@@ -42,16 +44,18 @@ class ChannelAnalyser(RunAnalyser):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._rows: dict[int, _OpenRow] = {}
-        self._blocks: dict[int, Keyframe] = {}
+        self._blocks: dict[int, Keyframe] = {}  # of tips in several rows, by trajectory
         self._finders: dict[Head, RowFinder] = {}
         self._lanes: dict[tuple[str, str], Lane] = {}
 
     def observe(self, keyframe: Keyframe, frame: Frame) -> None:
         """A keyframe was captured: find its tips and measure while the robot moves on."""
-        if keyframe.channels > 1 and not is_row(keyframe.nozzles):
-            self._blocks[keyframe.trajectory] = keyframe
-        if keyframe.channels == 1 or not is_row(keyframe.nozzles):
+        if keyframe.channels == 1:
             super().observe(keyframe, frame)
+            return
+        keyframe = _named(keyframe)
+        if not is_row(keyframe.nozzles):
+            self._blocks[keyframe.trajectory] = keyframe
             return
         head = keyframe.mount, keyframe.pipette, keyframe.capacity_ul, keyframe.nozzles
         row = self._rows.setdefault(keyframe.trajectory, _OpenRow(head, keyframe))
@@ -68,9 +72,11 @@ class ChannelAnalyser(RunAnalyser):
 
     def judge(self, trajectory: int) -> Judged:
         """The trajectory is complete: its verdict, and what stands behind it."""
+        if trajectory in self._blocks:
+            return _unseen(self._blocks.pop(trajectory))
         row = self._rows.get(trajectory)
         if row is None:
-            return self._judge_block(trajectory, super().judge(trajectory))
+            return super().judge(trajectory)
         finder = self._finders[row.head]
         self._look_at_rows(row, finder)
         nozzles = row.head[3]
@@ -136,20 +142,21 @@ class ChannelAnalyser(RunAnalyser):
         for nozzle in row.head[3]:
             self._lane(row.head, nozzle).forget(trajectory)
 
-    def _judge_block(self, trajectory: int, judged: Judged) -> Judged:
-        keyframe = self._blocks.pop(trajectory, None)
-        if keyframe is None:
-            return judged
-        verdict, evidence = judged
-        names = keyframe.nozzles or tuple(str(number + 1) for number in range(keyframe.channels))
-        wells = keyframe.targets or keyframe.destinations
-        each = wells if len(wells) == len(names) else (None,) * len(names)
-        unseen = tuple(
-            Channel(nozzle, well, hidden=True).verdict("")
-            for nozzle, well in zip(names, each, strict=True)
-        )
-        told = f"One of {len(names)} tips was judged; which one cannot be told."
-        reason = f"{verdict.reason} {told}".strip()
-        return replace(verdict, reason=reason, channels=unseen), evidence
+
+def _named(keyframe: Keyframe) -> Keyframe:
+    """An older robot names no nozzles: eight are a column's."""
+    if keyframe.nozzles or keyframe.channels != len(_COLUMN):
+        return keyframe
+    wells = keyframe.destinations
+    return replace(keyframe, nozzles=_COLUMN, targets=wells if len(wells) == len(_COLUMN) else ())
 
 
+def _unseen(keyframe: Keyframe) -> Judged:
+    """The verdict on tips in several rows, which hide one another from any side."""
+    nozzles = keyframe.nozzles or tuple(str(number + 1) for number in range(keyframe.channels))
+    wells = keyframe.targets or keyframe.destinations
+    each = wells if len(wells) == len(nozzles) else (None,) * len(nozzles)
+    channels = [
+        Channel(nozzle, well, hidden=True) for nozzle, well in zip(nozzles, each, strict=True)
+    ]
+    return row_verdict(keyframe, channels, "", assumed=False)

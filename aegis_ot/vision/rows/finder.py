@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Literal
 
-import numpy as np
-
 from ...vocabulary import Keyframe
 from ..tips import TipGeometry, tip_for
 from ..types import FREE, Detector, Image, RowDetector, TipDetection
@@ -27,6 +25,9 @@ _STEPS = 0.3, 1.15
 """Steps of a row, pitches; what looks like a row of other steps is none."""
 
 _OFF_SCALE = 0.08
+_FAINT = 0.2
+"""Confidence below which not even one tip is in the frame."""
+
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,7 @@ class RowFinder:
             row = None if known is None else self._row_in_wells(image, known)
             return self._nothing("Labware hides the row.") if row is None else self._seen(row, 0)
         row = self._row(image)
-        if row is not None and row.span == len(row.heats) == self._count:
+        if row is not None and row.span == self._count:
             self._places.note(keyframe.position, row)
             self._orient(row)
             return self._seen(row, 0)
@@ -179,11 +180,12 @@ class RowFinder:
         return SeenRow((None,) * self._count, (False,) * self._count, trouble)
 
     def _along(self, image: Image) -> SeenRow:
-        """Tips one behind another: the nearest one, and the others hidden by it."""
-        near = self._count - 1 if self._column else 0
-        tips: list[TipDetection | None] = [None] * self._count
-        tips[near] = self._detector.detect(image)
-        return SeenRow(tuple(tips), tuple(number != near for number in range(self._count)))
+        """Tips one behind another. The nearest one is seen, but against the others, and through
+        them: of its column nothing can be told."""
+        seed = getattr(self._detector, "best_guess", self._detector.detect)(image)
+        if seed is None or seed.confidence < _FAINT:
+            return self._nothing()
+        return SeenRow((None,) * self._count, (True,) * self._count)
 
 
 def channel_keyframe(keyframe: Keyframe, number: int) -> Keyframe:
@@ -199,9 +201,3 @@ def channel_keyframe(keyframe: Keyframe, number: int) -> Keyframe:
         nozzles=(),
         targets=(),
     )
-
-
-def mean_heat(row: SeenRow) -> float:
-    """How clearly its tips are seen, 0 to 1; 0 without any."""
-    seen = [tip.confidence for tip in row.tips if tip is not None]
-    return float(np.mean(seen)) if seen else 0.0

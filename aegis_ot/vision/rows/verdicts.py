@@ -65,6 +65,13 @@ def row_verdict(
     """
     each = tuple(channel.verdict(trouble) for channel in channels)
     judged = [channel.judged for channel in channels if channel.judged is not None]
+    if all(channel.hidden for channel in channels):
+        reason = f"None of {len(each)} tips is seen apart from the others: nothing was judged."
+        verdict = Verdict(
+            keyframe.run, keyframe.trajectory, Outcome.PASS, Route.UNCALIBRATED, reason=reason,
+            channels=each,
+        )  # fmt: skip
+        return verdict, {"channels": len(each), "tips_judged": 0}
     if not judged:
         reason = trouble or "No tip of this row is seen; please look at the tips."
         verdict = Verdict(

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from aegis_ot.vision.rows.fit import Row, find_in_wells, find_row
-from aegis_ot.vision.rows.hiding import covered
+from aegis_ot.vision.rows.hiding import HIDDEN, covered
 from aegis_ot.vision.rows.places import RowPlaces
 from aegis_ot.vision.tips import TIPS
 from aegis_ot.vision.types import End, Ends
@@ -89,9 +89,9 @@ def row_at(degrees: float) -> Row:
 
 def test_tips_hide_each_other_the_more_the_steeper_the_view() -> None:
     assert max(covered(row_at(0), TIP, range(8)).values()) == 0
-    steep = covered(row_at(72), TIP, range(8))
+    steep = covered(row_at(78), TIP, range(8))
     assert steep[7] == 0  # the nearest one
-    assert min(steep[number] for number in range(7)) > 0.3
+    assert min(steep[number] for number in range(7)) > HIDDEN
 
 
 def moved(row: Row, x: float) -> Row:
