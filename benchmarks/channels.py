@@ -86,7 +86,7 @@ def keyframes_of(run: Run, columns: int) -> Iterator[list[Any]]:
 
 
 def judged(run: Run, columns: int) -> Iterator[tuple[str, Any, tuple[float, float]]]:
-    """Planted fault, verdict, and what the row cost: processor s to observe its last frame, and to judge."""
+    """Planted fault, verdict, and processor time, s: for its last frame, and to judge it."""
     from aegis_ot.sidecar import make_analyser
     from aegis_ot.simulation import SessionParameters, SimulatedCamera
 
@@ -121,7 +121,9 @@ def measure(
         for fault, verdict, cost in judged(run, columns):
             costs.append(cost)
             kind, _, well = fault.partition("@")
-            stopped = [one for one in verdict.channels if one.outcome.value in ("fail", "undecided")]
+            stopped = [
+                one for one in verdict.channels if one.outcome.value in ("fail", "undecided")
+            ]
             asked = "No liquid is seen" in verdict.reason
             wrong = [one.name for one in stopped if one.name != well]
             counts["channels"] += len(verdict.channels)
@@ -169,7 +171,7 @@ def show(found: Sequence[dict[str, Any]]) -> str:
     lines = [
         f"Rows of eight tips on simulated frames, seeds {first} to {last}",
         f"{'angle':>5} {'unobserved':>11} {'rows stopped falsely':>21} {'asked':>6} "
-        f"{'named of planted, seen':>23} {'not seen':>9} {'last frame + verdict, CPU ms (median, p95)':>40}",
+        f"{'named of planted, seen':>23} {'not seen':>9} {'CPU ms a row (median, p95)':>28}",
     ]
     for one in found:
         counts = one["counts"]
@@ -209,8 +211,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--json", type=Path)
     given = parser.parse_args(arguments)
     found = [
-        measure(angle, *given.seeds, columns=given.columns, progress=True)
-        for angle in given.angles
+        measure(angle, *given.seeds, columns=given.columns, progress=True) for angle in given.angles
     ]
     sys.stdout.write(show(found))
     if given.json is not None:

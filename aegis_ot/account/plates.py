@@ -74,7 +74,9 @@ def plate_maps(trajectories: Sequence[Mapping[str, Any]]) -> list[PlateMap]:
                 str(well["labware"]), PlateMap(str(well["labware"]), f"{title}, {slot}")
             )
             name = str(well["name"])
-            plate.cells[name] = _graver(plate.cells.get(name), _cell(name, trajectory, told.get(name)))
+            plate.cells[name] = _graver(
+                plate.cells.get(name), _cell(name, trajectory, told.get(name))
+            )
     for plate in plates.values():
         plate.rows, plate.columns = _size(list(plate.cells), plate.title)
     return list(plates.values())
@@ -99,9 +101,7 @@ def _channels(trajectory: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
     return told
 
 
-def _cell(
-    name: str, trajectory: Mapping[str, Any], channel: Mapping[str, Any] | None
-) -> PlateCell:
+def _cell(name: str, trajectory: Mapping[str, Any], channel: Mapping[str, Any] | None) -> PlateCell:
     state, said = state_of(trajectory), channel or trajectory["verdict"] or {}
     if channel is not None and state in ("pass", "calibration", "fail", "undecided", "unobserved"):
         calibrates = state == "calibration" and channel["outcome"] == "pass"

@@ -31,9 +31,7 @@ def named_wells(channels: Iterable[ChannelVerdict]) -> str:
             runs[-1].append(name)
         else:
             runs.append([name])
-    return ", ".join(
-        f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs
-    )
+    return ", ".join(f"{run[0]} to {run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs)
 
 
 def with_places(channels: Sequence[ChannelVerdict]) -> str:

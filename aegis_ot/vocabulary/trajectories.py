@@ -108,7 +108,7 @@ class Keyframe:
 
 
 class ChannelOutcome(str, Enum):
-    """The verdict on one channel. ``UNOBSERVED``: the camera cannot see its tip, so it is no pass."""
+    """The verdict on one channel. ``UNOBSERVED``: the camera cannot see its tip: no pass."""
 
     PASS = "pass"
     FAIL = "fail"

@@ -21,6 +21,7 @@ class FakeSidecar:
 
     Attributes:
         keyframes: Those stored, per run, in order; a resent one is stored once.
+        channels: What a verdict says of each nozzle, by trajectory number.
         outcomes: Verdict by trajectory number; ``"pass"`` by default, ``None`` for never.
         requests: ``(method, path, body)`` of every request that was read.
         fault: What to do instead of answering.
@@ -31,6 +32,7 @@ class FakeSidecar:
         self.keyframes: dict[str, list[dict[str, Any]]] = {}
         self.outcomes: dict[int, str | None] = {}
         self.decided: dict[int, str] = {}
+        self.channels: dict[int, list[dict[str, Any]]] = {}
         self.actions: dict[int, str] = {}
         self.requests: list[tuple[str, str, Any]] = []
         self.connections: list[socket.socket] = []
@@ -154,6 +156,8 @@ class Handler(BaseHTTPRequestHandler):
             return None
         verdict = {"run": run, "trajectory": number, "outcome": outcome, "route": "grey_zone"}
         verdict["reason"] = "the column is too long"
+        if number in owner.channels:
+            verdict["channels"] = owner.channels[number]
         if outcome == "fail":
             verdict["failure"] = "partial_dispense"
         if number in owner.decided:

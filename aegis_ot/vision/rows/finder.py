@@ -29,7 +29,6 @@ _FAINT = 0.2
 """Confidence below which not even one tip is in the frame."""
 
 
-
 @dataclass(frozen=True)
 class SeenRow:
     """What a frame shows of a row, one entry per nozzle in their order.
@@ -77,7 +76,7 @@ class RowFinder:
         return self._left is not None and self._places.last is not None
 
     def find(self, image: Image, keyframe: Keyframe) -> SeenRow:
-        """The tips of one frame; in one that hangs in wells, ``trouble`` where not all are found."""
+        """The tips of one frame; of a row in wells, ``trouble`` where not all are found."""
         if keyframe.kind not in FREE:
             known = self._places.last
             row = None if known is None else self._row_in_wells(image, known)

@@ -166,8 +166,7 @@ def _pairs(ends: Ends, length: float) -> Floats:
         if off <= 2 * _SAME_LEAN * length and off < best.get(collar, (np.inf, orifice))[0]:
             best[collar] = off, orifice
     rows = [(c.x, c.y, o.x, o.y, _heat(c, o)) for c, (_, o) in best.items()]
-    found = np.array(sorted(rows))
-    return found
+    return np.array(sorted(rows))
 
 
 def _heat(collar: End, orifice: End) -> float:
@@ -216,20 +215,19 @@ def _fitted(tips: Floats, chain: dict[int, int], taper: float | None = None) -> 
 
     ``taper``: where it is known better than from these tips.
     """
-    given = taper
     base = min(chain)
     numbers = np.array(sorted(chain)) - base
     seen = tips[[chain[int(number) + base] for number in numbers]]
     places, heats = seen[:, :4], seen[:, 4]
     weight = np.ones_like(places)
     for _ in range(4):
-        start, step, taper = _solve(numbers, places, weight, given)
-        off = (start + numbers[:, None] * step) / (1 + numbers[:, None] * taper) - places
+        start, step, slope = _solve(numbers, places, weight, taper)
+        off = (start + numbers[:, None] * step) / (1 + numbers[:, None] * slope) - places
         scale = np.maximum(0.7, 1.5 * np.median(np.abs(off), axis=0))
         weight = 1 / np.maximum(1.0, np.abs(off) / scale)
     found = {int(number): float(heat) for number, heat in zip(numbers, heats, strict=True)}
     own = {int(number): place for number, place in zip(numbers, places, strict=True)}
-    return Row(start, step, taper, found, own)
+    return Row(start, step, slope, found, own)
 
 
 def _solve(

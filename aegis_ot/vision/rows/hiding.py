@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..tips import TipGeometry
-from .fit import Row
+from .fit import Floats, Row
 
 HIDDEN = 0.1
 """A tip of whose bore more than this share is covered is not observed. A choice, not a fit."""
@@ -34,9 +34,7 @@ def covered(row: Row, tip: TipGeometry, numbers: range) -> dict[int, float]:
     return shares
 
 
-def _outline(
-    row: Row, number: int, tip: TipGeometry, heights: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+def _outline(row: Row, number: int, tip: TipGeometry, heights: Floats) -> tuple[Floats, Floats]:
     """Left and right edge of a tip at heights above its orifice, px."""
     collar_x, _, orifice_x, _ = row.ends(number)
     axis = orifice_x + (collar_x - orifice_x) * heights / tip.length_mm

@@ -51,9 +51,7 @@ class Lane(RunAnalyser):
 
     def __init__(self, run: RunAnalyser, nozzle: str) -> None:
         self._told = _Told()
-        super().__init__(
-            run.run, self._told, run._make_stream, run._gates, run._first, run._second
-        )
+        super().__init__(run.run, self._told, run._make_stream, run._gates, run._first, run._second)
         self._nozzle = nozzle
 
     def see(self, keyframe: Keyframe, frame: Frame, tip: TipDetection | None) -> None:

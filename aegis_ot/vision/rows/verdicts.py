@@ -87,9 +87,7 @@ def row_verdict(
             "cascade.first_channel if it is not)."
         )
     route = gravest.route
-    if gravest.outcome is Outcome.PASS and any(
-        one.route is Route.CALIBRATION for one, _ in judged
-    ):
+    if gravest.outcome is Outcome.PASS and any(one.route is Route.CALIBRATION for one, _ in judged):
         route = Route.CALIBRATION
     lanes = {
         channel.nozzle: dict(channel.judged[1])

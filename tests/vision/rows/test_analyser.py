@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from aegis_ot.sidecar import make_analyser
 from aegis_ot.simulation import FrameTruth
 from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.monitor import RunMonitor
+from aegis_ot.vision.rows import ChannelAnalyser
 from aegis_ot.vision.types import End, Ends, Image, TipDetection
 from aegis_ot.vocabulary import (
     ChannelOutcome,
@@ -109,10 +111,12 @@ def test_a_tip_missing_within_the_row_fails_its_own_well() -> None:
 
 
 def test_a_restarted_sidecar_takes_up_what_it_knew(run: list[Any]) -> None:
-    analyser = RunMonitor(Told()).begin("run", run)
-    judged = [json.loads(json.dumps(evidence)) for _, evidence in run]
-    RunMonitor(Told()).begin("run", [(verdict, e) for (verdict, _), e in zip(run, judged)])
-    assert analyser.run == "run"
+    history = [(verdict, json.loads(json.dumps(evidence))) for verdict, evidence in run]
+    analyser = make_analyser(detector=Told()).begin("run", history)
+    assert isinstance(analyser, ChannelAnalyser)
+    known = analyser._lanes["left", "B1"]._streams.values()
+    assert known
+    assert set(analyser._lanes) == {("left", f"{row}1") for row in "ABCDEFGH"}
 
 
 def test_a_block_of_tips_is_unobserved() -> None:

@@ -25,9 +25,7 @@ def ends_of(
     numbers: list[int], degrees: float, noise: float = 1.0, x: float = 300.0, stray: bool = True
 ) -> Ends:
     rng = np.random.default_rng(3)
-    seen = [
-        true_ends(n, np.radians(degrees), x) + rng.normal(0, noise, 4) for n in numbers
-    ]
+    seen = [true_ends(n, np.radians(degrees), x) + rng.normal(0, noise, 4) for n in numbers]
     collars = [End(float(s[0]), float(s[1]), 0.7) for s in seen]
     orifices = [End(float(s[2]), float(s[3]), 0.5) for s in seen]
     if stray:  # labware, a meniscus, a shaft's end
