@@ -23,7 +23,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-DEVELOPMENT_SEED, REPORT_SEED = 2000, 7000
+DEVELOPMENT_SEED, REPORT_SEED = 2000, 7100
 """First seeds: limits were chosen while looking at the runs of the first, and are reported on those
 of the second."""
 
@@ -205,9 +205,9 @@ def show(found: Sequence[dict[str, Any]]) -> str:
 def main(arguments: list[str] | None = None) -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.channels", description=__doc__)
-    parser.add_argument("--seeds", nargs=2, type=int, default=(REPORT_SEED, 12))
+    parser.add_argument("--seeds", nargs=2, type=int, default=(REPORT_SEED, 6))
     parser.add_argument("--angles", nargs="+", type=float, default=ANGLES)
-    parser.add_argument("--columns", type=int, default=10, help="of each run")
+    parser.add_argument("--columns", type=int, default=8, help="of each run")
     parser.add_argument("--json", type=Path)
     given = parser.parse_args(arguments)
     found = [
