@@ -13,14 +13,8 @@ FORMATS = ((1, 1), (2, 3), (3, 4), (4, 6), (6, 8), (8, 12), (16, 24), (32, 48))
 """Rows and columns of the plates that there are; the smallest that has all wells is drawn."""
 
 GRAVITY = (
-    "fail",
-    "undecided",
-    "waiting",
-    "running",
-    "recovered",
-    "abandoned",
-    "pass",
-    "calibration",
+    *("fail", "undecided", "waiting", "running", "recovered", "abandoned"),
+    *("unobserved", "pass", "calibration"),
 )
 """States from the one that a person must see to the one that needs nobody."""
 
@@ -72,6 +66,7 @@ def plate_maps(trajectories: Sequence[Mapping[str, Any]]) -> list[PlateMap]:
     """
     plates: dict[str, PlateMap] = {}
     for trajectory in trajectories:
+        told = _channels(trajectory)
         for well in _destinations(trajectory):
             title = str(well["label"] or well["labware"])
             slot = f"slot {well['slot']}" if well["slot"] else "off deck"
@@ -79,7 +74,9 @@ def plate_maps(trajectories: Sequence[Mapping[str, Any]]) -> list[PlateMap]:
                 str(well["labware"]), PlateMap(str(well["labware"]), f"{title}, {slot}")
             )
             name = str(well["name"])
-            plate.cells[name] = _graver(plate.cells.get(name), _cell(name, trajectory))
+            plate.cells[name] = _graver(
+                plate.cells.get(name), _cell(name, trajectory, told.get(name))
+            )
     for plate in plates.values():
         plate.rows, plate.columns = _size(list(plate.cells), plate.title)
     return list(plates.values())
@@ -93,13 +90,27 @@ def _destinations(trajectory: Mapping[str, Any]) -> list[Mapping[str, Any]]:
     return []
 
 
-def _cell(name: str, trajectory: Mapping[str, Any]) -> PlateCell:
-    verdict = trajectory["verdict"] or {}
+def _channels(trajectory: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
+    """What the verdict says of each channel, by well; of several over one well, the gravest."""
+    told: dict[str, Mapping[str, Any]] = {}
+    for channel in (trajectory["verdict"] or {}).get("channels") or ():
+        name = str((channel["well"] or {}).get("name", ""))
+        known = told.get(name)
+        if known is None or GRAVITY.index(channel["outcome"]) < GRAVITY.index(known["outcome"]):
+            told[name] = channel
+    return told
+
+
+def _cell(name: str, trajectory: Mapping[str, Any], channel: Mapping[str, Any] | None) -> PlateCell:
+    state, said = state_of(trajectory), channel or trajectory["verdict"] or {}
+    if channel is not None and state in ("pass", "calibration", "fail", "undecided", "unobserved"):
+        calibrates = state == "calibration" and channel["outcome"] == "pass"
+        state = state if calibrates else str(channel["outcome"])
     return PlateCell(
         name,
-        state_of(trajectory),
+        state,
         int(trajectory["trajectory"]),
-        failure=str(verdict.get("failure") or "").replace("_", " "),
+        failure=str(said.get("failure") or "").replace("_", " "),
         decided=bool(trajectory["decisions"]),
     )
 

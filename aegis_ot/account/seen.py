@@ -23,7 +23,8 @@ def no_pictures(_sequence: int, _box: Box | None) -> tuple[None, None, str]:
 def state_of(trajectory: Mapping[str, Any]) -> str:
     """How a delivery stands, in one word: ``fail``, ``recovered`` (failed, and put right by the
     robot), ``undecided``, ``pass``, ``calibration``, ``waiting`` (for its verdict), ``running``
-    (keyframes are still to come) or ``abandoned``.
+    (keyframes are still to come), ``abandoned``, or ``unobserved`` where the camera saw none of
+    its tips.
     """
     if trajectory["abandoned"] is not None:
         return "abandoned"
@@ -33,6 +34,9 @@ def state_of(trajectory: Mapping[str, Any]) -> str:
     if verdict:
         if verdict["outcome"] == "fail" and trajectory.get("recovered"):
             return "recovered"
+        told = verdict.get("channels") or ()
+        if told and all(channel["outcome"] == "unobserved" for channel in told):
+            return "unobserved"
         calibrates = verdict["outcome"] == "pass" and verdict["route"] == "calibration"
         return "calibration" if calibrates else str(verdict["outcome"])
     kinds = {keyframe["kind"] for keyframe in trajectory["keyframes"]}

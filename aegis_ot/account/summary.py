@@ -25,13 +25,15 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
 
     Returns:
         ``run``, ``protocol``, ``robot`` and the like; ``frames`` (``"simulated"`` or ``"real"``);
-        ``finished``; ``counts`` by state; ``plates``; ``wells``; ``flagged`` (numbers of the
+        ``finished``; ``counts`` by state; ``unobserved`` (wells whose tip the camera did not see);
+        ``plates``; ``wells``; ``flagged`` (numbers of the
         deliveries that failed, are undecided, or that a person decided); ``calibration`` per
         liquid and pipette; ``holds``; ``decisions``; ``latency`` (s); ``costs``; ``incidents``;
         ``recoveries``; ``layer1``; ``guard`` and ``sidecar`` (settings and versions).
     """
     trajectories: Sequence[Mapping[str, Any]] = overview["trajectories"]
     states = Counter(state_of(trajectory) for trajectory in trajectories)
+    unseen = _unobserved(trajectories)
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -39,6 +41,7 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         "frames": "simulated" if overview.get("simulated") else "real",
         "finished": overview.get("finished"),
         "counts": dict(states) | {"wells": len(trajectories)},
+        "unobserved": unseen,
         "plates": [_plate(plate) for plate in plate_maps(trajectories)],
         "wells": [_well(trajectory) for trajectory in trajectories],
         "flagged": [t["trajectory"] for t in trajectories if is_flagged(t)],
@@ -86,7 +89,21 @@ def _well(trajectory: Mapping[str, Any]) -> dict[str, Any]:
         "band": trajectory["evidence"].get("band"),
         "judged_first": (trajectory["judged"] or {}).get("outcome"),
         "abandoned": trajectory["abandoned"],
+        "channels": [
+            channel | {"well": (channel["well"] or {}).get("name")}
+            for channel in verdict.get("channels") or ()
+        ],
     }
+
+
+def _unobserved(trajectories: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Wells, each delivery counted, whose tip the camera did not see."""
+    return [
+        str((channel["well"] or {}).get("name") or f"nozzle {channel['nozzle']}")
+        for trajectory in trajectories
+        for channel in (trajectory["verdict"] or {}).get("channels") or ()
+        if channel["outcome"] == "unobserved" and trajectory["abandoned"] is None
+    ]
 
 
 def _calibration(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:

@@ -76,7 +76,7 @@ class OperationReader:
         return Operation(
             kind=kind,
             pipette=pipette,
-            nozzles=tuple(str(n) for n in range(max(1, channels))),
+            nozzles=_nozzle_names(max(1, channels)),
             wells=wells,
             disposal=disposal,
             volume=_number(params.get("volume")),
@@ -135,6 +135,15 @@ class OperationReader:
         if depth is None or origin == "meniscus":
             return _INSIDE_MM
         return z - (depth if origin == "bottom" else depth / 2)
+
+
+def _nozzle_names(count: int) -> tuple[str, ...]:
+    """A column's nozzles, or a whole head's; of others only their number is known."""
+    if count == 8:
+        return tuple(f"{row}1" for row in "ABCDEFGH")
+    if count == 96:
+        return tuple(f"{row}{column}" for column in range(1, 13) for row in "ABCDEFGH")
+    return tuple(str(number) for number in range(count))
 
 
 def _active(params: Mapping[str, Any], channels: int) -> int:

@@ -28,7 +28,7 @@ class Hand:
         above: Whether it stands at or above the top of the wells there.
         aimed: Last operation that was aimed at the wells there, to lift from.
         position: Tip end on the deck, mm, or ``None``.
-        channels: Number of tips that took part in its last operation.
+        nozzles: Those that took part in its last operation.
         draw: The last draw whose ASPIRATE keyframe is still owed.
         current: The trajectory that is under way.
     """
@@ -41,7 +41,7 @@ class Hand:
     above: bool = False
     aimed: Operation | None = None
     position: tuple[float, float, float] | None = None
-    channels: int = 1
+    nozzles: tuple[str, ...] = ()
     draw: Operation | None = None
     current: Trajectory | None = None
 
@@ -92,10 +92,13 @@ class Hand:
         """Whether ``operation`` takes place in the one source of all that the tip holds."""
         return frozenset(self.contents.sources) == self.target(operation)
 
-    def destinations(self, operation: Operation) -> tuple[WellRef, ...]:
-        """The wells that ``operation`` delivers to, in the order of the channels."""
+    def aim(self, trajectory: Trajectory, operation: Operation) -> None:
+        """Note the wells that ``operation`` delivers to, in the order of the channels."""
         aimed = self.aimed if in_place(operation) and operation.well is None else operation
-        return unique(aimed.wells) if aimed is not None else ()
+        wells = aimed.wells if aimed is not None else ()
+        trajectory.destinations = unique(wells)
+        several = trajectory.channels > 1 and len(wells) == len(trajectory.nozzles)
+        trajectory.targets = wells if several else ()
 
     def displaced(self) -> None:
         """Another pipette moved, and this one with it."""

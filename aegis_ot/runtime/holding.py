@@ -10,7 +10,7 @@ from ..errors import LinkError, RunAborted
 from ..http_client import SLICE_S, CheckStop
 from ..instrumentation import Operation
 from ..settings import Settings
-from ..vocabulary import Gate, Outcome, Verdict
+from ..vocabulary import Gate, Outcome, Verdict, unobserved
 from .courier import Courier
 from .link import SidecarLink
 from .linkloss import LinkLoss
@@ -21,7 +21,7 @@ from .runstate import RunState, can_be_resumed
 from .steps import Hold
 from .stopping import Waits
 from .summary import WatchSummary
-from .words import tell_verdict
+from .words import tell_unobserved, tell_verdict
 
 _STOP_S = 5.0
 """How long the robot's server may take to stop the run that it was told to stop, s."""
@@ -136,6 +136,9 @@ class Holding:
             if ended_by in ("timeout", "lost by the sidecar"):
                 policy = settings.on_link_loss
         else:
+            hidden = unobserved([verdict])
+            if hidden and not unobserved(self._result.verdicts.values()):
+                self._operator.comment(tell_unobserved(hidden))
             self._result.verdicts[number] = verdict
             text = tell_verdict(place, verdict)
             if verdict.outcome is Outcome.FAIL:

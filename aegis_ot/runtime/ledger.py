@@ -34,7 +34,8 @@ class Ledger:
         trajectory = Trajectory(
             number=self.trajectories,
             sources=sources,
-            channels=max(1, hand.channels),
+            channels=max(1, len(hand.nozzles)),
+            nozzles=hand.nozzles if len(hand.nozzles) > 1 else (),
             commanded_ul=hand.contents.liquid,
             reagent=" + ".join(names) or None,
             line=hand.draw.line if hand.draw is not None else None,
@@ -63,6 +64,8 @@ class Ledger:
             position=hand.position,
             line=trajectory.line,
             recovers=trajectory.recovers,
+            nozzles=trajectory.nozzles,
+            targets=trajectory.targets,
         )
         self._sequence += 1
         trajectory.frames += 1

@@ -63,6 +63,8 @@ class Trajectory:
         frames: How many of its four keyframes exist.
         recovers: The failed trajectory of which this is a recovery.
         delivered: Whether liquid has left the tip into the destination.
+        nozzles: The active nozzles, where there are several.
+        targets: The well under each of them, once the destination is known.
     """
 
     number: int
@@ -75,3 +77,5 @@ class Trajectory:
     frames: int = 0
     recovers: int | None = None
     delivered: bool = False
+    nozzles: tuple[str, ...] = ()
+    targets: tuple[WellRef | None, ...] = ()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..vocabulary import Outcome, Verdict
+from ..vocabulary import Outcome, Verdict, unobserved
 
 
 @dataclass
@@ -36,8 +36,10 @@ class WatchSummary:
     outages: int = 0
 
     def of(self, outcome: Outcome) -> tuple[int, ...]:
-        """Trajectories with this outcome, rising."""
-        return tuple(sorted(n for n, v in self.verdicts.items() if v.outcome is outcome))
+        """Trajectories with this outcome, rising; those of which no tip was seen have none."""
+        return tuple(
+            sorted(n for n, v in self.verdicts.items() if v.outcome is outcome and _seen(v))
+        )
 
     @property
     def watched(self) -> int:
@@ -65,6 +67,9 @@ class WatchSummary:
             parts.append(f"{len(undecided)} undecided ({self._wells(undecided)})")
         if self.lost:
             parts.append(f"{len(self.lost)} not judged ({self._wells(tuple(sorted(self.lost)))})")
+        hidden = unobserved(self.verdicts.values())
+        if hidden:
+            parts.append(f"{len(hidden)} wells unobserved: the camera did not see their tips")
         return (
             f"Layer 2 watched {self.watched} deliveries: {', '.join(parts)}; "
             f"held {self.hold_s:.1f} s in all, {self.longest_hold_s:.2f} s at most."
@@ -74,3 +79,8 @@ class WatchSummary:
         named = [self.places.get(n) or f"trajectory {n}" for n in numbers[:most]]
         rest = len(numbers) - most
         return ", ".join(named) + (f" and {rest} more" if rest > 0 else "")
+
+
+def _seen(verdict: Verdict) -> bool:
+    """Whether the camera saw any of its tips."""
+    return not verdict.channels or len(unobserved([verdict])) < len(verdict.channels)

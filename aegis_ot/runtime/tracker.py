@@ -186,7 +186,7 @@ class Tracker:
             current.line = operation.line
         if current.frames >= 2:
             return
-        current.destinations = hand.destinations(operation)
+        hand.aim(current, operation)
         stands_there = hand.above and hand.stays(operation)
         if self._lift and not in_place(operation) and not stands_there and wells_of(operation):
             self._raise(hand, operation, steps)
@@ -255,13 +255,13 @@ class Tracker:
             current.commanded_ul = moved + (current.commanded_ul if current.delivered else 0.0)
             current.delivered = True
             current.line = operation.line
-            current.destinations = hand.destinations(operation)
+            hand.aim(current, operation)
         if not hand.contents.holds_liquid:
             hand.draw = None
             self._give_up(hand, "its liquid was thrown away or put back", steps)
 
     def _stand(self, hand: Hand, operation: Operation, target: Place) -> None:
-        hand.channels = len(operation.nozzles)
+        hand.nozzles = operation.nozzles
         if wells_of(operation):
             hand.aimed = operation
         if operation.position is not None:

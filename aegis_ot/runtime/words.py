@@ -4,13 +4,22 @@ from __future__ import annotations
 
 import platform
 import time
+from collections.abc import Sequence
 from pathlib import PurePath
 from typing import Any
 
 from .._version import __version__
 from ..instrumentation import Operation, OperationKind
 from ..settings import Settings
-from ..vocabulary import Finding, Outcome, Verdict, one_line
+from ..vocabulary import (
+    ChannelOutcome,
+    ChannelVerdict,
+    Finding,
+    Outcome,
+    Verdict,
+    one_line,
+    with_places,
+)
 
 _MOST = 20
 """Findings that are told; the registration of a run has to stay small."""
@@ -77,6 +86,14 @@ def _about_finding(finding: Finding) -> dict[str, Any]:
     }
 
 
+def tell_unobserved(channels: Sequence[ChannelVerdict]) -> str:
+    """What is said once a run of tips that the camera cannot see."""
+    return (
+        f"The camera does not see the tips over {with_places(channels)}: other tips hide them. "
+        "Wells of these channels are reported as unobserved, and nothing holds for them."
+    )
+
+
 def tell_verdict(place: str, verdict: Verdict) -> str:
     """One sentence for the operator."""
     what = {
@@ -84,6 +101,10 @@ def tell_verdict(place: str, verdict: Verdict) -> str:
         Outcome.FAIL: "failed",
         Outcome.UNDECIDED: "could not be judged",
     }[verdict.outcome]
+    bad = {Outcome.FAIL: ChannelOutcome.FAIL, Outcome.UNDECIDED: ChannelOutcome.UNDECIDED}
+    those = [one for one in verdict.channels if one.outcome is bad.get(verdict.outcome)]
+    if those:
+        place = with_places(those)
     kind = f" ({verdict.failure.value.replace('_', ' ')})" if verdict.failure else ""
     reason = f": {verdict.reason.rstrip('.')}" if verdict.reason else ""
     return f"Delivery into {place} {what}{kind}{reason}."

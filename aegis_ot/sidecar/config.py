@@ -114,6 +114,9 @@ class CascadeSettings(Section):
         spot_check: Share of the wells that pass silently that the gate ``vlm`` sees all the same,
             0 to 1; with any of it, it also sees the first wells of each liquid and those near the
             band. 0: only what was flagged, so that it can only clear.
+        first_channel: On which side of the frame a multi-channel pipette's first channel (``A1``)
+            is: ``left``, ``right``, or ``auto``: a column's is the far one, and the left one where
+            the row is seen squarely.
     """
 
     model: Path | None = None
@@ -126,6 +129,7 @@ class CascadeSettings(Section):
     first_wells: Literal["ask", "trust"] = "ask"
     gates: tuple[str, ...] = ("volumetric",)
     spot_check: Annotated[float, Field(ge=0, le=1)] = 0.05
+    first_channel: Literal["auto", "left", "right"] = "auto"
 
     @field_validator("gates")
     @classmethod

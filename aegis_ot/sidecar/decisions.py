@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-from ..vocabulary import Gate, Outcome, Verdict
+from ..vocabulary import ChannelOutcome, ChannelVerdict, Gate, Outcome, Verdict
+
+_FLAGGED = (ChannelOutcome.FAIL, ChannelOutcome.UNDECIDED)
 
 
 def effective(verdict: Verdict, decisions: list[dict[str, Any]]) -> Verdict:
@@ -14,17 +17,32 @@ def effective(verdict: Verdict, decisions: list[dict[str, Any]]) -> Verdict:
     last = decisions[-1]
     outcome = Outcome(last["outcome"])
     note = f": {last['note']}" if last["note"] else ""
-    return Verdict(
-        run=verdict.run,
-        trajectory=verdict.trajectory,
+    return replace(
+        verdict,
         outcome=outcome,
-        route=verdict.route,
-        score=verdict.score,
         gate=Gate.OPERATOR,
         failure=verdict.failure if outcome is Outcome.FAIL else None,
         reason=f"{last['by']} decided {outcome.value}{note}. Before: {verdict.reason}".rstrip(),
-        measured_ul=verdict.measured_ul,
-        expected_ul=verdict.expected_ul,
-        left_ul=verdict.left_ul,
-        left_sigma_ul=verdict.left_sigma_ul,
+        channels=_channels(verdict, outcome),
+    )
+
+
+def _channels(verdict: Verdict, outcome: Outcome) -> tuple[ChannelVerdict, ...]:
+    """A decision is on the whole row: a pass on what was flagged, a fail on what was in doubt.
+
+    Of a row that had passed, a fail is one of every tip that was seen.
+    """
+    flagged = [c for c in verdict.channels if c.outcome in _FLAGGED]
+    doubtful = [c for c in flagged if c.outcome is ChannelOutcome.UNDECIDED] or (
+        [] if flagged else [c for c in verdict.channels if c.outcome is ChannelOutcome.PASS]
+    )
+    changed = flagged if outcome is Outcome.PASS else doubtful
+    decided = ChannelOutcome(outcome.value)
+    return tuple(
+        replace(
+            channel, outcome=decided, failure=channel.failure if outcome is Outcome.FAIL else None
+        )
+        if channel in changed
+        else channel
+        for channel in verdict.channels
     )

@@ -72,6 +72,7 @@ def make_analyser(
             cascade.always_gate,
             cascade.first_wells == "ask",
             SpotCheck(cascade.spot_check),
+            cascade.first_channel,
         ),
         [*(known[name] for name in cascade.gates), OperatorGate()],
         MeasuredColumns,

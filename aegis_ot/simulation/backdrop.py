@@ -26,9 +26,9 @@ def draw_backdrop(parameters: SessionParameters, camera: Pinhole) -> Plane:
     )
     if parameters.clutter > 0:
         _clutter(image, parameters, rng)
-    far = BACK_MM + 1.0
+    far, right = BACK_MM + 1.0, parameters.panel_right_mm
     _polygon(
-        image, camera, [(-700, far, 0), (700, far, 0), (700, -260, 0), (-700, -260, 0)],
+        image, camera, [(-700, far, 0), (right, far, 0), (right, -260, 0), (-700, -260, 0)],
         parameters.deck,
     )  # fmt: skip
     _slots(image, camera, parameters)
@@ -80,8 +80,15 @@ def _clutter(image: Plane, parameters: SessionParameters, rng: np.random.Generat
 def _slots(image: Plane, camera: Pinhole, parameters: SessionParameters) -> None:
     """The seams between deck slots."""
     shade = tuple(0.75 * c for c in parameters.deck)
-    lines = [[(x, -200.0, 0.0), (x, BACK_MM, 0.0)] for x in (-265, -132.5, 0, 132.5, 265)]
-    lines += [[(-600.0, y, 0.0), (600.0, y, 0.0)] for y in (-45.0, 45.5, 136.0)]
+    lines = [
+        [(x, -200.0, 0.0), (x, BACK_MM, 0.0)]
+        for x in (-265, -132.5, 0, 132.5, 265)
+        if x < parameters.panel_right_mm
+    ]
+    lines += [
+        [(-600.0, y, 0.0), (min(600.0, parameters.panel_right_mm), y, 0.0)]
+        for y in (-45.0, 45.5, 136.0)
+    ]
     for line in lines:
         a, b = np.round(camera.project(line) * 16 - 8).clip(-(2**20), 2**20).astype(int)
         cv2.line(image, (int(a[0]), int(a[1])), (int(b[0]), int(b[1])), shade, 1, cv2.LINE_AA, 4)

@@ -67,7 +67,7 @@ class FaultPlan:
         self._film = film
         self._mounts: dict[tuple[str, str], _Mount] = {}
         self._answers: OrderedDict[tuple[str, int], PhysicalState] = OrderedDict()
-        self._destinations: dict[int, tuple[WellRef, ...]] = {}
+        self._destinations: dict[int, tuple[WellRef | None, ...]] = {}
         self._recoveries: dict[str, set[int]] = {}
         self._struck: dict[tuple[str, Fault], dict[int, None]] = {}
 
@@ -75,7 +75,7 @@ class FaultPlan:
         """Learn the destinations of the coming trajectories from a rehearsal's keyframes."""
         for keyframe in keyframes:
             if keyframe.destinations:
-                self._destinations[keyframe.trajectory] = keyframe.destinations
+                self._destinations[keyframe.trajectory] = _wells_of(keyframe)
 
     def unmatched(self, keyframes: Sequence[Keyframe]) -> tuple[Fault, ...]:
         """The faults that strike none of these keyframes: a mistyped well, most likely."""
@@ -175,7 +175,7 @@ class FaultPlan:
             struck[keyframe.trajectory] = None
         return keyframe.trajectory in struck
 
-    def _planned(self, keyframe: Keyframe) -> tuple[WellRef, ...]:
+    def _planned(self, keyframe: Keyframe) -> tuple[WellRef | None, ...]:
         """Where the rehearsal says that the trajectory goes; it knows of no recoveries."""
         trajectory = keyframe.trajectory if keyframe.recovers is None else keyframe.recovers
         recoveries = self._recoveries.get(keyframe.run, ())
@@ -185,11 +185,17 @@ class FaultPlan:
     def _strikes(self, fault: Fault, keyframe: Keyframe, channel: int) -> bool:
         if fault.where.number is not None:
             return fault.where.number == keyframe.trajectory + 1
-        wells = keyframe.destinations or self._planned(keyframe)
+        wells = _wells_of(keyframe) or self._planned(keyframe)
         if len(wells) == max(keyframe.channels, 1):
-            return fault.where.matches(wells[channel])
+            well = wells[channel]
+            return well is not None and fault.where.matches(well)
         # Channels that share a well (a reservoir) share its fault.
-        return any(fault.where.matches(well) for well in wells)
+        return any(well is not None and fault.where.matches(well) for well in wells)
+
+
+def _wells_of(keyframe: Keyframe) -> tuple[WellRef | None, ...]:
+    """The well of each channel, as far as the robot says; else those that the channels share."""
+    return keyframe.targets or keyframe.destinations
 
 
 def _draw(content: TipContent, volume: float, faults: dict[FaultKind, Fault]) -> TipContent:

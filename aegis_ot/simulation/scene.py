@@ -111,7 +111,8 @@ def place_tip(
     if len(contents) > 8:
         x, y, pitch = block.x - 49.5, block.y - 31.5, (9.0, 0.0)
     elif len(contents) > 1:
-        y = block.y + 31.5
+        # The first tip stands over its row; a whole column's always over the back one.
+        y = block.y + 31.5 - 9.0 * min(row, 8 - len(contents))
     inside = kind in (KeyframeKind.ASPIRATE, KeyframeKind.DISPENSE)
     # Shallow wells end sooner; a third of the tip at most is ever hidden.
     depth = min(block.height_mm - 3.0, 9.0, tip.length_mm / 4)

@@ -74,6 +74,7 @@ class SessionParameters:
         shaft, body: Colours of the pipette's nozzle shaft and body.
         shaft_mm: Length of the shaft between tip and body, mm.
         body_mm: Width of the body, mm.
+        panel_right_mm: Where the deck ends on the right and a panel begins, mm.
         labware: Source, destination and what else stands on the deck.
         seed: Fixes textures and the offsets of rows.
     """
@@ -117,6 +118,7 @@ class SessionParameters:
     body: Colour = (150.0, 150.0, 148.0)
     shaft_mm: float = 45.0
     body_mm: float = 30.0
+    panel_right_mm: float = 700.0
     labware: tuple[Labware, ...] = ()
     seed: int = 0
 
@@ -172,12 +174,29 @@ class SessionParameters:
 
         From the front the eight tips of a column stand one behind another and hide each other.
         """
-        front = cls.webcam(seed)
-        away = np.subtract(front.look, front.eye)
-        distance, azimuth = float(np.hypot(away[0], away[1])), np.radians(55.0)
-        x = front.look[0] - distance * np.sin(azimuth)
-        y = front.look[1] - distance * np.cos(azimuth)
-        return replace(front, eye=(float(x), float(y), front.eye[2]))
+        return cls.webcam(seed)._around(55.0)
+
+    @classmethod
+    def beside(cls, angle_deg: float = 30.0, seed: int = 0) -> SessionParameters:
+        """The recommended set-up for multi-channel pipettes: :meth:`bench` from beside the deck.
+
+        The panel stands behind the pipette as the camera sees it, at the right end of the deck.
+
+        Args:
+            angle_deg: Between the view and the square onto a column of tips. 0: from the left
+                side of the deck, eight tips in a row, the first on the left. 90: from the front,
+                one behind another.
+            seed: As for :meth:`bench`.
+        """
+        return replace(cls.bench(seed), panel_right_mm=230.0)._around(90.0 - angle_deg)
+
+    def _around(self, azimuth_deg: float) -> SessionParameters:
+        """The same camera, carried around the deck from the front towards its left side."""
+        away = np.subtract(self.look, self.eye)
+        distance, azimuth = float(np.hypot(away[0], away[1])), np.radians(azimuth_deg)
+        x = self.look[0] - distance * np.sin(azimuth)
+        y = self.look[1] - distance * np.cos(azimuth)
+        return replace(self, eye=(float(x), float(y), self.eye[2]))
 
     @classmethod
     def draw(

@@ -49,8 +49,8 @@ class RunAnalyser:
 
     Calibration is per liquid and pipette: see :class:`~.stream.Stream`.
 
-    A multi-channel pipette is judged on the one tip that the detector picks; the evidence says
-    so (``channels``, ``tips_judged``).
+    It follows one tip; of several, the one that the detector picks. The tips of a multi-channel
+    pipette are followed by one analyser each: see :mod:`.rows`.
 
     Args:
         run: Identifier of the run.

@@ -15,6 +15,7 @@ from .column_reader import MeasuredColumns
 from .first_wells import FirstWells
 from .gates import ConfirmingGate, Gates, OperatorGate, VolumetricGate
 from .measuring import ColumnReader
+from .rows import ChannelAnalyser, FirstChannel
 from .second_opinion import SecondOpinion, SpotCheck
 from .stream import Stream
 from .types import Detector, Scorer
@@ -31,12 +32,14 @@ class MonitorSettings:
         always_gate: Send every well after calibration to the gates.
         ask_first: Ask the operator about first wells whose frames prove nothing.
         spot_check: Which wells that pass a vision model sees, if there is one.
+        first_channel: On which side of the frame a multi-channel pipette's first channel is.
     """
 
     calibration: CalibrationSettings = field(default_factory=CalibrationSettings)
     always_gate: bool = False
     ask_first: bool = True
     spot_check: SpotCheck = field(default_factory=SpotCheck)
+    first_channel: FirstChannel = "auto"
 
 
 class RunMonitor:
@@ -75,7 +78,8 @@ class RunMonitor:
         """
         first = FirstWells(self.settings.ask_first)
         second = SecondOpinion(self.gates, self.settings.spot_check)
-        analyser = RunAnalyser(run, self.detector, self._stream, self.gates, first, second)
+        analyser = ChannelAnalyser(run, self.detector, self._stream, self.gates, first, second)
+        analyser.first_channel = self.settings.first_channel
         if self.scorer is not None:
             analyser.recall(history)
         return analyser

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,7 @@ class TipDetection:
         confidence: 0 to 1.
         orifice: Lower end of the tip axis (x, y), px.
         collar: Upper end of the tip axis (x, y), px.
+        apart: How far from it the next tip of its row hangs, px; ``None`` for a single one.
     """
 
     x: float
@@ -40,6 +41,7 @@ class TipDetection:
     confidence: float
     orifice: tuple[float, float]
     collar: tuple[float, float]
+    apart: float | None = None
 
     @property
     def length(self) -> float:
@@ -51,6 +53,34 @@ class Detector(Protocol):
     """Finds the tip in a frame; ``None`` where there is none."""
 
     def detect(self, image: Image) -> TipDetection | None: ...
+
+
+@dataclass(frozen=True)
+class End:
+    """A place in a frame that looks like one end of a tip: x and y, px, and how much, 0 to 1."""
+
+    x: float
+    y: float
+    heat: float
+
+
+@dataclass(frozen=True)
+class Ends:
+    """All that looks like the collar, and like the orifice, of a tip around one place."""
+
+    collars: tuple[End, ...] = ()
+    orifices: tuple[End, ...] = ()
+
+
+@runtime_checkable
+class RowDetector(Protocol):
+    """A detector that shows several tips beside each other."""
+
+    def detect(self, image: Image) -> TipDetection | None:
+        """The tip that shows best."""
+
+    def ends(self, image: Image, tip: TipDetection, reach: float) -> Ends:
+        """The ends of the tips that stand up to ``reach`` px beside ``tip``."""
 
 
 @dataclass(frozen=True)

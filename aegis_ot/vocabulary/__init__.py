@@ -4,9 +4,12 @@ Whatever crosses from one room to another, or from the robot to the workstation,
 these. They carry no behaviour beyond naming themselves and turning into plain JSON.
 """
 
+from .channels import is_row, named_wells, unobserved, with_places
 from .findings import Finding, Remark, Severity, Site, Undecided, VerdictWord
 from .sentences import counted, one_line
 from .trajectories import (
+    ChannelOutcome,
+    ChannelVerdict,
     FailureType,
     Gate,
     Keyframe,
@@ -19,6 +22,8 @@ from .wells import WellRef
 from .wire import from_json, to_json
 
 __all__ = [
+    "ChannelOutcome",
+    "ChannelVerdict",
     "FailureType",
     "Finding",
     "Gate",
@@ -35,6 +40,10 @@ __all__ = [
     "WellRef",
     "counted",
     "from_json",
+    "is_row",
+    "named_wells",
     "one_line",
     "to_json",
+    "unobserved",
+    "with_places",
 ]

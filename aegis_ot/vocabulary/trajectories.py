@@ -82,6 +82,9 @@ class Keyframe:
             protocol's own.
         late: Sent after the robot had moved on (the link was down): the frame does not show the
             moment, and must not be judged as if it did.
+        nozzles: The active nozzles in order, ``("A1", ..., "H1")``; empty for a single tip.
+        targets: The well under each of them, ``None`` over no well; empty until known, and for a
+            single tip.
     """
 
     run: str
@@ -103,6 +106,44 @@ class Keyframe:
     line: int | None = None
     late: bool = False
     recovers: int | None = None
+    nozzles: tuple[str, ...] = ()
+    targets: tuple[WellRef | None, ...] = ()
+
+
+class ChannelOutcome(str, Enum):
+    """The verdict on one channel. ``UNOBSERVED``: the camera cannot see its tip: no pass."""
+
+    PASS = "pass"
+    FAIL = "fail"
+    UNDECIDED = "undecided"
+    UNOBSERVED = "unobserved"
+
+
+@dataclass(frozen=True)
+class ChannelVerdict:
+    """The judgement on one channel of one trajectory.
+
+    Attributes:
+        nozzle: ``"A1"``, of the active nozzles.
+        well: What it delivers into; ``None`` over no well.
+        outcome: See :class:`ChannelOutcome`.
+        failure: What went wrong, for a fail.
+        reason: One sentence.
+        measured_ul, expected_ul: Left in the tip after the dispense, µL, where it was measured.
+    """
+
+    nozzle: str
+    well: WellRef | None
+    outcome: ChannelOutcome
+    failure: FailureType | None = None
+    reason: str = ""
+    measured_ul: float | None = None
+    expected_ul: float | None = None
+
+    @property
+    def name(self) -> str:
+        """The well's name, or the nozzle's where there is none."""
+        return self.well.name if self.well is not None else f"nozzle {self.nozzle}"
 
 
 @dataclass(frozen=True)
@@ -123,6 +164,8 @@ class Verdict:
         left_ul: What the column in the emptied tip (POST_DISPENSE) measures, µL; ``None`` where it
             cannot be read.
         left_sigma_ul: Standard uncertainty of that, µL.
+        channels: Of a multi-channel pipette, what each tip did, in the order of the nozzles; the
+            rest of this verdict is that of the gravest one. Empty for a single tip.
     """
 
     run: str
@@ -137,3 +180,4 @@ class Verdict:
     expected_ul: float | None = None
     left_ul: float | None = None
     left_sigma_ul: float | None = None
+    channels: tuple[ChannelVerdict, ...] = ()

@@ -46,6 +46,30 @@ def delivery(number: int, outcome: str | None = "pass", **changes: Any) -> dict[
     } | changes
 
 
+def row(number: int, told: str, **changes: Any) -> dict[str, Any]:
+    """One delivery of eight tips: what became of each, as ``"..F?uu.."``, into one column."""
+    words = {".": "pass", "F": "fail", "?": "undecided", "u": "unobserved"}
+    gravest = next((words[sign] for sign in "F?" if sign in told), "pass")
+    entry = delivery(number, gravest, **changes)
+    first = entry["keyframes"][-1]["destinations"][0]
+    wells = [first | {"name": f"{letter}{number + 1}"} for letter in "ABCDEFGH"]
+    for keyframe in entry["keyframes"]:
+        keyframe["destinations"] = wells
+    entry["verdict"]["channels"] = [
+        {
+            "nozzle": f"{letter}1",
+            "well": well,
+            "outcome": words[sign],
+            "failure": "no_dispense" if sign == "F" else None,
+            "reason": "",
+            "measured_ul": None,
+            "expected_ul": None,
+        }
+        for letter, well, sign in zip("ABCDEFGH", wells, told, strict=True)
+    ]
+    return entry
+
+
 def overview(*deliveries: dict[str, Any], **changes: Any) -> dict[str, Any]:
     """A run of these deliveries."""
     return {

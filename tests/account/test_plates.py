@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from aegis_ot.account import plate_maps
 
-from .overviews import delivery, overview
+from .overviews import delivery, overview, row
 
 
 def cells(*deliveries: dict) -> dict:
@@ -49,3 +49,19 @@ def test_states_of_a_delivery() -> None:
 def test_a_well_that_a_person_decided_says_so() -> None:
     decision = {"outcome": "pass", "by": "Ada", "note": "", "at": 1.0}
     assert cells(delivery(0, decisions=[decision]))["A1"].decided
+
+
+def test_each_channel_of_a_row_gives_its_well_its_state() -> None:
+    found = cells(row(0, "..F?uu.."))
+    states = [found[f"{letter}1"].state for letter in "ABCDEFGH"]
+    wanted = ["pass", "pass", "fail", "undecided", "unobserved", "unobserved", "pass", "pass"]
+    assert states == wanted
+    assert (found["C1"].failure, found["A1"].failure) == ("no dispense", "")
+
+
+def test_a_well_that_was_not_seen_once_is_not_shown_as_passed() -> None:
+    again = row(1, "........")
+    for keyframe in again["keyframes"]:
+        for well in keyframe["destinations"]:
+            well["name"] = well["name"].replace("2", "1")
+    assert cells(row(0, "uuuuuuuu"), again)["A1"].state == "unobserved"

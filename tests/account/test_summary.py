@@ -6,7 +6,7 @@ import json
 
 from aegis_ot.account import run_account
 
-from .overviews import delivery, hold, overview
+from .overviews import delivery, hold, overview, row
 
 
 def test_counts_flagged_wells_holds_and_latency() -> None:
@@ -34,3 +34,13 @@ def test_a_run_without_deliveries_has_an_account() -> None:
     account = run_account(overview())
     assert account["counts"] == {"wells": 0}
     assert account["latency"]["hold_s"]["median"] is None
+
+
+def test_wells_that_the_camera_did_not_see_are_named_and_do_not_count_as_passed() -> None:
+    account = run_account(overview(row(0, "uuuuuu.."), row(1, "uuuuuuuu")))
+    assert account["counts"] == {"pass": 1, "unobserved": 1, "wells": 2}
+    assert account["unobserved"] == [
+        *(f"{letter}1" for letter in "ABCDEF"), *(f"{letter}2" for letter in "ABCDEFGH"),
+    ]  # fmt: skip
+    told = account["wells"][0]["channels"]
+    assert (told[0]["well"], told[0]["outcome"], told[7]["outcome"]) == ("A1", "unobserved", "pass")

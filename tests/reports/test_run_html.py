@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from aegis_ot.reports.run_html import report_run, run_report_html
-from tests.account.overviews import delivery, hold, overview
+from tests.account.overviews import delivery, hold, overview, row
 from tests.sidecar.helpers import make_jpeg
 
 
@@ -52,3 +52,10 @@ def test_it_tells_all_that_the_account_holds() -> None:
 def test_what_a_run_says_of_itself_is_no_markup() -> None:
     text = page(overview(delivery(0), protocol="<script>alert(1)</script>.py"))
     assert "<script" not in text
+
+
+def test_wells_that_the_camera_did_not_see_are_said_to_be_such() -> None:
+    text = page(overview(row(0, "uuF.....")))
+    assert "2 wells were not seen by the camera" in text
+    assert 'aria-label="A1: not seen by the camera"' in text
+    assert 'aria-label="C1: failed, no dispense"' in text

@@ -21,6 +21,7 @@ class FakeSidecar:
 
     Attributes:
         keyframes: Those stored, per run, in order; a resent one is stored once.
+        channels: What a verdict says of each nozzle, by trajectory number.
         outcomes: Verdict by trajectory number; ``"pass"`` by default, ``None`` for never.
         findings: Further members of the verdict, by trajectory number.
         requests: ``(method, path, body)`` of every request that was read.
@@ -34,6 +35,7 @@ class FakeSidecar:
         self.findings: dict[int, dict[str, Any]] = {}
         self.recoveries: list[dict[str, Any]] = []
         self.decided: dict[int, str] = {}
+        self.channels: dict[int, list[dict[str, Any]]] = {}
         self.actions: dict[int, str] = {}
         self.order: dict[str, Any] | None = None
         self.requests: list[tuple[str, str, Any]] = []
@@ -174,6 +176,8 @@ class Handler(BaseHTTPRequestHandler):
             return None
         verdict = {"run": run, "trajectory": number, "outcome": outcome, "route": "grey_zone"}
         verdict["reason"] = "the column is too long"
+        if number in owner.channels:
+            verdict["channels"] = owner.channels[number]
         if outcome == "fail":
             verdict["failure"] = "partial_dispense"
         verdict.update(owner.findings.get(number, {}))

@@ -57,6 +57,29 @@ def test_a_multi_channel_keyframe_names_every_well_once() -> None:
     assert frame.channels == 8
     assert [well.name for well in frame.sources] == ["A1"]
     assert [well.name for well in frame.destinations] == [f"{row}2" for row in "ABCDEFGH"]
+    assert frame.nozzles == tuple(f"{row}1" for row in "ABCDEFGH")
+    assert [well and well.name for well in frame.targets] == [f"{row}2" for row in "ABCDEFGH"]
+
+
+def test_channels_that_share_a_trough_have_one_well_each_all_the_same() -> None:
+    def protocol(context: Any) -> None:
+        rack = context.load_labware("opentrons_96_tiprack_300ul", "1")
+        trough = context.load_labware("nest_12_reservoir_15ml", "2")
+        pipette = context.load_instrument("p300_multi_gen2", "left", [rack])
+        pipette.transfer(50, trough["A1"], trough["A2"])
+
+    frame = record(protocol, "2.15").keyframes[-1]
+    assert [well.name for well in frame.destinations] == ["A2"]
+    assert [well and well.name for well in frame.targets] == ["A2"] * 8
+
+
+def test_a_single_tip_names_no_nozzles() -> None:
+    def protocol(context: Any) -> None:
+        plate, pipette = deck(context)
+        pipette.transfer(50, plate["A1"], plate["A2"])
+
+    frame = record(protocol, "2.15").keyframes[-1]
+    assert (frame.channels, frame.nozzles, frame.targets) == (1, (), ())
 
 
 @pytest.mark.parametrize("api", ["2.13", "2.20"])

@@ -319,3 +319,48 @@ def test_a_core_of_an_unknown_version_is_neither_stopping_nor_paused() -> None:
     state = RunState(types.SimpleNamespace(_core=object()))
     assert not state.stopping
     assert not state.paused
+
+
+def columns(context: Any) -> None:
+    tips = context.load_labware("opentrons_96_tiprack_300ul", "1")
+    plate = context.load_labware("corning_96_wellplate_360ul_flat", "2", "plate")
+    pipette = context.load_instrument("p300_multi_gen2", "left", [tips])
+    for column in (1, 2):
+        pipette.transfer(50, plate.columns()[0][0], plate.columns()[column][0])
+
+
+def channels(column: int, told: str) -> list[dict[str, Any]]:
+    words = {".": "pass", "F": "fail", "u": "unobserved"}
+    return [
+        {
+            "nozzle": f"{row}1",
+            "outcome": words[sign],
+            "well": {"labware": "p", "name": f"{row}{column}", "label": "plate", "slot": "2"},
+        }
+        for row, sign in zip("ABCDEFGH", told, strict=True)
+    ]
+
+
+def test_wells_that_the_camera_cannot_see_are_told_once_and_hold_nothing(
+    sidecar: FakeSidecar,
+) -> None:
+    sidecar.channels = {0: channels(2, "uuuuu..."), 1: channels(3, "uuuuu...")}
+    watcher, texts, error = watch(columns, settings(sidecar, on_fail="abort"))
+    assert error is None
+    told = [text for text in said(texts) if "does not see" in text]
+    assert len(told) == 1
+    assert "A2 to E2 of plate (slot 2)" in told[0]
+    assert "10 wells unobserved" in watcher.summary()
+
+
+def test_a_failed_channel_holds_the_run_with_its_well_named(sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[1] = "fail"
+    sidecar.channels = {1: channels(3, "..F....F")}
+    _, _, error = watch(columns, settings(sidecar, on_fail="abort"))
+    assert "Delivery into C3, H3 of plate (slot 2) failed" in str(error)
+
+
+def test_a_row_of_which_no_tip_was_seen_has_not_passed(sidecar: FakeSidecar) -> None:
+    sidecar.channels = {0: channels(2, "uuuuuuuu"), 1: channels(3, "........")}
+    watcher, _, _ = watch(columns, settings(sidecar))
+    assert "1 passed" in watcher.summary()

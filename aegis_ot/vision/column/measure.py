@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..tips import TipGeometry, pipette_class, tip_for
 from ..types import Image, TipDetection
+from .alone import alone
 from .axis import rectify
 from .breaks import Break, find_break
 from .evidence import (
@@ -141,9 +142,13 @@ def look_at_tip(
     ``length``: of the tip in px, where other frames of the trajectory show it better.
     """
     shape = shape_for(pipette, capacity_ul)
+    left, top = 0, 0
+    if detection.apart is not None:
+        image, detection, (left, top) = alone(image, detection, shape)
     strip = rectify(image, detection, shape, length=length)
     cone = unroll(strip, shape)
-    return TipLook(tip_profile(strip, shape, cone), cone, strip.collar, strip.orifice)
+    collar, orifice = ((x + left, y + top) for x, y in (strip.collar, strip.orifice))
+    return TipLook(tip_profile(strip, shape, cone), cone, collar, orifice)
 
 
 def measure_column(

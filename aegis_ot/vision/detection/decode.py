@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -127,6 +128,21 @@ def candidates(maps: Maps, least: float, count: int) -> list[Candidate]:
         if all(_apart(candidate, other) for other in kept):
             kept.append(candidate)
     return kept[:count]
+
+
+def peaks(maps: Maps, kind: int, least: float) -> list[tuple[float, float, float]]:
+    """Every local maximum of one end's heat: x, y in px of the view, and the heat.
+
+    Args:
+        maps: Output of the network for one view, shape ``(7, rows, columns)``.
+        kind: :data:`COLLAR` or :data:`ORIFICE`.
+        least: Heat below which nothing counts, 0 to 1.
+    """
+    heat = np.ascontiguousarray(maps[kind])
+    highest = cv2.dilate(heat, np.ones((3, 3), np.uint8))
+    places = np.argwhere((heat >= highest) & (heat >= least))
+    found = (_peak(maps, kind, int(row), int(column)) for row, column in places)
+    return [(peak.x, peak.y, peak.heat) for peak in found]
 
 
 def _apart(a: Candidate, b: Candidate) -> bool:

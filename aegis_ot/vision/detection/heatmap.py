@@ -12,15 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ModelError
-from ..types import Image, TipDetection
-from .decode import Candidate, candidates
+from ..types import End, Ends, Image, TipDetection
+from .decode import COLLAR, ORIFICE, Candidate, candidates, peaks
 from .session import check_image, open_session
-from .views import CLOSE_UP_TOP, View, close_up, overview
+from .views import CLOSE_UP_TOP, View, close_up, overview, row_view
 
 FORMAT = "aegis-ot-tip-detector/1"
 _WEIGHTS = "tip_detector.onnx"
 _GLANCE = 0.05  # score from which a candidate of the overview is looked at closely
 _LOOKS = 3
+_LEAST_HEAT = 0.08  # of an end of one of several tips
 _RIVAL = 0.4
 _AIM = 5.0  # px of the close-up by which the first aim may be off
 _STRETCH = 0.05  # and the logarithm of its scale
@@ -127,6 +128,22 @@ class HeatmapDetector:
         if again is not None and again[0].score >= found.score:
             found, view = again
         return _detection(found, view, score, image.shape[1], image.shape[0])
+
+    def ends(self, image: Image, tip: TipDetection, reach: float) -> Ends:
+        """All that looks like an end of a tip up to ``reach`` px beside ``tip``.
+
+        For a row of tips: a close-up has one tip at its middle, and the vector of a tip's end
+        goes astray where others stand near; the ends themselves are found apart.
+        """
+        view = row_view(image, tip.collar, tip.orifice, reach)
+        maps = self._maps([view])[0]
+
+        def found(kind: int) -> tuple[End, ...]:
+            return tuple(
+                End(*view.to_frame(x, y), heat) for x, y, heat in peaks(maps, kind, _LEAST_HEAT)
+            )
+
+        return Ends(found(COLLAR), found(ORIFICE))
 
     def _again(self, image: Image, found: Candidate, view: View) -> tuple[Candidate, View] | None:
         """A second close-up, aimed with the first one, where the first was aimed badly."""

@@ -61,6 +61,24 @@ def overview(image: Image) -> View:
     return View(padded, w / width, h / height, 0.0, 0.0)
 
 
+def row_view(
+    image: Image, collar: tuple[float, float], orifice: tuple[float, float], reach: float
+) -> View:
+    """A strip of the frame up to ``reach`` px on both sides of a tip, scaled as a close-up."""
+    length = max(8.0, float(np.hypot(orifice[0] - collar[0], orifice[1] - collar[1])))
+    scale = CLOSE_UP_TIP / length
+    rows, columns = image.shape[:2]
+    middle, margin = (collar[0] + orifice[0]) / 2, 0.35 * length
+    x0, x1 = (int(np.clip(x, 0, columns)) for x in (middle - reach, middle + reach))
+    y0, y1 = (int(np.clip(y, 0, rows)) for y in (collar[1] - margin, orifice[1] + margin))
+    part = image[y0 : max(y1, y0 + 1), x0 : max(x1, x0 + 1)]
+    w, h = (max(2, round(side * scale)) for side in part.shape[1::-1])
+    mode = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
+    padded = np.zeros((-(-h // _MULTIPLE) * _MULTIPLE, -(-w // _MULTIPLE) * _MULTIPLE, 3), np.uint8)
+    padded[:h, :w] = cv2.resize(part, (w, h), interpolation=mode)
+    return View(padded, w / part.shape[1], h / part.shape[0], float(x0), float(y0))
+
+
 def close_up(image: Image, collar: tuple[float, float], orifice: tuple[float, float]) -> View:
     """The surroundings of a tip that is thought to run from ``collar`` to ``orifice``, frame px.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ModelError
-from ..types import Image, TipDetection
+from ..types import End, Ends, Image, TipDetection
 from .edges import axis_in_box
 from .session import check_image, open_session
 
@@ -93,19 +94,28 @@ class YoloDetector:
             ModelError: The network's output has another layout than documented.
             ValueError: The image has another shape or type.
         """
+        return next(self._tips(image), None)
+
+    def ends(self, image: Image, tip: TipDetection, reach: float) -> Ends:
+        """Both ends of every box up to ``reach`` px beside ``tip``."""
+        tips = [one for one in self._tips(image) if abs(one.collar[0] - tip.collar[0]) <= reach]
+        return Ends(
+            tuple(End(*one.collar, one.confidence) for one in tips),
+            tuple(End(*one.orifice, one.confidence) for one in tips),
+        )
+
+    def _tips(self, image: Image) -> Iterator[TipDetection]:
         check_image(image)
         canvas, scale, left, top = self._letterbox(image)
         boxes, scores = self._boxes(canvas)
-        kept = suppress(boxes, scores, self._overlap)
-        if not kept:
-            return None
-        cx, cy, w, h = boxes[kept[0]]
-        x0 = float(np.clip((cx - w / 2 - left) / scale, 0, image.shape[1]))
-        x1 = float(np.clip((cx + w / 2 - left) / scale, 0, image.shape[1]))
-        y0 = float(np.clip((cy - h / 2 - top) / scale, 0, image.shape[0]))
-        y1 = float(np.clip((cy + h / 2 - top) / scale, 0, image.shape[0]))
-        collar, orifice = axis_in_box(image, x0, y0, x1 - x0, y1 - y0)
-        return TipDetection(x0, y0, x1 - x0, y1 - y0, float(scores[kept[0]]), orifice, collar)
+        for row in suppress(boxes, scores, self._overlap):
+            cx, cy, w, h = boxes[row]
+            x0 = float(np.clip((cx - w / 2 - left) / scale, 0, image.shape[1]))
+            x1 = float(np.clip((cx + w / 2 - left) / scale, 0, image.shape[1]))
+            y0 = float(np.clip((cy - h / 2 - top) / scale, 0, image.shape[0]))
+            y1 = float(np.clip((cy + h / 2 - top) / scale, 0, image.shape[0]))
+            collar, orifice = axis_in_box(image, x0, y0, x1 - x0, y1 - y0)
+            yield TipDetection(x0, y0, x1 - x0, y1 - y0, float(scores[row]), orifice, collar)
 
     def _letterbox(self, image: Image) -> tuple[NDArray[np.float32], float, int, int]:
         height, width = image.shape[:2]

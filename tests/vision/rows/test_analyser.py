@@ -1,0 +1,161 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from aegis_ot.sidecar import make_analyser
+from aegis_ot.simulation import FrameTruth
+from aegis_ot.vision.detection import HeatmapDetector
+from aegis_ot.vision.monitor import RunMonitor
+from aegis_ot.vision.rows import ChannelAnalyser
+from aegis_ot.vision.types import End, Ends, Image, TipDetection
+from aegis_ot.vocabulary import (
+    ChannelOutcome,
+    FailureType,
+    Keyframe,
+    Outcome,
+    Verdict,
+    from_json,
+    to_json,
+)
+
+from .frames import frames
+
+
+class Told:
+    """Knows the ends of all tips that are in view."""
+
+    truth: FrameTruth
+
+    def detect(self, _image: Image) -> TipDetection | None:
+        tip = self.truth.tip
+        return None if tip.box is None else TipDetection(*tip.box, 0.9, tip.orifice, tip.collar)
+
+    def ends(self, _image: Image, _tip: TipDetection, _reach: float) -> Ends:
+        tips = [tip for tip in self.truth.tips if tip.box is not None]
+        return Ends(
+            tuple(End(*tip.collar, 0.9) for tip in tips),
+            tuple(End(*tip.orifice, 0.9) for tip in tips),
+        )
+
+
+def judge(angle: float, faults: Sequence[str] = (), columns: int = 2) -> list[Any]:
+    detector = Told()
+    analyser, judged = RunMonitor(detector).begin("run"), []
+    for keyframe, frame, truth in frames(angle, faults, columns):
+        detector.truth = truth
+        analyser.observe(keyframe, frame)
+        if keyframe.kind.value == "post_dispense":
+            judged.append(analyser.judge(keyframe.trajectory))
+    return judged
+
+
+@pytest.fixture(scope="module")
+def run() -> list[Any]:
+    return judge(30, ["no_dispense@C2"])
+
+
+def outcomes(verdict: Verdict) -> str:
+    signs = {"pass": ".", "fail": "F", "undecided": "?", "unobserved": "u"}
+    return "".join(signs[channel.outcome.value] for channel in verdict.channels)
+
+
+def test_each_channel_has_its_verdict(run: list[Any]) -> None:
+    (first, _), (second, _) = run
+    assert (first.outcome, outcomes(first)) == (Outcome.PASS, "........")
+    assert (second.outcome, outcomes(second)) == (Outcome.FAIL, "..F.....")
+    assert second.failure is FailureType.NO_DISPENSE
+    assert second.reason.startswith("C2: ")
+    wells = [channel.well.name for channel in second.channels if channel.well]
+    assert wells == [f"{row}2" for row in "ABCDEFGH"]
+    assert second.channels[2].measured_ul == pytest.approx(100, rel=0.2)
+
+
+def test_the_page_shows_the_gravest_tip(run: list[Any]) -> None:
+    (_, _), (verdict, evidence) = run
+    assert (evidence["channels"], evidence["tips_judged"]) == (8, 8)
+    assert evidence["boxes"] == evidence["lanes"]["C1"]["boxes"]
+    told = json.loads(json.dumps([to_json(verdict), evidence]))
+    assert from_json(Verdict, told[0]) == verdict
+
+
+def test_hidden_tips_are_neither_passed_nor_failed() -> None:
+    ((verdict, evidence),) = judge(90, ["no_dispense@C1"], columns=1)
+    assert (verdict.outcome, outcomes(verdict)) == (Outcome.PASS, "uuuuuuuu")
+    assert evidence["tips_judged"] == 0
+    assert "nothing was judged" in verdict.reason
+
+
+def test_a_head_that_lost_all_its_tips_fails_where_the_row_is_known() -> None:
+    lost = [f"no_tip@{row}2" for row in "ABCDEFGH"]
+    (_, (verdict, _)) = judge(30, lost)
+    assert (verdict.outcome, outcomes(verdict)) == (Outcome.FAIL, "FFFFFFFF")
+    assert verdict.failure is FailureType.NO_TIP
+
+
+def test_tips_that_cannot_be_told_apart_are_undecided() -> None:
+    ((verdict, _),) = judge(0, ["no_tip@A1"], columns=1)
+    assert (verdict.outcome, outcomes(verdict)) == (Outcome.UNDECIDED, "????????")
+    assert "7 of 8 tips" in verdict.reason
+
+
+def test_a_tip_missing_within_the_row_fails_its_own_well() -> None:
+    ((verdict, _),) = judge(30, ["no_tip@D1"], columns=1)
+    assert (verdict.outcome, outcomes(verdict)) == (Outcome.FAIL, "...F....")
+    assert verdict.channels[3].failure is FailureType.NO_TIP
+
+
+def test_a_restarted_sidecar_takes_up_what_it_knew(run: list[Any]) -> None:
+    history = [(verdict, json.loads(json.dumps(evidence))) for verdict, evidence in run]
+    analyser = make_analyser(detector=Told()).begin("run", history)
+    assert isinstance(analyser, ChannelAnalyser)
+    known = analyser._lanes["left", "B1"]._streams.values()
+    assert known
+    assert set(analyser._lanes) == {("left", f"{row}1") for row in "ABCDEFGH"}
+
+
+def test_a_block_of_tips_is_unobserved() -> None:
+    analyser = RunMonitor(Told()).begin("run")
+    for keyframe, frame, _ in frames(90):
+        nozzles = ("A1", "B1", "A2", "B2")
+        block = replace(
+            keyframe, channels=4, nozzles=nozzles, targets=keyframe.targets[:4],
+            destinations=keyframe.destinations[:4],
+        )  # fmt: skip
+        analyser.observe(block, frame)
+    verdict, _ = analyser.judge(0)
+    assert {channel.outcome for channel in verdict.channels} == {ChannelOutcome.UNOBSERVED}
+
+
+def test_frames_that_are_no_images_are_undecided() -> None:
+    analyser = RunMonitor(Told()).begin("run")
+    for keyframe, frame, _ in frames(30):
+        analyser.observe(keyframe, replace(frame, image=np.zeros((0, 0, 3), np.uint8)))
+    assert analyser.judge(0)[0].outcome is Outcome.UNDECIDED
+
+
+def test_the_shipped_detector_does_all_this() -> None:
+    analyser = RunMonitor(HeatmapDetector()).begin("run")
+    verdicts = []
+    for keyframe, frame, _ in frames(15, ["no_dispense@F2"], 2):
+        analyser.observe(keyframe, frame)
+        if keyframe.kind.value == "post_dispense":
+            verdicts.append(analyser.judge(keyframe.trajectory)[0])
+    assert [outcomes(verdict) for verdict in verdicts] == ["........", ".....F.."]
+
+
+def test_an_older_robot_names_no_nozzles_and_is_judged_all_the_same() -> None:
+    detector = Told()
+    analyser = RunMonitor(detector).begin("run")
+    for keyframe, frame, truth in frames(30):
+        detector.truth = truth
+        old: Keyframe = replace(keyframe, nozzles=(), targets=())
+        analyser.observe(old, frame)
+    verdict, _ = analyser.judge(0)
+    assert outcomes(verdict) == "........"
+    assert verdict.channels[7].name == "H1"
