@@ -11,7 +11,7 @@ from aegis_ot.sidecar.config import DEFAULT_PORT, ENVIRONMENT
 ROOT = Path(__file__).parents[1]
 UNIT = (ROOT / "deploy" / "aegis-ot-sidecar.service").read_text(encoding="utf-8")
 CONTAINER = (ROOT / "deploy" / "Containerfile").read_text(encoding="utf-8")
-PAGE = (ROOT / "docs" / "service.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "how-to" / "service.md").read_text(encoding="utf-8")
 
 
 def test_the_unit_starts_the_sidecar_and_stops_it_cleanly() -> None:

@@ -9,7 +9,7 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 11_150,
+    "preflight": 11_200,
     "preflight/checks": 2_530,
     "preflight/database": 400,
     "preflight/evidence": 1_000,

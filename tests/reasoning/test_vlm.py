@@ -80,6 +80,15 @@ def test_three_passes_pass() -> None:
     assert decision.gate is Gate.VLM
 
 
+def test_three_passes_do_not_clear_what_alarms_the_scorer() -> None:
+    alarming = replace(case(), p_value=1e-5, alarm_p=3e-4)
+    gates = Gates([VlmGate(ScriptedBackend([said("pass", "pass", "pass")])), OperatorGate()])
+    decision = gates.confirm(alarming)
+    assert (decision.outcome, decision.gate) == (Outcome.UNDECIDED, Gate.OPERATOR)
+    assert "3 of 3 assessments pass it" in decision.reason
+    assert "very unusual all the same" in decision.reason
+
+
 @pytest.mark.parametrize("verdicts", [("fail", "pass", "pass"), ("pass", "fail", "cannot_tell")])
 def test_any_lens_fails_the_well(verdicts: tuple[str, str, str]) -> None:
     decision = decide(said(*verdicts, skeptical_failure="partial_dispense"))

@@ -136,7 +136,9 @@ def keyframes(sample: TrajectorySample, number: int) -> list[Keyframe]:
             pipette=sample.pipette,
             mount="left",
             channels=1,
-            tip="",
+            tip=str(
+                number
+            ),  # every well is judged by itself: no leftover of the one before explains it
             sources=(),
             destinations=(well,),
             commanded_ul=sample.volume_ul,

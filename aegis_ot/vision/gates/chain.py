@@ -31,7 +31,7 @@ class Gates:
     def confirm(self, case: Case) -> GateDecision:
         """Ask one after another until one decides.
 
-        If none does, the last one's answer stands, with the first one's reason and readings.
+        If none does, the last one's answer stands, with all reasons and the first one's readings.
         """
         return _ask(self._gates, case)
 
@@ -50,7 +50,7 @@ def _ask(gates: Sequence[ConfirmingGate], case: Case) -> GateDecision:
     first, last = decisions[0], decisions[-1]
     if last.outcome is not Outcome.UNDECIDED:
         return replace(last, costs=costs, trouble=trouble)
-    reason = in_sentences(first.reason, last.reason)
+    reason = in_sentences(*(decision.reason for decision in decisions))
     return replace(first, gate=last.gate, reason=reason, failure=None, costs=costs, trouble=trouble)
 
 
