@@ -28,6 +28,7 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         ``finished``; ``counts`` by state; ``plates``; ``wells``; ``flagged`` (numbers of the
         deliveries that failed, are undecided, or that a person decided); ``calibration`` per
         liquid and pipette; ``holds``; ``decisions``; ``latency`` (s); ``costs``; ``incidents``;
+        ``audit`` (the look back after the run, ``None`` before there was one);
         ``layer1``; ``guard`` and ``sidecar`` (settings and versions).
     """
     trajectories: Sequence[Mapping[str, Any]] = overview["trajectories"]
@@ -50,6 +51,7 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         "latency": _latency(trajectories),
         "costs": overview.get("costs"),
         "incidents": overview.get("incidents") or [],
+        "audit": overview.get("audit"),
         "layer1": overview.get("layer1"),
         "guard": overview.get("guard"),
         "sidecar": overview.get("sidecar"),

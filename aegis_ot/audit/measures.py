@@ -11,11 +11,13 @@ import numpy as np
 from ..vision.column import Wetness, ceiling
 from ..vision.column_reader import Look, MeasuredColumns, Well
 from ..vision.delivery import Shown
+from ..vision.first_wells import FirstWells
+from ..vision.gates import Case, VolumetricGate
 from ..vision.run_scorer import RunScorer
 from ..vision.scorers.ensemble import EnsembleScorer
 from ..vision.tips import tip_for
 from ..vision.types import FREE
-from ..vocabulary import KeyframeKind
+from ..vocabulary import KeyframeKind, Outcome, Route
 from .wells import RunWell
 
 TRANSIT, AFTER = FREE
@@ -29,6 +31,9 @@ would teach it nothing."""
 
 _REFERENCE = 8
 """Wells, spread over the run, that the scorer adapts to; beyond eight more change little."""
+
+_FIRST_SHARE, _FIRST_LEAST = 1 / 3, 4
+"""Share of the wells that are the run's first ones, and how many they are at least."""
 
 _LOADED_NEAR = 0.03
 """A meniscus in transit this close to its place, tip lengths, is the drawn column's."""
@@ -49,12 +54,18 @@ class Measures:
         left_ul: Volume of a column of each of :data:`HEIGHTS`, µL.
         power: How plainly the liquid shows in this run: squared distance of full from empty.
         meniscus: Whether the drawn column's end is seen where it should be in transit.
+        contradiction: How the measured columns contradict the protocol's volumes; empty if they
+            do not.
+        since: The signs of the free frames read beside the run's first wells alone: a fault that
+            creeps in has spoiled what the later ones teach.
     """
 
     signs: Mapping[str, float]
     left_ul: Mapping[str, float] = field(default_factory=dict)
     power: float = 0.0
     meniscus: bool = False
+    contradiction: str = ""
+    since: Mapping[str, float] = field(default_factory=dict)
 
 
 def measure(
@@ -76,18 +87,25 @@ def measure(
     scored = _scores(wells, trusted, scorer)
     strengths = [well.delivery.strength for well in wells if well.delivery.shown is Shown.EMPTIED]
     usual = float(np.median(strengths)) if 2 * len(strengths) > len(wells) else None
+    proven = FirstWells(ask=False)
+    for strength in strengths:
+        proven.restore(wells[0].liquid, strength)
+    first = max(round(_FIRST_SHARE * len(wells)), _FIRST_LEAST)
     found = []
     for place, well in enumerate(wells):
-        others = [
-            pair
-            for other, pair in enumerate(taught)
-            if other != place and trusted[other] and well.sample.id != wells[other].sample.id
-        ]
-        seen = _read(well, reader, _spread(others, _TEACHERS))
+        others = [at for at in range(len(wells)) if at != place and trusted[at]]
+        teachers = _spread([taught[at] for at in others], _TEACHERS)
+        seen = _read(well, reader, teachers)
+        since = _read(well, reader, [taught[at] for at in others if at < first])
         signs = dict(seen.signs) | scored[place][0]
         if usual is not None and well.delivery.shown is not Shown.UNKNOWN:
             signs["faint"] = 1.0 - well.delivery.strength / usual
-        found.append(Measures(signs, seen.left_ul, seen.power, scored[place][1]))
+        found.append(
+            Measures(
+                signs, seen.left_ul, seen.power, scored[place][1],
+                _contradiction(well, reader, teachers, proven), since.signs,
+            )
+        )  # fmt: skip
     return found
 
 
@@ -120,6 +138,21 @@ def _read(well: RunWell, reader: MeasuredColumns, others: Sequence[Well]) -> Mea
     return Measures(signs, volumes, 0.0 if before is None else before.power)
 
 
+def _contradiction(
+    well: RunWell, reader: MeasuredColumns, teachers: Sequence[Well], proven: FirstWells
+) -> str:
+    """What the volumetric gate says against it, all other wells known."""
+    readings = reader.read_beside(well.looks, well.sample.expected_ul, teachers)
+    found = well.sample.detections.items()
+    case = Case(
+        well.sample, Route.SILENT_PASS, None, readings,
+        tuple(kind for kind, tip in found if tip is None), clearly_absent=False,
+        delivery=proven.held_against(well.liquid, well.delivery),
+    )  # fmt: skip
+    said = VolumetricGate().examine(case)
+    return said.reason if said.outcome is Outcome.FAIL else ""
+
+
 def _put(
     signs: dict[str, float], name: str, wet: Wetness, low: float, high: float, full: bool = False
 ) -> None:
@@ -137,7 +170,8 @@ def _scores(
     wells: Sequence[RunWell], trusted: Sequence[bool], scorer: EnsembleScorer
 ) -> list[tuple[dict[str, float], bool]]:
     """Signs of the image scorer, adapted to wells of the whole run but the one that it scores."""
-    able = [well for well, trust in zip(wells, trusted, strict=True) if trust and not well.without_tip]
+    pairs = zip(wells, trusted, strict=True)
+    able = [well for well, trust in pairs if trust and not well.without_tip]
     places = np.unique(np.linspace(0, len(able) - 1, min(_REFERENCE, len(able))).round().astype(int))
     chosen = [able[at] for at in places] if able else []
     found: list[tuple[dict[str, float], bool]] = [({}, False)] * len(wells)

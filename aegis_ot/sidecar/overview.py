@@ -13,7 +13,7 @@ from .store import Store
 
 def run_overview(store: Store, run: str) -> dict[str, Any]:
     """All that the store knows of a run: its start and end, and per trajectory its keyframes,
-    verdict (as it stands, and as it was judged), evidence, decisions, hold.
+    verdict (as it stands, and as it was judged), evidence, decisions, hold; the audit.
 
     Returns:
         The answer of ``GET /v1/runs/{run}``, without ``version``.
@@ -57,6 +57,7 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
         "costs": _costs(evidence for _, evidence, _ in verdicts.values()),
         "actions": store.actions(run),
         "incidents": store.incidents(run),
+        "audit": store.audit(run),
     }
 
 

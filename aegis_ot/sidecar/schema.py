@@ -55,6 +55,11 @@ MIGRATIONS: tuple[str, ...] = (
     CREATE INDEX incidents_of ON incidents (run, kind);
     CREATE INDEX keyframes_of ON keyframes (run, captured);
     """,
+    """
+    CREATE TABLE audits (
+        run TEXT PRIMARY KEY REFERENCES runs, audit TEXT NOT NULL, at REAL NOT NULL
+    );
+    """,
 )
 """One script per version, ``user_version`` counting those done. Only ever append."""
 
