@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 
@@ -19,6 +20,8 @@ from ..vision.tips import tip_for
 from ..vision.types import FREE
 from ..vocabulary import KeyframeKind, Outcome, Route
 from .wells import RunWell
+
+T = TypeVar("T")
 
 TRANSIT, AFTER = FREE
 
@@ -109,7 +112,7 @@ def measure(
     return found
 
 
-def _spread(items: Sequence[Well], most: int) -> list[Well]:
+def _spread(items: Sequence[T], most: int) -> list[T]:
     """At most so many, spread over the run."""
     if len(items) <= most:
         return list(items)
@@ -172,7 +175,9 @@ def _scores(
     """Signs of the image scorer, adapted to wells of the whole run but the one that it scores."""
     pairs = zip(wells, trusted, strict=True)
     able = [well for well, trust in pairs if trust and not well.without_tip]
-    places = np.unique(np.linspace(0, len(able) - 1, min(_REFERENCE, len(able))).round().astype(int))
+    places = np.unique(
+        np.linspace(0, len(able) - 1, min(_REFERENCE, len(able))).round().astype(int)
+    )
     chosen = [able[at] for at in places] if able else []
     found: list[tuple[dict[str, float], bool]] = [({}, False)] * len(wells)
     scorer.calibrate([well.sample for well in chosen])

@@ -68,9 +68,8 @@ class Audit:
 
     def to_json(self) -> dict[str, Any]:
         """Plain values, ranked; what the store keeps."""
-        told = {"format": FORMAT, "version": VERSION} | asdict(self)
-        told["suspects"] = [
-            {"rank": rank} | one | {"score": round(one["score"], 2)}
-            for rank, one in enumerate(told["suspects"], 1)
+        suspects = [
+            {"rank": rank} | asdict(one) | {"score": round(one.score, 2)}
+            for rank, one in enumerate(self.suspects, 1)
         ]
-        return told
+        return {"format": FORMAT, "version": VERSION} | asdict(self) | {"suspects": suspects}

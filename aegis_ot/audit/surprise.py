@@ -83,11 +83,11 @@ def standings(measured: Sequence[Measures], trusted: Sequence[bool]) -> list[Sta
         ]
         if len(known) >= _ENOUGH:
             usual[sign] = float(np.median(known))
-            spread[sign] = max(1.48 * float(np.median(np.abs(np.array(known) - usual[sign]))), least)
+            spread[sign] = max(
+                1.48 * float(np.median(np.abs(np.array(known) - usual[sign]))), least
+            )
     return [
-        Standing(
-            {s: (v - usual[s]) / spread[s] for s, v in one.signs.items() if s in usual}, usual
-        )
+        Standing({s: (v - usual[s]) / spread[s] for s, v in one.signs.items() if s in usual}, usual)
         for one in measured
     ]
 

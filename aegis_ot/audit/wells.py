@@ -6,8 +6,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-import numpy as np
-
 from ..errors import StoreError
 from ..evaluation.layer2 import Progress
 from ..evaluation.layer2.recorded import recorded_runs
@@ -143,13 +141,11 @@ def _well(
     describe(sample)
     frames.clear()
     delivery = delivery_of(looks, sample.expected_ul)
-    return RunWell(
-        int(entry["trajectory"]), keyframe, entry, recorded, sample, looks, delivery
-    )
+    return RunWell(int(entry["trajectory"]), keyframe, entry, recorded, sample, looks, delivery)
 
 
 def by_liquid(wells: Sequence[RunWell]) -> Iterator[list[RunWell]]:
-    """Wells that look alike when all is well, in order: one pipette, one kind of tip, one liquid."""
+    """Wells that look alike when all is well, in order: of one pipette, kind of tip and liquid."""
     streams: dict[Liquid, list[RunWell]] = {}
     for well in wells:
         streams.setdefault(well.liquid, []).append(well)

@@ -77,9 +77,7 @@ def no_liquid_words(wells: Sequence[RunWell]) -> list[str]:
     ]
 
 
-def neighbour_words(
-    well: RunWell, wells: Sequence[RunWell]
-) -> Iterator[tuple[str, float]]:
+def neighbour_words(well: RunWell, wells: Sequence[RunWell]) -> Iterator[tuple[str, float]]:
     """What failures near by say, and how much that counts, nats."""
     for other in wells:
         if other is well or other.outcome != "fail":
@@ -112,11 +110,12 @@ def _sentence(sign: str, well: RunWell, measured: Measures, usual: float, beside
     tip = tip_for(well.keyframe.pipette, well.keyframe.capacity_ul)
     mm = abs(value - usual) * tip.length_mm
     drawn = well.sample.expected_ul[KeyframeKind.TRANSIT]
+    lacking = drawn * max(min(value, 1.0) - max(usual, 0.0), 0.0)
     said: Mapping[str, str] = {
         "retained": "The two frames after the dispense together speak more for a column that "
         f"stayed ({value**2:.0f} nats) than those of {beside} ({usual**2:.0f}).",
         "short": f"In transit the column looks {_share(1 - value)} filled, in {beside} "
-        f"{_share(1 - usual)}: about {_ul(drawn * max(min(value, 1.0) - max(usual, 0.0), 0.0))} may be missing.",
+        f"{_share(1 - usual)}: about {_ul(lacking)} may be missing.",
         "gap": f"The column in transit has a stronger break than in {beside}: air may have been "
         "drawn.",
         "low": f"In transit the column ends {mm:.1f} mm lower than in {beside}: too little may "
