@@ -38,6 +38,10 @@ _REFERENCE = 8
 _FIRST_SHARE, _FIRST_LEAST = 1 / 3, 4
 """Share of the wells that are the run's first ones, and how many they are at least."""
 
+_ANOTHER_EDGE = 0.04
+"""A meniscus farther than this from its place, tip lengths, is no surer a sign: it may be another
+edge."""
+
 _LOADED_NEAR = 0.03
 """A meniscus in transit this close to its place, tip lengths, is the drawn column's."""
 
@@ -88,11 +92,12 @@ def measure(
         if trust:
             reader.learn(*pair)
     scored = _scores(wells, trusted, scorer)
-    strengths = [well.delivery.strength for well in wells if well.delivery.shown is Shown.EMPTIED]
-    usual = float(np.median(strengths)) if 2 * len(strengths) > len(wells) else None
+    told = [well.delivery for well in wells if well.delivery.shown is not Shown.UNKNOWN]
+    usual = float(np.median([one.strength for one in told])) if told else 0.0
     proven = FirstWells(ask=False)
-    for strength in strengths:
-        proven.restore(wells[0].liquid, strength)
+    for one in told:
+        if one.shown is Shown.EMPTIED:
+            proven.restore(wells[0].liquid, one.strength)
     first = max(round(_FIRST_SHARE * len(wells)), _FIRST_LEAST)
     found = []
     for place, well in enumerate(wells):
@@ -101,7 +106,7 @@ def measure(
         seen = _read(well, reader, teachers)
         since = _read(well, reader, [taught[at] for at in others if at < first])
         signs = dict(seen.signs) | scored[place][0]
-        if usual is not None and well.delivery.shown is not Shown.UNKNOWN:
+        if usual > 0 and well.delivery.shown is not Shown.UNKNOWN:
             signs["faint"] = 1.0 - well.delivery.strength / usual
         found.append(
             Measures(
@@ -200,7 +205,7 @@ def _scored(well: RunWell, scorer: EnsembleScorer) -> tuple[dict[str, float], bo
         signs["retained"] = math.sqrt(max(seen.retained, 0.0))
     off = seen.misfill.get(TRANSIT)
     if off is not None:
-        signs["low"], signs["high"] = off, -off
+        signs["low"], signs["high"] = min(off, _ANOTHER_EDGE), min(-off, _ANOTHER_EDGE)
     if seen.absent is not None:
         signs["absent"] = seen.absent
     return signs, off is not None and abs(off) < _LOADED_NEAR

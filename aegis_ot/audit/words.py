@@ -26,7 +26,7 @@ def reasons(well: RunWell, measured: Measures, standing: Standing, others: int) 
     """
     told = sorted(standing.strongest().values(), key=lambda one: -one[1])
     said = [measured.contradiction] if measured.contradiction else []
-    beside = f"the {counted(others, 'other well')} of {liquid_words(well)}"
+    beside = f"the {counted(others, 'other well')}"
     for sign, surprise in told:
         if surprise >= SPEAKS:
             said.append(_sentence(sign, well, measured, standing.usual[sign], beside))
