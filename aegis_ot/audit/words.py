@@ -47,7 +47,7 @@ def drift_words(drift: Drift, wells: Sequence[RunWell]) -> list[str]:
     of = liquid_words(first)
     if drift.family == "after":
         said = [f"Along the wells of {of} more and more stays in the tip, {where}."]
-        told = {"left_40": "lower part", "left_75": "lower three quarters"}
+        told = {"left_40": "lowest 40 %", "left_75": "lowest 75 %"}
         for sign, part in told.items():
             if sign in drift.changes:
                 said.append(
