@@ -24,7 +24,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from .live_runs import FAULTS, Run, is_question, keyframes_of, runs, session_of
+from .live_runs import FAULTS, Run, is_question, keyframes_of, runs, session_of, well_name
 
 DEVELOPMENT_SEED, REPORT_SEED = 15_000, 20_000
 """First seeds: limits were chosen while looking at the runs of the first, and are reported on those
@@ -67,7 +67,8 @@ def record(store: Any, name: str, run: Run, faults: Sequence[str], looks: bool) 
         looks: Whether an operator who is asked looks; else everything is taken for normal.
 
     Returns:
-        The outcome of each well, ``"pass"`` only where nobody was asked.
+        The outcome of each well, ``"pass"`` only where nobody was asked, during the run or by a
+        later well's doubt.
     """
     from aegis_ot.sidecar import make_analyser
     from aegis_ot.sidecar.analysis import plain
@@ -94,11 +95,23 @@ def record(store: Any, name: str, run: Run, faults: Sequence[str], looks: bool) 
         verdict, evidence = analyser.judge(number)
         store.add_verdict(verdict, plain(evidence))
         outcomes.append(verdict.outcome.value)
-        if is_question(verdict) and number not in struck:
+        doubted = _doubted(verdict, number)
+        if doubted is not None and doubted in struck:
+            outcomes[doubted] = "told later"
+            store.add_decision(name, doubted, Decision(outcome=Outcome.FAIL, by="operator"))
+        if (is_question(verdict) or doubted is not None) and number not in struck:
             analyser.confirm(number)
             store.add_decision(name, number, Decision(outcome=Outcome.PASS, by="operator"))
     store.finish(name, Finish(outcome="succeeded"))
     return outcomes
+
+
+def _doubted(verdict: Any, number: int) -> int | None:
+    """The first well, before this one, that the live run asks about after all."""
+    for earlier in range(number):
+        if verdict.reason.startswith(f"Well {well_name(earlier)} passed as one of the first"):
+            return earlier
+    return None
 
 
 def measure(first: int, count: int, cases: Sequence[str], progress: bool = False) -> dict[str, Any]:
