@@ -74,7 +74,7 @@ def audit_run(
     streams = list(by_liquid(wells))
     progress.begin("Comparing wells", len(streams))
     for stream in streams:
-        ranked += _judge(stream, scorer)
+        ranked += _judge(stream, wells, scorer)
         passed = sum(well.outcome == Outcome.PASS.value for well in stream)
         if passed < _FEW:
             notes.append(
@@ -107,7 +107,9 @@ def _order(one: _Ranked) -> tuple[float, int]:
     return -one.suspect.score, one.suspect.shown
 
 
-def _judge(stream: Sequence[RunWell], scorer: EnsembleScorer) -> list[_Ranked]:
+def _judge(
+    stream: Sequence[RunWell], run: Sequence[RunWell], scorer: EnsembleScorer
+) -> list[_Ranked]:
     """The silent passes of one liquid, and what they have in common."""
     trusted = [well.outcome == Outcome.PASS.value for well in stream]
     measured = measure(stream, trusted, scorer)
@@ -115,8 +117,9 @@ def _judge(stream: Sequence[RunWell], scorer: EnsembleScorer) -> list[_Ranked]:
     silent = [place for place, well in enumerate(stream) if _silent(well)]
     if not silent:
         return []
+    others = sum(trusted) - 1
     singles = {
-        place: _single(stream, place, measured[place], found[place], sum(trusted) - 1)
+        place: _single(stream[place], measured[place], found[place], others, run)
         for place in silent
     }
     plainest = min(silent, key=lambda place: singles[place].score)
@@ -130,10 +133,9 @@ def _judge(stream: Sequence[RunWell], scorer: EnsembleScorer) -> list[_Ranked]:
 
 
 def _single(
-    stream: Sequence[RunWell], place: int, measured: Measures, standing: Standing, others: int
+    well: RunWell, measured: Measures, standing: Standing, others: int, run: Sequence[RunWell]
 ) -> Suspect:
-    well = stream[place]
-    near = list(neighbour_words(well, stream))
+    near = list(neighbour_words(well, run))
     score = standing.total + sum(counts for _, counts in near)
     if measured.contradiction:
         score += _CONTRADICTED

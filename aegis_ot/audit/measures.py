@@ -142,7 +142,8 @@ def _read(well: RunWell, reader: MeasuredColumns, others: Sequence[Well]) -> Mea
             name = f"left_{share * 100:.0f}"
             upper = max(rest - share * (rest - top), ceiling(tip))
             _put(signs, name, after, upper, min(rest, _end(well, AFTER)))
-            volumes[name] = max(float(tip.volume_of((1.0 - upper) * tip.length_mm)), 0.0)
+            above = float(tip.volume_of((1.0 - upper) * tip.length_mm))
+            volumes[name] = max(above - well.sample.expected_ul[AFTER], 0.0)
     return Measures(signs, volumes, 0.0 if before is None else before.power)
 
 

@@ -79,16 +79,16 @@ def no_liquid_words(wells: Sequence[RunWell]) -> list[str]:
 
 def neighbour_words(well: RunWell, wells: Sequence[RunWell]) -> Iterator[tuple[str, float]]:
     """What failures near by say, and how much that counts, nats."""
-    for other in wells:
-        if other is well or other.outcome != "fail":
-            continue
-        same_tip = other.keyframe.tip == well.keyframe.tip != ""
-        near = abs(other.trajectory - well.trajectory) == 1
-        source = other.keyframe.sources == well.keyframe.sources != ()
-        if same_tip:
-            yield f"The same tip failed at {other.sample.well}.", 1.0
-        elif near and source:
-            when = "just before" if other.trajectory < well.trajectory else "right after"
+    failed = [other for other in wells if other is not well and other.outcome == "fail"]
+    tip, sources = well.keyframe.tip, well.keyframe.sources
+    same_tip = [other for other in failed if other.keyframe.tip == tip != ""]
+    if same_tip:
+        more = f" and {len(same_tip) - 1} more" if len(same_tip) > 1 else ""
+        yield f"The same tip failed at {same_tip[0].sample.well}{more}.", 1.0
+    for other in failed:
+        after = other.trajectory - well.trajectory
+        if abs(after) == 1 and other not in same_tip and other.keyframe.sources == sources != ():
+            when = "just before" if after < 0 else "right after"
             yield f"{other.sample.well}, served {when} it from the same source, failed.", 0.5
 
 
@@ -123,8 +123,8 @@ def _sentence(sign: str, well: RunWell, measured: Measures, usual: float, beside
         "high": f"In transit the column ends {mm:.1f} mm higher than in {beside}: too much may "
         "have been drawn.",
         "absent": f"In transit the colour is not seen that {beside} show.",
-        "faint": f"From transit to after the dispense the tip changes {_share(1 - value)} as much "
-        f"as usual in {beside}.",
+        "faint": "From transit to after the dispense the tip changes only "
+        f"{_share((1 - value) / max(1 - usual, 1e-6))} as much as in {beside}.",
         "score": f"The tip looks unlike those of {beside}: image score {value:.1f} nats, usually "
         f"{usual:.1f}.",
     }
