@@ -161,6 +161,7 @@ def judged(
         "planted": len(kinds),
         "missed": rows,
         "to_look_at": sum(one["stands_out"] for one in audit["suspects"]),
+        "named": [one["kind"] for one in audit["suspects"][:FIRST] if one["kind"] != "well"],
     }
 
 
@@ -184,6 +185,7 @@ def show(found: Mapping[str, Any]) -> str:
             f"{max(above):5} {statistics.mean(row['to_look_at'] for row in rows):26.2f}"
         )
     lines += _by_fault(found["runs"])
+    lines += _named(found["runs"])
     quiet = [row for row in found["runs"] if row["case"] == "none"]
     if quiet:
         disturbed = sum(row["to_look_at"] > 0 for row in quiet)
@@ -205,6 +207,19 @@ def _by_fault(rows: Sequence[Mapping[str, Any]]) -> list[str]:
         for fault, ranks in sorted(told.items())
     ]
     return [f"calibration and single, in the first five: {', '.join(counts)}"] if counts else []
+
+
+def _named(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """How often what all wells share was named among the first five, where it was and elsewhere."""
+    lines = []
+    for kind, case in (("drift", "drift"), ("no_liquid", "empty")):
+        there = [kind in row["named"] for row in rows if row["case"] == case]
+        elsewhere = [kind in row["named"] for row in rows if row["case"] != case]
+        lines.append(
+            f"{kind} named in the first five: {sum(there)}/{len(there)} runs that have it, "
+            f"{sum(elsewhere)}/{len(elsewhere)} others"
+        )
+    return lines
 
 
 _found: list[Any] = []
