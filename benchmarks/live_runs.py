@@ -130,6 +130,11 @@ def is_question(verdict: Any) -> bool:
     return verdict.outcome.value == "undecided" and verdict.reason.startswith("No liquid is seen")
 
 
+def well_name(number: int) -> str:
+    """Of a run's wells, counted from 0, column by column."""
+    return f"{'ABCDEFGH'[number % 8]}{number // 8 + 1}"
+
+
 def keyframes_of(run: Run, number_of_wells: int) -> list[list[Any]]:
     from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
@@ -137,7 +142,7 @@ def keyframes_of(run: Run, number_of_wells: int) -> list[list[Any]]:
     wells = []
     for number in range(number_of_wells):
         volume = run.volumes[number % len(run.volumes)]
-        well = WellRef("plate", f"{'ABCDEFGH'[number % 8]}{number // 8 + 1}", "plate", "2")
+        well = WellRef("plate", well_name(number), "plate", "2")
         frame = Keyframe(
             "run", 0, number, KeyframeKind.ASPIRATE, f"{run.pipette}_single_gen2", "left", 1,
             f"1:{number}", (source,), (well,), volume, volume, PIPETTES[run.pipette], run.reagent,

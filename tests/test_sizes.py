@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 800,
     "preflight/source": 780,
     "preflight/trace": 1_900,
-    "": 63_500,
+    "": 65_000,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""

@@ -29,7 +29,8 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         ``plates``; ``wells``; ``flagged`` (numbers of the
         deliveries that failed, are undecided, or that a person decided); ``calibration`` per
         liquid and pipette; ``holds``; ``decisions``; ``latency`` (s); ``costs``; ``incidents``;
-        ``recoveries``; ``layer1``; ``guard`` and ``sidecar`` (settings and versions).
+        ``recoveries``; ``audit`` (the look back after the run, ``None`` before there was one);
+        ``layer1``; ``guard`` and ``sidecar`` (settings and versions).
     """
     trajectories: Sequence[Mapping[str, Any]] = overview["trajectories"]
     states = Counter(state_of(trajectory) for trajectory in trajectories)
@@ -54,6 +55,7 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         "costs": overview.get("costs"),
         "incidents": overview.get("incidents") or [],
         "recoveries": _recoveries(overview),
+        "audit": overview.get("audit"),
         "layer1": overview.get("layer1"),
         "guard": overview.get("guard"),
         "sidecar": overview.get("sidecar"),

@@ -65,6 +65,7 @@ def run() -> None:
 
 # Each module adds its commands to the app.
 from . import (  # noqa: E402
+    audits,  # noqa: F401
     checks,  # noqa: F401
     corpora,  # noqa: F401
     datasets,  # noqa: F401

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -41,7 +42,7 @@ def list_runs(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON array.")] = False,
 ) -> None:
     """List runs, newest first."""
-    store = _open(data)
+    store = open_data(data)
     rows = store.runs(search, most)
     if as_json:
         typer.echo(json.dumps(rows, ensure_ascii=False, indent=1))
@@ -76,25 +77,17 @@ def show(
 ) -> None:
     """Tell what came of a run, and write its report."""
     from ..account import run_account
-    from ..errors import StoreError
     from ..reports.run_html import report_run, run_report_html
     from ..sidecar.overview import run_overview
 
-    store = _open(data)
-    name = _known(store, run)
+    store = open_data(data)
+    name = known_run(store, run)
     overview = run_overview(store, name)
     account = run_account(overview)
     for line in _told(account):
         typer.echo(line)
-
-    def frame(sequence: int) -> bytes | None:
-        try:
-            return store.frame(name, sequence)
-        except StoreError:
-            return None
-
     if html is not None:
-        write_text(html, run_report_html([report_run(overview, frame)]))
+        write_text(html, run_report_html([report_run(overview, stored_frames(store, name))]))
         typer.echo(f"Report: {html}", err=True)
     if as_json is not None:
         write_text(as_json, json.dumps(account, ensure_ascii=False, indent=1) + "\n")
@@ -150,7 +143,7 @@ def prune(
         raise ConfigurationError("Say what to remove: --days, --gigabytes, or both.")
     if (days is not None and days <= 0) or (gigabytes is not None and gigabytes <= 0):
         raise ConfigurationError("--days and --gigabytes must be above 0.")
-    store = _open(data, alone=yes)
+    store = open_data(data, alone=yes)
     settings = RetentionSettings(days=days, gigabytes=gigabytes)
     done = tidy(store, settings, time.time(), pretend=not yes)
     store.close()
@@ -187,13 +180,28 @@ def _folder(data: Path | None) -> Path:
     return SidecarConfig.load(find_token=known_token).data if data is None else data
 
 
-def _open(data: Path | None, alone: bool = False) -> Store:
+def stored_frames(store: Store, run: str) -> Callable[[int], bytes | None]:
+    """The JPEG of a keyframe's number; ``None`` where it is missing or damaged."""
+    from ..errors import StoreError
+
+    def frame(sequence: int) -> bytes | None:
+        try:
+            return store.frame(run, sequence)
+        except StoreError:
+            return None
+
+    return frame
+
+
+def open_data(data: Path | None, alone: bool = False) -> Store:
+    """The store in a folder, or in the sidecar's usual one."""
     from ..evaluation.layer2.recorded import open_store
 
     return open_store(_folder(data), alone)
 
 
-def _known(store: Store, run: str) -> str:
+def known_run(store: Store, run: str) -> str:
+    """A run of the store, the newest if none is named. Raises ConfigurationError."""
     known = [str(row["run"]) for row in store.runs()]
     if not known:
         raise ConfigurationError(f"{store.folder} holds no run yet.")

@@ -33,6 +33,7 @@ def sidecar(
     ] = None,
 ) -> None:
     """Watch the robot's tips: capture, score, judge, and show a page."""
+    from ..audit.process import AuditProcess
     from ..sidecar import SidecarConfig, make_analyser, make_detector, serve
     from ..sidecar.journal import event, set_up
     from ..sidecar.reasoning_routes import gates_of
@@ -77,5 +78,6 @@ def sidecar(
 
     detector = make_detector(settings.cascade)
     analyser = make_analyser(settings.cascade, gates_of(settings), detector)
-    serve(settings, analyser=analyser, ready=ready, detector=detector)
+    auditor = AuditProcess(settings)
+    serve(settings, analyser=analyser, ready=ready, detector=detector, auditor=auditor)
     event("stopped")

@@ -2,12 +2,14 @@
 
 from .analysis import Analyser, Evidence, Judged, RunAnalyser
 from .app import create_app
+from .auditing import Auditor
 from .config import SidecarConfig
 from .judging import make_analyser, make_detector
 from .server import running_sidecar, serve
 
 __all__ = [
     "Analyser",
+    "Auditor",
     "Evidence",
     "Judged",
     "RunAnalyser",

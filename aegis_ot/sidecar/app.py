@@ -19,6 +19,7 @@ from ..vision.camera import Camera
 from ..vision.types import Detector
 from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
+from .auditing import Auditor
 from .cameras import open_cameras
 from .cameras.history import HISTORY_S
 from .config import SidecarConfig
@@ -72,6 +73,7 @@ def create_app(
     camera: Camera | None = None,
     analyser: Analyser | None = None,
     detector: Detector | None = None,
+    auditor: Auditor | None = None,
 ) -> FastAPI:
     """Build the sidecar's application. It holds the camera and store until it is shut down.
 
@@ -80,6 +82,7 @@ def create_app(
         camera: Instead of the one that ``config.camera.spec`` names.
         analyser: What judges wells; without one every well is undecided.
         detector: With one, a frame counts only if the camera's view tells something.
+        auditor: Looks back at each run that has ended.
 
     Returns:
         The application; ``app.state.sidecar`` is the :class:`~.service.Sidecar` behind it, whose
@@ -92,7 +95,8 @@ def create_app(
     opinions = opinions_of(config)
     camera = open_cameras(config) if camera is None else camera
     try:
-        sidecar = Sidecar(config, camera, Unscored() if analyser is None else analyser, detector)
+        judge = Unscored() if analyser is None else analyser
+        sidecar = Sidecar(config, camera, judge, detector, auditor)
     except AegisError:
         camera.close()
         raise

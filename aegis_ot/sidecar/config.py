@@ -215,6 +215,8 @@ class SidecarConfig(Section):
         token: Bearer token; required when ``host`` is not loopback, with at least 16 characters.
         data: Folder of the store; the user's data folder by default.
         cameras: Several cameras, each bound to a robot and mount, instead of the one.
+        audit: Look back at each run when it has ended: read every well again with what the whole
+            run tells, and rank its silent passes.
         log: Form of the log on standard error: for people, or a JSON object a line.
         url: Where people open the page, for links in messages; ``None``: as it listens.
     """
@@ -231,6 +233,7 @@ class SidecarConfig(Section):
     model: ModelSettings = ModelSettings()
     gate_model: GateModelSettings = GateModelSettings()
     retention: RetentionSettings = RetentionSettings()
+    audit: bool = True
     log: Literal["text", "json"] = "text"
     url: str | None = None
 

@@ -13,7 +13,7 @@ from .store import Store
 
 def run_overview(store: Store, run: str) -> dict[str, Any]:
     """All that the store knows of a run: its start and end, and per trajectory its keyframes,
-    verdict (as it stands, and as it was judged), evidence, decisions, hold.
+    verdict (as it stands, and as it was judged), evidence, decisions, hold; the audit.
 
     Returns:
         The answer of ``GET /v1/runs/{run}``, without ``version``.
@@ -62,6 +62,7 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
         "actions": store.actions(run),
         "incidents": store.incidents(run),
         "recoveries": recoveries,
+        "audit": store.audit(run),
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 from urllib.parse import parse_qs
@@ -12,6 +13,7 @@ from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Re
 
 from ..account import run_account
 from ..errors import StoreError
+from ..reports.audit_html import audit_html
 from ..reports.html_page import html_page, shared_file
 from ..reports.run_html import ReportedRun, report_run, run_report_html
 from ..vocabulary import Outcome
@@ -36,6 +38,9 @@ HEADERS = {
 }
 NAME = "aegis_ot_name"
 """Cookie with the operator's name, so that it is typed once."""
+
+Frames = Callable[[int], "bytes | None"]
+"""The JPEG of a keyframe's number; ``None`` where it is missing."""
 
 Well = Annotated[int | None, Query(ge=0, le=MAX_COUNT)]
 
@@ -84,6 +89,16 @@ def _reading(router: APIRouter, sidecar: Sidecar) -> None:
     async def report_json(run: str) -> Response:
         account = await run_in_threadpool(lambda: run_account(sidecar.overview(check_run(run))))
         return JSONResponse(account, headers=_download(run, "json"))
+
+    @router.get("/runs/{run}/audit.html")
+    async def audit_page(run: str) -> Response:
+        page = await run_in_threadpool(lambda: audit_html(*_audited(sidecar, run)))
+        return HTMLResponse(page, headers=_download(f"{run}-audit", "html"))
+
+    @router.get("/runs/{run}/audit.json")
+    async def audit_json(run: str) -> Response:
+        _, audit, _ = await run_in_threadpool(_audited, sidecar, run)
+        return JSONResponse(audit, headers=_download(f"{run}-audit", "json"))
 
     @router.get("/camera")
     def camera(number: Annotated[int, Query(ge=0, le=100)] = 0) -> Response:
@@ -171,15 +186,31 @@ def _logging_in(router: APIRouter, sidecar: Sidecar, read_body: ReadBody) -> Non
 
 
 def _report(sidecar: Sidecar, run: str) -> ReportedRun:
-    overview = sidecar.overview(check_run(run))
+    return report_run(sidecar.overview(check_run(run)), _frames(sidecar, run))
 
+
+def _audited(sidecar: Sidecar, run: str) -> tuple[dict[str, Any], dict[str, Any], Frames]:
+    """What the page of a run's audit shows.
+
+    Raises:
+        WireError: 404 if there is no such run, or it was not audited.
+    """
+    overview = sidecar.overview(check_run(run))
+    if overview["audit"] is None:
+        raise WireError(
+            404, "no_audit", f"Run {run!r} was not audited.", f"Audit it: aegis-ot audit {run}."
+        )
+    return overview, overview["audit"], _frames(sidecar, run)
+
+
+def _frames(sidecar: Sidecar, run: str) -> Frames:
     def frame(sequence: int) -> bytes | None:
         try:
             return sidecar.store.frame(run, sequence)
         except StoreError:
             return None
 
-    return report_run(overview, frame)
+    return frame
 
 
 def _download(run: str, suffix: str) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""What is judged and decided within a run: verdicts, holds, decisions, actions, incidents."""
+"""What is judged and decided of a run: verdicts, holds, decisions, actions, incidents, audit."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .database import Database
 from .wire import Action, Decision, Hold, Order, Recovery
 
 OF_A_RUN = (
-    "recoveries", "incidents", "actions", "decisions", "holds", "abandoned", "verdicts",
+    "audits", "recoveries", "incidents", "actions", "decisions", "holds", "abandoned", "verdicts",
     "keyframes",
 )  # fmt: skip
 """Tables whose rows go with their run."""
@@ -142,6 +142,19 @@ class Records(Database):
         names = ("trajectory", "action", "by", "note", "at")
         rows = self._read("SELECT * FROM actions WHERE run = ? ORDER BY id", run)
         return [{name: row[name] for name in names} for row in rows]
+
+    def add_audit(self, run: str, audit: dict[str, Any]) -> None:
+        """Keep what the look back at a run found; the last one counts."""
+        self._write(
+            "INSERT INTO audits VALUES (?, ?, ?) ON CONFLICT (run) DO UPDATE "
+            "SET audit = excluded.audit, at = excluded.at",
+            (run, json.dumps(audit), time.time()),
+        )
+
+    def audit(self, run: str) -> dict[str, Any] | None:
+        """What the look back at a run found; ``None`` before there was one."""
+        rows = self._read("SELECT audit FROM audits WHERE run = ?", run)
+        return json.loads(rows[0]["audit"]) if rows else None
 
     def begin_incident(self, run: str, kind: str, text: str) -> bool:
         """Keep that trouble began; whether it is new, and not the one that goes on."""

@@ -62,6 +62,11 @@ MIGRATIONS: tuple[str, ...] = (
         at REAL NOT NULL, PRIMARY KEY (run, trajectory, attempt)
     );
     """,
+    """
+    CREATE TABLE audits (
+        run TEXT PRIMARY KEY REFERENCES runs, audit TEXT NOT NULL, at REAL NOT NULL
+    );
+    """,
 )
 """One script per version, ``user_version`` counting those done. Only ever append."""
 

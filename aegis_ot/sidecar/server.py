@@ -20,6 +20,7 @@ from ..vision.camera import Camera
 from ..vision.types import Detector
 from .analysis import Analyser
 from .app import create_app
+from .auditing import Auditor
 from .config import SidecarConfig
 from .service import Sidecar
 
@@ -43,12 +44,13 @@ def serve(
     analyser: Analyser | None = None,
     ready: Callable[[str], None] | None = None,
     detector: Detector | None = None,
+    auditor: Auditor | None = None,
 ) -> None:
     """Run the sidecar until it is stopped by SIGINT or SIGTERM.
 
     Args:
         config: Settings.
-        camera, analyser, detector: As for :func:`~.app.create_app`.
+        camera, analyser, detector, auditor: As for :func:`~.app.create_app`.
         ready: Called with the base URL once requests are answered.
 
     Raises:
@@ -57,7 +59,7 @@ def serve(
     """
     with _listening(config) as (listener, url):
         sys.setswitchinterval(SWITCH_S)
-        app = create_app(config, camera, analyser, detector)
+        app = create_app(config, camera, analyser, detector, auditor)
         app.state.sidecar.address = config.url or url
         server = _Server(app, lambda: ready(url) if ready else None)
         server.run(sockets=[listener])
@@ -69,6 +71,7 @@ def running_sidecar(
     camera: Camera | None = None,
     analyser: Analyser | None = None,
     detector: Detector | None = None,
+    auditor: Auditor | None = None,
 ) -> Iterator[str]:
     """Run the sidecar in a thread, over a real socket, for as long as the block lasts.
 
@@ -79,7 +82,7 @@ def running_sidecar(
         ConfigurationError, StoreError: As :func:`serve`.
     """
     with _listening(config) as (listener, url):
-        app = create_app(config, camera, analyser, detector)
+        app = create_app(config, camera, analyser, detector, auditor)
         app.state.sidecar.address = config.url or url
         started = threading.Event()
         server = _Server(app, started.set)

@@ -17,6 +17,7 @@ from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, to_json
 from .aiming import Aim
 from .analysis import Analyser
+from .auditing import Auditor, Audits
 from .bell import Bell
 from .cameras import BoundCameras, FreeRunning, Health, camera_health
 from .config import SidecarConfig
@@ -49,6 +50,7 @@ class Sidecar:
         analyser: Judges wells.
         detector: Finds the tip where it is in doubt that the camera sees it; without one, frames
             are not asked whether they show anything.
+        auditor: Looks back at each run that has ended; without one nobody does.
 
     Raises:
         StoreError: The data folder cannot be used, or another sidecar uses it.
@@ -63,6 +65,7 @@ class Sidecar:
         camera: Camera,
         analyser: Analyser,
         detector: Detector | None = None,
+        auditor: Auditor | None = None,
     ) -> None:
         self.config = config
         self.camera = camera
@@ -90,6 +93,9 @@ class Sidecar:
             else threading.Lock()
         )
         self._closed = False
+        self._audits = None
+        if auditor is not None and config.audit:
+            self._audits = Audits(auditor, self.store, self._settled, self.bell.ring)
         self._housekeeper = Housekeeper(self.store, config.retention, self._tidied)
 
     def register(self, start: RunStart) -> None:
@@ -191,6 +197,7 @@ class Sidecar:
         self.store.finish(run, finish)
         session.catch_up()
         event("finish", run=run, outcome=finish.outcome, detail=finish.detail)
+        self._look_back(run)
         self.bell.ring()
 
     def runs(self, search: str = "", most: int = -1) -> list[dict[str, Any]]:
@@ -228,6 +235,8 @@ class Sidecar:
         if self._closed:
             return
         self._closed = True
+        if self._audits is not None:
+            self._audits.close()
         for session in self._sessions.values():
             session.close()
         self._housekeeper.close()
@@ -253,9 +262,18 @@ class Sidecar:
             if session is not None:
                 session.close()
         for run in done.closed:
+            self._look_back(run)
             seen = "The robot has said nothing for long; its run was closed."
             self.notifier.send(Notice(run, "silent", "a run ended without a word", seen))
         self.bell.ring()
+
+    def _look_back(self, run: str) -> None:
+        if self._audits is not None:
+            self._audits.add(run)
+
+    def _settled(self, run: str) -> bool:
+        session = self._sessions.get(run)
+        return session is None or session.idle
 
     def _compose(self, notices: Sequence[Notice]) -> Message:
         return compose(self.store, notices, self.address)

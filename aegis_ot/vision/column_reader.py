@@ -149,6 +149,19 @@ class MeasuredColumns:
         """Read a well with what ``others`` alone teach: the well itself may have been learned."""
         return self._taught_by(others).read(looks, expected)
 
+    def wetness_beside(
+        self, looks: Mapping[KeyframeKind, object], others: Sequence[Well]
+    ) -> dict[KeyframeKind, Wetness]:
+        """How wet each row of a well's free frames is, by what ``others`` alone teach."""
+        reader = self._taught_by(others)
+        seen = {kind: look for kind in FREE if isinstance(look := looks.get(kind), Look)}
+        wets = {kind: reader._wetness(look) for kind, look in seen.items()}
+        return {kind: wet for kind, wet in wets.items() if wet is not None}
+
+    def place(self, tip: TipGeometry, volume_ul: float) -> float:
+        """Where a column of this volume ends in this run's frames, u."""
+        return self._scale.place(tip, volume_ul)
+
     def forget(self, kept: Sequence[Well]) -> None:
         """Keep what these wells teach, and nothing else."""
         self._contrast = self._taught_by(kept)._contrast

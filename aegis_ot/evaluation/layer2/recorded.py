@@ -40,6 +40,7 @@ class RecordedRun:
         samples: Trajectories with all four frames. Their label is the verdict as it stands after
             the operator: ``"normal"`` for a pass, ``"failure"`` for a fail whose type the data
             set format knows, ``""`` for all others.
+        entries: The deliveries of the samples in the run's overview.
         left_out: Trajectories without four timely frames, or given up.
     """
 
@@ -47,6 +48,7 @@ class RecordedRun:
     protocol: str
     source: str
     samples: Sequence[TrajectorySample]
+    entries: Sequence[Mapping[str, Any]]
     left_out: int
 
 
@@ -99,16 +101,18 @@ def recorded_runs(store: Store, detector: Detector, runs: Sequence[str] = ()) ->
 def _run(store: Store, row: Mapping[str, Any], detector: Detector) -> RecordedRun:
     run = str(row["run"])
     entries = run_overview(store, run)["trajectories"]
-    samples = []
+    samples, kept = [], []
     for entry in entries:
         keyframes = {KeyframeKind(k["kind"]): k for k in entry["keyframes"] if not k["late"]}
         if entry["abandoned"] is None and len(keyframes) == len(KeyframeKind):
             samples.append(_sample(store, run, entry, keyframes, detector))
+            kept.append(entry)
     return RecordedRun(
         run,
         str(row.get("protocol", "")),
         run_source(row),
         samples,
+        kept,
         len(entries) - len(samples),
     )
 

@@ -1,0 +1,115 @@
+"""``aegis-ot audit``: the look back at a run."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import ConfigurationError
+from ..vocabulary import counted
+from .app import CLEAN, FINDINGS, app
+from .checks import write_text
+from .datasets import tip_finder
+from .models import ModelName, RecordFolder, backend_of
+from .runs import DataFolder, known_run, open_data, stored_frames
+
+if TYPE_CHECKING:
+    from ..audit import Audit
+    from ..vision.gates import ConfirmingGate
+
+
+@app.command()
+def audit(
+    run: Annotated[str, typer.Argument(help="Which run; the newest if left out.")] = "",
+    data: DataFolder = None,
+    out: Annotated[Path | None, typer.Option("--out", "-o", help="Write the page here.")] = None,
+    as_json: Annotated[Path | None, typer.Option("--json", help="Write it here, as JSON.")] = None,
+    world_model: Annotated[
+        Path | None, typer.Option(help="World model of the lab, written by aegis-ot fit.")
+    ] = None,
+    boxes: Annotated[
+        str, typer.Option(help="What finds the tips: detector, or an .onnx file.")
+    ] = "detector",
+    model: ModelName = None,
+    record: RecordFolder = None,
+    budget: Annotated[
+        float | None, typer.Option(min=0, help="What a model may cost, in the prices' currency.")
+    ] = None,
+    calls: Annotated[
+        int | None, typer.Option(min=0, help="How often a model may be asked; 10 if left out.")
+    ] = None,
+) -> None:
+    """Read every well of a finished run again with all that the run tells, and rank what passed.
+
+    It finds what the run itself could not see: faults among the first wells, a slow drift, a
+    source that was empty from the first well on. The result is kept with the run and shown on
+    its page. With a model, the silent passes are shown to it in their order, as far as the budget
+    goes.
+
+    Exit codes: 0 nothing stands out, 1 a person should look, 2 the run cannot be audited.
+    """
+    from ..audit import audit_run
+    from ..audit.models import world_model as load_world_model
+    from ..reports.audit_html import audit_html
+    from ..sidecar.overview import run_overview
+    from ..vision.detection import load_detector
+    from .progress import Shown
+
+    gate = _gate(model, record, budget, calls)
+    detector, scorer = load_detector(tip_finder(boxes)), load_world_model(world_model)
+    store = open_data(data)
+    name = known_run(store, run)
+    if not (store.run(name) or {}).get("finished"):
+        raise ConfigurationError(f"Run {name} has not ended yet; it is audited when it has.")
+    with Shown() as shown:
+        found = audit_run(store, name, detector, scorer, gate, shown)
+    store.add_audit(name, found.to_json())
+    _tell(found)
+    if out is not None:
+        page = audit_html(run_overview(store, name), found.to_json(), stored_frames(store, name))
+        write_text(out, page)
+        typer.echo(f"Page: {out}", err=True)
+    if as_json is not None:
+        write_text(as_json, json.dumps(found.to_json(), ensure_ascii=False, indent=1) + "\n")
+        typer.echo(f"JSON: {as_json}", err=True)
+    raise typer.Exit(FINDINGS if found.standing_out else CLEAN)
+
+
+def _gate(
+    model: str | None, record: Path | None, budget: float | None, calls: int | None
+) -> ConfirmingGate | None:
+    """The vision model, if one is named, with what it may take.
+
+    Raises:
+        ConfigurationError: A budget without a model, or its name makes no sense.
+    """
+    backend = backend_of(model, record)
+    if backend is None:
+        if budget is not None or calls is not None:
+            raise ConfigurationError("--budget, --calls: no model is asked. Name one with --model.")
+        return None
+    from ..reasoning import load_prices
+    from ..reasoning.gate_tiers import Budget, VlmTiers
+
+    asked = 10 if calls is None and budget is None else calls
+    return VlmTiers([backend], load_prices(), Budget(budget, asked))
+
+
+def _tell(audit: Audit) -> None:
+    out = audit.standing_out
+    typer.echo(
+        f"{audit.run}: {counted(audit.wells, 'well')} on {audit.frames} frames, "
+        f"{counted(audit.silent, 'silent pass', 'silent passes')}; "
+        f"{'none stands out' if not out else f'{len(out)} to look at'}."
+    )
+    for note in audit.notes:
+        typer.echo(note)
+    for rank, one in enumerate(audit.suspects, 1):
+        if one.stands_out:
+            where = one.wells[0] if one.kind == "well" else f"{len(one.wells)} wells"
+            typer.echo(f"  {rank}. {where} (score {one.score:.1f})")
+            for said in one.why:
+                typer.echo(f"     {said}")

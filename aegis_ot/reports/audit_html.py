@@ -1,0 +1,88 @@
+"""The audit of one run as one HTML page: no script, no link, pictures inside."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ..account import PlateMap, SeenWell, plate_maps, seen_well
+from ..account.pictures import cut_pictures
+from ..account.seen import no_pictures
+from .html_page import html_page
+
+LEAST_SHOWN, MOST_SHOWN = 5, 40
+"""Suspects with frames: the first ones even where none stands out, and no more than that."""
+
+
+@dataclass(frozen=True)
+class ShownSuspect:
+    """One entry of the ranked list.
+
+    Attributes:
+        told: As the audit tells it.
+        well: Its frames, or those of the well that shows it best.
+    """
+
+    told: Mapping[str, Any]
+    well: SeenWell
+
+
+def audit_html(
+    overview: Mapping[str, Any],
+    audit: Mapping[str, Any],
+    frame: Callable[[int], bytes | None],
+) -> str:
+    """Render the audit of a run.
+
+    Args:
+        overview: Answer of ``GET /v1/runs/{run}``.
+        audit: The audit, as plain JSON.
+        frame: The JPEG of a keyframe's number; ``None`` where it is missing.
+    """
+    suspects: Sequence[Mapping[str, Any]] = audit["suspects"]
+    standing = [one for one in suspects if one["stands_out"]]
+    shown = suspects[: min(max(len(standing), LEAST_SHOWN), MOST_SHOWN)]
+    plates: list[PlateMap] = plate_maps(overview["trajectories"])
+    return html_page(
+        "aegis_ot.reports",
+        "audit.html",
+        {},
+        title=str(overview.get("protocol") or overview["run"]),
+        overview=overview,
+        audit=audit,
+        standing=standing,
+        suspects=_shown(overview, shown, frame),
+        ranked=suspects,
+        plates=plates,
+        ranks=ranks_of(suspects, len(shown)),
+        singles=sum(one["kind"] == "well" for one in suspects),
+    )
+
+
+def ranks_of(suspects: Sequence[Mapping[str, Any]], most: int) -> dict[int, int]:
+    """Best rank of each delivery among the first ``most`` entries, for the plate map."""
+    ranks: dict[int, int] = {}
+    for one in suspects[:most]:
+        for trajectory in one["trajectories"]:
+            ranks.setdefault(int(trajectory), int(one["rank"]))
+    return ranks
+
+
+def _shown(
+    overview: Mapping[str, Any],
+    suspects: Sequence[Mapping[str, Any]],
+    frame: Callable[[int], bytes | None],
+) -> list[ShownSuspect]:
+    entries = {entry["trajectory"]: entry for entry in overview["trajectories"]}
+    pictures = cut_pictures(frame)
+    pictured: set[int] = set()
+    shown = []
+    for one in suspects:
+        entry = entries.get(one["shown"])
+        if entry is None:
+            continue
+        chosen = no_pictures if one["shown"] in pictured else pictures
+        pictured.add(one["shown"])
+        shown.append(ShownSuspect(one, seen_well(str(overview["run"]), entry, chosen)))
+    return shown
