@@ -41,7 +41,7 @@ class RecordedRun:
             the operator: ``"normal"`` for a pass, ``"failure"`` for a fail whose type the data
             set format knows, ``""`` for all others.
         entries: The deliveries of the samples in the run's overview.
-        left_out: Trajectories without four timely frames, or given up.
+        left_out: Trajectories without four timely frames, given up, or of several tips.
     """
 
     run: str
@@ -104,7 +104,9 @@ def _run(store: Store, row: Mapping[str, Any], detector: Detector) -> RecordedRu
     samples, kept = [], []
     for entry in entries:
         keyframes = {KeyframeKind(k["kind"]): k for k in entry["keyframes"] if not k["late"]}
-        if entry["abandoned"] is None and len(keyframes) == len(KeyframeKind):
+        # Rows of tips are judged tip by tip; a trajectory of one tip is what is learned from.
+        row_of_tips = any(keyframe.get("nozzles") for keyframe in keyframes.values())
+        if entry["abandoned"] is None and len(keyframes) == len(KeyframeKind) and not row_of_tips:
             samples.append(_sample(store, run, entry, keyframes, detector))
             kept.append(entry)
     return RecordedRun(
