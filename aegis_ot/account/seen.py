@@ -35,7 +35,8 @@ def state_of(trajectory: Mapping[str, Any]) -> str:
         if verdict["outcome"] == "fail" and trajectory.get("recovered"):
             return "recovered"
         told = verdict.get("channels") or ()
-        if told and all(channel["outcome"] == "unobserved" for channel in told):
+        unseen = bool(told) and all(channel["outcome"] == "unobserved" for channel in told)
+        if unseen and verdict["outcome"] == "pass" and not trajectory["decisions"]:
             return "unobserved"
         calibrates = verdict["outcome"] == "pass" and verdict["route"] == "calibration"
         return "calibration" if calibrates else str(verdict["outcome"])

@@ -82,6 +82,11 @@ def audit_run(
                 "be compared with each other."
             )
         progress.step()
+    if left_out:
+        notes.append(
+            f"{counted(left_out, 'delivery', 'deliveries')} of several tips, given up, or without "
+            "readable frames: not audited."
+        )
     ranked.sort(key=_order)
     suspects, costs = _asked(ranked, model, progress)
     row = store.run(run) or {}

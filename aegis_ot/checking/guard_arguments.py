@@ -12,16 +12,18 @@ from typing import Any
 from ..settings.values import READERS, Site
 from ..vocabulary import Remark
 
-_NAMES = ("assay", "roles", "select", "ignore", "rules")
+_JUDGING = ("assay", "roles", "select", "ignore", "rules")
+_NAMES = (*_JUDGING, "recover", "recover_limit", "recover_run_limit")
 
 
 @dataclass(frozen=True)
 class GuardArguments:
-    """The arguments of the protocol's guard that concern judging.
+    """The arguments of the protocol's guard that a workstation must know to judge or to simulate.
 
     Attributes:
         values: Those that are literals, as the settings hold them.
-        unread: The others: the guard will know them, and a reader of the text does not.
+        unread: Those for judging that are none: the guard will know them, and a reader of the text
+            does not.
     """
 
     values: dict[str, Any] = field(default_factory=dict)
@@ -54,6 +56,8 @@ def _read(call: ast.Call) -> GuardArguments:
         try:
             value = ast.literal_eval(keyword.value)
         except (ValueError, TypeError, SyntaxError):
+            if name not in _JUDGING:
+                continue
             told = f"The guard's {name} is worked out in the run, so this check does not know it;"
             unread.append(Remark(f"{told} written out as a literal, it counts.", line))
             continue

@@ -10,7 +10,7 @@ import typer
 
 from ..errors import ConfigurationError
 from ..vocabulary import counted
-from .app import CLEAN, FINDINGS, app
+from .app import BROKEN, CLEAN, FINDINGS, app
 from .checks import write_text
 from .datasets import tip_finder
 from .models import ModelName, RecordFolder, backend_of
@@ -75,6 +75,8 @@ def audit(
     if as_json is not None:
         write_text(as_json, json.dumps(found.to_json(), ensure_ascii=False, indent=1) + "\n")
         typer.echo(f"JSON: {as_json}", err=True)
+    if not found.wells:
+        raise typer.Exit(BROKEN)
     raise typer.Exit(FINDINGS if found.standing_out else CLEAN)
 
 
@@ -100,11 +102,14 @@ def _gate(
 
 def _tell(audit: Audit) -> None:
     out = audit.standing_out
-    typer.echo(
-        f"{audit.run}: {counted(audit.wells, 'well')} on {audit.frames} frames, "
-        f"{counted(audit.silent, 'silent pass', 'silent passes')}; "
-        f"{'none stands out' if not out else f'{len(out)} to look at'}."
-    )
+    if not audit.wells:
+        typer.echo(f"{audit.run}: no delivery could be audited.")
+    else:
+        typer.echo(
+            f"{audit.run}: {counted(audit.wells, 'well')} on {audit.frames} frames, "
+            f"{counted(audit.silent, 'silent pass', 'silent passes')}; "
+            f"{'none stands out' if not out else f'{len(out)} to look at'}."
+        )
     for note in audit.notes:
         typer.echo(note)
     for rank, one in enumerate(audit.suspects, 1):

@@ -9,7 +9,7 @@ import typer
 
 import aegis_ot
 
-from ..vocabulary import Outcome, counted
+from ..vocabulary import counted
 from .app import BROKEN, app
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def demo(
 
 
 def _passed(result: DryRun) -> int:
-    return sum(row.outcome is Outcome.PASS for row in result.wells)
+    return sum(row.passed for row in result.wells)
 
 
 def _run(name: str, **settings: object) -> DryRun:

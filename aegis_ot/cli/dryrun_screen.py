@@ -74,9 +74,11 @@ def show(result: DryRun) -> None:
         console.print(_table(result.wells, width), crop=False)
     else:
         console.print("It delivers no liquid: there is nothing to watch.", style="yellow")
-    passed = sum(row.outcome is Outcome.PASS for row in result.wells)
+    passed = sum(row.passed for row in result.wells)
+    unseen = sum(row.unobserved for row in result.wells)
     recovered = sum(row.recovered for row in result.wells)
     right = f"{recovered} failed and put right, " if recovered else ""
+    right += f"{unseen} not seen by the camera, " if unseen else ""
     console.print(
         f"{result.protocol}: {counted(len(result.wells), 'well')} watched on simulated frames, "
         f"{passed} passed, {right}{len(result.flagged)} flagged; run {result.outcome} "
@@ -105,6 +107,7 @@ def _table(rows: Sequence[WellRow], width: int | None = None) -> Table:
         table.add_column(heading, justify=side, no_wrap=True)  # type: ignore[arg-type]
     for row in rows:
         verdict = row.outcome.value if row.outcome else "none"
+        verdict = "unobserved" if row.unobserved else verdict
         failure = f" ({row.failure.value})" if row.failure else ""
         failure += ", put right" if row.recovered else ""
         table.add_row(

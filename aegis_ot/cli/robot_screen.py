@@ -129,12 +129,15 @@ def show_end(console: Console, run: RobotRun) -> None:
     """The last lines of a run."""
     for error in run.errors:
         console.print(Text(error, style="red"), soft_wrap=True)
-    outcomes = [known.verdict.outcome for known in run.verdicts.values()]
+    outcomes = [
+        "not seen" if known.verdict.unobserved else known.verdict.outcome.value
+        for known in run.verdicts.values()
+    ]
     parts = [f"{run.protocol} on {run.robot}: {run.status}", f"{run.commands} commands"]
     parts.append(f"{run.seconds:.0f} s")
     if run.pauses:
         parts.append(counted(len(run.pauses), "pause"))
     if outcomes:
-        each = [f"{outcomes.count(o)} {o.value}" for o in Outcome if o in outcomes]
+        each = [f"{outcomes.count(told)} {told}" for told in dict.fromkeys(sorted(outcomes))]
         parts.append(f"{counted(len(outcomes), 'delivery', 'deliveries')}: {', '.join(each)}")
     console.print(Text("; ".join(parts) + "."), soft_wrap=True)

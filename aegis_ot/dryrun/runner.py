@@ -203,7 +203,7 @@ def _run(
                     run_id=run,
                     watch_simulation=True,
                     hold=settings.hold,
-                    recover=settings.recover,
+                    **_recovery(script, settings),
                     on_fail="abort" if settings.on_fail == "stop" else "continue",
                     on_undecided="abort" if settings.on_fail == "stop" else "continue",
                     on_link_loss="abort",
@@ -318,3 +318,11 @@ class _TellingRun:
 
     def confirm(self, trajectory: int) -> None:
         self._inner.confirm(trajectory)
+
+
+def _recovery(script: Script, settings: DryRunSettings) -> dict[str, Any]:
+    """What the run may put right by itself: as given, else as the protocol's own guard says."""
+    said = guard_arguments(script.text).values
+    names = ("recover", "recover_limit", "recover_run_limit")
+    found = {name: said[name] for name in names if name in said}
+    return found | ({"recover": settings.recover} if settings.recover else {})

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ..account.seen import state_of
 from ..reports.run_html import ReportedRun
 from ..vocabulary import FailureType, Gate, Outcome, Route
 
@@ -23,6 +24,7 @@ class WellRow:
         score: Anomaly score; ``None`` without frames.
         limit: Score up to which a well passes in this run; ``None`` before it is calibrated.
         recovered: Whether it failed, and the robot put the well right.
+        unobserved: Whether the camera saw none of its tips: neither passed nor failed.
         p_value: How often a normal well of this run looks this unusual.
         route: Where triage sent it.
         gate: Who settled it.
@@ -51,6 +53,12 @@ class WellRow:
     limit: float | None = None
     p_value: float | None = None
     recovered: bool = False
+    unobserved: bool = False
+
+    @property
+    def passed(self) -> bool:
+        """Whether it was seen, and passed."""
+        return self.outcome is Outcome.PASS and not self.unobserved
 
     @property
     def flagged(self) -> bool:
@@ -124,4 +132,5 @@ def _row(entry: Mapping[str, Any]) -> WellRow:
         limit=(entry["evidence"].get("band") or (None, None))[1],
         p_value=entry["evidence"].get("p_value"),
         recovered=bool(entry.get("recovered")),
+        unobserved=state_of(entry) == "unobserved",
     )

@@ -170,7 +170,8 @@ class RobotSession:
 
 def _of_robot(run: RobotRun) -> dict[str, Any]:
     report = run_report(run)
-    outcomes = [verdict["outcome"] for verdict in report["verdicts"]]
+    seen = [one.verdict for one in run.verdicts.values()]
+    outcomes = ["unobserved" if one.unobserved else one.outcome.value for one in seen]
     counts = {outcome: outcomes.count(outcome) for outcome in dict.fromkeys(outcomes)}
     return {
         "outcome": run.status if run.status in ("succeeded", "stopped") else "failed",

@@ -30,11 +30,12 @@ def effective(verdict: Verdict, decisions: list[dict[str, Any]]) -> Verdict:
 def _channels(verdict: Verdict, outcome: Outcome) -> tuple[ChannelVerdict, ...]:
     """A decision is on the whole row: a pass on what was flagged, a fail on what was in doubt.
 
-    Of a row that had passed, a fail is one of every tip that was seen.
+    Of a row that had passed, a fail is one of every tip that was seen; of all, where none was.
     """
     flagged = [c for c in verdict.channels if c.outcome in _FLAGGED]
+    seen = [c for c in verdict.channels if c.outcome is ChannelOutcome.PASS]
     doubtful = [c for c in flagged if c.outcome is ChannelOutcome.UNDECIDED] or (
-        [] if flagged else [c for c in verdict.channels if c.outcome is ChannelOutcome.PASS]
+        [] if flagged else seen or list(verdict.channels)
     )
     changed = flagged if outcome is Outcome.PASS else doubtful
     decided = ChannelOutcome(outcome.value)

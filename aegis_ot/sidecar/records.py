@@ -58,9 +58,17 @@ class Records(Database):
         return {row["trajectory"]: row["reason"] for row in rows}
 
     def outcomes(self, run: str) -> dict[str, int]:
-        """How many deliveries have which outcome, after the operator."""
+        """How many deliveries have which outcome, after the operator: ``pass``, ``fail``,
+        ``undecided``, ``recovered`` (failed, and put right) or ``unobserved``.
+        """
         rows = self._read(
-            "SELECT coalesce(d.outcome, json_extract(v.verdict, '$.outcome')) AS outcome, "
+            "SELECT CASE WHEN d.outcome IS NULL AND json_array_length(v.verdict, '$.channels') > 0 "
+            "AND NOT EXISTS (SELECT 1 FROM json_each(v.verdict, '$.channels') c "
+            "WHERE json_extract(c.value, '$.outcome') <> 'unobserved') THEN 'unobserved' "
+            "WHEN coalesce(d.outcome, json_extract(v.verdict, '$.outcome')) = 'fail' AND EXISTS "
+            "(SELECT 1 FROM recoveries r WHERE r.run = v.run AND r.state = 'recovered' "
+            "AND r.trajectory = v.trajectory) THEN 'recovered' "
+            "ELSE coalesce(d.outcome, json_extract(v.verdict, '$.outcome')) END AS outcome, "
             "count(*) AS n FROM verdicts v LEFT JOIN (SELECT trajectory, outcome, max(id) "
             "FROM decisions WHERE run = ? GROUP BY trajectory) d ON d.trajectory = v.trajectory "
             "WHERE v.run = ? AND NOT EXISTS (SELECT 1 FROM abandoned a WHERE a.run = v.run "

@@ -5,7 +5,8 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, Protocol
 
 from ..errors import StoreError
@@ -145,10 +146,11 @@ class Session:
                 raise
             self._next += 1
             self._at = keyframe.trajectory
-            self.catch_up()
-            self._look_at_clocks(keyframe, moment)
             self._resumed()
             self._worker.submit(keyframe, frame)
+            with _told_in_the_log(self.run):  # it is kept, and in the analyser's queue
+                self.catch_up()
+                self._look_at_clocks(keyframe, moment)
         self._bell.ring()
         return captured
 
@@ -315,7 +317,8 @@ class Session:
         if said := evidence.get("model_trouble"):
             self._trouble("model", "the vision model does not answer", str(said))
         elif evidence.get("costs"):
-            self._recovered("model")
+            with _told_in_the_log(self.run):  # a raise would end the run's analysis
+                self._recovered("model")
 
     def catch_up(self) -> None:
         """The store takes what is written again: keep what it could not."""
@@ -330,8 +333,8 @@ class Session:
 
     def _recovered(self, kind: str) -> None:
         if kind in self._in_trouble:
-            self._in_trouble.discard(kind)
             self._troubles.over(self.run, kind)
+            self._in_trouble.discard(kind)
 
     def _look_at_clocks(self, keyframe: Keyframe, moment: float) -> None:
         """Times of a run are those of wall clocks: tell where one was set meanwhile."""
@@ -342,3 +345,12 @@ class Session:
             leap = self._clocks[whose].look(clock, when)
             if leap:
                 self._troubles.note(self.run, "clock", tell_leap(whose, leap))
+
+
+@contextmanager
+def _told_in_the_log(run: str) -> Iterator[None]:
+    """What the store cannot take now, and is tried again with the next keyframe."""
+    try:
+        yield
+    except StoreError as error:
+        log.warning("Run %s: %s", run, error)

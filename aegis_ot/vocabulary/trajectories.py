@@ -181,3 +181,9 @@ class Verdict:
     left_ul: float | None = None
     left_sigma_ul: float | None = None
     channels: tuple[ChannelVerdict, ...] = ()
+
+    @property
+    def unobserved(self) -> bool:
+        """Whether the camera saw none of the tips: then a pass says only that nothing holds."""
+        unseen = all(one.outcome is ChannelOutcome.UNOBSERVED for one in self.channels)
+        return bool(self.channels) and unseen and self.outcome is Outcome.PASS
