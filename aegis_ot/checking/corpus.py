@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from ..errors import ConfigurationError
 from ..preflight import Options, Report
 from ..preflight.database import shipped_rules
 from ..preflight.rehearsal import Script
@@ -110,7 +111,10 @@ def _judged(
     if shelved.skipped is not None:
         return _unjudged(file, SKIPPED, shelved.skipped, key), ()
     script = Script(shelved.text, shelved.path.name, extra_labware=shelved.labware)
-    options = options_for(shelved.text, Options())
+    try:
+        options = options_for(shelved.text, Options())
+    except ConfigurationError as error:
+        return _unjudged(file, "error", Problem(str(error)), key), ()
     rehearser: Rehearser = lazy.get()
     try:
         timed: Timed = rehearser.perform(

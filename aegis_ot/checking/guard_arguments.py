@@ -68,5 +68,7 @@ def _read(call: ast.Call) -> GuardArguments:
 
 def _is_guard(function: ast.expr) -> bool:
     if isinstance(function, ast.Attribute):
-        return function.attr == "guard"
+        module = function.value
+        named = isinstance(module, ast.Name) and module.id == "aegis_ot"
+        return named and function.attr == "guard"
     return isinstance(function, ast.Name) and function.id == "guard"

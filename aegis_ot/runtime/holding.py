@@ -27,6 +27,9 @@ _STOP_S = 5.0
 """How long the robot's server may take to stop the run that it was told to stop, s."""
 
 
+_STRICTNESS = (None, "continue", "pause", "abort")
+
+
 class Holding:
     """The holds of one run.
 
@@ -145,6 +148,10 @@ class Holding:
                 policy = settings.on_fail
             elif verdict.outcome is Outcome.UNDECIDED:
                 policy = settings.on_undecided
+        passed = verdict is not None and verdict.outcome is Outcome.PASS
+        if not passed and self._recovery is not None and self._recovery.is_attempt(number):
+            # The well is known to have failed, and was not seen to be put right.
+            policy = max(policy, settings.on_fail, key=_STRICTNESS.index)
         if step.final and settings.hold == "off":
             policy = "continue" if policy else None  # too late to change anything
         if self._recovery is not None:

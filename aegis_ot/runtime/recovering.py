@@ -80,6 +80,11 @@ class Recovery:
         """Whether something is to be put right before the protocol goes on."""
         return self._due is not None
 
+    def is_attempt(self, trajectory: int) -> bool:
+        """Whether this delivery was to put another one right."""
+        delivery = self.strokes.delivery(trajectory)
+        return delivery is not None and delivery.keyframe.recovers is not None
+
     def judged(
         self, trajectory: int, verdict: Verdict | None, boundary: Operation | None
     ) -> str | None:
@@ -109,7 +114,7 @@ class Recovery:
             touched = None if well is None else self._tips.touched(well)
             plan = plan_recovery(action, delivery, verdict, boundary, touched)
             self._check_means(plan, root, boundary)
-        except NotAllowed as why:
+        except Exception as why:  # NotAllowed; or what nobody foresaw, which must not end the run
             self._actions[root] = action
             self._tell(root, "refused", f"Left to a person: {why}.", again=True)
             return f"The robot does not put it right by itself: {why}."
@@ -136,7 +141,12 @@ class Recovery:
         self.of_mount[mount] = root
         try:
             if plan.saves:
-                source = plan.strokes[0].operation.arguments["location"].labware.as_well()
+                draws = (
+                    stroke.operation
+                    for stroke in plan.strokes
+                    if stroke.operation.kind is OperationKind.ASPIRATE
+                )
+                source = next(draws).arguments["location"].labware.as_well()
                 self._do(pipette, "blow_out", source.top())
             self._change_tip(pipette)
             for stroke in plan.strokes:
@@ -185,7 +195,8 @@ class Recovery:
             raise NotAllowed("there is no trash for the failed tip") from None
         drops = boundary is not None and boundary.kind is OperationKind.DROP_TIP
         # A tip that has been to a well that failed goes to no other.
-        needed = 1 if drops else 2
+        # Other pipettes may owe a clean tip from the same racks.
+        needed = (1 if drops else 2) + len(self._spent - {mount})
         if len(spare_tips(pipette, forecast, self._tap.slot_of)) < needed:
             raise NotAllowed("no tip is left that the protocol does not need itself")
 
@@ -200,6 +211,7 @@ class Recovery:
         getattr(type(pipette), name)(pipette, *args)
 
     def _ended(self, root: int, trajectory: int, verdict: Verdict | None) -> None:
+        self._result.attempts[trajectory] = root
         if verdict is not None and verdict.outcome is Outcome.PASS:
             self._result.recovered.add(root)
             state, said = "recovered", "It was seen to pass."

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..instrumentation import Operation, OperationKind, is_repeatable
-from ..vocabulary import FailureType, Keyframe, Verdict, WellRef
+from ..vocabulary import FailureType, Gate, Keyframe, Verdict, WellRef
 from .contents import TRACE_UL
 from .hand import in_place, wells_of
 from .strokes import Delivery
@@ -137,8 +137,8 @@ def _air_left(boundary: Operation) -> bool:
 def _check_nothing_came(keyframe: Keyframe, verdict: Verdict) -> None:
     """A retry delivers the whole volume, so nothing of it may be in the well."""
     measured, commanded = verdict.measured_ul, keyframe.commanded_ul
-    if measured is None:
-        return
+    if measured is None or verdict.gate is not Gate.VOLUMETRIC:
+        raise NotAllowed("nothing was measured that shows the well to be without it")
     if verdict.failure is FailureType.NO_ASPIRATE and measured > EMPTY_MOST * commanded:
         raise NotAllowed(f"about {measured:.0f} µL were drawn and may be in the well")
     if verdict.failure is FailureType.NO_DISPENSE and measured < (1 - EMPTY_MOST) * commanded:

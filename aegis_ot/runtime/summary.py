@@ -17,6 +17,8 @@ class WatchSummary:
         places: Destination of each trajectory in plain words.
         lost: Trajectories without a verdict that counts, and why.
         recovered: Failed trajectories that the robot put right by itself.
+        attempts: Trajectories that were to put another one right, with that one: it is counted,
+            and not they.
         abandoned: Trajectories that were never delivered.
         keyframes: Keyframes acknowledged.
         hold_s: Time spent at boundaries, s.
@@ -29,6 +31,7 @@ class WatchSummary:
     places: dict[int, str] = field(default_factory=dict)
     lost: dict[int, str] = field(default_factory=dict)
     recovered: set[int] = field(default_factory=set)
+    attempts: dict[int, int] = field(default_factory=dict)
     abandoned: set[int] = field(default_factory=set)
     keyframes: int = 0
     hold_s: float = 0.0
@@ -38,13 +41,17 @@ class WatchSummary:
     def of(self, outcome: Outcome) -> tuple[int, ...]:
         """Trajectories with this outcome, rising; those of which no tip was seen have none."""
         return tuple(
-            sorted(n for n, v in self.verdicts.items() if v.outcome is outcome and _seen(v))
+            sorted(
+                number
+                for number, verdict in self.verdicts.items()
+                if verdict.outcome is outcome and _seen(verdict) and number not in self.attempts
+            )
         )
 
     @property
     def watched(self) -> int:
         """Trajectories that ended with a verdict or without one, the abandoned left out."""
-        return len(self.verdicts.keys() | self.lost.keys())
+        return len((self.verdicts.keys() | self.lost.keys()) - self.attempts.keys())
 
     def held(self, seconds: float) -> None:
         """Count one hold."""
@@ -65,8 +72,9 @@ class WatchSummary:
             parts.append(f"{len(recovered)} put right ({self._wells(recovered)})")
         if undecided:
             parts.append(f"{len(undecided)} undecided ({self._wells(undecided)})")
-        if self.lost:
-            parts.append(f"{len(self.lost)} not judged ({self._wells(tuple(sorted(self.lost)))})")
+        lost = tuple(sorted(self.lost.keys() - self.attempts.keys()))
+        if lost:
+            parts.append(f"{len(lost)} not judged ({self._wells(lost)})")
         hidden = unobserved(self.verdicts.values())
         if hidden:
             parts.append(f"{len(hidden)} wells unobserved: the camera did not see their tips")

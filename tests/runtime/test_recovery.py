@@ -16,8 +16,8 @@ from .fake_sidecar import FakeSidecar, Handler
 from .live import LiveRun
 
 RETRY = {"no_aspirate": "retry", "no_dispense": "retry", "partial_dispense": "top_up"}
-EMPTY = {"failure": "no_aspirate", "measured_ul": 0.0}
-HALF = {"measured_ul": 25.0, "left_ul": 25.0, "left_sigma_ul": 1.0}
+EMPTY = {"failure": "no_aspirate", "gate": "volumetric", "measured_ul": 0.0}
+HALF = {"gate": "volumetric", "measured_ul": 25.0, "left_ul": 25.0, "left_sigma_ul": 1.0}
 
 TEXT = """
 from aegis_ot import guard
@@ -132,7 +132,7 @@ def test_the_tip_of_a_recovery_goes_to_no_further_well(sidecar: FakeSidecar) -> 
 
 
 def test_liquid_goes_home_only_with_a_tip_that_touched_nothing_else(sidecar: FakeSidecar) -> None:
-    stuck = {"failure": "no_dispense", "measured_ul": 50.0}
+    stuck = {"failure": "no_dispense", "gate": "volumetric", "measured_ul": 50.0}
     sidecar.outcomes[0], sidecar.findings[0] = "fail", stuck
     low = """pipette.pick_up_tip()
     pipette.aspirate(50, plate["A1"])
@@ -184,6 +184,14 @@ def test_what_is_not_certain_is_left_to_a_person(body: str, why: str, sidecar: F
         simulated(sidecar, body)
     assert why in str(raised.value)
     assert states(sidecar) == [(0, "refused", None)]
+
+
+def test_a_recovery_that_nobody_saw_pass_is_a_failed_well(sidecar: FakeSidecar) -> None:
+    sidecar.outcomes[0], sidecar.findings[0] = "fail", EMPTY
+    sidecar.outcomes[1] = "undecided"
+    with pytest.raises(Exception, match="as configured"):
+        simulated(sidecar, FRESH, on_fail="abort", on_undecided="continue")
+    assert states(sidecar)[-1] == (0, "failed", 1)
 
 
 def test_a_well_that_fails_again_and_again_is_left_to_a_person(sidecar: FakeSidecar) -> None:

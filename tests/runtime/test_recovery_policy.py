@@ -12,6 +12,7 @@ from aegis_ot.runtime.recovery_policy import NotAllowed, Plan, plan_recovery
 from aegis_ot.runtime.strokes import Delivery
 from aegis_ot.vocabulary import (
     FailureType,
+    Gate,
     Keyframe,
     KeyframeKind,
     Outcome,
@@ -56,7 +57,8 @@ GOOD = Delivery(POST, (DRAW, GIVE))
 
 
 def verdict(kind: FailureType, **more: Any) -> Verdict:
-    return Verdict("run", 0, Outcome.FAIL, Route.GREY_ZONE, failure=kind, **more)
+    told = {"gate": Gate.VOLUMETRIC, "failure": kind, **more}
+    return Verdict("run", 0, Outcome.FAIL, Route.GREY_ZONE, **told)
 
 
 EMPTY = verdict(FailureType.NO_ASPIRATE, measured_ul=2.0)
@@ -160,3 +162,17 @@ def test_what_is_not_certain_is_refused_with_a_reason(
 ) -> None:
     with pytest.raises(NotAllowed, match=why):
         plan_recovery(action, delivery, verdict, boundary, None)
+
+
+@pytest.mark.parametrize(
+    "told",
+    [
+        {"measured_ul": None},
+        {"measured_ul": 2.0, "gate": Gate.VLM},
+        {"measured_ul": 2.0, "gate": Gate.OPERATOR},
+    ],
+)
+def test_what_nobody_measured_is_not_given_twice(told: dict[str, Any]) -> None:
+    seen = verdict(FailureType.NO_ASPIRATE, **told)
+    with pytest.raises(NotAllowed, match="nothing was measured"):
+        plan_recovery("retry", Delivery(POST, (DRAW, GIVE)), seen, DROP, None)

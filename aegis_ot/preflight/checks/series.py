@@ -65,9 +65,11 @@ def find_series(
         if len({(s.source, s.well) for s in group}) >= shortest and not is_copying(trace, group)
     ]
     linked = {well for group in groups for link in group for well in (link.source, link.well)}
-    in_all = frozenset().union(*(_in_all(trace, roles, group, diluent) for group in groups))
+    in_all = [_in_all(trace, roles, group, diluent) for group in groups]
+    anywhere = frozenset().union(*in_all)
     return [
-        _series(trace, roles, group, stock, diluent, linked, fillers, in_all) for group in groups
+        _series(trace, roles, group, stock, diluent, linked, fillers, here, anywhere)
+        for group, here in zip(groups, in_all, strict=True)
     ]
 
 
@@ -91,9 +93,10 @@ def _series(
     taken: Collection[Well],
     fillers: frozenset[Well],
     in_all: frozenset[Well],
+    in_all_anywhere: frozenset[Well],
 ) -> Series:
     linked = _wells_of(links)
-    members = _with_neighbours(trace, roles, linked, diluent | stock, taken, in_all)
+    members = _with_neighbours(trace, roles, linked, diluent | stock, taken, in_all_anywhere)
     order = best_order(members, links)
     steps: list[Transfer] = []
     entries: list[Well] = []
