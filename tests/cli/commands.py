@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import logging
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from unittest import mock
 
@@ -28,8 +31,23 @@ class Command:
 
     def __call__(self, *arguments: object) -> Result:
         argv = ["aegis-ot", *map(str, arguments)]
-        with mock.patch.object(sys, "argv", argv), pytest.raises(SystemExit) as ended:
+        with (
+            _log_as_before(),
+            mock.patch.object(sys, "argv", argv),
+            pytest.raises(SystemExit) as ended,
+        ):
             run()
         out, err = self._capture.readouterr()
         code = ended.value.code
         return Result(0 if code is None else int(code), out.decode(), err.decode())
+
+
+@contextmanager
+def _log_as_before() -> Iterator[None]:
+    """A sidecar's command logs to the standard error of its test, which is closed afterwards."""
+    logger = logging.getLogger("aegis_ot")
+    kept = logger.handlers[:], logger.level, logger.propagate
+    try:
+        yield
+    finally:
+        logger.handlers[:], logger.level, logger.propagate = kept
