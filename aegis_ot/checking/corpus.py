@@ -18,6 +18,7 @@ from ..preflight.database import shipped_rules
 from ..preflight.rehearsal import Script
 from ..vocabulary import one_line
 from .corpus_table import CRASHED, SKIPPED, Results, Row, Table, Told, read_results
+from .guard_arguments import guard_arguments
 from .problems import with_helper
 from .rehearser import Rehearser, TaskFailed
 from .result import Problem
@@ -112,7 +113,7 @@ def _judged(
         return _unjudged(file, SKIPPED, shelved.skipped, key), ()
     script = Script(shelved.text, shelved.path.name, extra_labware=shelved.labware)
     try:
-        options = options_for(shelved.text, Options())
+        options = options_for(guard_arguments(shelved.text), Options())
     except ConfigurationError as error:
         return _unjudged(file, "error", Problem(str(error)), key), ()
     rehearser: Rehearser = lazy.get()

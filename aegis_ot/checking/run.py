@@ -19,7 +19,7 @@ from .baseline import Baseline
 from .configuration import ConfiguredWaiver
 from .exploring import explore
 from .files import read_protocol
-from .guard_arguments import guard_arguments
+from .guard_arguments import GuardArguments, guard_arguments
 from .modelled import Asking, ask_model
 from .problems import with_helper
 from .rehearser import Rehearser, TaskFailed
@@ -110,7 +110,8 @@ def _check_file(
         extra_labware=settings.labware,
     )
     try:
-        options = options_for(text, settings.options)
+        said = guard_arguments(text)
+        options = options_for(said, settings.options)
     except ConfigurationError as error:
         return CheckedProtocol(name, problem=Problem(str(error)), lines=lines)
     if options.leave_none(database):
@@ -128,7 +129,7 @@ def _check_file(
     checked = dataclasses.replace(
         judged, file=name, lines=lines, seconds=seconds, declared=declared
     )
-    return _settle(checked, settings)
+    return _settle(checked, said, settings)
 
 
 def _with_own_values(
@@ -183,13 +184,9 @@ def _judge(
     )
 
 
-def options_for(text: str, options: Options) -> Options:
-    """What the command line leaves open, the guard inside the protocol may say.
-
-    Raises:
-        ConfigurationError: An argument of the guard is nothing that it takes.
-    """
-    said = Options.from_settings(Settings(**guard_arguments(text).values))
+def options_for(arguments: GuardArguments, options: Options) -> Options:
+    """What the command line leaves open, the guard inside the protocol may say."""
+    said = Options.from_settings(Settings(**arguments.values))
     return dataclasses.replace(
         options,
         assay=options.assay or said.assay,
@@ -200,14 +197,16 @@ def options_for(text: str, options: Options) -> Options:
     )
 
 
-def _settle(checked: CheckedProtocol, settings: CheckSettings) -> CheckedProtocol:
-    """Apply what the project has waived or put off."""
+def _settle(
+    checked: CheckedProtocol, said: GuardArguments, settings: CheckSettings
+) -> CheckedProtocol:
+    """Apply what the project has waived or put off, and tell what of the guard was not read."""
     report = checked.report
     if report is None:
         return checked
     standing, waived = waive(checked.file, report, settings.waivers, settings.waiver_root)
     known: list[Finding] = []
-    remarks = list(guard_arguments("\n".join(checked.lines)).unread)
+    remarks = list(said.unread)
     if settings.baseline is not None:
         standing, known, gone = settings.baseline.split(checked.file, standing, checked.lines)
         if gone:

@@ -19,7 +19,7 @@ from ..checking.guard_arguments import guard_arguments
 from ..checking.problems import problem_of
 from ..errors import AegisError, ConfigurationError, RehearsalError, RunAborted
 from ..guard import guard
-from ..instrumentation import Event, Operation, OperationKind, tapped
+from ..instrumentation import Operation
 from ..preflight.checking import check_recording, is_rejected, rejection
 from ..preflight.rehearsal import Script, play, record
 from ..reports.run_html import report_run
@@ -32,6 +32,7 @@ from ..sidecar.store import Store
 from ..simulation import SessionParameters, SimulatedCamera
 from ..vision.camera import Frame
 from ..vocabulary import Keyframe
+from .robot import HeardRobot, touched_after
 from .summary import DryRun, rows_of
 
 _LOOPBACK = urllib.request.build_opener(urllib.request.ProxyHandler({}))
@@ -103,9 +104,9 @@ def dry_run(
     with _no_exit(script.file_name):
         recording = record(script, [planner], timeout_s=settings.timeout_s)
     planner.finish()
+    said = guard_arguments(script.text).values
     report = None
     if settings.rules != "off":
-        said = guard_arguments(script.text).values
         guard_settings = load_settings(**{**said, "rules": settings.rules})
         report = check_recording(recording, guard_settings)
         progress.checked(report)
@@ -127,12 +128,14 @@ def dry_run(
         )
     progress.begin(planner.trajectories)
     begun = time.monotonic()
-    outcome, detail, told, overview, frames = _run(script, settings, analyser, camera, progress)
+    outcome, detail, told, overview, frames = _run(
+        script, settings, _recovery(said, settings), analyser, camera, progress
+    )
     wells = rows_of(overview)
     touched: tuple[str, ...] = ()
     notes: list[str] = []
     if outcome == "stopped":
-        touched = _touched_after(told, wells)
+        touched = touched_after(told, wells)
         notes = [f"Wells touched after the failed dispense: {', '.join(touched) or 'none'}."]
     overview |= {
         "layer1": None if report is None else about_layer1(report),
@@ -176,6 +179,7 @@ def _rejected(file_name: str, report: Any) -> DryRun:
 def _run(
     script: Script,
     settings: DryRunSettings,
+    recovery: Mapping[str, Any],
     analyser: Analyser,
     camera: SimulatedCamera,
     progress: Progress,
@@ -184,7 +188,7 @@ def _run(
     run, token = f"dry-run-{settings.seed}", secrets.token_urlsafe(16)
     if settings.data is not None:
         run += time.strftime("-%Y%m%d-%H%M%S")
-    robot = _Robot(progress.moves)
+    robot = HeardRobot(progress.moves)
     outcome, detail = "succeeded", ""
     with contextlib.ExitStack() as stack:
         data = settings.data or Path(
@@ -203,7 +207,7 @@ def _run(
                     run_id=run,
                     watch_simulation=True,
                     hold=settings.hold,
-                    **_recovery(script, settings),
+                    **recovery,
                     on_fail="abort" if settings.on_fail == "stop" else "continue",
                     on_undecided="abort" if settings.on_fail == "stop" else "continue",
                     on_link_loss="abort",
@@ -240,57 +244,6 @@ def _get(url: str, token: str) -> bytes:
         return bytes(answer.read())
 
 
-class _Robot:
-    """Hears, below the guard, what the simulated robot really did."""
-
-    def __init__(self, moves: Callable[[Operation], None]) -> None:
-        self.operations: list[Operation] = []
-        self._moves = moves
-
-    def under(self, guarded: Callable[[Any], Any], file_name: str) -> Callable[[Any], Any]:
-        def run(protocol: Any) -> Any:
-            with tapped(protocol, [self], file_name):
-                return guarded(protocol)
-
-        return run
-
-    def before(self, operation: Operation) -> None:
-        """Only what was done counts."""
-        self._moves(operation)
-
-    def after(self, operation: Operation) -> None:
-        self.operations.append(operation)
-
-    def event(self, event: Event) -> None:
-        """Of no interest here."""
-
-
-def _touched_after(operations: Sequence[Operation], wells: Sequence[Any]) -> tuple[str, ...]:
-    """Wells entered after the last dispense into the first flagged well."""
-    flagged = next((row for row in wells if row.flagged), None)
-    if flagged is None:
-        return ()
-    last = max(
-        (
-            index
-            for index, operation in enumerate(operations)
-            if operation.kind is OperationKind.DISPENSE
-            and operation.well is not None
-            and flagged.well.startswith(str(operation.well))
-        ),
-        default=len(operations),
-    )
-    return tuple(
-        dict.fromkeys(
-            str(operation.well)
-            for operation in operations[last + 1 :]
-            if operation.kind is not OperationKind.MOVE
-            and operation.well is not None
-            and str(operation.well) != flagged.well
-        )
-    )
-
-
 class _Telling:
     """An analyser that tells of each verdict."""
 
@@ -320,9 +273,8 @@ class _TellingRun:
         self._inner.confirm(trajectory)
 
 
-def _recovery(script: Script, settings: DryRunSettings) -> dict[str, Any]:
+def _recovery(said: Mapping[str, Any], settings: DryRunSettings) -> dict[str, Any]:
     """What the run may put right by itself: as given, else as the protocol's own guard says."""
-    said = guard_arguments(script.text).values
     names = ("recover", "recover_limit", "recover_run_limit")
     found = {name: said[name] for name in names if name in said}
     return found | ({"recover": settings.recover} if settings.recover else {})

@@ -16,7 +16,7 @@ def guarded(arguments: str) -> str:
 
 def test_literals_count_as_the_settings_read_them() -> None:
     text = guarded('assay="pcr", roles={"ntc": "plate:H12, plate:H11"}, ignore="PCR-6, SD-5"')
-    options = options_for(text, Options(select=("PCR-1",)))
+    options = options_for(guard_arguments(text), Options(select=("PCR-1",)))
     assert options.assay == ("pcr",)
     assert options.roles == {"ntc": ("plate:H12", "plate:H11")}
     assert options.ignore == ("PCR-6", "SD-5")
@@ -25,7 +25,9 @@ def test_literals_count_as_the_settings_read_them() -> None:
 
 def test_the_command_line_comes_first() -> None:
     text = guarded('assay="pcr", roles={"ntc": ["1:A1"], "water": ["1:B1"]}')
-    options = options_for(text, Options(assay=("generic",), roles={"ntc": ("2:H12",)}))
+    options = options_for(
+        guard_arguments(text), Options(assay=("generic",), roles={"ntc": ("2:H12",)})
+    )
     assert options.assay == ("generic",)
     assert options.roles == {"ntc": ("2:H12",), "water": ("1:B1",)}
 

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from syrupy.assertion import SnapshotAssertion
 
+from aegis_ot.checking.guard_arguments import guard_arguments
 from aegis_ot.checking.run import options_for
 from aegis_ot.preflight import Options, Report, check_script
 from aegis_ot.preflight.rehearsal import Script
@@ -24,7 +25,8 @@ SHOWN = 12
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_diagnostics(path: Path, snapshot: SnapshotAssertion) -> None:
     text = path.read_text(encoding="utf-8")
-    report = check_script(Script(text, path.name), options=options_for(text, Options()))
+    options = options_for(guard_arguments(text), Options())
+    report = check_script(Script(text, path.name), options=options)
     assert "\n".join(diagnostics(report)) == snapshot
     for finding in report.findings:
         assert finding.lines
