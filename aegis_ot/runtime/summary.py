@@ -39,12 +39,14 @@ class WatchSummary:
     outages: int = 0
 
     def of(self, outcome: Outcome) -> tuple[int, ...]:
-        """Trajectories with this outcome, rising; those of which no tip was seen have none."""
+        """Trajectories with this outcome, rising; those of which nobody saw a tip have none."""
         return tuple(
             sorted(
                 number
                 for number, verdict in self.verdicts.items()
-                if verdict.outcome is outcome and _seen(verdict) and number not in self.attempts
+                if verdict.outcome is outcome
+                and not verdict.unobserved
+                and number not in self.attempts
             )
         )
 
@@ -87,8 +89,3 @@ class WatchSummary:
         named = [self.places.get(n) or f"trajectory {n}" for n in numbers[:most]]
         rest = len(numbers) - most
         return ", ".join(named) + (f" and {rest} more" if rest > 0 else "")
-
-
-def _seen(verdict: Verdict) -> bool:
-    """Whether the camera saw any of its tips."""
-    return not verdict.channels or len(unobserved([verdict])) < len(verdict.channels)

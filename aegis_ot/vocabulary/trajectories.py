@@ -184,6 +184,8 @@ class Verdict:
 
     @property
     def unobserved(self) -> bool:
-        """Whether the camera saw none of the tips: then a pass says only that nothing holds."""
-        unseen = all(one.outcome is ChannelOutcome.UNOBSERVED for one in self.channels)
-        return bool(self.channels) and unseen and self.outcome is Outcome.PASS
+        """Whether nobody saw any of the tips: then a pass says only that nothing holds."""
+        if self.outcome is not Outcome.PASS or self.gate is Gate.OPERATOR:
+            return False
+        unseen = [one.outcome is ChannelOutcome.UNOBSERVED for one in self.channels]
+        return bool(unseen) and all(unseen)

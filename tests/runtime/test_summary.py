@@ -1,9 +1,18 @@
-"""The line at the end of a run counts wells, and no attempts to put them right."""
+"""The line at the end of a run counts wells: no attempts, and none that nobody saw."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from aegis_ot.runtime.summary import WatchSummary
-from aegis_ot.vocabulary import Outcome, Route, Verdict
+from aegis_ot.vocabulary import (
+    ChannelOutcome,
+    ChannelVerdict,
+    Gate,
+    Outcome,
+    Route,
+    Verdict,
+)
 
 
 def judged(number: int, outcome: Outcome) -> Verdict:
@@ -19,3 +28,12 @@ def test_attempts_are_counted_as_the_well_that_they_were_for() -> None:
     assert summary.text().startswith(
         "Layer 2 watched 2 deliveries: 0 passed, 1 failed (A1), 1 put right (D4); held"
     )
+
+
+def test_a_row_that_nobody_saw_counts_when_the_operator_decides_on_it() -> None:
+    hidden = (ChannelVerdict("A1", None, ChannelOutcome.UNOBSERVED),)
+    unseen = Verdict("run", 0, Outcome.PASS, Route.GREY_ZONE, channels=hidden)
+    summary = WatchSummary(watching=True, places={0: "A1"}, verdicts={0: unseen})
+    assert summary.of(Outcome.PASS) == ()
+    summary.verdicts[0] = replace(unseen, gate=Gate.OPERATOR)
+    assert summary.of(Outcome.PASS) == (0,)
