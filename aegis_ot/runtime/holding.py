@@ -148,16 +148,19 @@ class Holding:
                 policy = settings.on_fail
             elif verdict.outcome is Outcome.UNDECIDED:
                 policy = settings.on_undecided
+        refused: str | None = ""
+        if self._recovery is not None:
+            refused = self._recovery.judged(number, verdict, boundary)
         passed = verdict is not None and verdict.outcome is Outcome.PASS
-        if not passed and self._recovery is not None and self._recovery.is_attempt(number):
+        if not passed and number in self._result.attempts:
             # The well is known to have failed, and was not seen to be put right.
             policy = max(policy, settings.on_fail, key=_STRICTNESS.index)
         if step.final and settings.hold == "off":
             policy = "continue" if policy else None  # too late to change anything
-        if self._recovery is not None:
-            refused = self._recovery.judged(number, verdict, boundary)
-            policy = "recover" if refused is None else policy
-            text = f"{text} {refused}" if refused else text
+        if refused is None:
+            policy = "recover"
+        elif refused:
+            text = f"{text} {refused}"
         self._courier.report_hold(number, seconds, ended_by, policy)
         if policy == "continue":
             self._operator.comment(f"{text} The run goes on, as configured.")

@@ -80,11 +80,6 @@ class Recovery:
         """Whether something is to be put right before the protocol goes on."""
         return self._due is not None
 
-    def is_attempt(self, trajectory: int) -> bool:
-        """Whether this delivery was to put another one right."""
-        delivery = self.strokes.delivery(trajectory)
-        return delivery is not None and delivery.keyframe.recovers is not None
-
     def judged(
         self, trajectory: int, verdict: Verdict | None, boundary: Operation | None
     ) -> str | None:
