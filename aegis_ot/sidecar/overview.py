@@ -52,8 +52,7 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
             trajectory["well"] = f"{from_json(WellRef, wells[0])}{more}"
     for number in (*verdicts, *abandoned, *holds):
         entry(number)
-    recoveries = store.recoveries(run)
-    for number in _put_right(recoveries):
+    for number in store.put_right(run):
         entry(number)["recovered"] = True
     row = store.run(run) or {}
     return row | {
@@ -61,18 +60,9 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
         "costs": _costs(evidence for _, evidence, _ in verdicts.values()),
         "actions": store.actions(run),
         "incidents": store.incidents(run),
-        "recoveries": recoveries,
+        "recoveries": store.recoveries(run),
         "audit": store.audit(run),
     }
-
-
-def _put_right(recoveries: Iterable[Mapping[str, Any]]) -> set[int]:
-    """Failed deliveries whose well was put right in the end, failed attempts included."""
-    right = {one["trajectory"] for one in recoveries if one["state"] == "recovered"}
-    failed = {
-        one["by"] for one in recoveries if one["state"] == "failed" and one["trajectory"] in right
-    }
-    return right | (failed - {None})
 
 
 def _costs(evidences: Iterable[Mapping[str, Any]]) -> dict[str, Any] | None:

@@ -16,6 +16,12 @@ OF_A_RUN = (
 )  # fmt: skip
 """Tables whose rows go with their run."""
 
+_PUT_RIGHT = (
+    "SELECT trajectory FROM recoveries WHERE run = ?1 AND state = 'recovered' "
+    'UNION SELECT f."by" FROM recoveries f JOIN recoveries r USING (run, trajectory) '
+    "WHERE run = ?1 AND f.state = 'failed' AND r.state = 'recovered' AND f.\"by\" IS NOT NULL"
+)
+
 
 class Records(Database):
     """The tables that belong to a run. Every method raises StoreError where the disk fails."""
@@ -65,15 +71,13 @@ class Records(Database):
             "SELECT CASE WHEN d.outcome IS NULL AND json_array_length(v.verdict, '$.channels') > 0 "
             "AND NOT EXISTS (SELECT 1 FROM json_each(v.verdict, '$.channels') c "
             "WHERE json_extract(c.value, '$.outcome') <> 'unobserved') THEN 'unobserved' "
-            "WHEN coalesce(d.outcome, json_extract(v.verdict, '$.outcome')) = 'fail' AND EXISTS "
-            "(SELECT 1 FROM recoveries r WHERE r.run = v.run AND r.state = 'recovered' "
-            "AND r.trajectory = v.trajectory) THEN 'recovered' "
+            "WHEN coalesce(d.outcome, json_extract(v.verdict, '$.outcome')) = 'fail' "
+            f"AND v.trajectory IN ({_PUT_RIGHT}) THEN 'recovered' "
             "ELSE coalesce(d.outcome, json_extract(v.verdict, '$.outcome')) END AS outcome, "
             "count(*) AS n FROM verdicts v LEFT JOIN (SELECT trajectory, outcome, max(id) "
-            "FROM decisions WHERE run = ? GROUP BY trajectory) d ON d.trajectory = v.trajectory "
-            "WHERE v.run = ? AND NOT EXISTS (SELECT 1 FROM abandoned a WHERE a.run = v.run "
+            "FROM decisions WHERE run = ?1 GROUP BY trajectory) d ON d.trajectory = v.trajectory "
+            "WHERE v.run = ?1 AND NOT EXISTS (SELECT 1 FROM abandoned a WHERE a.run = v.run "
             "AND a.trajectory = v.trajectory) GROUP BY 1",
-            run,
             run,
         )
         return {row["outcome"]: row["n"] for row in rows}
@@ -119,6 +123,10 @@ class Records(Database):
         names = ("trajectory", "attempt", "action", "state", "by", "text", "at")
         rows = self._read("SELECT * FROM recoveries WHERE run = ? ORDER BY at", run)
         return [{name: row[name] for name in names} for row in rows]
+
+    def put_right(self, run: str) -> set[int]:
+        """Failed deliveries whose well was put right in the end, failed attempts included."""
+        return {trajectory for (trajectory,) in self._read(_PUT_RIGHT, run)}
 
     def add_decision(self, run: str, trajectory: int, decision: Decision) -> None:
         """Keep the operator's decision; every one is kept, the last one counts."""

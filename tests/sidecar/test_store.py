@@ -17,7 +17,8 @@ from aegis_ot.sidecar.config import RetentionSettings
 from aegis_ot.sidecar.housekeeping import tidy
 from aegis_ot.sidecar.schema import MIGRATIONS
 from aegis_ot.sidecar.store import DATABASE, SILENT, Captured, Store
-from aegis_ot.sidecar.wire import Finish, Hold, RunStart
+from aegis_ot.sidecar.wire import Finish, Hold, Recovery, RunStart
+from aegis_ot.vocabulary import Outcome, Route, Verdict
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_jpeg, make_keyframe
 
@@ -159,6 +160,20 @@ def test_runs_are_searched_and_counted(tmp_path: Path) -> None:
     assert [row["run"] for row in store.runs("running")] == ["dilution"]
     assert store.runs("' OR 1 --") == []
     assert [row["run"] for row in store.runs(most=1, skip=1)] == ["pcr-1"]
+
+
+def test_a_failed_attempt_counts_with_the_well_that_was_put_right_in_the_end(
+    tmp_path: Path,
+) -> None:
+    store = Store(tmp_path)
+    fill(store, "a", None)
+    for number, outcome in enumerate((Outcome.FAIL, Outcome.FAIL, Outcome.PASS, Outcome.FAIL)):
+        store.add_verdict(Verdict("a", number, outcome, Route.GREY_ZONE), {})
+    for attempt, state, by in ((1, "failed", 1), (2, "recovered", 2)):
+        told = Recovery(trajectory=0, attempt=attempt, action="retry", state=state, by=by)
+        store.add_recovery("a", told)
+    assert store.put_right("a") == {0, 1}
+    assert store.outcomes("a") == {"recovered": 2, "pass": 1, "fail": 1}
 
 
 def test_an_incident_is_kept_once_until_it_is_over(tmp_path: Path) -> None:
