@@ -14,7 +14,7 @@ from .app import BROKEN, CLEAN, FINDINGS, app
 from .checks import write_text
 from .datasets import tip_finder
 from .models import ModelName, RecordFolder, backend_of
-from .runs import DataFolder, known_run, open_data, stored_frames
+from .runs import DataFolder, known_run, open_data
 
 if TYPE_CHECKING:
     from ..audit import Audit
@@ -69,7 +69,7 @@ def audit(
     store.add_audit(name, found.to_json())
     _tell(found)
     if out is not None:
-        page = audit_html(run_overview(store, name), found.to_json(), stored_frames(store, name))
+        page = audit_html(run_overview(store, name), found.to_json(), store.frames_of(name))
         write_text(out, page)
         typer.echo(f"Page: {out}", err=True)
     if as_json is not None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -87,7 +86,7 @@ def show(
     for line in _told(account):
         typer.echo(line)
     if html is not None:
-        write_text(html, run_report_html([report_run(overview, stored_frames(store, name))]))
+        write_text(html, run_report_html([report_run(overview, store.frames_of(name))]))
         typer.echo(f"Report: {html}", err=True)
     if as_json is not None:
         write_text(as_json, json.dumps(account, ensure_ascii=False, indent=1) + "\n")
@@ -178,19 +177,6 @@ def _folder(data: Path | None) -> Path:
     from ..sidecar.token_file import known_token
 
     return SidecarConfig.load(find_token=known_token).data if data is None else data
-
-
-def stored_frames(store: Store, run: str) -> Callable[[int], bytes | None]:
-    """The JPEG of a keyframe's number; ``None`` where it is missing or damaged."""
-    from ..errors import StoreError
-
-    def frame(sequence: int) -> bytes | None:
-        try:
-            return store.frame(run, sequence)
-        except StoreError:
-            return None
-
-    return frame
 
 
 def open_data(data: Path | None, alone: bool = False) -> Store:

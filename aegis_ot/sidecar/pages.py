@@ -12,7 +12,6 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 
 from ..account import run_account
-from ..errors import StoreError
 from ..reports.audit_html import audit_html
 from ..reports.html_page import html_page, shared_file
 from ..reports.run_html import ReportedRun, report_run, run_report_html
@@ -186,7 +185,7 @@ def _logging_in(router: APIRouter, sidecar: Sidecar, read_body: ReadBody) -> Non
 
 
 def _report(sidecar: Sidecar, run: str) -> ReportedRun:
-    return report_run(sidecar.overview(check_run(run)), _frames(sidecar, run))
+    return report_run(sidecar.overview(check_run(run)), sidecar.store.frames_of(run))
 
 
 def _audited(sidecar: Sidecar, run: str) -> tuple[dict[str, Any], dict[str, Any], Frames]:
@@ -200,17 +199,7 @@ def _audited(sidecar: Sidecar, run: str) -> tuple[dict[str, Any], dict[str, Any]
         raise WireError(
             404, "no_audit", f"Run {run!r} was not audited.", f"Audit it: aegis-ot audit {run}."
         )
-    return overview, overview["audit"], _frames(sidecar, run)
-
-
-def _frames(sidecar: Sidecar, run: str) -> Frames:
-    def frame(sequence: int) -> bytes | None:
-        try:
-            return sidecar.store.frame(run, sequence)
-        except StoreError:
-            return None
-
-    return frame
+    return overview, overview["audit"], sidecar.store.frames_of(run)
 
 
 def _download(run: str, suffix: str) -> dict[str, str]:

@@ -12,10 +12,12 @@ import dataclasses
 import json
 import sqlite3
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..errors import StoreError
 from ..vocabulary import Keyframe, from_json, to_json
 from .database import DATABASE
 from .frames import FrameFiles, folder_name
@@ -234,6 +236,18 @@ class Store(Records):
             return None
         with self._plain_errors("read a frame from"):
             return self._frames.read(run, sequence)
+
+    def frames_of(self, run: str) -> Callable[[int], bytes | None]:
+        """For pages and reports: a keyframe's JPEG by its number; ``None``, too, where it cannot be
+        read."""
+
+        def frame(sequence: int) -> bytes | None:
+            try:
+                return self.frame(run, sequence)
+            except StoreError:
+                return None
+
+        return frame
 
     def frame_path(self, run: str, sequence: int) -> Path:
         """Where the JPEG of a keyframe is."""
