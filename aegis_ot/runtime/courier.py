@@ -7,13 +7,13 @@ import time
 from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from itertools import starmap
 from typing import Any
 
 from ..errors import LinkError, SidecarRefused, SidecarUnreachable
 from ..http_client import SLICE_S
 from ..vocabulary import Keyframe, Verdict
 from .link import CameraSilent, Order, RunUnknown, SequenceGap, SidecarLink
+from .outbox import REQUEST_S, Outbox
 
 _FIRST_TRY_S = 3.0
 """How long a first try may take before somebody is told that it is tried again, s."""
@@ -29,12 +29,8 @@ _CATCH_UP_S = 1.0
 """How long one missed keyframe may take when a lost sidecar is back, s: its camera may be dead."""
 _POLL_S = 0.15
 _MOST_MENDS = 3
-_REQUEST_S = 2.0
-"""Longest wait for an answer that needs no camera, s."""
 
 OnTrouble = Callable[[LinkError, float], None]
-Message = Callable[[float], None]
-"""Says something that needs no camera; takes at most so many seconds."""
 
 
 class Courier:
@@ -67,7 +63,7 @@ class Courier:
         self._rest = rest
         self._sent: list[Keyframe] = []
         self._pending: deque[Keyframe] = deque()
-        self._messages: deque[Message] = deque()
+        self._outbox = Outbox(link, run, self._register)
         self._obeyed: Order | None = None
         self._lost: tuple[float, str] | None = None
         self._unheard = False  # a message was not taken; the next keyframe shows who is there
@@ -125,7 +121,7 @@ class Courier:
             self._link.health(_GLANCE_S)
             self._send_all(time.monotonic() + timeout_s, _CATCH_UP_S)
             self._note_outage()
-            self._flush_messages(time.monotonic() + _REQUEST_S)
+            self._outbox.flush(time.monotonic() + REQUEST_S)
         except LinkError:
             self._pause_s = min(_LONGEST_REST_S, self._pause_s * 2)
             self._next_look = time.monotonic() + self._pause_s
@@ -140,20 +136,20 @@ class Courier:
     def verdict(self, number: int) -> Verdict | None:
         """Ask once, for 0.15 s at most, for a verdict."""
         try:
-            return self._link.verdict(self._run, number, _POLL_S, _REQUEST_S)
+            return self._link.verdict(self._run, number, _POLL_S, REQUEST_S)
         except RunUnknown:
-            self._register(time.monotonic() + _REQUEST_S)
+            self._register(time.monotonic() + REQUEST_S)
             self._queue_again(0)
             return None
 
     def abandon(self, number: int, reason: str) -> None:
         """Tell, now or when the sidecar is back, that a trajectory is given up."""
-        self._messages.append(self._abandonment(number, reason))
+        self._outbox.abandon(number, reason)
         self._tell()
 
     def action(self, number: int, within_s: float) -> str | None:
         """Ask once what a person told the robot that is paused at a trajectory so long, s."""
-        return self._link.action(self._run, number, within_s, _REQUEST_S)
+        return self._link.action(self._run, number, within_s, REQUEST_S)
 
     def order(self) -> Order | None:
         """What a person told the moving robot on the sidecar's page; each order once."""
@@ -175,20 +171,12 @@ class Courier:
         """Tell likewise how a hold went, and, when it is over, how long the robot was paused and
         where that was answered.
         """
-        body = {
-            "trajectory": number,
-            "seconds": round(seconds, 4),
-            "resolution": ended_by,
-            "policy": policy,
-        }
-        if paused_s is not None:
-            body |= {"paused_s": round(paused_s, 3), "answered": answered}
-        self._messages.append(lambda most: self._link.report_hold(self._run, body, most))
+        self._outbox.hold(number, seconds, ended_by, policy, paused_s, answered)
         self._tell()
 
     def report_recovery(self, told: Mapping[str, Any]) -> None:
         """Tell likewise of a recovery."""
-        self._messages.append(lambda most: self._link.report_recovery(self._run, told, most))
+        self._outbox.recovery(told)
         self._tell()
 
     def finish(
@@ -200,8 +188,9 @@ class Courier:
             LinkError: It could not be told within ``timeout_s``.
         """
         deadline = time.monotonic() + timeout_s
-        self._messages.extend(starmap(self._abandonment, abandoned.items()))
-        self._flush_messages(deadline)
+        for number, reason in abandoned.items():
+            self._outbox.abandon(number, reason)
+        self._outbox.flush(deadline)
         left = max(SLICE_S, deadline - time.monotonic())
         self._link.finish(self._run, outcome, detail[:2000], left)
 
@@ -209,26 +198,14 @@ class Courier:
         """Drop the connection."""
         self._link.close()
 
-    def _abandonment(self, number: int, reason: str) -> Message:
-        return lambda most: self._link.abandon(self._run, number, reason, most)
-
     def _tell(self) -> None:
         """Messages are for people's eyes: a sidecar that takes none holds the robot up once."""
         if self.away or self._unheard:
             return
         try:
-            self._flush_messages(time.monotonic() + _REQUEST_S)
+            self._outbox.flush(time.monotonic() + REQUEST_S)
         except LinkError:
             self._unheard = True
-
-    def _flush_messages(self, deadline: float) -> None:
-        while self._messages and (left := deadline - time.monotonic()) > 0:
-            try:
-                self._messages[0](min(left, _REQUEST_S))
-            except RunUnknown:
-                self._register(deadline)
-                self._messages[0](max(SLICE_S, deadline - time.monotonic()))
-            self._messages.popleft()
 
     def _camera_trouble(self, waited_s: float) -> CameraSilent | None:
         """Whether the sidecar that captured nothing in time is there, and what it says."""
@@ -295,9 +272,7 @@ class Courier:
         lost, self._lost = self._lost, None
         if lost is None or (seconds := time.monotonic() - lost[0]) < _SILENT_S:
             return
-        self._messages.append(
-            lambda most: self._link.report_outage(self._run, seconds, lost[1], most)
-        )
+        self._outbox.outage(seconds, lost[1])
         self._unheard = False
 
     def _close_gap(self, gap: SequenceGap, keyframe: Keyframe) -> None:

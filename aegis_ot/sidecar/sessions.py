@@ -5,9 +5,8 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import Any, Protocol
+from collections.abc import Callable
+from typing import Any
 
 from ..errors import StoreError
 from ..vision.camera import Frame
@@ -15,11 +14,10 @@ from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, Outcome, Verdict
 from .analysis import Analyser
 from .bell import Bell
-from .clocks import ClockWatch, tell_leap
 from .decisions import effective
 from .journal import event
-from .notices import Notice
 from .orders import Orders
+from .run_trouble import RunTrouble, Troubles
 from .store import Captured, Store
 from .wire import Action, Decision, Hold, Order, WireError
 from .worker import AnalysisWorker
@@ -29,19 +27,6 @@ log = logging.getLogger(__name__)
 Grab = Callable[[Keyframe, float, ViewWatch | None], Frame]
 """Grabs the first frame exposed at or after a moment, in which the view shows what it should;
 raises CameraError."""
-
-
-class Troubles(Protocol):
-    """Keeps what befalls runs (the sidecar's own :class:`~.service.Sidecar`)."""
-
-    def tell(self, notice: Notice) -> None:
-        """A bad verdict, or trouble that begins: people are told."""
-
-    def over(self, run: str, kind: str) -> None:
-        """Trouble of this kind is over, if there was any."""
-
-    def note(self, run: str, kind: str, seen: str) -> None:
-        """Trouble that is over by now."""
 
 
 OPERATOR = "operator"
@@ -81,10 +66,8 @@ class Session:
         self._store = store
         self._bell = bell
         self._grab = grab
-        self._troubles = troubles
-        self._clocks = {"workstation": ClockWatch(), "robot": ClockWatch()}
+        self._trouble = RunTrouble(run, troubles)
         self._unkept: list[tuple[Verdict, dict[str, Any]]] = []
-        self._in_trouble: set[str] = set()
         self._operator_timeout = operator_timeout
         self._view = view
         self._capturing = threading.Lock()
@@ -142,15 +125,15 @@ class Session:
                 self._store.add_keyframe(captured, frame.jpeg)
                 self._store.reopen(self.run)
             except StoreError as error:
-                self._trouble("store", "the store is in trouble", str(error))
+                self._trouble.begins("store", str(error))
                 raise
             self._next += 1
             self._at = keyframe.trajectory
             self._resumed()
             self._worker.submit(keyframe, frame)
-            with _told_in_the_log(self.run):  # it is kept, and in the analyser's queue
+            with self._trouble.at_most_logged():  # it is kept, and in the analyser's queue
                 self.catch_up()
-                self._look_at_clocks(keyframe, moment)
+                self._trouble.look_at_clocks(keyframe, moment)
         self._bell.ring()
         return captured
 
@@ -303,7 +286,7 @@ class Session:
         except StoreError as error:
             log.error("The verdict on trajectory %d was not kept: %s", verdict.trajectory, error)
             self._unkept.append((verdict, evidence))
-            self._trouble("store", "the store is in trouble", str(error))
+            self._trouble.begins("store", str(error))
         with self._state:
             self._verdicts[verdict.trajectory] = verdict
             if verdict.outcome is Outcome.UNDECIDED and self._operator_timeout > 0:
@@ -313,44 +296,16 @@ class Session:
               route=verdict.route.value, gate=verdict.gate.value, score=verdict.score,
               failure=verdict.failure.value if verdict.failure else None)  # fmt: skip
         if verdict.outcome is not Outcome.PASS:
-            self._troubles.tell(Notice.of_verdict(verdict))
+            self._trouble.bad(verdict)
         if said := evidence.get("model_trouble"):
-            self._trouble("model", "the vision model does not answer", str(said))
+            self._trouble.begins("model", str(said))
         elif evidence.get("costs"):
-            with _told_in_the_log(self.run):  # a raise would end the run's analysis
-                self._recovered("model")
+            with self._trouble.at_most_logged():  # a raise would end the run's analysis
+                self._trouble.is_over("model")
 
     def catch_up(self) -> None:
         """The store takes what is written again: keep what it could not."""
-        while self._unkept and "store" in self._in_trouble:
+        while self._unkept and self._trouble.lasts("store"):
             self._store.add_verdict(*self._unkept[0])
             del self._unkept[0]
-        self._recovered("store")
-
-    def _trouble(self, kind: str, what: str, seen: str) -> None:
-        self._in_trouble.add(kind)
-        self._troubles.tell(Notice(self.run, kind, what, seen))
-
-    def _recovered(self, kind: str) -> None:
-        if kind in self._in_trouble:
-            self._troubles.over(self.run, kind)
-            self._in_trouble.discard(kind)
-
-    def _look_at_clocks(self, keyframe: Keyframe, moment: float) -> None:
-        """Times of a run are those of wall clocks: tell where one was set meanwhile."""
-        told = {"workstation": (time.time(), time.monotonic())}
-        if keyframe.robot_time and not keyframe.late:
-            told["robot"] = (keyframe.robot_time, moment)
-        for whose, (clock, when) in told.items():
-            leap = self._clocks[whose].look(clock, when)
-            if leap:
-                self._troubles.note(self.run, "clock", tell_leap(whose, leap))
-
-
-@contextmanager
-def _told_in_the_log(run: str) -> Iterator[None]:
-    """What the store cannot take now, and is tried again with the next keyframe."""
-    try:
-        yield
-    except StoreError as error:
-        log.warning("Run %s: %s", run, error)
+        self._trouble.is_over("store")

@@ -123,7 +123,7 @@ def test_a_sidecar_that_is_gone_is_not_taken_for_a_dead_camera(
 def test_messages_that_nobody_takes_hold_the_robot_up_once(
     sidecar: FakeSidecar, courier: Courier, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "_REQUEST_S", 0.3)
+    monkeypatch.setattr(module, "REQUEST_S", 0.3)
     courier.register(1.0)
     sidecar.fault = Hanging("/hold")
     began = time.monotonic()

@@ -1,0 +1,78 @@
+"""What the robot has to say that needs no camera: kept in order until the sidecar takes it."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from ..http_client import SLICE_S
+from .link import RunUnknown, SidecarLink
+
+REQUEST_S = 2.0
+"""Longest wait for an answer that needs no camera, s."""
+
+
+class Outbox:
+    """Messages of one run, for people's eyes.
+
+    Args:
+        link: To the sidecar.
+        run: Identifier of the run.
+        register: Says, until a moment of ``time.monotonic`` (s), which run this is, to a sidecar
+            that does not know it.
+    """
+
+    def __init__(self, link: SidecarLink, run: str, register: Callable[[float], None]) -> None:
+        self._link = link
+        self._run = run
+        self._register = register
+        self._messages: deque[Callable[[float], None]] = deque()
+
+    def abandon(self, number: int, reason: str) -> None:
+        """A trajectory is given up."""
+        self._messages.append(lambda most: self._link.abandon(self._run, number, reason, most))
+
+    def hold(
+        self,
+        number: int,
+        seconds: float,
+        ended_by: str,
+        policy: str | None,
+        paused_s: float | None = None,
+        answered: str | None = None,
+    ) -> None:
+        """How a hold went, and, when it is over, how long the robot was paused and where that was
+        answered."""
+        body = {
+            "trajectory": number,
+            "seconds": round(seconds, 4),
+            "resolution": ended_by,
+            "policy": policy,
+        }
+        if paused_s is not None:
+            body |= {"paused_s": round(paused_s, 3), "answered": answered}
+        self._messages.append(lambda most: self._link.report_hold(self._run, body, most))
+
+    def recovery(self, told: Mapping[str, Any]) -> None:
+        """What the robot does by itself about a failed delivery."""
+        self._messages.append(lambda most: self._link.report_recovery(self._run, told, most))
+
+    def outage(self, seconds: float, said: str) -> None:
+        """For how long there was no link, and what was said of it."""
+        self._messages.append(lambda most: self._link.report_outage(self._run, seconds, said, most))
+
+    def flush(self, deadline: float) -> None:
+        """Send what there is until a moment of ``time.monotonic``, s; the rest stays.
+
+        Raises:
+            LinkError: One was not taken.
+        """
+        while self._messages and (left := deadline - time.monotonic()) > 0:
+            try:
+                self._messages[0](min(left, REQUEST_S))
+            except RunUnknown:
+                self._register(deadline)
+                self._messages[0](max(SLICE_S, deadline - time.monotonic()))
+            self._messages.popleft()
