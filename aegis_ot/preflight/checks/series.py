@@ -67,10 +67,12 @@ def find_series(
     linked = {well for group in groups for link in group for well in (link.source, link.well)}
     in_all = [_in_all(trace, roles, group, diluent) for group in groups]
     anywhere = frozenset().union(*in_all)
-    return [
-        _series(trace, roles, group, stock, diluent, linked, fillers, here, anywhere)
-        for group, here in zip(groups, in_all, strict=True)
-    ]
+    found = []
+    for group, here in zip(groups, in_all, strict=True):
+        own = _wells_of(group)
+        members = _with_neighbours(trace, roles, own, diluent | stock, linked, anywhere)
+        found.append(_series(trace, roles, group, members, stock, diluent, fillers, here))
+    return found
 
 
 def _is_made(trace: Trace, roles: Roles, well: Well, made_of: frozenset[str]) -> bool:
@@ -88,25 +90,22 @@ def _series(
     trace: Trace,
     roles: Roles,
     links: list[Transfer],
+    members: list[Well],
     stock: frozenset[str],
     diluent: frozenset[str],
-    taken: Collection[Well],
     fillers: frozenset[Well],
     in_all: frozenset[Well],
-    in_all_anywhere: frozenset[Well],
 ) -> Series:
-    linked = _wells_of(links)
-    members = _with_neighbours(trace, roles, linked, diluent | stock, taken, in_all_anywhere)
+    linked = set(_wells_of(links))
     order = best_order(members, links)
     steps: list[Transfer] = []
     entries: list[Well] = []
     entered: dict[Well, int] = {}
     member_set = set(members)
-    linked_set = set(linked)
     fed = _fed_from_outside(trace, members)
     for well in members:
         last: dict[int, Transfer] = {}
-        held_stock = well.prefilled and well in linked_set and not _feeds_last(well, links)
+        held_stock = well.prefilled and well in linked and not _feeds_last(well, links)
         if held_stock and not roles.has(well.ref, diluent):
             entries.append(well)
             entered[well] = -1
@@ -119,7 +118,7 @@ def _series(
                 if (
                     roles.has(source.ref, stock)
                     # Unnamed, but it goes into one well only, and that one feeds the others.
-                    or (not roles.of(source.ref) and fed[source] == {well} and well in linked_set)
+                    or (not roles.of(source.ref) and fed[source] == {well} and well in linked)
                 ):
                     last[id(source)] = Transfer(source, well, visit, line, True)
                     entered.setdefault(well, visit.index)
