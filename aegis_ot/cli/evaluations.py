@@ -26,7 +26,7 @@ from .checks import write_text
 from .counting import Counting
 from .datasets import writable_folder
 from .judging import Labware, Rules, one_of, split
-from .models import RecordFolder, backend_of
+from .models import ModelNames, RecordFolder, backend_of
 
 evaluate = typer.Typer(no_args_is_help=True, help="Score a layer on labelled data.")
 app.add_typer(evaluate, name="evaluate")
@@ -56,10 +56,7 @@ def layer1(
             "(rules-only if left out)."
         ),
     ] = None,
-    model: Annotated[
-        list[str] | None,
-        typer.Option(help="Model to ask, see `check --model`; repeatable, to compare models."),
-    ] = None,
+    model: ModelNames = None,
     record: RecordFolder = None,
     prices: Annotated[
         Path | None, typer.Option(help="Price table of your own (AEGIS_OT_PRICES if left out).")

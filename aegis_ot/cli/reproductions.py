@@ -12,7 +12,7 @@ from .app import BROKEN, CLEAN, app
 from .checks import write_text
 from .datasets import open_dataset, writable_folder
 from .judging import one_of, split
-from .models import RecordFolder, backend_of
+from .models import ModelNames, RecordFolder, backend_of
 
 if TYPE_CHECKING:
     from ..evaluation.reproduction import Entry
@@ -31,10 +31,7 @@ def reproduce(
         list[Path] | None,
         typer.Option(help="Trajectory data set in a simulated one's place; repeatable."),
     ] = None,
-    model: Annotated[
-        list[str] | None,
-        typer.Option(help="Model to ask, see `check --model`; repeatable, to compare models."),
-    ] = None,
+    model: ModelNames = None,
     record: RecordFolder = None,
     seed: Annotated[int, typer.Option(min=0, help="Of everything that is drawn.")] = 0,
     plates: Annotated[int, typer.Option(min=4, max=200, help="Of a simulated data set.")] = 16,

@@ -136,9 +136,8 @@ def keyframes(sample: TrajectorySample, number: int) -> list[Keyframe]:
             pipette=sample.pipette,
             mount="left",
             channels=1,
-            tip=str(
-                number
-            ),  # every well is judged by itself: no leftover of the one before explains it
+            # Every well is judged by itself: no leftover of the one before explains it.
+            tip=str(number),
             sources=(),
             destinations=(well,),
             commanded_ul=sample.volume_ul,

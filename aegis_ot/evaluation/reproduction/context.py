@@ -6,9 +6,9 @@ import hashlib
 import json
 import shutil
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -204,18 +204,7 @@ def version() -> str:
     return f"{aegis_ot.__version__}+{_digest_of_source()}"
 
 
-def _once(function: Callable[[], str]) -> Callable[[], str]:
-    kept: list[str] = []
-
-    def told() -> str:
-        if not kept:
-            kept.append(function())
-        return kept[0]
-
-    return told
-
-
-@_once
+@cache
 def _digest_of_source() -> str:
     root = Path(aegis_ot.__file__).parent
     digest = hashlib.sha256()

@@ -10,8 +10,8 @@ from ...reasoning import Usage, load_prices
 from ..layer1.bill import cost_of
 from .context import Context
 from .experiment import NOT_RUN, Experiment, Outcome, Table, table
-from .jury import MODEL_POINTS, Counted, Word, after_calibration, analysers, counted, judged_run
-from .live import REAGENTS, script_of
+from .jury import Counted, Word, after_calibration, analysers, counted, judged_run
+from .live import REAGENTS, script_of, unanswered
 
 SEED = 96_000
 """Of the runs; nothing was tuned on them."""
@@ -84,7 +84,7 @@ def run(context: Context) -> Outcome:
             "reagent, p1000, 100 µL",
         ),
         answers={"routed": _answer(found, asked)},
-        tables=(_shares(found), _costs(asked, call), _models(context, silent)),
+        tables=(_shares(found), _costs(asked, call), unanswered(context, silent)),
         notes=(
             f"Questions of {wells} wells, told for 96. They are counted on sound wells; nobody "
             "answers them here unless a model is given. The paper's plate costs are its routed "
@@ -156,15 +156,6 @@ def _costs(asked: Mapping[str, Asked], call: float | None) -> Table:
         "paper, USD",
     )
     return table("Cost of a plate", header, rows)
-
-
-def _models(context: Context, silent: Sequence[str]) -> Table:
-    if not context.backends:
-        rows = [(form.format("MODEL"), f"{NOT_RUN}: no model") for form in MODEL_POINTS]
-    else:
-        rows = [(point, f"{NOT_RUN}: the model gave no answer") for point in silent]
-    header = ("operating point", "state")
-    return table("With a model that answers", header, rows or [("all", "run, see above")])
 
 
 def _answer(found: Found, asked: Mapping[str, Asked]) -> tuple[str, ...]:

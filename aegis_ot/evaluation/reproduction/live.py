@@ -92,7 +92,7 @@ def run(context: Context) -> Outcome:
             ),
             "live-always": _short_always(shown, found),
         },
-        tables=(_matrix(shown, found), _false_pauses(shown, found), _not_run(context, silent)),
+        tables=(_matrix(shown, found), _false_pauses(shown, found), unanswered(context, silent)),
         notes=(
             "Caught: the run is held at the planted well, failed or left to the operator (in "
             "brackets Wilson's 95 % interval). The paper counts what its vision model failed.",
@@ -161,8 +161,13 @@ def _false_pauses(points: Sequence[str], found: Found) -> Table:
     return table("False pauses (the paper: one, in a water run)", header, rows)
 
 
-def _not_run(context: Context, silent: Sequence[str]) -> Table:
-    """Operating points that nobody answered for."""
+def unanswered(context: Context, silent: Sequence[str]) -> Table:
+    """Operating points that no model answered for.
+
+    Args:
+        context: With the models.
+        silent: Points whose model gave no answer.
+    """
     if context.backends:
         rows = [(point, f"{NOT_RUN}: the model gave no answer") for point in silent]
     else:

@@ -114,7 +114,7 @@ class RowFinder:
     def _row(self, image: Image) -> Row | None:
         if not isinstance(self._detector, RowDetector):
             return None
-        seed = getattr(self._detector, "best_guess", self._detector.detect)(image)
+        seed = self._guess(image)
         if seed is None:
             return None
         row = self._row_at(image, seed)
@@ -129,8 +129,14 @@ class RowFinder:
         )
         return row if enough and _STEPS[0] <= step <= 1.3 * _STEPS[1] else None
 
+    def _guess(self, image: Image) -> TipDetection | None:
+        """The tip, or where one would be if any is there."""
+        guess = getattr(self._detector, "best_guess", self._detector.detect)
+        found: TipDetection | None = guess(image)
+        return found
+
     def _row_in_wells(self, image: Image, known: Row) -> Row | None:
-        seed = getattr(self._detector, "best_guess", self._detector.detect)(image)
+        seed = self._guess(image)
         if seed is None or not isinstance(self._detector, RowDetector):
             return None
         # In a well a tip looks shorter than it is: the scale is that of the free one.
@@ -181,7 +187,7 @@ class RowFinder:
     def _along(self, image: Image) -> SeenRow:
         """Tips one behind another. The nearest one is seen, but against the others, and through
         them: of its column nothing can be told."""
-        seed = getattr(self._detector, "best_guess", self._detector.detect)(image)
+        seed = self._guess(image)
         if seed is None or seed.confidence < _FAINT:
             return self._nothing()
         return SeenRow((None,) * self._count, (True,) * self._count)
