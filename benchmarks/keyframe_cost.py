@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
-import os
 import random
 import statistics
-import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
@@ -16,6 +12,7 @@ from aegis_ot.runtime.link import SidecarLink
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
 from .figure import Figure
+from .sidecar_process import sidecar_process
 
 FPS = 30.0
 KEYFRAMES = 120
@@ -42,7 +39,10 @@ def measure() -> tuple[list[float], list[float]]:
     """Time of each keyframe, and of it until the exposure began, s."""
     rng = random.Random(1)
     taken, delays = [], []
-    with _sidecar() as url:
+    with (
+        tempfile.TemporaryDirectory() as data,
+        sidecar_process("--camera", "pattern", "--port", "0", "--data", data) as (url, _),
+    ):
         link = SidecarLink(url, None, lambda: None)
         link.start(_RUN, about(), 10)
         for number in range(KEYFRAMES + 4):
@@ -57,25 +57,6 @@ def measure() -> tuple[list[float], list[float]]:
         link.finish(_RUN, "succeeded", "", 5)
         link.close()
     return taken, delays
-
-
-@contextlib.contextmanager
-def _sidecar() -> Iterator[str]:
-    with tempfile.TemporaryDirectory() as data:
-        environment = {k: v for k, v in os.environ.items() if not k.startswith("AEGIS_OT_")}
-        process = subprocess.Popen(
-            [sys.executable, "-c", "from aegis_ot.cli import main; main()", "sidecar",
-             "--camera", "pattern", "--port", "0", "--data", data],
-            env=dict(environment, OMP_NUM_THREADS="1", PYTHONUNBUFFERED="1"),
-            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-        )  # fmt: skip
-        try:
-            assert process.stdout is not None
-            line = next(line for line in process.stdout if "http://" in line)
-            yield next(word for word in line.split() if word.startswith("http://"))
-        finally:
-            process.terminate()
-            process.wait(10)
 
 
 def about(run: str = _RUN) -> dict[str, object]:

@@ -14,13 +14,11 @@ import json
 import os
 import random
 import statistics
-import subprocess
 import sys
 import tempfile
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -30,6 +28,7 @@ from aegis_ot.vocabulary import KeyframeKind
 
 from .figure import Figure
 from .keyframe_cost import FPS, about, make_keyframe
+from .sidecar_process import sidecar_process
 
 ABOVE_FRAME_MS = 100.0
 _EXPOSURES = 3
@@ -52,7 +51,8 @@ def figures(minutes: float = 10.0, robots: int = 10) -> Iterator[Figure]:
     with tempfile.TemporaryDirectory() as folder:
         video = Path(folder) / "delivery.avi"
         make_video(video)
-        with _sidecar(video, Path(folder) / "data") as (url, pid):
+        settings = _settings(video, Path(folder) / "data")
+        with sidecar_process("--config", str(settings)) as (url, pid):
             heard, memory = _load(url, pid, 60.0 * minutes, robots)
         lost = _lost(Path(folder) / "data", heard)
     taken = sorted(one for robot in heard for one in robot.taken)
@@ -97,26 +97,12 @@ def make_video(path: Path) -> None:
     out.release()
 
 
-@contextmanager
-def _sidecar(video: Path, data: Path) -> Iterator[tuple[str, int]]:
-    environment = {k: v for k, v in os.environ.items() if not k.startswith("AEGIS_OT_")}
+def _settings(video: Path, data: Path) -> Path:
     # A video knows of no robot: the watch of the view would find it frozen, or without a tip.
     camera = {"spec": f"video:{video}", "watch_view": False}
     settings = data.with_suffix(".json")
     settings.write_text(json.dumps({"camera": camera, "port": 0, "data": str(data)}), "utf-8")
-    process = subprocess.Popen(
-        [sys.executable, "-c", "from aegis_ot.cli import main; main()", "sidecar",
-         "--config", str(settings)],
-        env=dict(environment, OMP_NUM_THREADS="1", PYTHONUNBUFFERED="1"),
-        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-    )  # fmt: skip
-    try:
-        assert process.stdout is not None
-        line = next(line for line in process.stdout if "http://" in line)
-        yield next(word for word in line.split() if word.startswith("http://")), process.pid
-    finally:
-        process.terminate()
-        process.wait(20)
+    return settings
 
 
 def _load(url: str, pid: int, seconds: float, robots: int) -> tuple[list[Heard], list[float]]:
