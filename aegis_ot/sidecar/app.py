@@ -6,11 +6,10 @@ import contextlib
 import functools
 import time
 from collections.abc import AsyncIterator
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any
 
 from fastapi import Depends, FastAPI, Path, Query, Request
 from starlette.concurrency import run_in_threadpool
-from starlette.requests import ClientDisconnect
 from starlette.responses import Response
 
 from .._version import __version__
@@ -20,6 +19,7 @@ from ..vision.types import Detector
 from ..vocabulary import Keyframe, to_json
 from .analysis import Analyser, Unscored
 from .auditing import Auditor
+from .bodies import body_as, read_body
 from .cameras import open_cameras
 from .cameras.history import HISTORY_S
 from .config import SidecarConfig
@@ -31,7 +31,6 @@ from .security import Doorkeeper
 from .service import Sidecar
 from .sessions import Session
 from .wire import (
-    MAX_BODY,
     MAX_COUNT,
     MAX_WAIT,
     WIRE,
@@ -48,8 +47,6 @@ from .wire import (
     check_run,
     parse,
 )
-
-T = TypeVar("T")
 
 PAGE_WAIT = 20.0
 """Longest wait of the page for news, s."""
@@ -122,8 +119,8 @@ def create_app(
     answer_errors(app)
     _robot_routes(app, sidecar)
     _reader_routes(app, sidecar)
-    app.include_router(opinion_router(opinions, read_body))
-    app.include_router(page_router(sidecar, read_body))
+    app.include_router(opinion_router(opinions))
+    app.include_router(page_router(sidecar))
     return app
 
 
@@ -139,7 +136,7 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         }
 
     @app.put("/v1/runs/{run}", openapi_extra=takes(RunStart))
-    async def register(run: Run, start: Annotated[RunStart, _body(RunStart)]) -> dict[str, Any]:
+    async def register(run: Run, start: Annotated[RunStart, body_as(RunStart)]) -> dict[str, Any]:
         _must_match(run, start.run)
         await run_in_threadpool(sidecar.register, start)
         return {"run": run, "wire": WIRE}
@@ -180,30 +177,30 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
 
     @app.post("/v1/runs/{run}/trajectories/{number}/abandon", openapi_extra=takes(Abandon))
     async def abandon(
-        run: Run, number: Number, body: Annotated[Abandon, _body(Abandon)]
+        run: Run, number: Number, body: Annotated[Abandon, body_as(Abandon)]
     ) -> dict[str, Any]:
         await run_in_threadpool(lambda: sidecar.session(run).abandon(number, body.reason))
         return {}
 
     @app.post("/v1/runs/{run}/hold", openapi_extra=takes(Hold))
-    async def hold(run: Run, body: Annotated[Hold, _body(Hold)]) -> dict[str, Any]:
+    async def hold(run: Run, body: Annotated[Hold, body_as(Hold)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.hold, run, body)
         return {}
 
     @app.post("/v1/runs/{run}/recovery", openapi_extra=takes(Recovery))
-    async def recovery(run: Run, body: Annotated[Recovery, _body(Recovery)]) -> dict[str, Any]:
+    async def recovery(run: Run, body: Annotated[Recovery, body_as(Recovery)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.recovery, run, body)
         return {}
 
     @app.post("/v1/runs/{run}/incident", openapi_extra=takes(Incident))
-    async def incident(run: Run, body: Annotated[Incident, _body(Incident)]) -> dict[str, Any]:
+    async def incident(run: Run, body: Annotated[Incident, body_as(Incident)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.require, run)
         said = f"The robot had no link to the sidecar for {body.seconds:.0f} s. {body.text}".strip()
         await run_in_threadpool(sidecar.note, run, body.kind, said, body.seconds)
         return {}
 
     @app.post("/v1/runs/{run}/finish", openapi_extra=takes(Finish))
-    async def finish(run: Run, body: Annotated[Finish, _body(Finish)]) -> dict[str, Any]:
+    async def finish(run: Run, body: Annotated[Finish, body_as(Finish)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.finish, run, body)
         return {}
 
@@ -255,20 +252,20 @@ def _reader_routes(app: FastAPI, sidecar: Sidecar) -> None:
 
     @app.post("/v1/runs/{run}/trajectories/{number}/decision", openapi_extra=takes(Decision))
     async def decide(
-        run: Run, number: Number, body: Annotated[Decision, _body(Decision)]
+        run: Run, number: Number, body: Annotated[Decision, body_as(Decision)]
     ) -> dict[str, Any]:
         decided = await run_in_threadpool(lambda: sidecar.session(run).decide(number, body))
         return {"verdict": to_json(decided)}
 
     @app.post("/v1/runs/{run}/trajectories/{number}/action", openapi_extra=takes(Action))
     async def act(
-        run: Run, number: Number, body: Annotated[Action, _body(Action)]
+        run: Run, number: Number, body: Annotated[Action, body_as(Action)]
     ) -> dict[str, Any]:
         await run_in_threadpool(lambda: sidecar.session(run).act(number, body))
         return {}
 
     @app.post("/v1/runs/{run}/order", openapi_extra=takes(Order))
-    async def order(run: Run, body: Annotated[Order, _body(Order)]) -> dict[str, Any]:
+    async def order(run: Run, body: Annotated[Order, body_as(Order)]) -> dict[str, Any]:
         await run_in_threadpool(lambda: sidecar.session(run).order(body))
         return {}
 
@@ -282,36 +279,6 @@ def _order(session: Session) -> dict[str, Any]:
 async def _now() -> float:
     """When the request arrived: the robot stands still since before."""
     return time.monotonic()
-
-
-def _body(shape: type[T]) -> Any:
-    """A dependency that reads the request's body as ``shape``."""
-
-    async def read(request: Request) -> T:
-        return parse(shape, await read_body(request))
-
-    return Depends(read)
-
-
-async def read_body(request: Request, limit: int = MAX_BODY) -> bytes:
-    """The body of a request.
-
-    Raises:
-        WireError: 413 if it is longer than ``limit`` bytes; 400 if it broke off.
-    """
-    too_long = WireError(413, "body", f"The body is longer than {limit} bytes.")
-    announced = request.headers.get("content-length", "0")
-    if not announced.isdecimal() or len(announced) > 12 or int(announced) > limit:
-        raise too_long
-    body = bytearray()
-    try:
-        async for chunk in request.stream():
-            body += chunk
-            if len(body) > limit:
-                raise too_long
-    except ClientDisconnect:
-        raise WireError(400, "body", "The request broke off.") from None
-    return bytes(body)
 
 
 def _must_match(path: str, body: str) -> None:

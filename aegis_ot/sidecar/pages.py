@@ -16,12 +16,13 @@ from ..reports.audit_html import audit_html
 from ..reports.html_page import html_page, shared_file
 from ..reports.run_html import ReportedRun, report_run, run_report_html
 from ..vocabulary import Outcome
+from .bodies import read_body
 from .frames import folder_name
 from .journal import event
 from .security import COOKIE_S, LoginThrottle, client_of, same, set_cookie
 from .service import Sidecar
 from .views import history_view, live_run, run_address, run_view
-from .wire import MAX_COUNT, Action, Decision, Order, ReadBody, WireError, check_run
+from .wire import MAX_COUNT, Action, Decision, Order, WireError, check_run
 
 FOLDER = Path(__file__).parent / "templates"
 STATIC = {"page.js": "text/javascript", "page.css": "text/css", "parts.css": "text/css"}
@@ -44,17 +45,16 @@ Frames = Callable[[int], "bytes | None"]
 Well = Annotated[int | None, Query(ge=0, le=MAX_COUNT)]
 
 
-def page_router(sidecar: Sidecar, read_body: ReadBody) -> APIRouter:
+def page_router(sidecar: Sidecar) -> APIRouter:
     """All pages of one sidecar.
 
     Args:
         sidecar: What they show.
-        read_body: Reads a body up to a length.
     """
     router = APIRouter(include_in_schema=False)
     _reading(router, sidecar)
-    _answering(router, sidecar, read_body)
-    _logging_in(router, sidecar, read_body)
+    _answering(router, sidecar)
+    _logging_in(router, sidecar)
     return router
 
 
@@ -113,7 +113,7 @@ def _reading(router: APIRouter, sidecar: Sidecar) -> None:
         )
 
 
-def _answering(router: APIRouter, sidecar: Sidecar, read_body: ReadBody) -> None:
+def _answering(router: APIRouter, sidecar: Sidecar) -> None:
     @router.post("/runs/{run}/wells/{number}")
     async def answer(request: Request, run: str, number: int) -> Response:
         return await answered(request, run, number)
@@ -159,7 +159,7 @@ def _answer(
             raise WireError(422, "answer", f"There is no answer {word!r}.")
 
 
-def _logging_in(router: APIRouter, sidecar: Sidecar, read_body: ReadBody) -> None:
+def _logging_in(router: APIRouter, sidecar: Sidecar) -> None:
     throttle = LoginThrottle()
 
     @router.get("/login")

@@ -7,7 +7,7 @@ gate for Layer 2.
 from __future__ import annotations
 
 import json
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from fastapi import APIRouter, Query, Request
@@ -19,13 +19,12 @@ from ..reasoning import Backend, Opinions, load_prices, make_backend
 from ..reasoning.gate_tiers import Budget, VlmTiers
 from ..vision.gates import ConfirmingGate
 from ..vocabulary import to_json
+from .bodies import read_body
 from .config import SidecarConfig
 from .wire import MAX_WAIT, WireError
 
 MAX_DOSSIER = 1024 * 1024
 """Longest dossier, bytes. One of a full 96-well protocol takes about 30 kB."""
-
-ReadBody = Callable[[Request, int], Awaitable[bytes]]
 
 
 def model_of(config: SidecarConfig) -> Backend | None:
@@ -72,12 +71,11 @@ def gates_of(config: SidecarConfig) -> Mapping[str, ConfirmingGate]:
     return {"vlm": VlmTiers(tiers, load_prices(), budget)}
 
 
-def opinion_router(opinions: Opinions, read_body: ReadBody) -> APIRouter:
+def opinion_router(opinions: Opinions) -> APIRouter:
     """The two routes.
 
     Args:
         opinions: Asks and remembers.
-        read_body: Reads a body up to a length.
     """
     router = APIRouter()
 

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import contextlib
-import logging
 import threading
 import time
 from collections.abc import Sequence
 from typing import Any
 
 from .._version import __version__
-from ..errors import AegisError, CameraError, StoreError
-from ..vision.camera import Camera, Frame
+from ..errors import StoreError
+from ..vision.camera import Camera
 from ..vision.types import Detector
 from ..vision.view import ViewWatch
-from ..vocabulary import Keyframe, to_json
+from ..vocabulary import to_json
 from .aiming import Aim
 from .analysis import Analyser
 from .auditing import Auditor, Audits
 from .bell import Bell
-from .cameras import BoundCameras, FreeRunning, Health, camera_health
+from .cameras import BoundCameras, FreeRunning, Health
 from .config import SidecarConfig
+from .grabbing import Grabber
 from .housekeeping import Housekeeper, Tidied
 from .incidents import Incidents
 from .journal import event
@@ -31,8 +31,6 @@ from .overview import run_overview
 from .sessions import OPERATOR, Session
 from .store import Store
 from .wire import Finish, Hold, Recovery, RunStart, WireError
-
-log = logging.getLogger(__name__)
 
 SESSIONS_KEPT = 16
 """Runs beyond this number leave memory if they are finished or silent; the store keeps them."""
@@ -81,17 +79,8 @@ class Sidecar:
         self._sessions: dict[str, Session] = {}
         self._met: set[str] = set()
         self._opening = threading.Lock()
-        self._camera_trouble = ""
-        self._in_trouble: set[str] = set()
-        self._last_frame: Frame | None = None
-        self.aim = Aim(config, camera, lambda: self._last_frame)
-        # A camera that is told what to show must not hear of another keyframe in between.
-        # One that runs by itself serves everyone at once.
-        self._camera_lock: contextlib.AbstractContextManager[Any] = (
-            contextlib.nullcontext()
-            if isinstance(camera, (FreeRunning, BoundCameras))
-            else threading.Lock()
-        )
+        self._grabber = Grabber(camera, config.camera.timeout_s, self)
+        self.aim = Aim(config, camera, lambda: self._grabber.last)
         self._closed = False
         self._audits = None
         if auditor is not None and config.audit:
@@ -128,7 +117,7 @@ class Sidecar:
                     self.store,
                     self._analyser,
                     self.bell,
-                    self._grab,
+                    self._grabber.grab,
                     self,
                     self.config.operator.timeout_s,
                     None if self._detector is None else ViewWatch(self._detector),
@@ -225,10 +214,7 @@ class Sidecar:
 
     def camera_health(self) -> Health:
         """How the camera is, by its own word and by the last capture."""
-        health = camera_health(self.camera)
-        if health.ok and self._camera_trouble:
-            return Health(False, self._camera_trouble)
-        return health
+        return self._grabber.health()
 
     def close(self) -> None:
         """End workers, camera and store. Idempotent."""
@@ -283,45 +269,6 @@ class Sidecar:
             self._incidents.note(notice.run, "notification", why)
         self.bell.ring()
 
-    def _grab(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
-        try:
-            with self._camera_lock:
-                self.camera.announce(keyframe)
-                frame = self._usable(keyframe, moment, view)
-        except Exception as error:
-            if not isinstance(error, AegisError):
-                log.exception("The camera failed")
-                error = CameraError(f"The camera failed: {type(error).__name__}: {error}")
-            self._camera_trouble = str(error)
-            self._in_trouble.add(keyframe.run)
-            self.tell(
-                Notice(
-                    keyframe.run,
-                    "camera",
-                    "the camera gives no frame that tells anything",
-                    str(error),
-                )
-            )
-            raise error from None
-        self._camera_trouble = ""
-        self._last_frame = frame
-        if keyframe.run in self._in_trouble:
-            self._in_trouble.discard(keyframe.run)
-            self.over(keyframe.run, "camera")
-        return frame
-
-    def _usable(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
-        """A frame that tells something; a second one is taken before that is given up."""
-        trouble = None
-        for again in (True, False):
-            frame = self.camera.frame_after(moment, self.config.camera.timeout_s)
-            _check_frame(frame, moment)
-            trouble = None if view is None else view.look(keyframe, frame.image, again=again)
-            if trouble is None:
-                return frame
-            moment = frame.exposed_at + 1e-6
-        raise CameraError("" if trouble is None else trouble.message)
-
     def _evict(self) -> None:
         if len(self._sessions) < SESSIONS_KEPT:
             return
@@ -343,11 +290,3 @@ def about_sidecar(config: SidecarConfig, camera: Camera) -> dict[str, Any]:
         "operator_timeout_s": config.operator.timeout_s,
         "model": config.model.name,
     }
-
-
-def _check_frame(frame: Frame, moment: float) -> None:
-    if not frame.jpeg or frame.image.ndim != 3:
-        raise CameraError("The camera gave an empty frame.")
-    if frame.exposed_at < moment:
-        age = time.monotonic() - frame.exposed_at
-        raise CameraError(f"The camera gave an old frame, exposed {age:.2f} s ago.")

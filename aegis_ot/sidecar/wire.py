@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from typing import Annotated, Any, Literal, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
@@ -21,8 +21,6 @@ MAX_WAIT = 1.0
 """Longest wait of one request for a verdict, s."""
 
 T = TypeVar("T")
-ReadBody = Callable[..., Awaitable[bytes]]
-"""Reads the body of a request, up to a length."""
 Count = Annotated[int, Field(ge=0, le=MAX_COUNT)]
 Word = Annotated[str, Field(max_length=200)]
 Text = Annotated[str, Field(max_length=5000)]

@@ -17,7 +17,6 @@ from starlette.testclient import TestClient  # noqa: E402
 GenerationMode = schemathesis.GenerationMode
 
 from aegis_ot.sidecar import SidecarConfig, create_app, running_sidecar  # noqa: E402
-from aegis_ot.sidecar.app import read_body  # noqa: E402
 from aegis_ot.sidecar.config import CameraSettings  # noqa: E402
 from aegis_ot.sidecar.pages import page_router  # noqa: E402
 
@@ -99,7 +98,7 @@ def pages(tmp_path_factory: pytest.TempPathFactory):
 
 def test_no_page_makes_the_sidecar_fail(pages) -> None:
     app, client = pages
-    routes = page_router(app.state.sidecar, read_body).routes
+    routes = page_router(app.state.sidecar).routes
     asked = sorted((method, route.path) for route in routes for method in route.methods)
     assert len(asked) >= 11
     for method, path in asked:
