@@ -102,7 +102,7 @@ def last_word(overview: Mapping[str, Any]) -> float:
     """When the robot was last heard of, seconds since the epoch."""
     moments = [float(overview.get("registered") or 0.0)]
     moments += [k["captured"] for t in overview["trajectories"] for k in t["keyframes"]]
-    moments += [t["hold"]["at"] for t in overview["trajectories"] if t["hold"]]
+    moments += [hold["at"] for t in overview["trajectories"] for hold in t["holds"]]
     return max(moments)
 
 
@@ -122,13 +122,12 @@ def _paused(overview: Mapping[str, Any]) -> Iterator[Situation]:
     """The robot told of a hold that ends in a pause, and has gone on with nothing since."""
     keyframes = [k for t in overview["trajectories"] for k in t["keyframes"]]
     moved = max((float(k["captured"]) for k in keyframes), default=0.0)
-    for trajectory in overview["trajectories"]:
-        hold = trajectory["hold"]
-        if not hold or hold["policy"] != "pause" or hold["paused_s"] is not None:
+    for trajectory, hold in _last_holds(overview):
+        if hold["policy"] != "pause" or hold["paused_s"] is not None:
             continue
         if hold["at"] < moved and overview.get("mode") != "watch":
             continue  # it moves; a watched robot ends its move first, and says when it goes on
-        told = _told(overview, trajectory)
+        told = _told(overview, trajectory["trajectory"], hold["at"])
         if hold["resolution"] == "operator":
             who = _who_paused(overview)
             text = f"{who} paused it from this page.{told}"
@@ -150,12 +149,19 @@ def _paused(overview: Mapping[str, Any]) -> Iterator[Situation]:
         )
 
 
-def _told(overview: Mapping[str, Any], trajectory: Mapping[str, Any]) -> str:
-    """What a person has told the robot already."""
+def _last_holds(overview: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any], dict[str, Any]]]:
+    """Each trajectory that was held for, and its last hold."""
+    for trajectory in overview["trajectories"]:
+        if trajectory["holds"]:
+            yield trajectory, trajectory["holds"][-1]
+
+
+def _told(overview: Mapping[str, Any], trajectory: int, paused_at: float) -> str:
+    """What a person has told the paused robot already."""
     for action in reversed(overview.get("actions") or ()):
-        if action["action"] == "pause" or action["at"] < trajectory["hold"]["at"]:
+        if action["action"] == "pause" or action["at"] < paused_at:
             return ""
-        if action["trajectory"] == trajectory["trajectory"]:
+        if action["trajectory"] == trajectory:
             word = {"resume": "go on", "stop": "end the run"}[action["action"]]
             return f" {action['by']} told the robot to {word}; it has not answered yet."
     return ""

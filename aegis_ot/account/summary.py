@@ -47,7 +47,7 @@ def run_account(overview: Mapping[str, Any]) -> dict[str, Any]:
         "wells": [_well(trajectory) for trajectory in trajectories],
         "flagged": [t["trajectory"] for t in trajectories if is_flagged(t)],
         "calibration": _calibration(trajectories),
-        "holds": [t["hold"] | {"well": t["well"]} for t in trajectories if t["hold"]],
+        "holds": [hold | {"well": t["well"]} for t in trajectories for hold in t["holds"]],
         "decisions": sorted(
             _decisions(trajectories) + _actions(overview), key=lambda one: one["at"]
         ),
@@ -157,7 +157,12 @@ def _latency(trajectories: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         for t in trajectories
         if t["judged_at"] is not None and t["keyframes"]
     ]
-    holds = [t["hold"]["seconds"] for t in trajectories if t["hold"]]
+    holds = [
+        hold["seconds"]
+        for t in trajectories
+        for hold in t["holds"]
+        if hold["resolution"] != "operator"  # a pause, which is nobody's delay
+    ]
     return {
         "trigger_to_exposure_s": _spread(exposures),
         "last_frame_to_verdict_s": _spread(verdicts),

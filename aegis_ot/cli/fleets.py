@@ -232,12 +232,11 @@ class _Shown:
 def _write(path: Path, result: FleetReport) -> None:
     from ..reports.fleet_html import fleet_report_html
 
-    values = result.to_json()
     path.parent.mkdir(parents=True, exist_ok=True)
-    text = json.dumps(values, indent=2, ensure_ascii=False)
+    text = json.dumps(result.to_json(), indent=2, ensure_ascii=False)
     path.with_suffix(".json").write_text(text + "\n", encoding="utf-8")
     if path.suffix == ".html":
-        path.write_text(fleet_report_html(values), encoding="utf-8")
+        path.write_text(fleet_report_html(result.to_json(pictures=True)), encoding="utf-8")
     _say(f"Report: {path}")
 
 

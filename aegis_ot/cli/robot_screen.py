@@ -18,7 +18,7 @@ from ..vocabulary import Outcome, counted
 from .keys import Keys
 
 _WANTED = {"p": "pause", "r": "play", "s": "stop"}
-_STYLES = {Outcome.PASS: "green", Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
+_STYLES = {Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
 HELP = "Keys: p pause, r resume, s stop. Ctrl-C pauses; a second one leaves the run to the App."
 
 
@@ -88,9 +88,10 @@ class TerminalScreen:
 
     def judged(self, verdict: WellVerdict) -> None:
         """Only what a person should look at gets a line; the others are counted at the end."""
-        found = verdict.verdict
-        if found.outcome is not Outcome.PASS:
-            self._print(tell(verdict), _STYLES[found.outcome])
+        if verdict.recovered:
+            self._print(f"{_place(verdict)}: put right by the robot", "green")
+        elif verdict.is_flagged:
+            self._print(tell(verdict), _STYLES[verdict.verdict.outcome])
 
     def asked(self) -> str:
         """The key pressed, or the pause that Ctrl-C asks for."""
@@ -122,17 +123,19 @@ def tell(verdict: WellVerdict) -> str:
     found = verdict.verdict
     kind = f" ({found.failure.value.replace('_', ' ')})" if found.failure else ""
     reason = f": {found.reason}" if found.reason else ""
-    return f"{verdict.well or f'delivery {found.trajectory}'}: {found.outcome.value}{kind}{reason}"
+    return f"{_place(verdict)}: {found.outcome.value}{kind}{reason}"
+
+
+def _place(verdict: WellVerdict) -> str:
+    return verdict.well or f"delivery {verdict.verdict.trajectory}"
 
 
 def show_end(console: Console, run: RobotRun) -> None:
     """The last lines of a run."""
     for error in run.errors:
         console.print(Text(error, style="red"), soft_wrap=True)
-    outcomes = [
-        "not seen" if known.verdict.unobserved else known.verdict.outcome.value
-        for known in run.verdicts.values()
-    ]
+    words = {"unobserved": "not seen", "recovered": "put right"}
+    outcomes = [words.get(known.state, known.state) for known in run.verdicts.values()]
     parts = [f"{run.protocol} on {run.robot}: {run.status}", f"{run.commands} commands"]
     parts.append(f"{run.seconds:.0f} s")
     if run.pauses:

@@ -218,11 +218,9 @@ def _write_report(path: Path, result: RobotRun) -> None:
 
 
 def _code(result: RobotRun) -> int:
-    from ..vocabulary import Outcome
-
     if result.status == "failed":
         return BROKEN
-    flagged = any(known.verdict.outcome is not Outcome.PASS for known in result.verdicts.values())
+    flagged = any(known.is_flagged for known in result.verdicts.values())
     return FINDINGS if flagged or result.status != "succeeded" else CLEAN
 
 

@@ -126,7 +126,7 @@ def _row(entry: Mapping[str, Any]) -> WellRow:
         outcome=outcome,
         failure=FailureType(verdict["failure"]) if verdict.get("failure") else None,
         reason=verdict.get("reason", ""),
-        hold_s=float((entry["hold"] or {}).get("seconds", 0.0)),
+        hold_s=sum(hold["seconds"] for hold in entry["holds"]),
         measured_ul=verdict.get("measured_ul"),
         line=last.get("line"),
         limit=(entry["evidence"].get("band") or (None, None))[1],

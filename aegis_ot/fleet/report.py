@@ -80,8 +80,8 @@ class FleetReport:
         mine = [e for e in self.entries if e.robot == robot and e.ended_s is not None]
         return sum((e.ended_s or 0.0) - (e.began_s or 0.0) for e in mine)
 
-    def to_json(self) -> dict[str, Any]:
-        """Plain values: the JSON report, and what the page shows."""
+    def to_json(self, pictures: bool = False) -> dict[str, Any]:
+        """Plain values: the JSON report, and, with ``pictures``, what the page shows."""
         took = [e.ended_s - (e.began_s or 0.0) for e in self.entries if e.ended_s is not None]
         return {
             "format": FORMAT,
@@ -102,12 +102,16 @@ class FleetReport:
                 }
                 for robot in self.robots
             ],
-            "protocols": [_about(entry) for entry in self.entries],
+            "protocols": [_about(entry, pictures) for entry in self.entries],
         }
 
 
-def _about(entry: Entry) -> dict[str, Any]:
+def _about(entry: Entry, pictures: bool) -> dict[str, Any]:
     result = entry.result
+    flagged = [
+        {name: value for name, value in well.items() if pictures or name != "pictures"}
+        for well in entry.flagged
+    ]
     return {
         "name": entry.job.name,
         "outcome": entry.outcome,
@@ -120,7 +124,7 @@ def _about(entry: Entry) -> dict[str, Any]:
         "layer1": result.get("layer1"),
         "frames": result.get("frames"),
         "counts": result.get("counts"),
-        "flagged": list(entry.flagged),
+        "flagged": flagged,
         "robot_run": result.get("robot_run"),
     }
 

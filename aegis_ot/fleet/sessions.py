@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import base64
 import os
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
+from ..account import SeenWell
 from ..dryrun import UNATTENDED, DryRunSettings, Progress, dry_run
+from ..errors import LinkError
 from ..instrumentation import Operation, OperationKind
+from ..reports.run_html import ReportedRun, report_run
 from ..robot import Command, RobotClient
 from ..robot.run_report import run_report
 from ..robot.running import RobotRun, analyse, run_analysed
@@ -22,6 +26,8 @@ from .jobs import Job
 _MOVES_LIQUID = (OperationKind.ASPIRATE, OperationKind.DISPENSE, OperationKind.BLOW_OUT)
 _ANALYSIS_TIMEOUT_S = 900.0
 _FLAGGED = ("fail", "undecided")
+_MOST_PICTURED = 12
+"""Flagged wells of a protocol whose close-ups go to the coordinator; about 30 kB each."""
 
 
 class Watch(Protocol):
@@ -58,7 +64,8 @@ class Session(Protocol):
         Returns:
             ``outcome`` (``"succeeded"``, ``"stopped"`` or ``"failed"``), ``detail``, ``frames``
             (``"simulated"`` or ``"real"``), ``counts`` of wells by state, ``flagged`` wells
-            (``well``, ``state``, ``failure``, ``reason``, ``line``), ``robot_run``.
+            (``well``, ``state``, ``failure``, ``reason``, ``line``; ``pictures``: close-ups of the
+            tip as base64 JPEG, by keyframe), ``robot_run``.
 
         Raises:
             AegisError: It could not be run.
@@ -94,9 +101,27 @@ class SimulatedSession:
             "detail": done.detail,
             "frames": "simulated",
             "counts": dict(account["counts"]),
-            "flagged": [_short(well) for well in account["wells"] if well["state"] in _FLAGGED],
+            "flagged": _flagged(done.reported),
             "robot_run": account["run"],
         }
+
+
+def _flagged(run: ReportedRun) -> list[dict[str, Any]]:
+    """Wells to look at, the first ones with what the camera saw."""
+    seen = dict(zip(run.account["flagged"], run.flagged, strict=True))
+    wells = [well for well in run.account["wells"] if well["state"] in _FLAGGED]
+    return [
+        _short(well) | {"pictures": _close_ups(seen[well["trajectory"]], number < _MOST_PICTURED)}
+        for number, well in enumerate(wells)
+    ]
+
+
+def _close_ups(well: SeenWell, wanted: bool) -> dict[str, str]:
+    return {
+        kind.value: base64.b64encode(frame.tip.jpeg).decode("ascii")
+        for kind, frame in well.frames.items()
+        if wanted and frame.tip is not None
+    }
 
 
 def _short(well: Mapping[str, Any]) -> dict[str, Any]:
@@ -150,15 +175,15 @@ class RobotSession:
             run = RobotRun(path.name, self._name, client.url, "", analysis)
             if not analysis.ok:
                 run.status, run.errors = "failed", analysis.errors
-                return _of_robot(run)
+                return _of_robot(run, None)
             reader = self._reader(path.name)
             watch.ask_leave()
             try:
                 run_analysed(client, identifier, run, screen, reader)
+                return _of_robot(run, reader)
             finally:
                 if reader is not None:
                     reader.close()
-        return _of_robot(run)
 
     def _reader(self, protocol: str) -> VerdictReader | None:
         if self._sidecar is None:
@@ -168,21 +193,21 @@ class RobotSession:
         return reader
 
 
-def _of_robot(run: RobotRun) -> dict[str, Any]:
-    report = run_report(run)
-    seen = [one.verdict for one in run.verdicts.values()]
-    outcomes = ["unobserved" if one.unobserved else one.outcome.value for one in seen]
+def _of_robot(run: RobotRun, reader: VerdictReader | None) -> dict[str, Any]:
+    flagged = [_short(one) for one in run_report(run)["verdicts"] if one["state"] in _FLAGGED]
+    if run.overview is not None and reader is not None:
+        try:
+            flagged = _flagged(report_run(run.overview, reader.frame))
+        except LinkError:
+            pass  # the sidecar is gone: its words are there, its pictures are not
+    outcomes = [one.state for one in run.verdicts.values()]
     counts = {outcome: outcomes.count(outcome) for outcome in dict.fromkeys(outcomes)}
     return {
         "outcome": run.status if run.status in ("succeeded", "stopped") else "failed",
         "detail": " ".join(run.errors),
         "frames": "real",
         "counts": counts | {"wells": len(outcomes)},
-        "flagged": [
-            _short(verdict | {"state": verdict["outcome"]})
-            for verdict in report["verdicts"]
-            if verdict["outcome"] in _FLAGGED
-        ],
+        "flagged": flagged,
         "robot_run": run.id,
     }
 
@@ -192,7 +217,7 @@ class _Screen:
 
     def __init__(self, watch: Watch) -> None:
         self._watch = watch
-        self._judged = self._flagged = 0
+        self._wells: dict[int, bool] = {}
 
     def analysing(self, seconds: float) -> None:
         """The robot analyses the protocol."""
@@ -218,9 +243,8 @@ class _Screen:
 
     def judged(self, verdict: WellVerdict) -> None:
         """A verdict is in."""
-        self._judged += 1
-        self._flagged += verdict.verdict.outcome is not Outcome.PASS
-        self._watch.tell(judged=self._judged, flagged=self._flagged)
+        self._wells[verdict.verdict.trajectory] = verdict.is_flagged
+        self._watch.tell(judged=len(self._wells), flagged=sum(self._wells.values()))
 
     def asked(self) -> str:
         """What the fleet wants of the robot."""

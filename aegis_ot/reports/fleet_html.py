@@ -9,7 +9,7 @@ from .html_page import html_page
 
 
 def fleet_report_html(report: Mapping[str, Any]) -> str:
-    """Render a fleet's JSON report (``aegis_ot.fleet.FleetReport.to_json``)."""
+    """Render a fleet's report (``aegis_ot.fleet.FleetReport.to_json`` with pictures)."""
     return html_page("aegis_ot.reports", "fleet.html", {"share": _share}, report=report)
 
 

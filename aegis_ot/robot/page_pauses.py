@@ -26,7 +26,7 @@ class PagePauses:
         self._act = act
         self._number: int | None = None
         self._began = 0.0
-        self._why = ""
+        self._answered: Callable[[float, str], None] = lambda paused_s, where: None
         self._next = 0.0
         self._on_page = False
 
@@ -34,8 +34,7 @@ class PagePauses:
         """The robot was paused: because of a delivery, or because a person said so
         (``"operator"``)."""
         self._number, self._began, self._on_page = trajectory, time.monotonic(), False
-        self._why = why
-        self._courier.report_hold(trajectory, 0.0, why, "pause")
+        self._answered = self._courier.report_hold(trajectory, 0.0, why, "pause")
 
     def look_around(self) -> None:
         """Do what a person said on the page, twice a second at most."""
@@ -52,8 +51,5 @@ class PagePauses:
         """The run goes on, or has ended: tell how long it was paused, and where it was answered."""
         if self._number is None:
             return
-        number, self._number = self._number, None
-        where = "page" if self._on_page else "robot"
-        self._courier.report_hold(
-            number, 0.0, self._why, "pause", time.monotonic() - self._began, where
-        )
+        self._number = None
+        self._answered(time.monotonic() - self._began, "page" if self._on_page else "robot")

@@ -19,7 +19,7 @@ def run_report(run: RobotRun) -> dict[str, Any]:
     Returns:
         ``protocol``, ``robot``, ``url``, ``robot_run``; ``status``, ``errors``, ``seconds``,
         ``commands``, ``pauses``; ``analysis`` (``ok``, ``errors``, ``guard``: the guard's words);
-        ``verdicts``; ``sidecar``: its account of the run, or ``None``.
+        ``verdicts``, each with its ``state`` as it stands; ``sidecar``: its account of the run, or ``None``.
     """
     analysis = run.analysis
     return {
@@ -41,7 +41,8 @@ def run_report(run: RobotRun) -> dict[str, Any]:
             "guard": list(analysis.guard_words),
         },
         "verdicts": [
-            {"well": known.well, **to_json(known.verdict)} for known in run.verdicts.values()
+            {"well": known.well, "state": known.state, **to_json(known.verdict)}
+            for known in run.verdicts.values()
         ],
         "sidecar": None if run.overview is None else run_account(run.overview),
     }

@@ -19,10 +19,27 @@ _EARLY_S = 5.0
 
 @dataclass(frozen=True)
 class WellVerdict:
-    """A verdict, with where the liquid went in plain words."""
+    """A verdict, with where the liquid went in plain words.
+
+    Attributes:
+        recovered: Whether it failed, and the robot put the well right by itself.
+    """
 
     well: str
     verdict: Verdict
+    recovered: bool = False
+
+    @property
+    def state(self) -> str:
+        """How the delivery stands, in one word."""
+        if self.recovered:
+            return "recovered"
+        return "unobserved" if self.verdict.unobserved else self.verdict.outcome.value
+
+    @property
+    def is_flagged(self) -> bool:
+        """Whether a person should look at it."""
+        return self.verdict.outcome is not Outcome.PASS and not self.recovered
 
 
 class VerdictReader:
@@ -51,7 +68,7 @@ class VerdictReader:
         self.run = run
         self._protocol = protocol
         self._since = time.time() - _EARLY_S
-        self._seen: dict[int, Outcome] = {}
+        self._seen: dict[int, WellVerdict] = {}
         headers = {"Authorization": f"Bearer {token}"} if token else {}
         self._http = httpx.Client(
             base_url=self.url,
@@ -74,7 +91,7 @@ class VerdictReader:
         self._ask("/v1/runs")
 
     def news(self) -> list[WellVerdict]:
-        """Verdicts that are new, or that a person changed, since the last call.
+        """Verdicts that are new, or that a person or a recovery changed, since the last call.
 
         Raises:
             LinkError: The sidecar does not answer, or refuses.
@@ -86,14 +103,26 @@ class VerdictReader:
             if trajectory.get("verdict") is None:
                 continue
             verdict = from_json(Verdict, trajectory["verdict"])
-            if self._seen.get(verdict.trajectory) is not verdict.outcome:
-                self._seen[verdict.trajectory] = verdict.outcome
-                found.append(WellVerdict(str(trajectory.get("well", "")), verdict))
+            recovered = verdict.outcome is Outcome.FAIL and bool(trajectory.get("recovered"))
+            known = WellVerdict(str(trajectory.get("well", "")), verdict, recovered)
+            before = self._seen.get(verdict.trajectory)
+            if before is None or before.state != known.state:
+                self._seen[verdict.trajectory] = known
+                found.append(known)
         return found
 
     def overview(self) -> Mapping[str, Any] | None:
         """All that the sidecar knows of the run, ``None`` if it never came there."""
         return self._ask(f"/v1/runs/{self.run}") if self._find() else None
+
+    def frame(self, sequence: int) -> bytes | None:
+        """The frame of a keyframe as JPEG, ``None`` if the sidecar has none.
+
+        Raises:
+            LinkError: The sidecar does not answer, or refuses.
+        """
+        answer = self._get(f"/v1/runs/{self.run}/frames/{sequence}.jpg")
+        return answer.content if answer.is_success else None
 
     def _find(self) -> bool:
         if not self.run:
@@ -103,7 +132,7 @@ class VerdictReader:
                     break
         return bool(self.run)
 
-    def _ask(self, path: str) -> Any:
+    def _get(self, path: str) -> httpx.Response:
         try:
             answer = self._http.get(path)
         except httpx.HTTPError as error:
@@ -113,6 +142,10 @@ class VerdictReader:
             ) from None
         if answer.status_code in (401, 403):
             raise SidecarRefused(f"The sidecar at {self.url} refused the token.")
+        return answer
+
+    def _ask(self, path: str) -> Any:
+        answer = self._get(path)
         try:
             value = answer.json()
         except ValueError:

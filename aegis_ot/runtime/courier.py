@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import time
 from collections import deque
@@ -66,6 +67,7 @@ class Courier:
         self._outbox = Outbox(link, run, self._register)
         self._obeyed: Order | None = None
         self._lost: tuple[float, str] | None = None
+        self._holds = itertools.count()
         self._unheard = False  # a message was not taken; the next keyframe shows who is there
         self._next_look = 0.0
         self._pause_s = _FIRST_REST_S
@@ -160,19 +162,29 @@ class Courier:
         return order
 
     def report_hold(
-        self,
-        number: int,
-        seconds: float,
-        ended_by: str,
-        policy: str | None,
-        paused_s: float | None = None,
-        answered: str | None = None,
-    ) -> None:
-        """Tell likewise how a hold went, and, when it is over, how long the robot was paused and
-        where that was answered.
+        self, trajectory: int, seconds: float, ended_by: str, policy: str | None
+    ) -> Callable[[float, str], None]:
+        """Tell likewise how a hold went.
+
+        Returns:
+            Tells, where it was a pause and that is over, how long it lasted, s, and where it was
+            answered.
         """
-        self._outbox.hold(number, seconds, ended_by, policy, paused_s, answered)
+        told = {
+            "number": next(self._holds),
+            "trajectory": trajectory,
+            "seconds": round(seconds, 4),
+            "resolution": ended_by,
+            "policy": policy,
+        }
+
+        def answered(paused_s: float, where: str) -> None:
+            self._outbox.hold(told | {"paused_s": round(paused_s, 3), "answered": where})
+            self._tell()
+
+        self._outbox.hold(told)
         self._tell()
+        return answered
 
     def report_recovery(self, told: Mapping[str, Any]) -> None:
         """Tell likewise of a recovery."""

@@ -161,7 +161,7 @@ class Holding:
             policy = "recover"
         elif refused:
             text = f"{text} {refused}"
-        self._courier.report_hold(number, seconds, ended_by, policy)
+        answered = self._courier.report_hold(number, seconds, ended_by, policy)
         if policy == "continue":
             self._operator.comment(f"{text} The run goes on, as configured.")
         elif policy == "abort":
@@ -170,7 +170,7 @@ class Holding:
             self._pause(
                 number,
                 f"{text} Paused before {step.reason}. Resume to go on, or cancel the run.",
-                lambda told: self._courier.report_hold(number, seconds, ended_by, policy, *told),
+                answered,
             )
 
     def obey(self, number: int) -> float:
@@ -191,11 +191,11 @@ class Holding:
         if order.action == "stop":
             self._end(f"{order.by} ended the run on the sidecar's page.")
         began = time.monotonic()
-        self._courier.report_hold(number, 0.0, "operator", "pause")
+        answered = self._courier.report_hold(number, 0.0, "operator", "pause")
         self._pause(
             number,
             f"{order.by} paused the run on the sidecar's page. Resume to go on, or cancel the run.",
-            lambda told: self._courier.report_hold(number, 0.0, "operator", "pause", *told),
+            answered,
         )
         return time.monotonic() - began
 
@@ -205,15 +205,15 @@ class Holding:
             self._waits.rest(_STOP_S)
         raise RunAborted(text)
 
-    def _pause(self, number: int, text: str, report: Callable[[tuple[float, str]], None]) -> None:
+    def _pause(self, number: int, text: str, report: Callable[[float, str], None]) -> None:
         """Wait for a person, then tell how long that took and where it was answered."""
         began = time.monotonic()
         page = PageAnswers(self._link, self._run, number, lambda: self._state.paused)
-        answered = self._operator.pause(
+        where = self._operator.pause(
             text, lambda: self._told(number, time.monotonic() - began), page
         )
-        if answered:
-            report((time.monotonic() - began, answered))
+        if where:
+            report(time.monotonic() - began, where)
             self._hear_decision(number)
 
     def _told(self, number: int, within_s: float) -> Answer | None:

@@ -34,26 +34,9 @@ class Outbox:
         """A trajectory is given up."""
         self._messages.append(lambda most: self._link.abandon(self._run, number, reason, most))
 
-    def hold(
-        self,
-        number: int,
-        seconds: float,
-        ended_by: str,
-        policy: str | None,
-        paused_s: float | None = None,
-        answered: str | None = None,
-    ) -> None:
-        """How a hold went, and, when it is over, how long the robot was paused and where that was
-        answered."""
-        body = {
-            "trajectory": number,
-            "seconds": round(seconds, 4),
-            "resolution": ended_by,
-            "policy": policy,
-        }
-        if paused_s is not None:
-            body |= {"paused_s": round(paused_s, 3), "answered": answered}
-        self._messages.append(lambda most: self._link.report_hold(self._run, body, most))
+    def hold(self, told: Mapping[str, Any]) -> None:
+        """How a hold went."""
+        self._messages.append(lambda most: self._link.report_hold(self._run, told, most))
 
     def recovery(self, told: Mapping[str, Any]) -> None:
         """What the robot does by itself about a failed delivery."""

@@ -65,10 +65,12 @@ class Audits:
     def _work(self) -> None:
         while True:
             run = self._runs.get()
-            while not self._closed.is_set() and not self._settled(run):
-                self._closed.wait(ASKS_S)
             if self._closed.is_set():
                 return
+            if not self._settled(run):
+                self._closed.wait(ASKS_S)
+                self._runs.put(run)  # others need not wait for its last verdicts
+                continue
             try:
                 if not self._store.verdicts(run):
                     continue  # nothing was watched

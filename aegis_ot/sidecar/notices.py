@@ -12,6 +12,7 @@ TODO = {
     "camera": "Look at the camera, its cable and its view; the robot sends the keyframe again.",
     "store": "Look at the workstation's disk: free space, permissions.",
     "model": "Look at the model's service, key and network; flagged wells come to you meanwhile.",
+    "recovered": "Nothing has to be done; the well is marked in the report.",
     "hold": "Look at the robot, and at the sidecar's page.",
     "silent": "See whether the robot is on and in the network.",
 }

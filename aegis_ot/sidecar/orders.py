@@ -4,7 +4,7 @@ it is paused."""
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from .wire import Action, Order
@@ -17,13 +17,13 @@ class Orders:
 
     Args:
         actions: What was told before a restart, oldest first.
-        holds: What the robot did, by trajectory.
+        holds: What the robot did.
 
     Attributes:
         pending: An order that the robot has not taken up: ``action``, ``by``, ``note``, ``at``.
     """
 
-    def __init__(self, actions: Sequence[Told], holds: Mapping[int, Told]) -> None:
+    def __init__(self, actions: Sequence[Told], holds: Sequence[Told]) -> None:
         self.pending: Told | None = None
         self._answers: dict[int, tuple[float, Told]] = {}
         now, monotonic = time.time(), time.monotonic()
@@ -32,7 +32,7 @@ class Orders:
             if told["action"] != "pause":
                 ago = max(0.0, now - told["at"])
                 self._answers[told["trajectory"]] = monotonic - ago, said
-        held = max((hold["at"] for hold in holds.values()), default=0.0)
+        held = max((hold["at"] for hold in holds), default=0.0)
         if actions and actions[-1]["action"] != "resume" and actions[-1]["at"] > held:
             last = actions[-1]
             self.pending = {name: last[name] for name in ("action", "by", "note", "at")}

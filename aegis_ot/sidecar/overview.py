@@ -13,13 +13,13 @@ from .store import Store
 
 def run_overview(store: Store, run: str) -> dict[str, Any]:
     """All that the store knows of a run: its start and end, and per trajectory its keyframes,
-    verdict (as it stands, and as it was judged), evidence, decisions, hold; the audit.
+    verdict (as it stands, and as it was judged), evidence, decisions, holds; the audit.
 
     Returns:
         The answer of ``GET /v1/runs/{run}``, without ``version``.
     """
     trajectories: dict[int, dict[str, Any]] = {}
-    abandoned, holds, decisions = store.abandoned(run), store.holds(run), store.decisions(run)
+    abandoned, decisions = store.abandoned(run), store.decisions(run)
     verdicts = {v.trajectory: (v, evidence, at) for v, evidence, at in store.verdicts(run)}
 
     def entry(number: int) -> dict[str, Any]:
@@ -36,7 +36,7 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
                 "judged_at": judged,
                 "evidence": evidence,
                 "decisions": decided,
-                "hold": holds.get(number),
+                "holds": [],
                 "abandoned": abandoned.get(number),
                 "recovered": False,
             }
@@ -50,8 +50,10 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
         if wells and (keyframe["destinations"] or not trajectory["well"]):
             more = f" and {len(wells) - 1} more" if len(wells) > 1 else ""
             trajectory["well"] = f"{from_json(WellRef, wells[0])}{more}"
-    for number in (*verdicts, *abandoned, *holds):
+    for number in (*verdicts, *abandoned):
         entry(number)
+    for hold in store.holds(run):
+        entry(hold["trajectory"])["holds"].append(hold)
     for number in store.put_right(run):
         entry(number)["recovered"] = True
     row = store.run(run) or {}

@@ -83,15 +83,13 @@ class Records(Database):
         return {row["outcome"]: row["n"] for row in rows}
 
     def add_hold(self, run: str, hold: Hold) -> None:
-        """Keep how long the robot held for a trajectory; the last word counts."""
+        """Keep how long the robot held; the last word on each hold counts."""
         self._write(
-            "INSERT INTO holds (run, trajectory, seconds, resolution, policy, paused_s, answered, "
-            "at) VALUES (?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT (run, trajectory) DO UPDATE "
-            "SET seconds = excluded.seconds, resolution = excluded.resolution, "
-            "policy = excluded.policy, paused_s = excluded.paused_s, "
-            "answered = excluded.answered, at = excluded.at",
+            "INSERT OR REPLACE INTO holds (run, number, trajectory, seconds, resolution, policy, "
+            "paused_s, answered, at) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
             (
                 run,
+                hold.number,
                 hold.trajectory,
                 hold.seconds,
                 hold.resolution,
@@ -102,11 +100,13 @@ class Records(Database):
             ),
         )
 
-    def holds(self, run: str) -> dict[int, dict[str, Any]]:
-        """Holds by trajectory."""
-        names = ("trajectory", "seconds", "resolution", "policy", "paused_s", "answered", "at")
-        rows = self._read("SELECT * FROM holds WHERE run = ?", run)
-        return {row["trajectory"]: {name: row[name] for name in names} for row in rows}
+    def holds(self, run: str) -> list[dict[str, Any]]:
+        """Holds, oldest first."""
+        names = (
+            "number", "trajectory", "seconds", "resolution", "policy", "paused_s", "answered", "at",
+        )  # fmt: skip
+        rows = self._read("SELECT * FROM holds WHERE run = ? ORDER BY number", run)
+        return [{name: row[name] for name in names} for row in rows]
 
     def add_recovery(self, run: str, told: Recovery) -> None:
         """Keep what the robot does by itself about a failed delivery; the last word counts."""

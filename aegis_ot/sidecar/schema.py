@@ -67,6 +67,18 @@ MIGRATIONS: tuple[str, ...] = (
         run TEXT PRIMARY KEY REFERENCES runs, audit TEXT NOT NULL, at REAL NOT NULL
     );
     """,
+    # A delivery can be held for more than once: a person pauses the run, then its verdict is bad.
+    """
+    ALTER TABLE holds RENAME TO one_hold_each;
+    CREATE TABLE holds (
+        run TEXT NOT NULL REFERENCES runs, number INTEGER NOT NULL, trajectory INTEGER NOT NULL,
+        seconds REAL NOT NULL, resolution TEXT NOT NULL, policy TEXT, paused_s REAL, answered TEXT,
+        at REAL NOT NULL, PRIMARY KEY (run, number)
+    );
+    INSERT INTO holds SELECT run, trajectory, trajectory, seconds, resolution, policy, paused_s,
+        answered, at FROM one_hold_each;
+    DROP TABLE one_hold_each;
+    """,
 )
 """One script per version, ``user_version`` counting those done. Only ever append."""
 

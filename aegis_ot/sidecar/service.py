@@ -159,6 +159,10 @@ class Sidecar:
         self.require(run)
         self.store.add_recovery(run, told)
         event("recovery", run=run, **told.model_dump())
+        if told.state == "recovered":  # people were told that it failed
+            self.tell(
+                Notice(run, "recovered", "put right by the robot", told.text, told.trajectory)
+            )
         self.bell.ring()
 
     def tell(self, notice: Notice) -> None:

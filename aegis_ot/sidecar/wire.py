@@ -121,10 +121,11 @@ class Abandon(Body):
 class Hold(Body):
     """How long the robot held, what ended it, and what it does then.
 
-    Told again when a pause is over, with how long it lasted and who ended it: ``"page"``,
-    ``"robot"`` (its own screen, or the App) or ``"console"``.
+    Told again, under the same number, when a pause is over, with how long it lasted and who ended
+    it: ``"page"``, ``"robot"`` (its own screen, or the App) or ``"console"``.
     """
 
+    number: Count
     trajectory: Count
     seconds: Annotated[float, Field(ge=0)]
     resolution: Word

@@ -38,7 +38,7 @@ def delivery(number: int, outcome: str | None = "pass", **changes: Any) -> dict[
         "judged_at": None if verdict is None else 103.2,
         "evidence": {"band": [0.0, 3.0]},
         "decisions": [],
-        "hold": None,
+        "holds": [],
         "abandoned": None,
         "awaiting": None,
         "awaiting_s": None,
@@ -94,6 +94,7 @@ def overview(*deliveries: dict[str, Any], **changes: Any) -> dict[str, Any]:
 def hold(number: int, at: float = 104.0, policy: str | None = "pause", **changes: Any) -> Any:
     """A hold that ended with the verdict."""
     return {
+        "number": number,
         "trajectory": number,
         "seconds": 0.3,
         "resolution": "verdict",

@@ -20,13 +20,13 @@ def test_a_sound_run_asks_for_nothing() -> None:
 
 
 def test_a_robot_that_told_of_a_pause_stands_until_it_moves() -> None:
-    failed = delivery(0, "fail", hold=hold(0))
+    failed = delivery(0, "fail", holds=[hold(0)])
     (paused,) = situations(overview(failed), NOW)
     assert (paused.kind, paused.trajectory, paused.judged) == ("paused", 0, True)
     assert "partial dispense" in paused.title
     assert "52 µL" in paused.text
     assert paused.left_s is None
-    assert kinds(overview(failed | {"hold": hold(0, paused_s=12.0)})) == []
+    assert kinds(overview(failed | {"holds": [hold(0, paused_s=12.0)]})) == []
     moved = delivery(1, None)
     moved["keyframes"][0]["captured"] = 105.0
     assert kinds(overview(failed, moved)) == []
@@ -34,12 +34,12 @@ def test_a_robot_that_told_of_a_pause_stands_until_it_moves() -> None:
 
 def test_what_a_person_told_the_robot_is_shown_until_it_has_done_it() -> None:
     action = {"trajectory": 0, "action": "resume", "by": "Ada", "note": "", "at": 105.0}
-    (paused,) = situations(overview(delivery(0, "fail", hold=hold(0)), actions=[action]), NOW)
+    (paused,) = situations(overview(delivery(0, "fail", holds=[hold(0)]), actions=[action]), NOW)
     assert "Ada told the robot to go on" in paused.text
 
 
 def test_a_pause_without_a_verdict_can_only_be_resumed_or_stopped() -> None:
-    late = delivery(0, None, hold=hold(0, resolution="timeout"))
+    late = delivery(0, None, holds=[hold(0, resolution="timeout")])
     (paused,) = situations(overview(late), NOW)
     assert not paused.judged
     assert "timeout" in paused.text
@@ -67,7 +67,7 @@ def test_trouble_shows_while_it_lasts() -> None:
 def test_a_silent_robot_shows_and_an_ended_run_does_not() -> None:
     assert kinds(overview(delivery(0)), now=2000.0) == ["silent"]
     ended = {"at": 120.0, "outcome": "succeeded", "detail": ""}
-    assert kinds(overview(delivery(0, "fail", hold=hold(0)), finished=ended), now=2000.0) == []
+    assert kinds(overview(delivery(0, "fail", holds=[hold(0)]), finished=ended), now=2000.0) == []
 
 
 def test_what_the_robot_does_is_its_last_keyframe() -> None:

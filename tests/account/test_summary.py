@@ -13,7 +13,7 @@ def test_counts_flagged_wells_holds_and_latency() -> None:
     decided = delivery(2, decisions=[{"outcome": "pass", "by": "Ada", "note": "", "at": 5.0}])
     run = overview(
         delivery(0),
-        delivery(1, "fail", hold=hold(1)),
+        delivery(1, "fail", holds=[hold(0, resolution="operator", seconds=0.0), hold(1)]),
         decided,
         actions=[{"trajectory": 1, "action": "resume", "by": "Ada", "note": "", "at": 6.0}],
     )
@@ -22,12 +22,12 @@ def test_counts_flagged_wells_holds_and_latency() -> None:
     assert account["counts"] == {"pass": 2, "fail": 1, "wells": 3}
     assert account["flagged"] == [1, 2]
     assert account["frames"] == "simulated"
-    assert [hold["well"] for hold in account["holds"]] == ["A2 of plate (slot 4)"]
+    assert [hold["well"] for hold in account["holds"]] == ["A2 of plate (slot 4)"] * 2
     assert [d.get("outcome") or d["action"] for d in account["decisions"]] == ["pass", "resume"]
     latency = account["latency"]
     assert latency["trigger_to_exposure_s"]["count"] == 12
     assert latency["last_frame_to_verdict_s"]["median"] == 0.2
-    assert latency["hold_s"]["sum"] == 0.3
+    assert (latency["hold_s"]["count"], latency["hold_s"]["sum"]) == (1, 0.3)
 
 
 def test_a_run_without_deliveries_has_an_account() -> None:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import base64
 
 from aegis_ot.fleet import FleetConfig, FleetScreen, read_job, run_fleet
+from aegis_ot.reports.fleet_html import fleet_report_html
+from aegis_ot.sidecar import SidecarConfig, running_sidecar
 
 from ..robot.protocols import BAD, GOOD, WAITS
+from ..sidecar.helpers import StubAnalyser, StubCamera
 from ..support.robot_server import RobotServer
 from .support import Heard, fleet, job
 
@@ -64,6 +68,12 @@ def test_a_simulated_robot_runs_both_layers(tmp_path):
     assert first.result["counts"]["wells"] == 8
     assert [well["failure"] for well in first.flagged] == ["no_dispense"]
     assert "G1 of plate" in first.flagged[0]["well"]
+    pictures = first.flagged[0]["pictures"]
+    assert list(pictures) == ["aspirate", "transit", "dispense", "post_dispense"]
+    assert base64.b64decode(pictures["transit"]).startswith(b"\xff\xd8")
+    assert "pictures" not in report.to_json()["protocols"][0]["flagged"][0]
+    page = fleet_report_html(report.to_json(pictures=True))
+    assert all(f"base64,{picture}" in page for picture in pictures.values())
     assert second.outcome == "rejected"
     assert {finding["severity"] for finding in second.result["layer1"]["findings"]} >= {"error"}
     assert ("a", "asking") in heard.states
@@ -81,6 +91,24 @@ def test_a_real_robot_is_driven_through_its_api(tmp_path):
         assert "no such thing" in report.entries[1].detail
         assert not report.lost
         assert len(robot.runs) == 1  # what Layer 1 could not rehearse was never sent
+
+
+def test_what_a_real_robots_sidecar_saw_of_a_bad_well_is_in_the_report(tmp_path):
+    settings = SidecarConfig(port=0, data=tmp_path / "sidecar")
+    with (
+        RobotServer() as robot,
+        running_sidecar(settings, StubCamera(), StubAnalyser([1])) as url,
+    ):
+        config = fleet({"name": "bench", "address": robot.url, "pipettes": P300, "sidecar": url})
+        head, _, rest = GOOD.partition("def run")
+        guard = f'from aegis_ot import guard\n@guard(sidecar={url!r}, on_fail="continue")\n'
+        (entry,) = go(config, written(tmp_path, "good.py", f"{head}{guard}def run{rest}")).entries
+        assert (entry.outcome, entry.result["counts"]) == (
+            "succeeded", {"pass": 1, "fail": 1, "wells": 2},
+        )  # fmt: skip
+        (well,) = entry.flagged
+        assert well["well"].startswith("B2 of Corning 96 Well Plate")
+        assert list(well["pictures"]) == ["aspirate"]  # where the stub has a tip
 
 
 def test_a_real_robot_that_nobody_made_ready_is_left_alone(tmp_path):

@@ -19,7 +19,7 @@ def test_it_tells_all_that_the_account_holds() -> None:
         delivery(
             1,
             "fail",
-            hold=hold(1, paused_s=31.0, answered="page"),
+            holds=[hold(1, paused_s=31.0, answered="page")],
             decisions=[{"outcome": "fail", "by": "Ada", "note": "drop seen", "at": 5.0}],
             evidence={"band": [0.0, 3.0], "boxes": {"transit": [10, 4, 8, 40]}},
         ),

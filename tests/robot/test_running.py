@@ -14,6 +14,7 @@ from opentrons_shared_data.labware import load_definition
 from aegis_ot.cli import robot_screen
 from aegis_ot.robot import Command as RobotCommand
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.vocabulary import FailureType
 
 from ..cli.commands import Command
 from ..sidecar.helpers import StubAnalyser, StubCamera
@@ -90,6 +91,25 @@ def test_a_failed_well_is_told_and_the_person_resumes(
     assert "Delivery into A2" in done.out.split("Paused: ")[1]
     assert "succeeded" in done.out
     assert "1 pause" in done.out
+
+
+def test_a_well_that_the_robot_put_right_asks_for_nobody(
+    aegis: Command, robot: RobotServer, tmp_path: Path
+) -> None:
+    analyser = StubAnalyser([0])
+    analyser.failure = FailureType.NO_DISPENSE
+    config = SidecarConfig(port=0, data=tmp_path / "sidecar")
+    with running_sidecar(config, StubCamera(), analyser) as url:
+        text = guarded(GOOD, url).replace("@guard(", '@guard(recover={"no_dispense": "retry"}, ')
+        done = aegis(
+            "run", written(text), "--robot", robot.url, "-y",
+            "--sidecar", url, "--report", "out/run.json",
+        )  # fmt: skip
+    assert done.code == 0, done.out + done.err
+    assert "A2 of Corning 96 Well Plate 360 µL Flat (slot 2): put right by the robot" in done.out
+    assert "3 deliveries: 2 pass, 1 put right" in done.out
+    report = json.loads(Path("out/run.json").read_text(encoding="utf-8"))
+    assert [v["state"] for v in report["verdicts"]] == ["recovered", "pass", "pass"]
 
 
 def test_the_person_stops_the_run(

@@ -172,7 +172,7 @@ def test_a_pause_of_the_watch_is_answered_on_the_page(client: RobotClient, tmp_p
             somebody.start()
             watch_run(client, run, PastLink(url, None), shown, poll_s=0.05)
             somebody.join()
-            hold = page.overview()["trajectories"][1]["hold"]
+            hold = page.overview()["trajectories"][1]["holds"][-1]
     assert run.status == "succeeded"
     assert [(one.kind, one.trajectory) for one in asked] == [("paused", 1)]
     assert hold["answered"] == "page"

@@ -61,7 +61,10 @@ def test_a_pause_is_taken_up_in_a_hold(sidecar: FakeSidecar, robot: RobotServer)
     run.play()
     run.join()
     assert run.error is None
-    assert [h["trajectory"] for h in sidecar.holds if h["resolution"] == "operator"] == [0, 0]
+    first = [h for h in sidecar.holds if h["trajectory"] == 0]
+    assert [(h["number"], h["resolution"]) for h in first] == [
+        (0, "operator"), (0, "operator"), (1, "verdict"),
+    ]  # fmt: skip
 
 
 def test_a_stop_ends_the_run_as_the_robots_own_button_does(

@@ -92,6 +92,7 @@ class StubAnalyser:
     def __init__(self, fails: Sequence[int] = (), unsure: Sequence[int] = ()) -> None:
         self.fails = fails
         self.unsure = unsure
+        self.failure = FailureType.PARTIAL_DISPENSE
         self.histories: list[list[Judged]] = []
         self.observed: list[tuple[str, int]] = []
         self.confirmed: list[int] = []
@@ -126,7 +127,7 @@ class StubRun:
                 Route.GREY_ZONE,
                 9.5,
                 Gate.VOLUMETRIC,
-                FailureType.PARTIAL_DISPENSE,
+                self.analyser.failure,
                 "52 µL stayed in the tip.",
                 52.0,
                 0.0,

@@ -65,7 +65,7 @@ def test_a_well_is_put_right_and_the_run_resumed_from_the_page(
     assert robot.told == [("/runs/abc/actions", "play")]
     first = stage.overview()["trajectories"][0]
     assert (first["verdict"]["outcome"], first["decisions"][0]["by"]) == ("pass", "Ada")
-    assert first["hold"]["answered"] == "page"
+    assert first["holds"][0]["answered"] == "page"
     assert stage.asked() == []
     assert stage.run.watcher is not None
     assert "2 passed" in stage.run.watcher.summary()

@@ -89,6 +89,24 @@ def test_a_message_says_well_protocol_robot_what_was_seen_and_what_to_do(
     assert base64.b64decode(pictures[0]["base64"]).startswith(b"\xff\xd8")
 
 
+def test_people_who_heard_of_a_failure_hear_that_it_was_put_right(
+    config: SidecarConfig, inbox: Inbox
+) -> None:
+    analyser = StubAnalyser(fails=[0])
+    with running_sidecar(told(config, inbox.url), StubCamera(), analyser) as at, Robot(at) as robot:
+        robot.register()
+        for trajectory in (0, 1):
+            robot.cycle(trajectory)
+        assert "partial dispense" in inbox.next()["title"]
+        about = {"trajectory": 0, "attempt": 1, "action": "retry", "text": "With a fresh tip."}
+        for change in ({"state": "begun"}, {"state": "recovered", "by": 1}):
+            robot.post("recovery", about | change).raise_for_status()
+        message = inbox.next()
+        assert "A1 of plate (slot 4): put right by the robot" in message["title"]
+        assert "Nothing has to be done" in message["message"]
+        assert inbox.received.empty()
+
+
 def test_trouble_is_told_once_until_it_is_over(config: SidecarConfig, inbox: Inbox) -> None:
     camera = StubCamera()
     with (
@@ -105,7 +123,7 @@ def test_trouble_is_told_once_until_it_is_over(config: SidecarConfig, inbox: Inb
         camera.failure = CameraError("out again")
         robot.send(1)
         assert "out again" in inbox.next()["message"]
-        robot.post("hold", {"trajectory": 3, "seconds": 30, "resolution": "timeout"})
+        robot.post("hold", {"number": 0, "trajectory": 3, "seconds": 30, "resolution": "timeout"})
         assert "a hold ended without a verdict" in inbox.next()["title"]
         assert inbox.received.empty()
         incidents = robot.overview()["incidents"]

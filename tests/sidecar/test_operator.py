@@ -127,7 +127,8 @@ def test_a_run_that_was_paused_for_a_look_and_goes_on_was_looked_at(
     judged: Robot, analyser: StubAnalyser, policy: str, confirmed: list[int]
 ) -> None:
     for trajectory in (1, 2):
-        hold = {"trajectory": trajectory, "seconds": 0.1, "resolution": "verdict", "policy": policy}
+        hold = {"number": trajectory, "trajectory": trajectory, "seconds": 0.1,
+                "resolution": "verdict", "policy": policy}  # fmt: skip
         assert judged.post("hold", hold).status_code == 200
     assert analyser.confirmed == []
     judged.cycle(3)

@@ -100,7 +100,7 @@ def register(robot: Robot, **more: Any) -> None:
 
 
 def pause(robot: Robot, trajectory: int) -> None:
-    robot.post("hold", {"trajectory": trajectory, "seconds": 0.2, "resolution": "verdict",
+    robot.post("hold", {"number": trajectory, "trajectory": trajectory, "seconds": 0.2, "resolution": "verdict",
                         "policy": "pause"})  # fmt: skip
 
 
@@ -151,7 +151,7 @@ def test_a_paused_robot_is_answered_from_the_banner(
     tab.run("document.querySelector('.asks button[value=\"pass resume\"]').click()")
     tab.until("document.body.textContent.includes('Ada told the robot to go on')")
     assert robot.verdict(1)["verdict"]["outcome"] == "pass"
-    robot.post("hold", {"trajectory": 1, "seconds": 0.2, "resolution": "verdict",
+    robot.post("hold", {"number": 1, "trajectory": 1, "seconds": 0.2, "resolution": "verdict",
                         "policy": "pause", "paused_s": 4.0, "answered": "page"})  # fmt: skip
     tab.until("!document.querySelector('.asks.paused')")
     tab.until("document.querySelector('a.cell.decided')")

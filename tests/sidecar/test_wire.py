@@ -79,7 +79,9 @@ def test_an_unknown_run_is_404(url: str) -> None:
             robot.send(0),
             robot.http.get("/v1/runs/never/trajectories/0/verdict"),
             robot.http.get("/v1/runs/never"),
-            robot.post("hold", {"trajectory": 0, "seconds": 1, "resolution": "verdict"}),
+            robot.post(
+                "hold", {"number": 0, "trajectory": 0, "seconds": 1, "resolution": "verdict"}
+            ),
             robot.post("finish", {"outcome": "succeeded"}),
         ):
             assert answer.status_code == 404
@@ -172,15 +174,31 @@ def test_abandoned_trajectories_are_not_judged(robot: Robot, analyser: StubAnaly
 
 def test_holds_and_the_end_are_kept(robot: Robot) -> None:
     robot.cycle(0)
-    hold = {"trajectory": 0, "seconds": 0.25, "resolution": "verdict", "policy": None}
+    hold = {"number": 0, "trajectory": 0, "seconds": 0.25, "resolution": "verdict", "policy": None}
     assert robot.post("hold", hold).json() == {}
     assert robot.post("hold", hold).json() == {}
     assert robot.post("finish", {"outcome": "succeeded", "detail": "ok"}).json() == {}
     run = robot.overview()
-    kept = run["trajectories"][0]["hold"]
+    (kept,) = run["trajectories"][0]["holds"]
     assert {name: kept[name] for name in hold} == hold
     assert run["finished"]["outcome"] == "succeeded"
     assert robot.verdict(0)["verdict"]["outcome"] == "pass"
+
+
+def test_a_pause_of_a_person_and_the_hold_that_follows_it_are_both_kept(robot: Robot) -> None:
+    robot.cycle(0)
+    pause = {"number": 0, "trajectory": 0, "seconds": 0, "resolution": "operator",
+             "policy": "pause"}  # fmt: skip
+    hold = {"number": 1, "trajectory": 0, "seconds": 0.3, "resolution": "verdict",
+            "policy": "pause"}  # fmt: skip
+    over = {"paused_s": 9.0, "answered": "page"}
+    for told in (pause, pause | over, hold, hold | over | {"answered": "robot"}):
+        assert robot.post("hold", told).json() == {}
+    kept = robot.overview()["trajectories"][0]["holds"]
+    assert [(one["resolution"], one["answered"]) for one in kept] == [
+        ("operator", "page"),
+        ("verdict", "robot"),
+    ]
 
 
 def test_frames_are_served_as_they_were_stored(robot: Robot) -> None:
