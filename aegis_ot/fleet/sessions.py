@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import os
 import tempfile
 from collections.abc import Mapping
@@ -196,10 +197,8 @@ class RobotSession:
 def _of_robot(run: RobotRun, reader: VerdictReader | None) -> dict[str, Any]:
     flagged = [_short(one) for one in run_report(run)["verdicts"] if one["state"] in _FLAGGED]
     if run.overview is not None and reader is not None:
-        try:
+        with contextlib.suppress(LinkError):  # then its words are there, its pictures are not
             flagged = _flagged(report_run(run.overview, reader.frame))
-        except LinkError:
-            pass  # the sidecar is gone: its words are there, its pictures are not
     outcomes = [one.state for one in run.verdicts.values()]
     counts = {outcome: outcomes.count(outcome) for outcome in dict.fromkeys(outcomes)}
     return {

@@ -19,7 +19,8 @@ def run_report(run: RobotRun) -> dict[str, Any]:
     Returns:
         ``protocol``, ``robot``, ``url``, ``robot_run``; ``status``, ``errors``, ``seconds``,
         ``commands``, ``pauses``; ``analysis`` (``ok``, ``errors``, ``guard``: the guard's words);
-        ``verdicts``, each with its ``state`` as it stands; ``sidecar``: its account of the run, or ``None``.
+        ``verdicts``, each with its ``state`` as it stands; ``sidecar``: its account of the run, or
+        ``None``.
     """
     analysis = run.analysis
     return {

@@ -100,8 +100,8 @@ def register(robot: Robot, **more: Any) -> None:
 
 
 def pause(robot: Robot, trajectory: int) -> None:
-    robot.post("hold", {"number": trajectory, "trajectory": trajectory, "seconds": 0.2, "resolution": "verdict",
-                        "policy": "pause"})  # fmt: skip
+    hold = {"number": trajectory, "trajectory": trajectory, "seconds": 0.2}
+    robot.post("hold", hold | {"resolution": "verdict", "policy": "pause"})
 
 
 @in_browser

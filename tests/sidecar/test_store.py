@@ -17,7 +17,7 @@ from aegis_ot.sidecar.config import RetentionSettings
 from aegis_ot.sidecar.housekeeping import tidy
 from aegis_ot.sidecar.schema import MIGRATIONS
 from aegis_ot.sidecar.store import DATABASE, SILENT, Captured, Store
-from aegis_ot.sidecar.wire import Finish, Hold, Recovery, RunStart
+from aegis_ot.sidecar.wire import Finish, Recovery, RunStart
 from aegis_ot.vocabulary import Outcome, Route, Verdict
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_jpeg, make_keyframe

@@ -14,6 +14,8 @@ from aegis_ot.vocabulary import KeyframeKind, Verdict, from_json, to_json
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_keyframe
 
+HOLD = {"number": 0, "trajectory": 0, "seconds": 0.25, "resolution": "verdict", "policy": None}
+
 
 def test_a_cycle_is_captured_and_judged(robot: Robot) -> None:
     for sequence in range(4):
@@ -79,9 +81,7 @@ def test_an_unknown_run_is_404(url: str) -> None:
             robot.send(0),
             robot.http.get("/v1/runs/never/trajectories/0/verdict"),
             robot.http.get("/v1/runs/never"),
-            robot.post(
-                "hold", {"number": 0, "trajectory": 0, "seconds": 1, "resolution": "verdict"}
-            ),
+            robot.post("hold", HOLD),
             robot.post("finish", {"outcome": "succeeded"}),
         ):
             assert answer.status_code == 404
@@ -174,13 +174,12 @@ def test_abandoned_trajectories_are_not_judged(robot: Robot, analyser: StubAnaly
 
 def test_holds_and_the_end_are_kept(robot: Robot) -> None:
     robot.cycle(0)
-    hold = {"number": 0, "trajectory": 0, "seconds": 0.25, "resolution": "verdict", "policy": None}
-    assert robot.post("hold", hold).json() == {}
-    assert robot.post("hold", hold).json() == {}
+    assert robot.post("hold", HOLD).json() == {}
+    assert robot.post("hold", HOLD).json() == {}
     assert robot.post("finish", {"outcome": "succeeded", "detail": "ok"}).json() == {}
     run = robot.overview()
     (kept,) = run["trajectories"][0]["holds"]
-    assert {name: kept[name] for name in hold} == hold
+    assert {name: kept[name] for name in HOLD} == HOLD
     assert run["finished"]["outcome"] == "succeeded"
     assert robot.verdict(0)["verdict"]["outcome"] == "pass"
 
