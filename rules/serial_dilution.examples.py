@@ -197,6 +197,16 @@ for n, (left, right) in enumerate(zip(series, series[1:])):
         p300.mix(3, 80, right)
 p300.drop_tip()
 
+# SD-1, SD-5 passes: two series in a row, each with a probe in all its wells and a control behind it
+for start, probe in zip((0, 6), tubes.rows()[1]):
+    wells = plate.rows()[1][start : start + 6]
+    p300.transfer(60, diluent, wells, new_tip="once")
+    for well in wells:
+        p300.transfer(20, probe, well)
+    p300.transfer(80, stock, wells[0], mix_after=(3, 80))
+    for left, right in zip(wells[:4], wells[1:5]):
+        p300.transfer(80, left, right, mix_after=(3, 80))
+
 # deck
 diluent = reservoir["A12"]
 stocks = deepwell.columns()[0]

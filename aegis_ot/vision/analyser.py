@@ -171,7 +171,8 @@ class RunAnalyser:
         asked = self._asked.pop(trajectory, None)
         if asked is None:
             return
-        self._first.vouched = asked.stream.vouched = True
+        asked.stream.vouched = True
+        self._first.vouch(asked.case.delivery)
         self._take(asked, GateDecision(Outcome.PASS, Gate.OPERATOR, ""))
 
     def recall(self, history: Sequence[Judged]) -> None:

@@ -94,6 +94,8 @@ class Delivery:
             liquid about the same.
         left_ul: What stayed in the tip, µL, where some did.
         gap_ul: Air within the column, µL, where there was some.
+        unbroken: Change of the stretch of the column that changed least, as a share of its usual
+            rows' change: low where air is enclosed, and in single wells also by chance.
         spoiled: Whether it is unknown because light or background changed between the two frames:
             the next well may well tell.
     """
@@ -103,6 +105,7 @@ class Delivery:
     left_ul: float | None = None
     spoiled: bool = False
     gap_ul: float | None = None
+    unbroken: float | None = None
 
 
 def delivery_of(
@@ -175,13 +178,14 @@ def _compared(
     lower = rows[len(rows) // 2 :]
     emptied = float(np.average(share[lower], weights=width[lower]))
     if emptied >= _EMPTIED:
+        unbroken = _unbroken(share[rows])
         gap = _gap(share[rows]) if strength >= _GAP_SURE_WIDE else None
         wide = gap is not None and _bores(before)[rows[gap[1]]] >= _GAP_WIDE_PX
         if gap is None or not (wide or strength >= _GAP_SURE):
-            return Delivery(Shown.EMPTIED, per_width)
+            return Delivery(Shown.EMPTIED, per_width, unbroken=unbroken)
         upper_end, lower_end = ((1.0 - u[rows[end]]) * tip.length_mm for end in gap)
         air = float(tip.volume_of(upper_end)) - float(tip.volume_of(lower_end))
-        return Delivery(Shown.GAP, per_width, gap_ul=air)
+        return Delivery(Shown.GAP, per_width, gap_ul=air, unbroken=unbroken)
     if emptied > _LEFT or strength < _SURE:
         return Delivery(Shown.UNKNOWN, per_width)
     sections = np.array_split(rows, _SECTIONS)
@@ -194,6 +198,19 @@ def _compared(
     return Delivery(Shown.LEFT, per_width, left)
 
 
+def _shortest_gap(share: NDArray[np.float64]) -> int:
+    return max(4, round(_GAP_LENGTH * len(share)))
+
+
+def _unbroken(share: NDArray[np.float64]) -> float | None:
+    """Least mean change of as many rows as the shortest gap has, as a share of the usual one."""
+    length, usual = _shortest_gap(share), float(np.median(share))
+    rows = share[2 : int(_GAP_WITHIN * len(share))]
+    if len(rows) < length or usual <= 0:
+        return None
+    return float(np.convolve(rows, np.full(length, 1.0 / length), "valid").min()) / usual
+
+
 def _gap(share: NDArray[np.float64]) -> tuple[int, int] | None:
     """First and last row of the longest stretch that does not change, if it is a gap."""
     usual = float(np.median(share))
@@ -203,7 +220,7 @@ def _gap(share: NDArray[np.float64]) -> tuple[int, int] | None:
     if not stretches:
         return None
     first, past = stretches[0]
-    least = max(4, round(_GAP_LENGTH * len(share)))
+    least = _shortest_gap(share)
     if past - first < least or first == 0 or past >= len(still):
         return None
     middle = (first + past) // 2

@@ -23,6 +23,23 @@ _MISSING_SHARE = 0.3
 
 _KNOWN = 12
 
+_BROKEN, _TELLING = 0.48, 4
+"""Median of the wells' least changed stretches below which air seems to be enclosed in all of them,
+and the wells from which a median tells. A single well in which a speck on the wall takes the place
+of a gap says little; on simulated development runs of a dye the medians were 0.63 at least without
+air and 0.33 at most with 8 % of it in every column, but for one camera with 0.62."""
+
+_NOTHING_SEEN = (
+    "No liquid is seen to leave the tip: none was drawn or dispensed, or it is too clear "
+    "to be seen in this view. Please look at the tip and the well. If they are right, "
+    "resume: the wells after it are then compared with this one."
+)
+_AIR_SEEN = (
+    "Air seems to be enclosed in the column of every well of this liquid so far: in each a stretch "
+    "of it does not change when the liquid leaves. Please look at the source and at the tip after "
+    "the next aspirate. If they are right, resume; this is asked once."
+)
+
 _SPOILED_MOST = 1
 """First wells of a run that may pass unproven because one of their frames was spoiled."""
 
@@ -38,6 +55,8 @@ class FirstWells:
     def __init__(self, ask: bool = True) -> None:
         self._ask = ask
         self._strengths: dict[Liquid, list[float]] = {}
+        self._unbroken: dict[Liquid, list[float]] = {}
+        self._asked_for_air: set[Liquid] = set()
         self._spoiled = 0
         self.vouched = False
         """Whether the operator said that wells in which no liquid is seen to leave are right."""
@@ -45,6 +64,8 @@ class FirstWells:
     def question(self, liquid: Liquid, delivery: Delivery | None) -> str:
         """What to ask the operator before a first well counts as normal; empty: nothing."""
         shown = Shown.UNKNOWN if delivery is None else delivery.shown
+        if self._ask and delivery is not None and self._all_enclose_air(liquid, delivery):
+            return _AIR_SEEN
         if not self._ask or self.vouched or shown is Shown.EMPTIED:
             return ""
         if self.proven(liquid):
@@ -52,11 +73,12 @@ class FirstWells:
         if delivery is not None and delivery.spoiled and self._spoiled < _SPOILED_MOST:
             self._spoiled += 1
             return ""  # a lamp or a hand: the next well tells
-        return (
-            "No liquid is seen to leave the tip: none was drawn or dispensed, or it is too clear "
-            "to be seen in this view. Please look at the tip and the well. If they are right, "
-            "resume: the wells after it are then compared with this one."
-        )
+        return _NOTHING_SEEN
+
+    def vouch(self, delivery: Delivery | None) -> None:
+        """The operator found a well right that was asked about."""
+        if delivery is None or delivery.shown is not Shown.EMPTIED:
+            self.vouched = True
 
     def proven(self, liquid: Liquid) -> bool:
         """Whether wells of this run showed the liquid leave the tip."""
@@ -76,6 +98,10 @@ class FirstWells:
         """A well was judged normal."""
         if case.delivery is not None and case.delivery.shown is Shown.EMPTIED:
             self.restore(liquid, case.delivery.strength)
+            if case.delivery.unbroken is not None:
+                known = self._unbroken.setdefault(liquid, [])
+                known.append(case.delivery.unbroken)
+                del known[_KNOWN:]
 
     def restore(self, liquid: Liquid, strength: float) -> None:
         """A normal well of this liquid showed it so plainly."""
@@ -83,6 +109,15 @@ class FirstWells:
         known.append(strength)
         # The first ones stay: what drifts slowly must not take the measure with it.
         del known[_KNOWN:]
+
+    def _all_enclose_air(self, liquid: Liquid, delivery: Delivery) -> bool:
+        if liquid in self._asked_for_air or delivery.unbroken is None:
+            return False
+        known = [*self._unbroken.get(liquid, ()), delivery.unbroken]
+        broken = len(known) >= _TELLING and float(np.median(known)) < _BROKEN
+        if broken:
+            self._asked_for_air.add(liquid)
+        return broken
 
 
 def liquid_of(keyframe: Keyframe) -> Liquid:

@@ -54,6 +54,8 @@ def test_air_within_the_column_is_seen_and_measured() -> None:
     found = delivery("air_bubble:12")
     assert found.shown is Shown.GAP
     assert found.gap_ul == pytest.approx(12.0, rel=0.4)
+    unbroken, whole = found.unbroken, delivery().unbroken
+    assert unbroken is not None and whole is not None and unbroken < 0.3 < 0.6 < whole
 
 
 def test_water_proves_nothing() -> None:

@@ -35,8 +35,30 @@ def test_a_well_that_proves_its_delivery_vouches_for_its_liquid_alone() -> None:
 
 def test_the_operators_word_holds_for_the_run() -> None:
     first = FirstWells()
-    first.vouched = True
+    first.vouch(NOTHING)
     assert first.question("water", NOTHING) == ""
+
+
+def test_air_in_the_column_of_every_well_is_asked_about_once() -> None:
+    first = FirstWells()
+    for unbroken in (0.3, 0.55, 0.2):
+        seen = Delivery(Shown.EMPTIED, 10.0, unbroken=unbroken)
+        assert first.question("red", seen) == ""
+        first.learn("red", well(seen))
+    seen = Delivery(Shown.EMPTIED, 10.0, unbroken=0.35)
+    assert "Air seems to be enclosed" in first.question("red", seen)
+    first.vouch(seen)
+    first.learn("red", well(seen))
+    assert first.question("red", seen) == ""
+    assert first.question("water", NOTHING) != "", "what was answered is another question"
+
+
+def test_single_stretches_that_change_little_are_no_air() -> None:
+    first = FirstWells()
+    for unbroken in (0.9, 0.2, 0.8, 0.3, 0.7, 0.9):
+        seen = Delivery(Shown.EMPTIED, 10.0, unbroken=unbroken)
+        assert first.question("red", seen) == ""
+        first.learn("red", well(seen))
 
 
 def test_nothing_to_be_seen_is_a_sign_only_where_the_liquid_was_seen() -> None:

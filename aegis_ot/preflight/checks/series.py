@@ -7,7 +7,7 @@ order), running away from the well in which the stock stands.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from ...vocabulary import WellRef
@@ -71,7 +71,9 @@ def find_series(
     for group, here in zip(groups, in_all, strict=True):
         own = _wells_of(group)
         members = _with_neighbours(trace, roles, own, diluent | stock, linked, anywhere)
-        found.append(_series(trace, roles, group, members, stock, diluent, fillers, here))
+        # Beside the chain, what all wells of another chain are given is no stock either.
+        shared = {well: here if well in own else anywhere for well in members}
+        found.append(_series(trace, roles, group, members, stock, diluent, fillers, shared))
     return found
 
 
@@ -94,7 +96,7 @@ def _series(
     stock: frozenset[str],
     diluent: frozenset[str],
     fillers: frozenset[Well],
-    in_all: frozenset[Well],
+    shared: Mapping[Well, frozenset[Well]],
 ) -> Series:
     linked = set(_wells_of(links))
     order = best_order(members, links)
@@ -113,7 +115,7 @@ def _series(
             for source, volume, _, line in visit.parts:
                 if source is None or source is well or volume <= 0 or source in member_set:
                     continue
-                if roles.has(source.ref, diluent) or source in in_all:
+                if roles.has(source.ref, diluent) or source in shared[well]:
                     continue
                 if (
                     roles.has(source.ref, stock)

@@ -16,6 +16,9 @@ _FEWEST_ALIKE = 3
 _FAR_SHORT = 2.0
 """Where so many times more is drawn than the run has put in, the plate was filled by hand."""
 
+_INEXACT = 0.05
+"""What a draw may lack, as a share of it: pipettes and people who fill tubes are no more exact."""
+
 _TO_EMPTY = 1.25
 """So many times what a well holds is drawn from it to leave nothing behind."""
 
@@ -26,7 +29,7 @@ class VolumeBookkeeping(Check):
 
     Wells of unknown volume are judged only by what the run put into them; so are plates from
     which so much is drawn that someone must have filled them by hand. What stays below the brim,
-    and a draw that over-reaches only to empty a well, is a warning.
+    a draw that over-reaches only to empty a well, and one that lacks next to nothing is a warning.
     """
 
     name: ClassVar[str] = "volume_bookkeeping"
@@ -88,6 +91,8 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
         if imbalance.volume > well.brim or _is_filled_again(case, visit):
             return ""
         return f"It stays below the brim ({well.brim:.4g} µL)."
+    if 0 < imbalance.volume - imbalance.limit <= _INEXACT * imbalance.volume:
+        return "What is lacking is within what filling and pipetting are exact to."
     if visit.mixing:
         return "It is drawn to mix, not to be delivered."
     fed = {
