@@ -42,8 +42,15 @@ class FirstWells:
         self.vouched = False
         """Whether the operator said that wells in which no liquid is seen to leave are right."""
 
-    def question(self, liquid: Liquid, delivery: Delivery | None) -> str:
-        """What to ask the operator before a first well counts as normal; empty: nothing."""
+    def question(self, liquid: Liquid, delivery: Delivery | None, found_in: str = "") -> str:
+        """What to ask the operator before a first well counts as normal; empty: nothing.
+
+        Args:
+            liquid: Of the well.
+            delivery: What its frames show.
+            found_in: Where the pipette's sensor found liquid before the draw. That is no proof:
+                the tip may have drawn none of it, or delivered none.
+        """
         shown = Shown.UNKNOWN if delivery is None else delivery.shown
         if not self._ask or self.vouched or shown is Shown.EMPTIED:
             return ""
@@ -52,10 +59,16 @@ class FirstWells:
         if delivery is not None and delivery.spoiled and self._spoiled < _SPOILED_MOST:
             self._spoiled += 1
             return ""  # a lamp or a hand: the next well tells
+        why = ": none was drawn or dispensed, "
+        if found_in:
+            why = (
+                f", though the pipette's pressure sensor found some in {found_in}: a clogged or "
+                "loose tip drew none, none was dispensed, "
+            )
         return (
-            "No liquid is seen to leave the tip: none was drawn or dispensed, or it is too clear "
-            "to be seen in this view. Please look at the tip and the well. If they are right, "
-            "resume: the wells after it are then compared with this one."
+            f"No liquid is seen to leave the tip{why}or it is too clear to be seen in this view. "
+            "Please look at the tip and the well. If they are right, resume: the wells after it "
+            "are then compared with this one."
         )
 
     def proven(self, liquid: Liquid) -> bool:
