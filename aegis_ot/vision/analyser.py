@@ -43,8 +43,7 @@ class _Well:
     looks: dict[KeyframeKind, object]
     clean: bool
     """Whether its tip holds nothing that an earlier well left: else it looks like no other."""
-    found_in: str
-    """The source in which the pipette's sensor found liquid; empty if it did not say so."""
+    last: Keyframe
 
 
 class RunAnalyser:
@@ -141,8 +140,7 @@ class RunAnalyser:
             decision = weighed(still_there(left, decision), last, case.delivery)
         else:
             clean = self._leftovers.known(last) is None
-            looks, found = dict(seen.looks), found_in(last)
-            well = _Well(stream, liquid_of(last), case, looks, clean, found)
+            well = _Well(stream, liquid_of(last), case, dict(seen.looks), clean, last)
             decision = self._learn(well, trajectory, weighed(decision, last, case.delivery))
         self._leftovers.note(last, case, decision)
         emptied = case.readings.get(KeyframeKind.POST_DISPENSE)
@@ -290,13 +288,16 @@ class RunAnalyser:
     def _learn(self, well: _Well, trajectory: int, decision: GateDecision) -> GateDecision:
         """Calibrate on a well, unless the operator has to look at it first."""
         unseen = decision.outcome is Outcome.PASS and decision.gate in (Gate.NONE, Gate.VOLUMETRIC)
-        ask = self._first.question
-        question = ask(well.liquid, well.case.delivery, well.found_in) if unseen else ""
+        ask, found = self._first.question, found_in(well.last)
+        question = ask(well.liquid, well.case.delivery, found) if unseen else ""
         if question:
             decision = replace(
                 decision, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR, reason=question
             )
-        first = well.case.route is Route.CALIBRATION and decision.outcome is Outcome.UNDECIDED
+        undecided = decision.outcome is Outcome.UNDECIDED
+        if undecided and well.last.liquid_found is False:
+            return decision  # who fills the source and resumes vouches for nothing
+        first = well.case.route is Route.CALIBRATION and undecided
         if question or first:
             self._asked[trajectory] = well
             while len(self._asked) > MOST_ASKED:

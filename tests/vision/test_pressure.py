@@ -81,6 +81,15 @@ def test_in_a_run_no_liquid_is_never_passed_over_in_silence() -> None:
     assert judged[4][0].reason.startswith(NONE_FOUND)
 
 
+def test_who_goes_on_where_none_was_found_vouches_for_nothing() -> None:
+    """The source was filled, perhaps: the first well that may count is still asked about."""
+    judged = judge_run(4, reagent="water", seed=1, operator=True, probed={0: False})
+    assert [verdict.outcome for verdict, _ in judged] == [
+        Outcome.UNDECIDED, Outcome.UNDECIDED, Outcome.PASS, Outcome.PASS
+    ]  # fmt: skip
+    assert "Calibration well 2" in judged[2][0].reason
+
+
 def test_in_a_run_the_sensor_stands_beside_what_the_frames_show() -> None:
     faults = ("no_aspirate@#4", "no_aspirate@#5")
     judged = judge_run(7, faults, seed=1, probed={3: True, 4: False, 5: False, 6: True})
