@@ -42,7 +42,7 @@ def weighed(decision: GateDecision, keyframe: Keyframe, delivery: Delivery | Non
     )
     shown = Shown.UNKNOWN if delivery is None else delivery.shown
     if decision.outcome is Outcome.PASS and shown is Shown.EMPTIED:
-        # Rows that change as a full bore does were filled: a probe can miss a low or foaming level.
+        # Rows that change as a full bore does were filled: a probe stops short of the bottom.
         return _adding(decision, f"{said}, but the frames show liquid leave the tip.")
     if decision.outcome is Outcome.PASS:
         return replace(
