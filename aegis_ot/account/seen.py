@@ -14,7 +14,7 @@ Pictures = Callable[[int, "Box | None"], "tuple[Picture | None, Picture | None, 
 """From a keyframe's number and the tip's box: the whole frame, the tip close up, and what there
 is to say where the frame is missing."""
 
-_PROBED = {True: "; the sensor found liquid", False: "; the sensor found no liquid"}
+_PROBED: dict[Any, str] = {True: "; the sensor found liquid", False: "; the sensor found no liquid"}
 """What the pipette's pressure sensor said of the source, where it was asked."""
 
 
