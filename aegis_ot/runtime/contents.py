@@ -51,9 +51,9 @@ class Contents:
 
     @property
     def probed(self) -> bool | None:
-        """Whether the sensor found liquid in the one source; ``None`` if not all draws say so."""
+        """Whether the sensor found liquid in the source; ``None`` if not all draws say the same."""
         said = {layer.probed for layer in self._layers if layer.liquid}
-        return said.pop() if len(said) == 1 and len(self.sources) == 1 else None
+        return said.pop() if len(said) == 1 else None
 
     def draw(self, layer: Layer) -> None:
         """Take in one layer."""

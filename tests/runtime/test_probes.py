@@ -101,14 +101,27 @@ def test_a_mix_and_an_air_gap_change_nothing_and_all_wells_of_a_draw_are_told() 
         pipette.pick_up_tip()
         pipette.detect_liquid_presence(reservoir["A1"])
         pipette.mix(2, 20, reservoir["A1"])
+        pipette.aspirate(10, reservoir["A2"].top(5))
         pipette.aspirate(60, reservoir["A1"])
         pipette.aspirate(40, reservoir["A1"])
         pipette.air_gap(5)
         pipette.dispense(55, plate["A1"])
-        pipette.dispense(50, plate["B1"])
+        pipette.dispense(60, plate["B1"])
         pipette.drop_tip()
 
     assert told(protocol, False) == [False, False]
+
+
+def test_after_liquid_is_put_back_by_hand_nothing_is_told() -> None:
+    def protocol(context: Any) -> None:
+        pipette, reservoir, plate = flex(context)
+        pipette.pick_up_tip()
+        pipette.detect_liquid_presence(reservoir["A1"])
+        deliver(pipette, reservoir["A1"], reservoir["A1"])
+        deliver(pipette, reservoir["A1"], plate["A1"])
+        pipette.drop_tip()
+
+    assert told(protocol) == [None]
 
 
 def test_liquids_of_several_wells_and_tips_over_several_wells_are_told_of_as_unknown() -> None:
@@ -129,7 +142,7 @@ def test_liquids_of_several_wells_and_tips_over_several_wells_are_told_of_as_unk
             deliver(pipette, source, plate["A1"])
             pipette.drop_tip()
 
-    assert told(pooled) == [None]
+    assert told(pooled, True) == told(pooled, False) == [None]
     assert told(row) == [True, None]
 
 
