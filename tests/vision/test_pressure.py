@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from aegis_ot.sidecar.decisions import effective
+from aegis_ot.vision.camera import Frame
 from aegis_ot.vision.delivery import Delivery, Shown
 from aegis_ot.vision.gates import GateDecision
+from aegis_ot.vision.monitor import RunMonitor
 from aegis_ot.vision.pressure import weighed
-from aegis_ot.vocabulary import FailureType, Gate, Keyframe, Outcome
+from aegis_ot.vocabulary import ChannelOutcome, FailureType, Gate, Keyframe, Outcome
 
-from .test_monitor import judge_run, keyframes
+from .test_monitor import Told, judge_run, keyframes
 
 LAST = list(keyframes(1))[-1]
 PASSED = GateDecision(Outcome.PASS, Gate.VOLUMETRIC, "Inside this run's band.")
@@ -102,6 +106,25 @@ def test_in_a_run_the_sensor_stands_beside_what_the_frames_show() -> None:
     assert NONE_FOUND in verdicts[4].reason
     assert "but the frames show liquid leave the tip" in verdicts[5].reason
     assert "sensor" not in verdicts[6].reason
+
+
+@pytest.mark.parametrize("found", [True, False, None])
+def test_of_tips_that_nobody_sees_the_sensor_is_the_only_witness(found: bool | None) -> None:
+    head = tuple(f"{row}{column}" for column in range(1, 13) for row in "ABCDEFGH")
+    analyser = RunMonitor(Told()).begin("run")
+    for keyframe in keyframes(1, channels=96):
+        whole = replace(keyframe, nozzles=head, targets=(None,) * 96, liquid_found=found)
+        analyser.observe(whole, Frame(b"", np.zeros((32, 32, 3), np.uint8), 0.0))
+    verdict, _ = analyser.judge(0)
+    assert len(verdict.channels) == 96
+    if found is False:
+        assert (verdict.outcome, verdict.gate) == (Outcome.UNDECIDED, Gate.OPERATOR)
+        assert verdict.reason.startswith(NONE_FOUND)
+        assert {one.outcome for one in verdict.channels} == {ChannelOutcome.UNDECIDED}
+        decision = {"outcome": "pass", "by": "Ada", "note": ""}
+        assert effective(verdict, [decision]).channels[95].outcome is ChannelOutcome.PASS
+    else:
+        assert verdict.unobserved
 
 
 def test_what_an_earlier_well_left_in_the_tip_explains_no_empty_source() -> None:

@@ -17,6 +17,8 @@ from ...vocabulary import (
     WellRef,
     named_wells,
 )
+from ..gates import GateDecision
+from ..pressure import weighed
 
 Judged = tuple[Verdict, Mapping[str, Any]]
 _GRAVITY = (Outcome.FAIL, Outcome.UNDECIDED, Outcome.PASS)
@@ -67,9 +69,13 @@ def row_verdict(
     judged = [channel.judged for channel in channels if channel.judged is not None]
     if all(channel.hidden for channel in channels):
         reason = f"None of {len(each)} tips is seen apart from the others: nothing was judged."
+        said = weighed(GateDecision(Outcome.PASS, Gate.NONE, reason), keyframe, None)
+        if said.outcome is Outcome.UNDECIDED:
+            doubt = ChannelOutcome.UNDECIDED
+            each = tuple(replace(one, outcome=doubt, reason=said.reason) for one in each)
         verdict = Verdict(
-            keyframe.run, keyframe.trajectory, Outcome.PASS, Route.UNCALIBRATED, reason=reason,
-            channels=each,
+            keyframe.run, keyframe.trajectory, said.outcome, Route.UNCALIBRATED, gate=said.gate,
+            reason=said.reason, channels=each,
         )  # fmt: skip
         return verdict, {"channels": len(each), "tips_judged": 0}
     if not judged:
