@@ -14,6 +14,9 @@ Pictures = Callable[[int, "Box | None"], "tuple[Picture | None, Picture | None, 
 """From a keyframe's number and the tip's box: the whole frame, the tip close up, and what there
 is to say where the frame is missing."""
 
+_PROBED: dict[Any, str] = {True: "; the sensor found liquid", False: "; the sensor found no liquid"}
+"""What the pipette's pressure sensor said of the source, where it was asked."""
+
 
 def no_pictures(_sequence: int, _box: Box | None) -> tuple[None, None, str]:
     """Numbers are enough."""
@@ -66,7 +69,8 @@ def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictur
         id=f"{run}-{entry['trajectory']}",
         group=", ".join(filter(None, (f"{last.get('mount', '')} {pipette}".strip(), reagent))),
         well=str(wells[0]["name"]) if wells else "-",
-        title=f"{entry['well']}, {float(last.get('commanded_ul', 0.0)):g} µL {reagent}".rstrip(),
+        title=f"{entry['well']}, {float(last.get('commanded_ul', 0.0)):g} µL {reagent}".rstrip()
+        + _PROBED.get(last.get("liquid_found"), ""),
         outcome="calibration" if state == "calibration" else str(verdict.get("outcome", "")),
         route=route,
         gate=str(verdict.get("gate", "")),

@@ -137,6 +137,7 @@ class CallReader:
             lines=site.lines,
             call=site.call,
             mixing=site.mixing,
+            probes=name in _PROBES,
             core=self._weak_core,
             method=name,
             arguments=values,

@@ -78,6 +78,7 @@ class Operation:
             ``"transfer"``, ``"mix"``, ``"aspirate"``, ``"transfer_with_liquid_class"``...
         mixing: Whether it is part of a mix (``mix``, ``mix_before``, ``mix_after``, or the mix
             step of a liquid class).
+        probes: Whether it looks for liquid with the pipette's pressure sensor (Flex).
     """
 
     kind: OperationKind
@@ -95,6 +96,7 @@ class Operation:
     lines: tuple[int, ...] = ()
     call: str = ""
     mixing: bool = False
+    probes: bool = False
     core: Callable[[], Any] = field(default=_no_core, repr=False, compare=False)
     """Gives the instrument core, as a weak reference does: ``None`` once the run is over."""
     method: str = field(default="", repr=False, compare=False)

@@ -36,6 +36,7 @@ _KINDS = {
     "liquidProbe": OperationKind.MOVE,
     "tryLiquidProbe": OperationKind.MOVE,
 }
+_PROBES = ("liquidProbe", "tryLiquidProbe")
 _SINGLE_NOZZLES = {"SINGLE": 1, "COLUMN": 8, "ROW": 12}
 _INSIDE_MM = -1.0
 """Height over the top of a well where a command says less than that it is inside it."""
@@ -83,6 +84,7 @@ class OperationReader:
             from_top=self._height(labware, well, params) if labware and well else None,
             in_place=in_place,
             call=command.kind,
+            probes=command.kind in _PROBES,
         )
 
     def event(self, command: Command) -> Event | None:
@@ -104,6 +106,13 @@ class OperationReader:
         rack = self._racks.get(operation.pipette.key)
         tip = self._deck.tip_volume(*rack) if rack is not None else None
         return None if tip is None else min(tip, operation.pipette.max_volume)
+
+    def liquid_found(self, operation: Operation) -> bool | None:
+        """What a probe that succeeded says: one that requires liquid found it.
+
+        What ``tryLiquidProbe`` found is not in the list of a run's commands.
+        """
+        return True if operation.call == "liquidProbe" else None
 
     def _note(self, command: Command) -> None:
         params = command.params

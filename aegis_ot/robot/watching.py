@@ -127,8 +127,8 @@ class _Watch:
         self._courier = Courier(sidecar, self.name, self._about(), time.sleep)
         self._pauses = PagePauses(self._courier, lambda action: robot.act(run.id, action))
         self._clock = RobotClock(robot.clock)
-        self._reader = OperationReader(Deck(robot, run.id))
-        self._tracker = Tracker(self.name, "off", lift=False, capacity=self._reader.capacity)
+        reader = self._reader = OperationReader(Deck(robot, run.id))
+        self._tracker = Tracker(self.name, "off", False, reader.capacity, reader.liquid_found)
         self._operation: Operation | None = None
         self._last: float | None = None
         self._queue: deque[tuple[Keyframe, float | None]] = deque()

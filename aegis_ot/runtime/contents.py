@@ -19,11 +19,13 @@ class Layer:
         volume: Per channel, µL.
         sources: Wells it was drawn from, each once; empty for air.
         liquid: ``False`` for air.
+        probed: Whether the pipette's sensor found liquid there; ``None`` if it was not asked.
     """
 
     volume: float
     sources: tuple[WellRef, ...] = ()
     liquid: bool = True
+    probed: bool | None = None
 
 
 class Contents:
@@ -46,6 +48,12 @@ class Contents:
     def sources(self) -> tuple[WellRef, ...]:
         """All wells whose liquid is in the tip, each once, oldest first."""
         return sources_of(self._layers)
+
+    @property
+    def probed(self) -> bool | None:
+        """Whether the sensor found liquid in the source; ``None`` if not all draws say the same."""
+        said = {layer.probed for layer in self._layers if layer.liquid}
+        return said.pop() if len(said) == 1 else None
 
     def draw(self, layer: Layer) -> None:
         """Take in one layer."""

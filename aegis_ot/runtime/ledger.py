@@ -40,6 +40,7 @@ class Ledger:
             reagent=" + ".join(names) or None,
             line=hand.draw.line if hand.draw is not None else None,
             recovers=self.recovering.get(hand.pipette.mount),
+            liquid_found=hand.contents.probed,
         )
         self.trajectories += 1
         return trajectory
@@ -66,6 +67,7 @@ class Ledger:
             recovers=trajectory.recovers,
             nozzles=trajectory.nozzles,
             targets=trajectory.targets,
+            liquid_found=trajectory.liquid_found,
         )
         self._sequence += 1
         trajectory.frames += 1

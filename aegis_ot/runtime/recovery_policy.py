@@ -137,6 +137,8 @@ def _air_left(boundary: Operation) -> bool:
 def _check_nothing_came(keyframe: Keyframe, verdict: Verdict) -> None:
     """A retry delivers the whole volume, so nothing of it may be in the well."""
     measured, commanded = verdict.measured_ul, keyframe.commanded_ul
+    if verdict.failure is FailureType.NO_ASPIRATE and keyframe.liquid_found is False:
+        raise NotAllowed("the pipette's pressure sensor found no liquid in the source")
     if measured is None or verdict.gate is not Gate.VOLUMETRIC:
         raise NotAllowed("nothing was measured that shows the well to be without it")
     if verdict.failure is FailureType.NO_ASPIRATE and measured > EMPTY_MOST * commanded:

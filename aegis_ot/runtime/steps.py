@@ -65,6 +65,7 @@ class Trajectory:
         delivered: Whether liquid has left the tip into the destination.
         nozzles: The active nozzles, where there are several.
         targets: The well under each of them, once the destination is known.
+        liquid_found: Whether the pipette's sensor found liquid in the source before the draw.
     """
 
     number: int
@@ -79,3 +80,4 @@ class Trajectory:
     delivered: bool = False
     nozzles: tuple[str, ...] = ()
     targets: tuple[WellRef | None, ...] = ()
+    liquid_found: bool | None = None

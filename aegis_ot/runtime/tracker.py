@@ -16,6 +16,7 @@ from .awaiting import EXPELLING, Awaiting, describe, is_on
 from .contents import Layer, liquid_of
 from .hand import Hand, Place, in_place, unique, wells_of
 from .ledger import Ledger
+from .probes import Probe, Probes, never_asked
 from .steps import Abandon, Capture, Hold, Lift, Step, Trajectory
 
 Capacity = Callable[[Operation], "float | None"]
@@ -33,6 +34,7 @@ class Tracker:
         hold: ``"boundary"``, ``"well"`` (also right after each POST_DISPENSE) or ``"off"``.
         lift: Whether moves to the top of a well are inserted for TRANSIT and POST_DISPENSE.
         capacity: Working volume of the tip at an operation whose core may be asked, µL.
+        probe: What a liquid probe that is over said.
     """
 
     def __init__(
@@ -41,6 +43,7 @@ class Tracker:
         hold: str = "boundary",
         lift: bool = True,
         capacity: Capacity = _no_capacity,
+        probe: Probe = never_asked,
     ) -> None:
         self._ledger = Ledger(run)
         self._hold = hold
@@ -48,6 +51,7 @@ class Tracker:
         self._capacity = capacity
         self._hands: dict[str, Hand] = {}
         self._awaiting = Awaiting()
+        self._probes = Probes(probe)
 
     @property
     def trajectories(self) -> int:
@@ -61,6 +65,7 @@ class Tracker:
     def before(self, operation: Operation) -> list[Step]:
         """What has to be done before ``operation``, in order."""
         steps: list[Step] = []
+        self._probes.before(operation)
         self._replaced(operation, steps)
         hand = self._hand(operation)
         if not in_place(operation):
@@ -81,6 +86,7 @@ class Tracker:
         steps: list[Step] = []
         hand = self._hand(operation)
         target = hand.target(operation)
+        probed = self._probes.after(operation, target)
         kind = operation.kind
         if kind is OperationKind.PICK_UP_TIP:
             well = operation.well
@@ -94,7 +100,7 @@ class Tracker:
         elif operation.is_air:
             hand.contents.draw(Layer(operation.volume, liquid=False))
         elif kind is OperationKind.ASPIRATE:
-            hand.contents.draw(Layer(operation.volume, unique(operation.wells)))
+            hand.contents.draw(Layer(operation.volume, unique(operation.wells), probed=probed))
             if not operation.mixing:
                 hand.draw = operation
         elif kind in EXPELLING:
@@ -105,6 +111,7 @@ class Tracker:
     def event(self, event: Event) -> list[Step]:
         """A pause for the operator, or a labware that is taken away, is a boundary."""
         steps: list[Step] = []
+        self._probes.event(event)
         if event.kind is EventKind.LIQUID_LOADED:
             for well in event.wells:
                 self._ledger.reagents[well] = event.text

@@ -17,6 +17,7 @@ from .holding import Holding
 from .link import SidecarLink
 from .linkloss import LinkLoss
 from .operator import Operator
+from .probes import never_asked
 from .recovering import Recovery, TipKnowledge
 from .refusal import refuse_everything
 from .runstate import RunState
@@ -24,7 +25,7 @@ from .steps import Abandon, Capture, Hold, Lift, Step
 from .stopping import LAST_WORDS_S, Stopping, Waits
 from .summary import WatchSummary
 from .tracker import Tracker
-from .words import about_guard, about_layer1, about_run, working_volume
+from .words import about_guard, about_layer1, about_run, liquid_found, working_volume
 
 LiftMove = Callable[[Operation], None]
 _GOODBYE_S = 3.0
@@ -68,7 +69,9 @@ class Watcher:
         self._state = RunState(protocol)
         self._waits = Waits(self._state)
         self._operator = Operator(protocol, self._simulating, self._waits.rest)
-        self._tracker = Tracker(self.run_id, settings.hold, settings.lift, working_volume)
+        # A simulator's probe finds what the simulator assumes: no witness.
+        probe = never_asked if self._simulating else liquid_found
+        self._tracker = Tracker(self.run_id, settings.hold, settings.lift, working_volume, probe)
         self._lift: LiftMove = lambda operation: None
         self._tips = tips
         self._recovery: Recovery | None = None

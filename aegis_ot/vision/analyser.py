@@ -18,6 +18,7 @@ from .first_wells import FirstWells, Liquid, liquid_of
 from .gates import Case, GateDecision, Gates, in_sentences
 from .leftover import Leftover, Leftovers, still_there
 from .measuring import TipView
+from .pressure import found_in, weighed
 from .second_opinion import SecondOpinion
 from .stream import OpenTrajectory, Stream
 from .tips import pipette_class, tip_for
@@ -42,6 +43,7 @@ class _Well:
     looks: dict[KeyframeKind, object]
     clean: bool
     """Whether its tip holds nothing that an earlier well left: else it looks like no other."""
+    last: Keyframe
 
 
 class RunAnalyser:
@@ -135,11 +137,11 @@ class RunAnalyser:
             delivery = partial(self._delivery, seen, last)
             left = self._leftovers.explaining(last, case, delivery)
         if left is not None:
-            decision = still_there(left, decision)
+            decision = weighed(still_there(left, decision), last, case.delivery)
         else:
             clean = self._leftovers.known(last) is None
-            well = _Well(stream, liquid_of(last), case, dict(seen.looks), clean)
-            decision = self._learn(well, trajectory, decision)
+            well = _Well(stream, liquid_of(last), case, dict(seen.looks), clean, last)
+            decision = self._learn(well, trajectory, weighed(decision, last, case.delivery))
         self._leftovers.note(last, case, decision)
         emptied = case.readings.get(KeyframeKind.POST_DISPENSE)
         readable = emptied is not None and not emptied.vague
@@ -287,12 +289,16 @@ class RunAnalyser:
     def _learn(self, well: _Well, trajectory: int, decision: GateDecision) -> GateDecision:
         """Calibrate on a well, unless the operator has to look at it first."""
         unseen = decision.outcome is Outcome.PASS and decision.gate in (Gate.NONE, Gate.VOLUMETRIC)
-        question = self._first.question(well.liquid, well.case.delivery) if unseen else ""
+        ask, found = self._first.question, found_in(well.last)
+        question = ask(well.liquid, well.case.delivery, found) if unseen else ""
         if question:
             decision = replace(
                 decision, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR, reason=question
             )
-        first = well.case.route is Route.CALIBRATION and decision.outcome is Outcome.UNDECIDED
+        undecided = decision.outcome is Outcome.UNDECIDED
+        if undecided and well.last.liquid_found is False:
+            return decision  # who fills the source and resumes vouches for nothing
+        first = well.case.route is Route.CALIBRATION and undecided
         if question or first:
             self._asked[trajectory] = well
             while len(self._asked) > MOST_ASKED:

@@ -29,11 +29,6 @@ and the wells from which a median tells. A single well in which a speck on the w
 of a gap says little; on simulated development runs of a dye the medians were 0.63 at least without
 air and 0.33 at most with 8 % of it in every column, but for one camera with 0.62."""
 
-_NOTHING_SEEN = (
-    "No liquid is seen to leave the tip: none was drawn or dispensed, or it is too clear "
-    "to be seen in this view. Please look at the tip and the well. If they are right, "
-    "resume: the wells after it are then compared with this one."
-)
 _AIR_SEEN = (
     "Air seems to be enclosed in the column of every well of this liquid so far: in each a stretch "
     "of it does not change when the liquid leaves. Please look at the source and at the tip after "
@@ -61,8 +56,15 @@ class FirstWells:
         self.vouched = False
         """Whether the operator said that wells in which no liquid is seen to leave are right."""
 
-    def question(self, liquid: Liquid, delivery: Delivery | None) -> str:
-        """What to ask the operator before a first well counts as normal; empty: nothing."""
+    def question(self, liquid: Liquid, delivery: Delivery | None, found_in: str = "") -> str:
+        """What to ask the operator before a first well counts as normal; empty: nothing.
+
+        Args:
+            liquid: Of the well.
+            delivery: What its frames show.
+            found_in: Where the pipette's sensor found liquid before the draw. That is no proof:
+                the tip may have drawn none of it, or delivered none.
+        """
         shown = Shown.UNKNOWN if delivery is None else delivery.shown
         if self._ask and delivery is not None and self._all_enclose_air(liquid, delivery):
             return _AIR_SEEN
@@ -73,7 +75,7 @@ class FirstWells:
         if delivery is not None and delivery.spoiled and self._spoiled < _SPOILED_MOST:
             self._spoiled += 1
             return ""  # a lamp or a hand: the next well tells
-        return _NOTHING_SEEN
+        return _nothing_seen(found_in)
 
     def vouch(self, delivery: Delivery | None) -> None:
         """The operator found a well right that was asked about."""
@@ -118,6 +120,20 @@ class FirstWells:
         if broken:
             self._asked_for_air.add(liquid)
         return broken
+
+
+def _nothing_seen(found_in: str) -> str:
+    why = ": none was drawn or dispensed, "
+    if found_in:
+        why = (
+            f", though the pipette's pressure sensor found some in {found_in}: a clogged or "
+            "loose tip drew none, none was dispensed, "
+        )
+    return (
+        f"No liquid is seen to leave the tip{why}or it is too clear to be seen in this view. "
+        "Please look at the tip and the well. If they are right, resume: the wells after it "
+        "are then compared with this one."
+    )
 
 
 def liquid_of(keyframe: Keyframe) -> Liquid:

@@ -85,6 +85,8 @@ class Keyframe:
         nozzles: The active nozzles in order, ``("A1", ..., "H1")``; empty for a single tip.
         targets: The well under each of them, ``None`` over no well; empty until known, and for a
             single tip.
+        liquid_found: Whether the pipette's own pressure sensor found liquid in the one source well,
+            with this tip, just before the draw; ``None`` where it was not asked.
     """
 
     run: str
@@ -108,6 +110,7 @@ class Keyframe:
     recovers: int | None = None
     nozzles: tuple[str, ...] = ()
     targets: tuple[WellRef | None, ...] = ()
+    liquid_found: bool | None = None
 
 
 class ChannelOutcome(str, Enum):

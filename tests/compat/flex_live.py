@@ -17,7 +17,9 @@ import traceback
 from collections.abc import Callable
 from typing import Any
 
+from opentrons.hardware_control.ot3api import OT3API
 from opentrons.protocol_engine.error_recovery_policy import ErrorRecoveryType
+from opentrons_shared_data.errors.exceptions import PipetteLiquidNotFoundError
 
 from aegis_ot.settings import Settings
 from tests.runtime.fake_sidecar import FakeSidecar
@@ -54,6 +56,32 @@ def needs_liquid(context: Any) -> None:
         pipette.aspirate(50, reservoir["A1"])
         pipette.dispense(50, plate[name])
         pipette.drop_tip()
+
+
+def probes(context: Any) -> None:
+    tips = context.load_labware("opentrons_flex_96_tiprack_200ul", "B2")
+    plate = context.load_labware("nest_96_wellplate_200ul_flat", "C2")
+    reservoir = context.load_labware("nest_12_reservoir_15ml", "C1")
+    context.load_trash_bin("A3")
+    pipette = context.load_instrument("flex_1channel_1000", "left", [tips])
+
+    def deliver(name: str) -> None:
+        pipette.aspirate(50, reservoir["A1"])
+        pipette.dispense(50, plate[name])
+
+    pipette.pick_up_tip()
+    pipette.detect_liquid_presence(reservoir["A1"])
+    deliver("A1")
+    deliver("B1")
+    pipette.drop_tip()
+    pipette.pick_up_tip()
+    pipette.detect_liquid_presence(reservoir["A1"])
+    deliver("C1")
+    pipette.drop_tip()
+    pipette.liquid_presence_detection = True
+    pipette.pick_up_tip()
+    deliver("D1")
+    pipette.drop_tip()
 
 
 def wait_for_recovery(config: Any, failed_command: Any, defined_error_data: Any) -> Any:
@@ -113,8 +141,32 @@ def error_recovery_goes_on_with_the_guard(sidecar: FakeSidecar) -> None:
     assert run.error is None, run.error
     assert run.status == "succeeded", run.told
     assert len(sidecar.stored()) == 8
+    # Each time a person may have filled the well: the sensor's word is no longer one.
+    assert {keyframe["liquid_found"] for keyframe in sidecar.stored()} == {None}
     assert run.watcher is not None
     assert "2 passed" in run.watcher.summary()
+
+
+def what_the_sensor_says_goes_with_the_delivery(sidecar: FakeSidecar) -> None:
+    levels = iter((10.0, None, 10.0))
+    asked = []
+
+    async def liquid_probe(_self: Any, *_: Any, **__: Any) -> float:
+        asked.append(next(levels))
+        if asked[-1] is None:
+            raise PipetteLiquidNotFoundError("none")
+        return asked[-1]
+
+    real, OT3API.liquid_probe = OT3API.liquid_probe, liquid_probe
+    try:
+        run = start(probes, sidecar).join(60)
+    finally:
+        OT3API.liquid_probe = real
+    assert run.error is None, run.error
+    said = [keyframe["liquid_found"] for keyframe in sidecar.stored()]
+    assert said == [True] * 4 + [None] * 4 + [False] * 4 + [True] * 4, said
+    # The guard asks for no probe of its own.
+    assert sum("iquidProbe" in kind for kind in kinds(run)) == len(asked) == 3
 
 
 def in_time(condition: Callable[[], bool]) -> None:
@@ -129,6 +181,7 @@ STORIES = (
     a_failed_well_is_told_before_the_gripper_or_the_chute_move,
     a_stop_during_a_hold_is_quick,
     error_recovery_goes_on_with_the_guard,
+    what_the_sensor_says_goes_with_the_delivery,
 )
 
 

@@ -82,6 +82,16 @@ def test_a_retry_does_all_of_it_again() -> None:
     ]  # fmt: skip
 
 
+def test_a_source_in_which_the_sensor_found_nothing_is_not_tried_again() -> None:
+    for found in (True, None):
+        told = replace(GOOD, keyframe=replace(POST, liquid_found=found))
+        assert plan_recovery("retry", told, EMPTY, DROP, None).action == "retry"
+    none = replace(GOOD, keyframe=replace(POST, liquid_found=False))
+    with pytest.raises(NotAllowed, match="found no liquid in the source"):
+        plan_recovery("retry", none, EMPTY, DROP, None)
+    assert plan_recovery("retry", none, STUCK, DROP, None).action == "retry"
+
+
 def test_a_top_up_delivers_what_is_missing_and_mixes_like_the_protocol() -> None:
     gap = op(OperationKind.AIR_GAP, SOURCE, 10.0)
     mix = op(OperationKind.ASPIRATE, THERE, 30.0, mixing=True)

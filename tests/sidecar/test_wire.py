@@ -10,7 +10,7 @@ import pytest
 
 from aegis_ot.errors import CameraError
 from aegis_ot.sidecar import SidecarConfig
-from aegis_ot.vocabulary import KeyframeKind, Verdict, from_json, to_json
+from aegis_ot.vocabulary import Keyframe, KeyframeKind, Verdict, from_json, to_json
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_keyframe
 
@@ -257,3 +257,20 @@ def test_a_recovery_is_kept_and_its_well_counts_as_put_right(robot: Robot) -> No
         assert "put right by delivery 2. Once more." in robot.http.get(page).text
     wrong = robot.http.post("/v1/runs/run-1/recovery", json=told | {"action": "hope"})
     assert wrong.status_code == 422
+
+
+def test_what_the_sensor_found_is_kept_and_robots_and_sidecars_of_other_age_understand(
+    robot: Robot,
+) -> None:
+    for sequence in range(4):
+        assert robot.send(sequence, liquid_found=sequence < 2).status_code == 200
+    older = to_json(make_keyframe("run-1", 4))
+    del older["liquid_found"]
+    newer = to_json(make_keyframe("run-1", 5)) | {"a_later_version_tells": True}
+    for body in (older, newer):
+        assert robot.post("keyframes", body).status_code == 200
+    first, second = (one["keyframes"] for one in robot.overview()["trajectories"])
+    assert [one["liquid_found"] for one in first] == [True, True, False, False]
+    assert [one["liquid_found"] for one in second] == [None, None]
+    assert from_json(Keyframe, first[0] | {"more": 1}).liquid_found is True
+    assert robot.send(6, liquid_found="yes").status_code == 422

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -77,12 +78,14 @@ def judge_run(
     reagent: str = "red dye",
     tip: str = "",
     operator: bool = False,
+    probed: Mapping[int, bool] | None = None,
 ) -> list:
     parameters = SessionParameters.webcam(seed)
     plan, rng, detector = FaultPlan(faults), np.random.default_rng(seed), Told()
     analyser = RunMonitor(detector).begin("run", history)
     judged = []
-    for keyframe in keyframes(wells, reagent=reagent, volumes=volumes, pipette=pipette, tip=tip):
+    for plain in keyframes(wells, reagent=reagent, volumes=volumes, pipette=pipette, tip=tip):
+        keyframe = replace(plain, liquid_found=(probed or {}).get(plain.trajectory))
         contents = plan.apply(keyframe).contents
         state = place_tip(
             parameters, keyframe.kind, tip_for(keyframe.pipette, keyframe.capacity_ul), contents,

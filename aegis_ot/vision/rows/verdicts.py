@@ -17,6 +17,8 @@ from ...vocabulary import (
     WellRef,
     named_wells,
 )
+from ..gates import GateDecision
+from ..pressure import weighed
 
 Judged = tuple[Verdict, Mapping[str, Any]]
 _GRAVITY = (Outcome.FAIL, Outcome.UNDECIDED, Outcome.PASS)
@@ -66,12 +68,7 @@ def row_verdict(
     each = tuple(channel.verdict(trouble) for channel in channels)
     judged = [channel.judged for channel in channels if channel.judged is not None]
     if all(channel.hidden for channel in channels):
-        reason = f"None of {len(each)} tips is seen apart from the others: nothing was judged."
-        verdict = Verdict(
-            keyframe.run, keyframe.trajectory, Outcome.PASS, Route.UNCALIBRATED, reason=reason,
-            channels=each,
-        )  # fmt: skip
-        return verdict, {"channels": len(each), "tips_judged": 0}
+        return _unseen(keyframe, each), {"channels": len(each), "tips_judged": 0}
     if not judged:
         reason = trouble or "No tip of this row is seen; please look at the tips."
         verdict = Verdict(
@@ -98,6 +95,19 @@ def row_verdict(
     return verdict, {
         **evidence, "channels": len(each), "tips_judged": len(judged), "lanes": lanes,
     }  # fmt: skip
+
+
+def _unseen(keyframe: Keyframe, each: tuple[ChannelVerdict, ...]) -> Verdict:
+    """On tips of which none is seen: the robot's own sensor may still have a word."""
+    reason = f"None of {len(each)} tips is seen apart from the others: nothing was judged."
+    said = weighed(GateDecision(Outcome.PASS, Gate.NONE, reason), keyframe, None)
+    if said.outcome is Outcome.UNDECIDED:
+        doubt = ChannelOutcome.UNDECIDED
+        each = tuple(replace(one, outcome=doubt, reason=said.reason) for one in each)
+    return Verdict(
+        keyframe.run, keyframe.trajectory, said.outcome, Route.UNCALIBRATED, gate=said.gate,
+        reason=said.reason, channels=each,
+    )  # fmt: skip
 
 
 def _rank(verdict: Verdict) -> tuple[int, float]:
