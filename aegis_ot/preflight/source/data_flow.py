@@ -10,6 +10,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 from .nodes import LOOPS, Nodes
@@ -40,7 +41,7 @@ class Flow:
     comes_from: dict[str, set[str]] = field(default_factory=dict)
     indexed: list[Index] = field(default_factory=list)
 
-    def origins(self, names: frozenset[str]) -> set[str]:
+    def _origins(self, names: frozenset[str]) -> set[str]:
         """These names, and all that their values come from."""
         found: set[str] = set()
         open_ = list(names)
@@ -53,7 +54,15 @@ class Flow:
 
     def indexed_with(self, name: str) -> list[Index]:
         """Where something is indexed with values of this name."""
-        return [index for index in self.indexed if name in self.origins(index.names)]
+        return self._indexed_with.get(name, [])
+
+    @cached_property
+    def _indexed_with(self) -> dict[str, list[Index]]:
+        found: dict[str, list[Index]] = {}
+        for index in self.indexed:
+            for name in self._origins(index.names):
+                found.setdefault(name, []).append(index)
+        return found
 
 
 def read_flow(nodes: Nodes) -> Flow:
