@@ -17,11 +17,12 @@ from .patterns import drifts, no_liquid
 from .result import Audit, Suspect
 from .surprise import Standing, standings
 from .wells import RunWell, by_liquid, run_wells
-from .words import drift_words, liquid_words, neighbour_words, no_liquid_words, reasons
+from .words import SPEAKS, drift_words, liquid_words, neighbour_words, no_liquid_words, reasons
 
 STANDS_OUT = 8.0
-"""Score from which a person should look, nats. On simulated development runs one run in ten without
-a fault had such a well."""
+"""Score from which a person should look, nats, if more than one sign speaks. On simulated
+development runs one run in ten without a fault had a well of such a score, each for one sign in one
+frame; faults spoke by two at least."""
 
 _CONTRADICTED = 6.0
 """What a contradiction of the volumetric gate counts, nats."""
@@ -108,6 +109,13 @@ def _silent(well: RunWell) -> bool:
     return well.outcome == Outcome.PASS.value and not well.entry["decisions"]
 
 
+def _found_right(well: RunWell) -> bool:
+    """Whether a person was asked about it, and passed it or let the run go on."""
+    if well.outcome == Outcome.UNDECIDED.value:
+        return any(hold["answered"] for hold in well.entry["holds"])
+    return well.outcome == Outcome.PASS.value and bool(well.entry["decisions"])
+
+
 def _order(one: _Ranked) -> tuple[float, int]:
     return -one.suspect.score, one.suspect.shown
 
@@ -142,8 +150,10 @@ def _single(
 ) -> Suspect:
     near = list(neighbour_words(well, run))
     score = standing.total + sum(counts for _, counts in near)
+    voices = sum(surprise >= SPEAKS for _, surprise in standing.strongest().values())
     if measured.contradiction:
         score += _CONTRADICTED
+        voices += 1
     why = [*reasons(well, measured, standing, others), *(said for said, _ in near)]
     why = why or [f"Nothing speaks against it beside {counted(others, 'other well')}."]
     return Suspect(
@@ -152,7 +162,7 @@ def _single(
         (str(well.entry["well"]),),
         score,
         tuple(why),
-        score >= STANDS_OUT,
+        score >= STANDS_OUT and voices > 1,
         well.trajectory,
     )
 
@@ -162,7 +172,9 @@ def _common(
 ) -> list[Suspect]:
     """What concerns many wells of a liquid at once."""
     if no_liquid(stream, measured):
-        return [_group("no_liquid", stream, silent, _GRAVE, no_liquid_words(stream))]
+        seen = next((well for well in stream if _found_right(well)), None)
+        why = no_liquid_words(stream, seen)
+        return [_group("no_liquid", stream, silent, _GRAVE, why, stands_out=seen is None)]
     found = []
     for drift in drifts(measured):
         places = [place for place in drift.places if place in silent]
@@ -172,7 +184,12 @@ def _common(
 
 
 def _group(
-    kind: str, stream: Sequence[RunWell], places: Sequence[int], score: float, why: Sequence[str]
+    kind: str,
+    stream: Sequence[RunWell],
+    places: Sequence[int],
+    score: float,
+    why: Sequence[str],
+    stands_out: bool = True,
 ) -> Suspect:
     wells = [stream[place] for place in places]
     return Suspect(
@@ -181,7 +198,7 @@ def _group(
         tuple(str(well.entry["well"]) for well in wells),
         score,
         tuple(why),
-        True,
+        stands_out,
         wells[-1].trajectory,
     )
 
@@ -215,6 +232,7 @@ def _heard(suspect: Suspect, outcome: Outcome, reason: str) -> Suspect:
         suspect,
         score=score,
         why=(*suspect.why, f"A vision model {word}: {reason}"),
-        stands_out=suspect.kind != "well" or score >= STANDS_OUT or outcome is Outcome.FAIL,
+        stands_out=outcome is Outcome.FAIL
+        or (suspect.stands_out and (suspect.kind != "well" or score >= STANDS_OUT)),
         model={"outcome": outcome.value, "reason": reason},
     )

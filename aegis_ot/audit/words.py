@@ -62,8 +62,8 @@ def drift_words(drift: Drift, wells: Sequence[RunWell]) -> list[str]:
     return said
 
 
-def no_liquid_words(wells: Sequence[RunWell]) -> list[str]:
-    """What it says that no liquid is seen in any well."""
+def no_liquid_words(wells: Sequence[RunWell], found_right: RunWell | None) -> list[str]:
+    """What it says that no liquid is seen in any well, though a person may have found one right."""
     volumes = sorted({well.sample.volume_ul for well in wells})
     drawn = f"{volumes[0]:g} µL"
     if len(volumes) > 1:
@@ -73,7 +73,10 @@ def no_liquid_words(wells: Sequence[RunWell]) -> list[str]:
         f"seen: {drawn} should stand in the tip, but its filled and its emptied frames look alike, "
         "and no surface is seen where the column should end. All wells agree with each other, so "
         "none stood out during the run.",
-        "The source may have been empty from the first well on.",
+        "The source may have been empty from the first well on."
+        if found_right is None
+        else f"A person was asked about {found_right.sample.well} and went on: the liquid may only "
+        "be too clear for this view.",
     ]
 
 

@@ -16,14 +16,15 @@ from aegis_ot.reports.audit_html import audit_html
 from aegis_ot.sidecar import SidecarConfig, make_detector
 from aegis_ot.sidecar.overview import run_overview
 from aegis_ot.sidecar.store import Store
-from aegis_ot.sidecar.wire import Decision
+from aegis_ot.sidecar.wire import Decision, Hold
 from aegis_ot.vision.gates import Case, GateDecision
 from aegis_ot.vision.gates.case import Cost
 from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome
 from tests.cli.commands import Command
+from tests.evaluation.layer2.stores import make_store
 from tests.sidecar.browser import CHROMIUM, chromium
 
-from .conftest import STRUCK
+from .conftest import STRUCK, pass_silently
 
 
 class Model:
@@ -98,6 +99,28 @@ def test_a_well_that_a_person_decided_is_no_silent_pass(copied: Callable[[], Sto
     assert not any(one.kind == "well" and one.stands_out for one in audit.suspects)
     near = next(one for one in audit.suspects if one.trajectories == (STRUCK + 1,))
     assert any("C1, served just before it from the same source, failed" in w for w in near.why)
+
+
+@pytest.mark.parametrize("answer", ["none", "decided", "resumed"])
+def test_what_a_person_found_right_is_listed_and_alarms_nobody(answer: str, tmp_path: Path) -> None:
+    store = Store(make_store(tmp_path / "empty", ("no_aspirate",) * 8))
+    for trajectory in range(8):
+        pass_silently(store, trajectory)
+    if answer == "decided":
+        store.add_decision("run-1", 0, Decision(outcome=Outcome.PASS, by="Ada"))
+    elif answer == "resumed":
+        store._write(
+            "UPDATE verdicts SET verdict = json_set(verdict, '$.outcome', 'undecided') "
+            "WHERE trajectory = ?",
+            (0,),
+        )
+        store.add_hold("run-1", Hold(number=0, trajectory=0, seconds=0.1, resolution="verdict",
+                                     policy="pause", paused_s=9.0, answered="robot"))  # fmt: skip
+    audit = audit_run(store, "run-1", make_detector(), world_model())
+    first = audit.suspects[0]
+    assert (first.kind, first.stands_out) == ("no_liquid", answer == "none")
+    said = "may have been empty" if answer == "none" else "A person was asked about A1 and went on"
+    assert said in first.why[-1]
 
 
 def test_a_model_is_asked_in_order_and_within_its_budget(passed: Path) -> None:

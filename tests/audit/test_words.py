@@ -40,4 +40,4 @@ def test_groups_are_told_with_their_wells_and_volumes() -> None:
     assert "31 percentage points fuller" in more[0]
     loaded = drift_words(Drift("loaded", 9.0, (4, 8), {"short": 0.2}), wells)
     assert "20 percentage points emptier" in loaded[1]
-    assert "50 to 450 µL should stand in the tip" in no_liquid_words(wells)[0]
+    assert "50 to 450 µL should stand in the tip" in no_liquid_words(wells, None)[0]
