@@ -11,18 +11,15 @@ from ..vocabulary import Gate, Keyframe, KeyframeKind, Outcome, Route, Verdict
 from .calibration import CalibrationState
 from .camera import Frame
 from .cascade import Triage
-from .consistency import once_each, second_look
 from .delivery import Delivery, delivery_of
 from .evidence import evidence_of
 from .first_wells import FirstWells, Liquid, liquid_of
 from .gates import Case, GateDecision, Gates, in_sentences
 from .leftover import Leftover, Leftovers, still_there
-from .measuring import TipView
 from .pressure import found_in, weighed
 from .second_opinion import SecondOpinion
 from .stream import OpenTrajectory, Stream
-from .tips import pipette_class, tip_for
-from .types import FREE, Detector, TipDetection, TrajectorySample, is_image
+from .types import Detector, TrajectorySample, is_image
 
 MOST_OPEN = 32
 """Trajectories whose frames are kept at once: one that is never judged must not fill memory."""
@@ -97,11 +94,11 @@ class RunAnalyser:
         trajectory.frames[kind] = image
         trajectory.detections[kind] = detection
         if detection is not None:
-            self._look(self._stream(keyframe), trajectory, kind, detection)
+            self._stream(keyframe).look(trajectory, kind, detection)
         if kind is KeyframeKind.ASPIRATE:
             self._stream(keyframe).catch_up()
         if kind is KeyframeKind.DISPENSE:
-            sample = self._sample(keyframe.trajectory, trajectory)
+            sample = self._sample(trajectory)
             self._stream(keyframe).scorer.look_ahead(sample)
 
     def judge(self, trajectory: int) -> Judged:
@@ -117,10 +114,10 @@ class RunAnalyser:
                 reason="No usable frame of this trajectory was captured; please look at the tip.",
             )
             return verdict, {}
-        last = max(seen.keyframes.values(), key=lambda k: k.sequence)
+        last = seen.last
         stream = self._stream(last)
-        self._settle(stream, seen)
-        sample = self._sample(trajectory, seen)
+        stream.settle(seen, self._detector)
+        sample = self._sample(seen)
         case = self._case(stream, seen, sample, last)
         screened = self._gates.screen(case)
         speaks = screened.outcome is Outcome.FAIL or case.alarming
@@ -143,27 +140,11 @@ class RunAnalyser:
             well = _Well(stream, liquid_of(last), case, dict(seen.looks), clean, last)
             decision = self._learn(well, trajectory, weighed(decision, last, case.delivery))
         self._leftovers.note(last, case, decision)
-        emptied = case.readings.get(KeyframeKind.POST_DISPENSE)
-        readable = emptied is not None and not emptied.vague
-        verdict = Verdict(
-            self.run,
-            trajectory,
-            decision.outcome,
-            triage.route,
-            case.score,
-            decision.gate,
-            decision.failure,
-            decision.reason,
-            decision.measured_ul,
-            decision.expected_ul,
-            emptied.volume_ul if readable and emptied else None,
-            emptied.sigma_ul if readable and emptied else None,
-        )
         kept = self._leftovers.known(last)
         evidence = evidence_of(liquid_of(last), stream, case, seen, triage, decision, kept)
         if trajectory not in self._asked:
             seen.frames.clear()
-        return verdict, evidence
+        return _verdict(self.run, trajectory, case, decision), evidence
 
     def confirm(self, trajectory: int) -> None:
         """The operator looked at an undecided well and found it right, or let the run go on.
@@ -221,39 +202,6 @@ class RunAnalyser:
         """What a trajectory shows of its delivery, if the tip held so much before and after, µL."""
         expected = {kind: frame.expected_ul + left_ul for kind, frame in seen.keyframes.items()}
         return self._first.held_against(liquid_of(last), delivery_of(seen.looks, expected))
-
-    def _look(
-        self, stream: Stream, seen: OpenTrajectory, kind: KeyframeKind, detection: TipDetection
-    ) -> None:
-        keyframe = seen.keyframes[kind]
-        tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
-        pipette = pipette_class(keyframe.pipette)
-        view = TipView(kind, seen.frames[kind], detection, tip, pipette, keyframe.expected_ul)
-        seen.looks[kind] = stream.reader.look(view)
-
-    def _settle(self, stream: Stream, seen: OpenTrajectory) -> None:
-        """Put the detections right by the run's own tip, and look again where one changed."""
-        guess = getattr(self._detector, "best_guess", None)
-        if guess is not None:
-            guess = once_each(guess)
-            seen.detections.update(second_look(guess, seen.detections, seen.frames))
-            seen.detections.update(stream.tip.recognise(guess, seen.detections, seen.frames))
-            missing = [kind for kind in FREE if seen.detections.get(kind, ...) is None]
-            guesses = [guess(seen.frames[kind]) for kind in missing]
-            seen.clearly_absent = stream.tip.clearly_absent(guesses)
-        settled = stream.tip.settle(seen.detections, seen.frames)
-        for kind, detection in settled.items():
-            if detection is seen.detections[kind] and (detection is None or kind in seen.looks):
-                continue
-            seen.looks.pop(kind, None)
-            if detection is not None:
-                self._look(stream, seen, kind, detection)
-        seen.detections = settled
-        seen.excused = tuple(
-            kind
-            for kind in FREE
-            if settled.get(kind) is None and stream.tip.excuses(kind, settled, seen.frames)
-        )
 
     def _stream(self, keyframe: Keyframe) -> Stream:
         return self._stream_of(liquid_of(keyframe))
@@ -327,20 +275,27 @@ class RunAnalyser:
             self._first.learn(well.liquid, case)
             stream.learn(case.sample, looks, case.score is not None)
 
-    def _sample(self, trajectory: int, seen: OpenTrajectory) -> TrajectorySample:
-        last = seen.keyframes[max(seen.keyframes, key=lambda kind: seen.keyframes[kind].sequence)]
-        well = last.destinations[0].name if last.destinations else ""
-        return TrajectorySample(
-            id=f"{self.run}-{trajectory}",
-            plate=self.run,
-            well=well,
-            pipette=pipette_class(last.pipette),
-            volume_ul=last.commanded_ul,
-            frames=seen.frames,
-            detections=seen.detections,
-            expected_ul={kind: frame.expected_ul for kind, frame in seen.keyframes.items()},
-            reagent=last.reagent or "",
-        )
+    def _sample(self, seen: OpenTrajectory) -> TrajectorySample:
+        return seen.sample(self.run)
+
+
+def _verdict(run: str, trajectory: int, case: Case, decision: GateDecision) -> Verdict:
+    emptied = case.readings.get(KeyframeKind.POST_DISPENSE)
+    readable = emptied if emptied is not None and not emptied.vague else None
+    return Verdict(
+        run,
+        trajectory,
+        decision.outcome,
+        case.route,
+        case.score,
+        decision.gate,
+        decision.failure,
+        decision.reason,
+        decision.measured_ul,
+        decision.expected_ul,
+        None if readable is None else readable.volume_ul,
+        None if readable is None else readable.sigma_ul,
+    )
 
 
 def _with_doubt(stream: Stream, decision: GateDecision) -> GateDecision:

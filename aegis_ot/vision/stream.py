@@ -12,11 +12,12 @@ from ..vocabulary import Keyframe, KeyframeKind, Outcome, Route
 from .calibration import CalibrationSettings, CalibrationState
 from .cascade import Cascade
 from .column_reader import MeasuredColumns
-from .consistency import TipConsistency
+from .consistency import TipConsistency, once_each, second_look
 from .gates import Case, Gates, VolumetricGate
-from .measuring import ColumnReader
+from .measuring import ColumnReader, TipView
 from .run_scorer import LEAST_ALARM, RunScorer
-from .types import Image, Scorer, TipDetection, TrajectorySample
+from .tips import pipette_class, tip_for
+from .types import FREE, Detector, Image, Scorer, TipDetection, TrajectorySample
 
 _MODEL_WEIGHT = 4.0
 """How many of the run's own wells above their median the model's scale, one nat, is worth."""
@@ -48,6 +49,26 @@ class OpenTrajectory:
     unusable: list[KeyframeKind] = field(default_factory=list)
     excused: tuple[KeyframeKind, ...] = ()
     clearly_absent: bool = True
+
+    @property
+    def last(self) -> Keyframe:
+        """The keyframe that was captured last."""
+        return max(self.keyframes.values(), key=lambda keyframe: keyframe.sequence)
+
+    def sample(self, run: str) -> TrajectorySample:
+        """What there is of it so far, as the scorers read it."""
+        last = self.last
+        return TrajectorySample(
+            id=f"{run}-{last.trajectory}",
+            plate=run,
+            well=last.destinations[0].name if last.destinations else "",
+            pipette=pipette_class(last.pipette),
+            volume_ul=last.commanded_ul,
+            frames=self.frames,
+            detections=self.detections,
+            expected_ul={kind: frame.expected_ul for kind, frame in self.keyframes.items()},
+            reagent=last.reagent or "",
+        )
 
 
 class Stream:
@@ -111,6 +132,38 @@ class Stream:
         in_run = math.exp(-max(score - middle, 0.0) / scale)
         collecting = self.cascade.state is CalibrationState.COLLECTING
         return min(in_run, math.exp(-score)) if collecting and not self.vouched else in_run
+
+    def look(self, seen: OpenTrajectory, kind: KeyframeKind, detection: TipDetection) -> None:
+        """Measure the tip in one frame."""
+        keyframe = seen.keyframes[kind]
+        tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
+        pipette = pipette_class(keyframe.pipette)
+        view = TipView(kind, seen.frames[kind], detection, tip, pipette, keyframe.expected_ul)
+        seen.looks[kind] = self.reader.look(view)
+
+    def settle(self, seen: OpenTrajectory, detector: Detector) -> None:
+        """Put the detections right by the run's own tip, and look again where one changed."""
+        guess = getattr(detector, "best_guess", None)
+        if guess is not None:
+            guess = once_each(guess)
+            seen.detections.update(second_look(guess, seen.detections, seen.frames))
+            seen.detections.update(self.tip.recognise(guess, seen.detections, seen.frames))
+            missing = [kind for kind in FREE if seen.detections.get(kind, ...) is None]
+            guesses = [guess(seen.frames[kind]) for kind in missing]
+            seen.clearly_absent = self.tip.clearly_absent(guesses)
+        settled = self.tip.settle(seen.detections, seen.frames)
+        for kind, detection in settled.items():
+            if detection is seen.detections[kind] and (detection is None or kind in seen.looks):
+                continue
+            seen.looks.pop(kind, None)
+            if detection is not None:
+                self.look(seen, kind, detection)
+        seen.detections = settled
+        seen.excused = tuple(
+            kind
+            for kind in FREE
+            if settled.get(kind) is None and self.tip.excuses(kind, settled, seen.frames)
+        )
 
     def learn(
         self, sample: TrajectorySample, looks: dict[KeyframeKind, object], scored: bool

@@ -66,6 +66,6 @@ class Lane(RunAnalyser):
         self._open.pop(trajectory, None)
         self._told.forget(trajectory)
 
-    def _sample(self, trajectory: int, seen: OpenTrajectory) -> TrajectorySample:
-        sample = super()._sample(trajectory, seen)
+    def _sample(self, seen: OpenTrajectory) -> TrajectorySample:
+        sample = super()._sample(seen)
         return replace(sample, id=f"{sample.id}-{self._nozzle}")
