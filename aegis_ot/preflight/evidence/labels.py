@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -42,9 +43,10 @@ def given_roles(
 def _level_of(place: str, words: Mapping[str, float]) -> float | None:
     level = parts_of_place(place)[2]
     try:
-        return float(level)
+        number = float(level)
     except ValueError:
         return level_in(level, words)
+    return number if math.isfinite(number) else None
 
 
 def unknown_places(

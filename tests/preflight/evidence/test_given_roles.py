@@ -46,6 +46,9 @@ def told(**roles: str) -> Report:
         ("PCR plat:A1", "no labware is called 'PCR plat'; there are 'PCR plate', '3'"),
         ("5:A1", "no labware is called '5'"),
         ("A1", "no labware is called ''"),
+        ("PCR plate:A1 = much", "'much' is no concentration or dose"),
+        ("PCR plate:A1 = nan", "'nan' is no concentration or dose"),
+        ("PCR plate:A1 = 1e999", "'1e999' is no concentration or dose"),
     ],
 )
 def test_a_place_that_is_not_there_is_told(place: str, wrong: str) -> None:
