@@ -137,7 +137,7 @@ def measure(first: int, count: int, cases: Sequence[str], progress: bool = False
                 audit = audit_run(store, "run", _detector(), scorer)
                 took = time.monotonic() - live
                 store.close()
-            row = {"case": case, "run": str(run), "audit_s": round(took, 2)}
+            row = {"case": case, "run": str(run), "camera": run.camera, "audit_s": round(took, 2)}
             found.append(row | judged(audit.to_json(), faults, outcomes))
             if progress:
                 spent = time.monotonic() - begun
@@ -190,8 +190,11 @@ def show(found: Mapping[str, Any]) -> str:
     lines += _named(found["runs"])
     quiet = [row for row in found["runs"] if row["case"] == "none"]
     if quiet:
-        disturbed = sum(row["to_look_at"] > 0 for row in quiet)
-        lines.append(f"runs without a fault in which anything stands out: {disturbed}/{len(quiet)}")
+        cameras = [row["camera"] for row in quiet if row["to_look_at"]]
+        lines.append(
+            f"runs without a fault in which anything stands out: {len(cameras)}/{len(quiet)}"
+            + (f", before these cameras: {', '.join(cameras)}" if cameras else "")
+        )
     took = statistics.median(row["audit_s"] for row in found["runs"])
     lines.append(f"an audit took {took:.1f} s (median)")
     return "\n".join(lines) + "\n"

@@ -38,7 +38,7 @@ _REFERENCE = 8
 _FIRST_SHARE, _FIRST_LEAST = 1 / 3, 4
 """Share of the wells that are the run's first ones, and how many they are at least."""
 
-_ANOTHER_EDGE = 0.04
+ANOTHER_EDGE = 0.04
 """A meniscus farther than this from its place, tip lengths, is no surer a sign: it may be another
 edge."""
 
@@ -206,7 +206,8 @@ def _scored(well: RunWell, scorer: EnsembleScorer) -> tuple[dict[str, float], bo
         signs["retained"] = math.sqrt(max(seen.retained, 0.0))
     off = seen.misfill.get(TRANSIT)
     if off is not None:
-        signs["low"], signs["high"] = min(off, _ANOTHER_EDGE), min(-off, _ANOTHER_EDGE)
+        near = min(max(off, -ANOTHER_EDGE), ANOTHER_EDGE)
+        signs["low"], signs["high"] = near, -near
     if seen.absent is not None:
         signs["absent"] = seen.absent
     return signs, off is not None and abs(off) < _LOADED_NEAR

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .measures import HEIGHTS, Measures
+from .measures import ANOTHER_EDGE, HEIGHTS, Measures
 
 LEFT = tuple(f"left_{share * 100:.0f}" for share in HEIGHTS)
 
@@ -82,7 +82,10 @@ def standings(measured: Sequence[Measures], trusted: Sequence[bool]) -> list[Sta
             if trust and sign in one.signs
         ]
         if len(known) >= _ENOUGH:
-            usual[sign] = float(np.median(known))
+            middle = float(np.median(known))
+            if sign in ("low", "high") and abs(middle) >= ANOTHER_EDGE:
+                continue  # in most wells another edge is seen, so none is out of place
+            usual[sign] = middle
             spread[sign] = max(
                 1.48 * float(np.median(np.abs(np.array(known) - usual[sign]))), least
             )

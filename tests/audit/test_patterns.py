@@ -68,3 +68,12 @@ def test_a_well_stands_by_the_spread_of_the_others_and_not_by_one_bad_one() -> N
     assert standings([Measures({"left_55": 0.9})], [True])[0].total == 0.0
     assert nats(-3.0) == 0.0
     assert nats(2.0) < nats(4.0) < 2 * nats(4.0) + nats(9.0)
+
+
+def test_where_most_wells_show_another_edge_none_ends_out_of_place() -> None:
+    edges = [-0.04] * 5 + [0.04]
+    found = standings([Measures({"low": edge, "high": -edge}) for edge in edges], [True] * 6)
+    assert all(one.total == 0.0 for one in found)
+    edges = [0.0] * 5 + [0.04]
+    found = standings([Measures({"low": edge, "high": -edge}) for edge in edges], [True] * 6)
+    assert found[5].strongest()["loaded"][0] == "low"
