@@ -89,11 +89,11 @@ def show(result: DryRun) -> None:
             Text(f"  {row.well}: {row.reason}", style=_COLOURS[row.outcome or Outcome.PASS])
         )
     if result.outcome == "stopped":
-        after = ", ".join(result.touched_after_failure) or "none"
         console.print(f"Paused: {result.detail}", style="bold", markup=False)
-        console.print(f"Wells touched after the failed dispense: {after}.")
     elif result.detail:
         console.print(result.detail, style="red", markup=False)
+    for note in result.notes:
+        console.print(Text(note, style="yellow"))
 
 
 def _table(rows: Sequence[WellRow], width: int | None = None) -> Table:

@@ -33,7 +33,7 @@ from ..simulation import SessionParameters, SimulatedCamera
 from ..vision.camera import Frame
 from ..vocabulary import Keyframe
 from .robot import HeardRobot, touched_after
-from .summary import DryRun, rows_of
+from .summary import DryRun, rows_of, unproven
 
 _LOOPBACK = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 
@@ -133,10 +133,10 @@ def dry_run(
     )
     wells = rows_of(overview)
     touched: tuple[str, ...] = ()
-    notes: list[str] = []
+    notes = list(unproven(overview))
     if outcome == "stopped":
         touched = touched_after(told, wells)
-        notes = [f"Wells touched after the failed dispense: {', '.join(touched) or 'none'}."]
+        notes.append(f"Wells touched after the failed dispense: {', '.join(touched) or 'none'}.")
     overview |= {
         "layer1": None if report is None else about_layer1(report),
         "finished": (overview["finished"] or {"at": time.time()})
@@ -148,7 +148,9 @@ def dry_run(
         store.close()
     reported = report_run(overview, frames.get, notes)
     seconds = time.monotonic() - begun
-    return DryRun(script.file_name, report, reported, wells, outcome, detail, touched, seconds)
+    return DryRun(
+        script.file_name, report, reported, wells, outcome, detail, touched, seconds, tuple(notes)
+    )
 
 
 @contextlib.contextmanager

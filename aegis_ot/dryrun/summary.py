@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -80,6 +80,7 @@ class DryRun:
         detail: Why it did not succeed.
         touched_after_failure: Wells that the failed tip entered after the first fail.
         seconds: Wall time of the simulated run, s.
+        notes: What a person should know of it, in sentences.
     """
 
     protocol: str
@@ -90,11 +91,30 @@ class DryRun:
     detail: str = ""
     touched_after_failure: tuple[str, ...] = ()
     seconds: float = 0.0
+    notes: tuple[str, ...] = ()
 
     @property
     def flagged(self) -> tuple[WellRow, ...]:
         """The wells that failed or could not be settled."""
         return tuple(row for row in self.wells if row.flagged)
+
+
+def unproven(overview: Mapping[str, Any]) -> Iterator[str]:
+    """Of which liquids nothing was seen to leave a tip, though wells of it passed: nobody is there
+    to be asked whether they are right."""
+    plain: dict[tuple[str, str], bool] = {}
+    for entry in overview["trajectories"]:
+        known = entry["evidence"].get("calibration")
+        if known and (entry["verdict"] or {}).get("outcome") == Outcome.PASS.value:
+            key = str(known["stream"][2] or "the liquid"), str(known["stream"][0])
+            plain[key] = plain.get(key, False) or known.get("strength") is not None
+    for (liquid, pipette), shown in plain.items():
+        if not shown:
+            yield (
+                f"In no well was {liquid} seen to leave the tip of the {pipette}: none may have "
+                "been drawn or dispensed, or it is too clear or the tip too small for this view. "
+                "On a robot you are asked about the first well."
+            )
 
 
 def rows_of(overview: Mapping[str, Any]) -> tuple[WellRow, ...]:

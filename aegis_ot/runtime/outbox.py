@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from ..errors import SidecarRefused
 from ..http_client import SLICE_S
 from .link import RunUnknown, SidecarLink
 
@@ -50,7 +51,7 @@ class Outbox:
         """Send what there is until a moment of ``time.monotonic``, s; the rest stays.
 
         Raises:
-            LinkError: One was not taken.
+            LinkError: One was not taken; one that was refused is dropped.
         """
         while self._messages and (left := deadline - time.monotonic()) > 0:
             try:
@@ -58,4 +59,6 @@ class Outbox:
             except RunUnknown:
                 self._register(deadline)
                 self._messages[0](max(SLICE_S, deadline - time.monotonic()))
+            except SidecarRefused:
+                pass  # it never will be taken, and what comes after it need not wait
             self._messages.popleft()

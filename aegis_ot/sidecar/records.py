@@ -105,7 +105,7 @@ class Records(Database):
         names = (
             "number", "trajectory", "seconds", "resolution", "policy", "paused_s", "answered", "at",
         )  # fmt: skip
-        rows = self._read("SELECT * FROM holds WHERE run = ? ORDER BY number", run)
+        rows = self._read("SELECT * FROM holds WHERE run = ? ORDER BY number, trajectory", run)
         return [{name: row[name] for name in names} for row in rows]
 
     def add_recovery(self, run: str, told: Recovery) -> None:

@@ -73,9 +73,9 @@ MIGRATIONS: tuple[str, ...] = (
     CREATE TABLE holds (
         run TEXT NOT NULL REFERENCES runs, number INTEGER NOT NULL, trajectory INTEGER NOT NULL,
         seconds REAL NOT NULL, resolution TEXT NOT NULL, policy TEXT, paused_s REAL, answered TEXT,
-        at REAL NOT NULL, PRIMARY KEY (run, number)
+        at REAL NOT NULL, PRIMARY KEY (run, trajectory, number)
     );
-    INSERT INTO holds SELECT run, trajectory, trajectory, seconds, resolution, policy, paused_s,
+    INSERT INTO holds SELECT run, 0, trajectory, seconds, resolution, policy, paused_s,
         answered, at FROM one_hold_each;
     DROP TABLE one_hold_each;
     """,

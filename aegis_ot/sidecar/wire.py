@@ -122,10 +122,11 @@ class Hold(Body):
     """How long the robot held, what ended it, and what it does then.
 
     Told again, under the same number, when a pause is over, with how long it lasted and who ended
-    it: ``"page"``, ``"robot"`` (its own screen, or the App) or ``"console"``.
+    it: ``"page"``, ``"robot"`` (its own screen, or the App) or ``"console"``. A guard that counts
+    no holds has one for each trajectory.
     """
 
-    number: Count
+    number: Count = 0
     trajectory: Count
     seconds: Annotated[float, Field(ge=0)]
     resolution: Word

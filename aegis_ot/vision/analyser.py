@@ -170,12 +170,15 @@ class RunAnalyser:
                 scores = {str(name): float(score) for name, score in known["scores"].items()}
                 normal, volume = bool(known["normal"]), float(known["volume_ul"])
                 strength, left = known.get("strength"), known.get("left")
+                unbroken = known.get("unbroken")
                 if left is not None:
                     self._leftovers.restore(pipette.split()[0], Leftover(**left))
             except (KeyError, TypeError, ValueError, AttributeError, IndexError):
                 continue
             if normal and isinstance(strength, float):
-                self._first.restore(key, strength)
+                self._first.restore(
+                    key, strength, unbroken if isinstance(unbroken, float) else None
+                )
             stream = self._stream_of(key)
             score = scores.get(stream.scorer.name)
             stream.cascade.learn(score, normal=normal, volume_ul=volume)

@@ -49,16 +49,17 @@ def evidence_of(
             "volume_ul": case.sample.volume_ul,
             "scores": scores,
             "normal": decision.outcome is Outcome.PASS,
-            "strength": _strength(case),
+            "strength": _of_emptied(case, "strength"),
+            "unbroken": _of_emptied(case, "unbroken"),
             "left": None if left is None else asdict(left),
         },
     }
 
 
-def _strength(case: Case) -> float | None:
-    """How plainly the liquid was seen to leave the tip."""
+def _of_emptied(case: Case, name: str) -> float | None:
+    """What the frames show of the liquid, where it was seen to leave the tip."""
     seen = case.delivery
-    return seen.strength if seen is not None and seen.shown is Shown.EMPTIED else None
+    return getattr(seen, name) if seen is not None and seen.shown is Shown.EMPTIED else None
 
 
 def _readings(

@@ -7,6 +7,7 @@ own frames show the liquid leave the tip, or if the operator says so.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -99,27 +100,29 @@ class FirstWells:
     def learn(self, liquid: Liquid, case: Case) -> None:
         """A well was judged normal."""
         if case.delivery is not None and case.delivery.shown is Shown.EMPTIED:
-            self.restore(liquid, case.delivery.strength)
-            if case.delivery.unbroken is not None:
-                known = self._unbroken.setdefault(liquid, [])
-                known.append(case.delivery.unbroken)
-                del known[_KNOWN:]
+            self.restore(liquid, case.delivery.strength, case.delivery.unbroken)
 
-    def restore(self, liquid: Liquid, strength: float) -> None:
-        """A normal well of this liquid showed it so plainly."""
+    def restore(self, liquid: Liquid, strength: float, unbroken: float | None = None) -> None:
+        """A normal well of this liquid showed it so plainly, and its column so whole."""
         known = self._strengths.setdefault(liquid, [])
         known.append(strength)
         # The first ones stay: what drifts slowly must not take the measure with it.
         del known[_KNOWN:]
+        if unbroken is not None:
+            stretches = self._unbroken.setdefault(liquid, [])
+            stretches.append(unbroken)
+            del stretches[_KNOWN:]
+            if _are_broken(stretches):
+                self._asked_for_air.add(liquid)  # or it would not have been judged normal
 
     def _all_enclose_air(self, liquid: Liquid, delivery: Delivery) -> bool:
         if liquid in self._asked_for_air or delivery.unbroken is None:
             return False
-        known = [*self._unbroken.get(liquid, ()), delivery.unbroken]
-        broken = len(known) >= _TELLING and float(np.median(known)) < _BROKEN
-        if broken:
-            self._asked_for_air.add(liquid)
-        return broken
+        return _are_broken([*self._unbroken.get(liquid, ()), delivery.unbroken])
+
+
+def _are_broken(stretches: Sequence[float]) -> bool:
+    return len(stretches) >= _TELLING and float(np.median(stretches)) < _BROKEN
 
 
 def _nothing_seen(found_in: str) -> str:

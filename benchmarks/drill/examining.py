@@ -46,7 +46,8 @@ def _lost(store: Store, run: str, told: Acknowledged) -> Iterator[str]:
     for number, outcome in sorted(told.verdicts.items()):
         if verdicts.get(number) != outcome:
             yield f"delivery {number} was told to be {outcome}, kept is {verdicts.get(number)}"
-    for number in sorted(told.holds - store.holds(run).keys()):
+    held = {hold["trajectory"] for hold in store.holds(run)}
+    for number in sorted(told.holds - held):
         yield f"the hold at delivery {number} was acknowledged and is lost"
     kept = ((store.run(run) or {}).get("finished") or {}).get("outcome")
     if kept != told.finished:
@@ -55,13 +56,14 @@ def _lost(store: Store, run: str, told: Acknowledged) -> Iterator[str]:
 
 def _hanging(store: Store, run: str) -> Iterator[str]:
     verdicts = {v.trajectory for v, _, _ in store.verdicts(run)}
-    settled = verdicts | store.abandoned(run).keys() | store.holds(run).keys()
+    holds = store.holds(run)
+    settled = verdicts | store.abandoned(run).keys() | {hold["trajectory"] for hold in holds}
     open_ = {one.keyframe.trajectory for one in store.keyframes(run)} - settled
     if open_:
         yield f"deliveries {sorted(open_)} have neither verdict nor end"
-    for number, hold in store.holds(run).items():
+    for hold in holds:
         if hold["policy"] == "pause" and hold["paused_s"] is None:
-            yield f"the pause at delivery {number} never ended"
+            yield f"the pause at delivery {hold['trajectory']} never ended"
     for incident in store.incidents(run):
         if incident["ended"] is None:
             yield f"the incident {incident['kind']!r} never ended: {incident['text']}"

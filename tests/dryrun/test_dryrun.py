@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from aegis_ot.dryrun import DryRunSettings, dry_run
+from aegis_ot.dryrun import UNATTENDED, DryRunSettings, dry_run
 from aegis_ot.errors import ConfigurationError, RehearsalError
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reports.run_html import run_report_html
@@ -41,6 +41,16 @@ def test_a_normal_run_has_no_flagged_well():
     ]  # fmt: skip
     assert result.flagged == ()
     assert {row.route for row in result.wells[:6]} == {Route.CALIBRATION}
+
+
+def test_a_liquid_that_no_well_shows_is_named_though_all_wells_pass():
+    faults = tuple(f"no_aspirate@#{number}" for number in range(1, 11))
+    result = dry_run(SCRIPT, DryRunSettings(faults), make_analyser(UNATTENDED))
+    assert result.flagged == ()
+    assert "In no well was red dye seen to leave the tip of the left p300" in result.notes[0]
+    assert result.notes[0] in run_report_html([result.reported])
+    sound = dry_run(SCRIPT, DryRunSettings(), make_analyser(UNATTENDED))
+    assert sound.notes == ()
 
 
 def test_layer_1_hears_what_the_guard_says_in_the_protocol():

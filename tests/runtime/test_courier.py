@@ -13,7 +13,7 @@ from aegis_ot.runtime import courier as module
 from aegis_ot.runtime.courier import Courier
 from aegis_ot.runtime.link import CameraSilent, SidecarLink
 
-from .fake_sidecar import FakeSidecar, Handler
+from .fake_sidecar import FakeSidecar, Handler, once
 from .test_link import keyframe
 
 
@@ -135,6 +135,18 @@ def test_messages_that_nobody_takes_hold_the_robot_up_once(
     courier.deliver(1.0)  # it is there: what was not said is said next time
     courier.report_hold(5, 0.1, "verdict", None)
     assert [hold["trajectory"] for hold in sidecar.holds] == [0, 1, 2, 3, 4, 5]
+
+
+def test_a_message_that_is_refused_keeps_no_other_from_being_told(
+    sidecar: FakeSidecar, courier: Courier
+) -> None:
+    courier.register(1.0)
+    sidecar.fault = once("/hold", lambda handler: handler.answer(422, {"error": {"code": "bad"}}))
+    courier.report_hold(0, 0.1, "verdict", None)
+    courier.report_hold(1, 0.1, "verdict", None)
+    courier.finish("succeeded", "", {}, 2.0)
+    assert [hold["trajectory"] for hold in sidecar.holds] == [1]
+    assert sidecar.finished
 
 
 def test_a_goodbye_that_nobody_takes_ends_in_time(sidecar: FakeSidecar, courier: Courier) -> None:

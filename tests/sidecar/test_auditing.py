@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -11,6 +12,10 @@ import pytest
 from aegis_ot.audit.result import Audit, Suspect
 from aegis_ot.errors import StoreError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.sidecar.auditing import Audits
+from aegis_ot.sidecar.store import Store
+from aegis_ot.sidecar.wire import RunStart
+from aegis_ot.vocabulary import Outcome, Route, Verdict
 
 from .helpers import Robot, StubAnalyser, StubCamera
 
@@ -101,6 +106,22 @@ def test_trouble_of_an_audit_is_logged_and_the_next_run_has_its_own(
     wait_for_audit(robot)
     assert auditor.runs == ["run-1", "run-1"]
     assert "Run run-1 was not audited: the frames are gone" in caplog.text
+
+
+def test_a_run_whose_verdicts_never_come_keeps_no_other_waiting(
+    auditor: StubAuditor, tmp_path: Path
+) -> None:
+    store, done = Store(tmp_path), threading.Event()
+    for run in ("stuck", "second"):
+        store.register(RunStart(run=run, protocol="a.py", robot="OT-2", simulated=True))
+        store.add_verdict(Verdict(run, 0, Outcome.PASS, Route.SILENT_PASS, 1.0), {})
+    audits = Audits(auditor, store, lambda run: run == "second", done.set)
+    for run in ("stuck", "second"):
+        audits.add(run)
+    assert done.wait(10)
+    assert auditor.runs == ["second"]
+    audits.close()
+    assert store.audit("stuck") is None
 
 
 def test_a_run_without_a_verdict_is_not_audited_and_none_is_if_switched_off(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import sqlite3
 import subprocess
 import sys
@@ -17,7 +18,7 @@ from aegis_ot.sidecar.config import RetentionSettings
 from aegis_ot.sidecar.housekeeping import tidy
 from aegis_ot.sidecar.schema import MIGRATIONS
 from aegis_ot.sidecar.store import DATABASE, SILENT, Captured, Store
-from aegis_ot.sidecar.wire import Finish, Recovery, RunStart
+from aegis_ot.sidecar.wire import Finish, Hold, Recovery, RunStart
 from aegis_ot.vocabulary import Outcome, Route, Verdict
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_jpeg, make_keyframe
@@ -72,6 +73,33 @@ def test_an_older_store_becomes_a_newer_one_and_keeps_its_runs(tmp_path: Path) -
     (hold,) = store.holds("old")
     assert (hold["trajectory"], hold["seconds"], hold["paused_s"]) == (3, 0.5, None)
     assert store.incidents("old") == store.actions("old") == []
+    store.close()
+
+
+def test_holds_of_the_store_before_go_on_beside_new_ones(tmp_path: Path) -> None:
+    with sqlite3.connect(tmp_path / DATABASE) as db:
+        for script in MIGRATIONS[:4]:
+            db.executescript(script)
+        db.execute("PRAGMA user_version = 4")
+        for run in ("a", "b"):
+            about = json.dumps({"run": run, "protocol": "p.py", "robot": "", "simulated": False})
+            db.execute(
+                "INSERT INTO runs (run, folder, start, registered) VALUES (?, ?, ?, 5.0)",
+                (run, run, about),
+            )
+            for trajectory in (3, 0):
+                db.execute(
+                    "INSERT INTO holds VALUES (?, ?, 0.5, 'verdict', 'pause', 7.0, 2.0, 'page')",
+                    (run, trajectory),
+                )
+    db.close()
+    store = Store(tmp_path, alone=True)
+    store.add_hold("a", Hold(number=0, trajectory=4, seconds=0.1, resolution="verdict"))
+    store.add_hold("a", Hold(trajectory=5, seconds=0.1, resolution="verdict"))  # an older guard's
+    assert [hold["trajectory"] for hold in store.holds("a")] == [0, 3, 4, 5]
+    assert [(hold["paused_s"], hold["answered"]) for hold in store.holds("b")] == [
+        (2.0, "page")
+    ] * 2
     store.close()
 
 

@@ -53,6 +53,17 @@ def test_air_in_the_column_of_every_well_is_asked_about_once() -> None:
     assert first.question("water", NOTHING) != "", "what was answered is another question"
 
 
+def test_what_was_asked_about_air_is_known_after_a_restart() -> None:
+    first = FirstWells()
+    for _ in range(4):
+        first.restore("red", 10.0, 0.3)
+    assert first.question("red", Delivery(Shown.EMPTIED, 10.0, unbroken=0.3)) == ""
+    first = FirstWells()
+    for _ in range(3):
+        first.restore("red", 10.0, 0.3)
+    assert first.question("red", Delivery(Shown.EMPTIED, 10.0, unbroken=0.3)) != ""
+
+
 def test_single_stretches_that_change_little_are_no_air() -> None:
     first = FirstWells()
     for unbroken in (0.9, 0.2, 0.8, 0.3, 0.7, 0.9):

@@ -67,7 +67,8 @@ def export_runs(
     left_out += len(whole) - len(kept)
     if not kept:
         raise DatasetError(
-            f"{store}: there is no trajectory that passed, so there is nothing to write."
+            f"{store}: no delivery of a single tip passed, so there is nothing to write. Left out: "
+            f"{left_out}, of several tips, given up, without frames, or in runs without a pass."
         )
     sources = {run.source for run in found}
     meta = {

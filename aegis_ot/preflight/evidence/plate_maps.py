@@ -28,7 +28,7 @@ def plate_maps(
         if (binding.function, base) in facts.varying or binding.name == "metadata":
             continue
         line = facts.assigned.get(base.rpartition(".")[2], binding.line)
-        uses = facts.flow.indexed_with(base.rpartition(".")[2])
+        uses = facts.flow.indexed_with.get(base.rpartition(".")[2], [])
         found = by_map.setdefault(base, [])
         if binding.spots and uses:
             wells = _wells_of_list(deck, _labware(deck, facts, uses), binding.spots)

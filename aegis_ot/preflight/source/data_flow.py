@@ -46,18 +46,14 @@ class Flow:
         found: set[str] = set()
         open_ = list(names)
         while open_:
-            name = open_.pop()
-            if name not in found:
+            if (name := open_.pop()) not in found:
                 found.add(name)
                 open_ += self.comes_from.get(name, ())
         return found
 
-    def indexed_with(self, name: str) -> list[Index]:
-        """Where something is indexed with values of this name."""
-        return self._indexed_with.get(name, [])
-
     @cached_property
-    def _indexed_with(self) -> dict[str, list[Index]]:
+    def indexed_with(self) -> dict[str, list[Index]]:
+        """Where something is indexed with values of a name, by name."""
         found: dict[str, list[Index]] = {}
         for index in self.indexed:
             for name in self._origins(index.names):
