@@ -97,7 +97,14 @@ def show(result: DryRun) -> None:
 
 
 def _table(rows: Sequence[WellRow], width: int | None = None) -> Table:
-    table = Table(box=None, pad_edge=False, header_style="bold", width=width)
+    table = Table(
+        box=None,
+        pad_edge=False,
+        header_style="bold",
+        width=width,
+        caption="score: surprise, nats; wells of which no sign speaks share the lowest",
+        caption_justify="left",
+    )
     for heading, side in (
         ("#", "right"), ("well", "left"), ("µL", "right"), ("score", "right"),
         ("limit", "right"), ("p", "right"),
