@@ -122,7 +122,9 @@ def show(trials: Sequence[Trial]) -> str:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run and print."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.planted_failures")
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.planted_failures", description=__doc__
+    )
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=FIRST_SEED)
     parser.add_argument("--json", type=Path)

@@ -19,13 +19,13 @@ class Layer:
         volume: Per channel, µL.
         sources: Wells it was drawn from, each once; empty for air.
         liquid: ``False`` for air.
-        probed: Whether the pipette's sensor found liquid there; ``None`` if it was not asked.
+        liquid_found: Whether the pipette's sensor found liquid there; ``None`` if it was not asked.
     """
 
     volume: float
     sources: tuple[WellRef, ...] = ()
     liquid: bool = True
-    probed: bool | None = None
+    liquid_found: bool | None = None
 
 
 class Contents:
@@ -50,9 +50,9 @@ class Contents:
         return sources_of(self._layers)
 
     @property
-    def probed(self) -> bool | None:
+    def liquid_found(self) -> bool | None:
         """Whether the sensor found liquid in the source; ``None`` if not all draws say the same."""
-        said = {layer.probed for layer in self._layers if layer.liquid}
+        said = {layer.liquid_found for layer in self._layers if layer.liquid}
         return said.pop() if len(said) == 1 else None
 
     def draw(self, layer: Layer) -> None:

@@ -40,7 +40,7 @@ class Ledger:
             reagent=" + ".join(names) or None,
             line=hand.draw.line if hand.draw is not None else None,
             recovers=self.recovering.get(hand.pipette.mount),
-            liquid_found=hand.contents.probed,
+            liquid_found=hand.contents.liquid_found,
         )
         self.trajectories += 1
         return trajectory

@@ -32,6 +32,23 @@ def never_asked(_operation: Operation) -> bool | None:
     return None
 
 
+def liquid_found(operation: Operation) -> bool | None:
+    """Whether a liquid probe that is over found any; ``None`` if it cannot be told.
+
+    A probe that requires liquid and found none is over once a person has dealt with it, and may
+    have filled the well.
+    """
+    try:
+        well = operation.arguments["well_core"]
+        wells = operation.core()._engine_client.state.wells
+        surface = wells.get_well_liquid_info(well.labware_id, well.get_name()).probed_height
+    except Exception:  # private to Opentrons; a witness that cannot be heard says nothing
+        return None
+    if surface is not None and surface.height is not None:
+        return True
+    return False if operation.method == "detect_liquid_presence" else None
+
+
 class Probes:
     """The last word of each pipette's sensor, until well or tip may be other ones.
 

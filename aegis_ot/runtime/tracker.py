@@ -86,7 +86,7 @@ class Tracker:
         steps: list[Step] = []
         hand = self._hand(operation)
         target = hand.target(operation)
-        probed = self._probes.after(operation, target)
+        found = self._probes.after(operation, target)
         kind = operation.kind
         if kind is OperationKind.PICK_UP_TIP:
             well = operation.well
@@ -100,7 +100,8 @@ class Tracker:
         elif operation.is_air:
             hand.contents.draw(Layer(operation.volume, liquid=False))
         elif kind is OperationKind.ASPIRATE:
-            hand.contents.draw(Layer(operation.volume, unique(operation.wells), probed=probed))
+            sources = unique(operation.wells)
+            hand.contents.draw(Layer(operation.volume, sources, liquid_found=found))
             if not operation.mixing:
                 hand.draw = operation
         elif kind in EXPELLING:

@@ -17,7 +17,7 @@ from .holding import Holding
 from .link import SidecarLink
 from .linkloss import LinkLoss
 from .operator import Operator
-from .probes import never_asked
+from .probes import liquid_found, never_asked
 from .recovering import Recovery, TipKnowledge
 from .refusal import refuse_everything
 from .runstate import RunState
@@ -25,7 +25,7 @@ from .steps import Abandon, Capture, Hold, Lift, Step
 from .stopping import LAST_WORDS_S, Stopping, Waits
 from .summary import WatchSummary
 from .tracker import Tracker
-from .words import about_guard, about_layer1, about_run, liquid_found, working_volume
+from .words import about_guard, about_layer1, about_run, working_volume
 
 LiftMove = Callable[[Operation], None]
 _GOODBYE_S = 3.0

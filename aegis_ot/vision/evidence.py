@@ -8,7 +8,7 @@ from typing import Any
 
 from ..vocabulary import KeyframeKind, Outcome
 from .cascade import Triage
-from .delivery import Shown
+from .delivery import Delivery, Shown
 from .gates import Case, GateDecision
 from .leftover import Leftover
 from .measuring import ColumnReading
@@ -25,6 +25,7 @@ def evidence_of(
     left: Leftover | None = None,
 ) -> dict[str, Any]:
     """Boxes, scores, signs (nats), band, volumes, and what restores the calibration."""
+    emptied = _emptied(case)
     channels = max(keyframe.channels for keyframe in seen.keyframes.values())
     band = stream.cascade.calibration.band
     scores = {} if case.score is None else {stream.scorer.name: case.score}
@@ -49,17 +50,17 @@ def evidence_of(
             "volume_ul": case.sample.volume_ul,
             "scores": scores,
             "normal": decision.outcome is Outcome.PASS,
-            "strength": _of_emptied(case, "strength"),
-            "unbroken": _of_emptied(case, "unbroken"),
+            "strength": None if emptied is None else emptied.strength,
+            "unbroken": None if emptied is None else emptied.unbroken,
             "left": None if left is None else asdict(left),
         },
     }
 
 
-def _of_emptied(case: Case, name: str) -> float | None:
-    """What the frames show of the liquid, where it was seen to leave the tip."""
+def _emptied(case: Case) -> Delivery | None:
+    """What the frames show of the delivery, where the liquid was seen to leave the tip."""
     seen = case.delivery
-    return getattr(seen, name) if seen is not None and seen.shown is Shown.EMPTIED else None
+    return seen if seen is not None and seen.shown is Shown.EMPTIED else None
 
 
 def _readings(

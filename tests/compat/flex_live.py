@@ -44,12 +44,18 @@ def gripper_and_chute(context: Any) -> None:
     context.move_labware(plate, chute, use_gripper=True)
 
 
-def needs_liquid(context: Any) -> None:
+def deck_with_bin(context: Any) -> tuple[Any, Any, Any]:
+    """A pipette, a reservoir to draw from and a plate."""
     tips = context.load_labware("opentrons_flex_96_tiprack_200ul", "B2")
     plate = context.load_labware("nest_96_wellplate_200ul_flat", "C2")
     reservoir = context.load_labware("nest_12_reservoir_15ml", "C1")
     context.load_trash_bin("A3")
     pipette = context.load_instrument("flex_1channel_1000", "left", [tips])
+    return pipette, reservoir, plate
+
+
+def needs_liquid(context: Any) -> None:
+    pipette, reservoir, plate = deck_with_bin(context)
     for name in ("A1", "B1"):
         pipette.pick_up_tip()
         pipette.require_liquid_presence(reservoir["A1"])
@@ -59,11 +65,7 @@ def needs_liquid(context: Any) -> None:
 
 
 def probes(context: Any) -> None:
-    tips = context.load_labware("opentrons_flex_96_tiprack_200ul", "B2")
-    plate = context.load_labware("nest_96_wellplate_200ul_flat", "C2")
-    reservoir = context.load_labware("nest_12_reservoir_15ml", "C1")
-    context.load_trash_bin("A3")
-    pipette = context.load_instrument("flex_1channel_1000", "left", [tips])
+    pipette, reservoir, plate = deck_with_bin(context)
 
     def deliver(name: str) -> None:
         pipette.aspirate(50, reservoir["A1"])
