@@ -6,8 +6,10 @@ their source is ``"synthetic"``: call results on them so.
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -19,9 +21,29 @@ from .dyes import DYES
 from .exposure import decode
 from .plans import PlannedWell, contents_of, normal_plan, paper_plan
 from .render import render_jpeg
-from .scene import place_tip
+from .scene import SceneState, place_tip
 from .session import SessionParameters
 from .truth import FrameTruth, TipTruth
+
+Renderer = Callable[[SceneState, SessionParameters, np.random.Generator], tuple[bytes, FrameTruth]]
+"""What draws one frame as JPEG and says what is in it: :func:`~.render.render_jpeg`, for one."""
+
+
+@dataclass(frozen=True)
+class SimulatedPlate:
+    """What is the same for all wells of a plate.
+
+    Attributes:
+        name: Unique in its set.
+        session: Camera, light and deck.
+        pipette: As the data set names it: the short class of an OT-2's, a Flex's whole name.
+        volume_ul: Commanded volume, µL.
+    """
+
+    name: str
+    session: SessionParameters
+    pipette: str
+    volume_ul: float
 
 
 def write_dataset(
@@ -60,7 +82,11 @@ def write_dataset(
     sessions = [
         parameters or SessionParameters.draw(rng, pipette=pipette, size=size) for _ in range(plates)
     ]
-    volumes = [_volume(rng, tip, full=normals_per_plate > 0) for _ in range(plates)]
+    volumes = [typical_volume(rng, tip, of_any_tip=normals_per_plate > 0) for _ in range(plates)]
+    drawn = [
+        SimulatedPlate(f"plate{i:02d}", session, short, volume)
+        for i, (session, volume) in enumerate(zip(sessions, volumes, strict=True))
+    ]
     meta = {
         "source": "synthetic",
         "renderer": "aegis_ot.simulation",
@@ -70,27 +96,50 @@ def write_dataset(
         "plates": [asdict(session) for session in sessions],
         "volumes_ul": volumes,
     }
-    counts = dict.fromkeys(range(plates), 0)
+    return write_plates(folder, drawn, plan, meta, rng)
+
+
+def write_plates(
+    folder: str | Path,
+    plates: Sequence[SimulatedPlate],
+    plan: Iterable[PlannedWell],
+    meta: Mapping[str, Any],
+    rng: np.random.Generator,
+    render: Renderer = render_jpeg,
+) -> Path:
+    """Write the wells of a plan as a data set, in the plan's order.
+
+    Args:
+        folder: New or empty folder.
+        plates: What the plan's plate numbers stand for.
+        plan: The wells.
+        meta: Content of ``meta.json``.
+        rng: Source of randomness.
+        render: Draws the frames.
+
+    Raises:
+        DatasetError: The folder holds a data set already.
+    """
+    counts = dict.fromkeys(range(len(plates)), 0)
     with DatasetWriter(folder, meta) as writer:
         for well in plan:
             order = counts[well.plate]
             counts[well.plate] += 1
             name = f"{'ABCDEFGH'[order % 8]}{order // 8 + 1}"
             sample, jpegs = render_trajectory(
-                f"p{well.plate:02d}_{name}", name, well, short, tip, volumes[well.plate],
-                sessions[well.plate], rng,
-            )  # fmt: skip
+                f"p{well.plate:02d}_{name}", name, well, plates[well.plate], rng, render
+            )
             writer.add(sample, jpegs)
     return Path(folder)
 
 
-def _volume(rng: np.random.Generator, tip: TipGeometry, full: bool = False) -> float:
+def typical_volume(rng: np.random.Generator, tip: TipGeometry, of_any_tip: bool = False) -> float:
     """A plate's volume: 10 to 30 % of a large tip, 40 to 90 % of a small one, µL.
 
-    ``full``: 15 to 95 % of any tip.
+    ``of_any_tip``: 15 to 95 %, whatever its size.
     """
     low, high = (0.1, 0.3) if tip.nominal_ul >= 1000 else (0.4, 0.9)
-    if full:
+    if of_any_tip:
         low, high = 0.15, 0.95
     step = 50.0 if tip.nominal_ul >= 1000 else 25.0 if tip.nominal_ul >= 200 else 1.0
     return float(round(tip.nominal_ul * rng.uniform(low, high) / step) * step)
@@ -100,24 +149,21 @@ def render_trajectory(
     identifier: str,
     name: str,
     well: PlannedWell,
-    pipette: str,
-    tip: TipGeometry,
-    volume: float,
-    session: SessionParameters,
+    plate: SimulatedPlate,
     rng: np.random.Generator,
+    render: Renderer = render_jpeg,
 ) -> tuple[TrajectorySample, dict[KeyframeKind, bytes]]:
     """One trajectory with its true detections, and its four frames as JPEG.
 
     Args:
         identifier: Its id.
         name: Name of its well, ``"A1"``.
-        well: Plate, reagent and failure type.
-        pipette: Short class, ``"p1000"``.
-        tip: The tip it carries.
-        volume: Commanded volume, µL.
-        session: Camera, light and deck.
+        well: Reagent and failure type.
+        plate: Its plate.
         rng: Source of randomness.
+        render: Draws the frames.
     """
+    session, volume, tip = plate.session, plate.volume_ul, tip_for(plate.pipette)
     states, kept = contents_of(well.failure, volume, rng, session.film)
     drops = rng.random() < session.drop_chance and well.failure != "no_tip"
     column = 1 + int(rng.integers(12))
@@ -130,12 +176,12 @@ def render_trajectory(
             session, kind, tip, (content,), DYES[well.reagent],
             source="A1", destination=f"{name[0]}{column}",
         )  # fmt: skip
-        jpegs[kind], truths[kind] = render_jpeg(state, session, rng)
+        jpegs[kind], truths[kind] = render(state, session, rng)
     sample = TrajectorySample(
         id=identifier,
-        plate=f"plate{well.plate:02d}",
+        plate=plate.name,
         well=name,
-        pipette=pipette,
+        pipette=plate.pipette,
         reagent=well.reagent,
         volume_ul=volume,
         frames={kind: decode(jpeg) for kind, jpeg in jpegs.items()},

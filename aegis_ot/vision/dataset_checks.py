@@ -41,7 +41,7 @@ FAILURE_TYPES = (
     "no_tip",
 )
 _WELL = re.compile(r"[A-Z]{1,2}[1-9][0-9]?")
-_PIPETTE = re.compile(r"p[1-9][0-9]*")
+_PIPETTE = re.compile(r"p[1-9][0-9]*|flex_[0-9]{1,2}channel_[1-9][0-9]*")
 
 Box = tuple[float, float, float, float]
 
@@ -83,7 +83,7 @@ def read_manifest(root: Path, problems: Problems) -> list[Record]:
         if row["well"] and not _WELL.fullmatch(row["well"]):
             note("well", f"{row['well']!r} is no well name such as A1")
         if row["pipette"] and not _PIPETTE.fullmatch(row["pipette"]):
-            note("pipette", f"{row['pipette']!r} is no pipette such as p20, p300 or p1000")
+            note("pipette", f"{row['pipette']!r} is no pipette such as p20, p1000 or flex_1channel_50")
         _check_label(row, note)
         volume = number(row["volume_ul"], "volume_ul", note)
         if volume is not None and volume <= 0:

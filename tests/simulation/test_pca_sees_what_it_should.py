@@ -15,10 +15,9 @@ import pytest
 from numpy.typing import NDArray
 
 from aegis_ot.simulation import SessionParameters
-from aegis_ot.simulation.dataset import PlannedWell, render_trajectory
+from aegis_ot.simulation.dataset import PlannedWell, SimulatedPlate, render_trajectory
 from aegis_ot.vision.crops import trajectory_vector
 from aegis_ot.vision.scorers.pca import PcaScorer
-from aegis_ot.vision.tips import tip_for
 
 # A frame far overexposed says nothing here, and with few wells it would decide.
 WEBCAM = replace(SessionParameters.webcam(), overexposed_chance=0.0)
@@ -38,9 +37,12 @@ class Bench:
         pipette, reagent, volume = self._what
         name = f"{'ABCDEFGH'[self._rng.integers(8)]}1"
         sample, _ = render_trajectory(
-            name, name, PlannedWell(0, reagent, failure), pipette, tip_for(pipette), volume,
-            WEBCAM, self._rng,
-        )  # fmt: skip
+            name,
+            name,
+            PlannedWell(0, reagent, failure),
+            SimulatedPlate("plate00", WEBCAM, pipette, volume),
+            self._rng,
+        )
         return trajectory_vector(sample)
 
     def separation(self, failure: str, wells: int = 7) -> float:

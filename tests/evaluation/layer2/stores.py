@@ -12,9 +12,8 @@ from aegis_ot.sidecar.analysis import plain
 from aegis_ot.sidecar.store import Captured, Store
 from aegis_ot.sidecar.wire import Finish, RunStart
 from aegis_ot.simulation import SessionParameters
-from aegis_ot.simulation.dataset import PlannedWell, render_trajectory
+from aegis_ot.simulation.dataset import PlannedWell, SimulatedPlate, render_trajectory
 from aegis_ot.vision.camera import Frame
-from aegis_ot.vision.tips import tip_for
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
 VOLUME = 150.0
@@ -23,15 +22,14 @@ VOLUME = 150.0
 def make_store(folder: Path, faults: tuple[str, ...], run: str = "run-1") -> Path:
     """One run with a well for each of ``faults`` (``""``: none), judged as a sidecar does."""
     rng = np.random.default_rng(7)
-    tip = tip_for("p300_single_gen2")
-    session = SessionParameters.webcam(7)
+    plate = SimulatedPlate("plate00", SessionParameters.webcam(7), "p300", VOLUME)
     store = Store(folder)
     store.register(RunStart(run=run, protocol="wells.py", simulated=True, started=time.time()))
     analyser = make_analyser().begin(run)
     for number, fault in enumerate(faults):
         name = f"{'ABCDEFGH'[number % 8]}{number // 8 + 1}"
         sample, jpegs = render_trajectory(
-            str(number), name, PlannedWell(0, "red", fault), "p300", tip, VOLUME, session, rng
+            str(number), name, PlannedWell(0, "red", fault), plate, rng
         )
         for place, kind in enumerate(KeyframeKind):
             keyframe = Keyframe(

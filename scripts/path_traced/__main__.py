@@ -1,0 +1,79 @@
+"""Render a trajectory data set of several kinds of camera by path tracing.
+
+``python -m scripts.path_traced OUT [--kind NAME]... [--plates 4] [--seed 1]``
+
+It needs ``pip install mitsuba`` beside ``aegis-ot[sidecar]``; a plate of twelve wells
+takes a minute or two. ``meta.json`` names the kind of each plate, which
+``aegis-ot evaluate layer2 OUT --leave-out camera`` leaves out as a whole.
+"""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from aegis_ot.simulation.dataset import SimulatedPlate, typical_volume, write_plates
+from aegis_ot.simulation.plans import REAGENTS, PlannedWell
+from aegis_ot.vision.tips import tip_for
+
+from .kinds import KINDS, draw_session
+from .stage import Lamps
+
+FIRST_NORMALS = 4
+"""Normal wells at a plate's start: a run's calibration."""
+LATER = (
+    *("", "", "partial_25", "partial_50", "partial_75"),
+    *("partial_single", "no_dispense", "air_bubble"),
+)
+"""The wells after them, in a random order."""
+
+
+def main() -> None:
+    from .tracer import PathTracer
+
+    parser = argparse.ArgumentParser(prog="python -m scripts.path_traced", description=__doc__)
+    parser.add_argument("out", type=Path, help="new or empty folder")
+    parser.add_argument("--kind", action="append", choices=list(KINDS), help="default: all")
+    parser.add_argument("--plates", type=int, default=4, help="of each kind")
+    parser.add_argument("--seed", type=int, default=1)
+    asked = parser.parse_args()
+    rng = np.random.default_rng((asked.seed, 31))
+    plates, plan, lamps, cameras = [], [], {}, {}
+    for name in asked.kind or KINDS:
+        for number in range(asked.plates):
+            plate, light = _plate(name, number, rng)
+            plan += _wells(len(plates), number, rng)
+            plates.append(plate)
+            lamps[plate.session.seed] = light
+            cameras[plate.name] = name
+    meta: dict[str, Any] = {
+        "source": "rendered",
+        "renderer": "path-traced (scripts/path_traced)",
+        "seed": asked.seed,
+        "cameras": cameras,
+        "plates": [asdict(plate.session) for plate in plates],
+        "lamps": [asdict(lamps[plate.session.seed]) for plate in plates],
+    }
+    write_plates(asked.out, plates, plan, meta, rng, PathTracer(lamps))
+
+
+def _plate(kind: str, number: int, rng: np.random.Generator) -> tuple[SimulatedPlate, Lamps]:
+    pipettes = KINDS[kind].pipettes
+    pipette = pipettes[number % len(pipettes)]
+    session, light = draw_session(KINDS[kind], pipette, rng)
+    volume = typical_volume(rng, tip_for(pipette))
+    return SimulatedPlate(f"{kind}-{number:02d}", session, pipette, volume), light
+
+
+def _wells(plate: int, number: int, rng: np.random.Generator) -> list[PlannedWell]:
+    reagent = REAGENTS[number % len(REAGENTS)]
+    later = rng.permutation(np.array(LATER, dtype=object))
+    return [PlannedWell(plate, reagent, str(kind)) for kind in [""] * FIRST_NORMALS + list(later)]
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,133 @@
+"""Kinds of camera: set-ups that differ as laboratories do, each with its own light and pipettes.
+
+A scorer that was fitted on all but one of them and judges that one shows what a laboratory gets
+whose camera nobody here has seen. Inside a kind every plate is drawn anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from aegis_ot.simulation.session import Labware, SessionParameters
+from aegis_ot.vision.tips import tip_for
+
+from .stage import Lamps
+
+Range = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class CameraKind:
+    """One kind of set-up; ranges are drawn from evenly, once per plate.
+
+    Attributes:
+        size: Frame width and height, px.
+        pipettes: In turn, one per plate.
+        azimuth_deg: Camera to the left of the front.
+        elevation_deg: How far it looks down.
+        distance_mm: From the tip.
+        filling: Height of the tip over height of the frame.
+        panel: Grey level behind the deck.
+        blur_px, noise, jpeg: Of lens, sensor and encoder.
+        frost: Haze of the tips.
+        around, lamp: Radiance of the room, and of the lamp.
+        lamp_place: Middle of where the lamp hangs, mm. ``lamp_size``: its half sides, mm.
+        balance: White balance (B, G, R) about which plates scatter.
+        dyes: Concentration, as a multiple of what ``DYES`` says.
+    """
+
+    size: tuple[int, int]
+    pipettes: tuple[str, ...]
+    azimuth_deg: Range
+    elevation_deg: Range
+    distance_mm: Range
+    filling: Range
+    panel: Range
+    blur_px: Range
+    noise: Range
+    jpeg: Range
+    frost: Range
+    around: Range
+    lamp: Range
+    lamp_place: tuple[float, float, float]
+    lamp_size: tuple[float, float]
+    balance: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    dyes: Range = (0.8, 2.5)
+
+
+KINDS: Mapping[str, CameraKind] = {
+    "webcam": CameraKind(
+        (640, 480), ("p1000", "p300"), (-8, 8), (4, 14), (380, 560), (0.34, 0.42),
+        (30, 120), (0.8, 1.3), (2, 4), (80, 94), (0.1, 0.5), (0.5, 0.9), (8, 16),
+        (-120, -200, 900), (160, 60),
+    ),
+    "phone-above": CameraKind(
+        (1280, 720), ("p300", "p1000"), (-30, -16), (22, 32), (350, 500), (0.30, 0.38),
+        (120, 220), (0.5, 1.0), (1.5, 3), (85, 97), (0.05, 0.3), (0.9, 1.3), (2, 6),
+        (300, -400, 800), (250, 250), (0.94, 1.0, 1.06),
+    ),
+    "flex-cabinet": CameraKind(
+        (1280, 720), ("flex_1channel_1000", "flex_1channel_50"), (10, 26), (6, 16), (420, 600),
+        (0.32, 0.42), (50, 110), (0.6, 1.2), (2, 4), (75, 95), (0.1, 0.4), (0.25, 0.5), (20, 40),
+        (0, -60, 700), (300, 12), (1.05, 1.0, 0.95),
+    ),
+    "close-up": CameraKind(
+        (1280, 720), ("p20", "p300"), (-10, 10), (3, 12), (220, 320), (0.38, 0.48),
+        (90, 200), (0.8, 1.8), (2, 4), (85, 97), (0.05, 0.4), (0.6, 1.0), (6, 14),
+        (-200, -150, 700), (120, 120),
+    ),
+    "old-webcam": CameraKind(
+        (640, 480), ("p1000", "p300"), (-14, 14), (6, 18), (350, 500), (0.36, 0.44),
+        (20, 90), (1.3, 1.9), (5, 9), (55, 75), (0.2, 0.6), (0.4, 0.8), (6, 14),
+        (100, -300, 900), (120, 60), (1.1, 1.0, 0.9),
+    ),
+    "backlit": CameraKind(
+        (960, 540), ("p1000", "p20"), (-6, 6), (2, 10), (400, 600), (0.34, 0.42),
+        (225, 245), (0.6, 1.2), (1.5, 3.5), (85, 96), (0.05, 0.35), (1.0, 1.4), (3, 8),
+        (0, 60, 800), (300, 80),
+    ),
+}  # fmt: skip
+"""Kinds by name. They were written down before anything was scored on them."""
+
+
+def draw_session(
+    kind: CameraKind, pipette: str, rng: np.random.Generator
+) -> tuple[SessionParameters, Lamps]:
+    """One plate's camera, deck and light."""
+
+    def u(limits: Range) -> float:
+        return float(rng.uniform(*limits))
+
+    base = SessionParameters.draw(rng, pipette=pipette, size=kind.size)
+    length = tip_for(pipette).length_mm
+    distance, look = u(kind.distance_mm), (u((-8, 8)), u((-8, 8)), 0.55 * length + u((20, 34)))
+    around, down = np.radians(u(kind.azimuth_deg)), np.radians(u(kind.elevation_deg))
+    eye = (
+        look[0] - distance * float(np.cos(down) * np.sin(around)),
+        look[1] - distance * float(np.cos(down) * np.cos(around)),
+        look[2] + distance * float(np.sin(down)),
+    )
+    # Both labwares stay in view, whatever the tip's length.
+    scale = min(u(kind.filling) * kind.size[1] / length, 0.46 * kind.size[0] / 118.0)
+    level = u(kind.panel)
+    wall = (level * rng.normal(1, 0.04), level, level * rng.normal(1, 0.04))
+    blue, green, red = (gain * rng.normal(1.0, 0.02) for gain in kind.balance)
+    session = replace(
+        base, eye=eye, look=look, focal_px=scale * distance, wall=wall, backdrop_top=wall,
+        clutter=0.0, blur_px=u(kind.blur_px), noise=u(kind.noise), jpeg_quality=int(u(kind.jpeg)),
+        frost=u(kind.frost), dye_strength=u(kind.dyes), white_balance=(blue, green, red),
+        gain=u((0.9, 1.1)), brightness_fall=0.0, side_fall=0.0, labware=_clear_of(base.labware),
+    )  # fmt: skip
+    x, y, z = (place + u((-60, 60)) for place in kind.lamp_place)
+    lamps = Lamps(
+        around=u(kind.around), strength=u(kind.lamp), place=(x, y, z), size=kind.lamp_size
+    )
+    return session, lamps
+
+
+def _clear_of(labware: tuple[Labware, ...]) -> tuple[Labware, ...]:
+    """The two blocks in use: others only take time to render."""
+    return labware[:2]
