@@ -136,15 +136,17 @@ def well_name(number: int) -> str:
 
 
 def keyframes_of(run: Run, number_of_wells: int) -> list[list[Any]]:
+    from aegis_ot.vision.tips import is_flex
     from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
     source = WellRef("reservoir", "A1", "reservoir", "1")
+    name = run.pipette if is_flex(run.pipette) else f"{run.pipette}_single_gen2"
     wells = []
     for number in range(number_of_wells):
         volume = run.volumes[number % len(run.volumes)]
         well = WellRef("plate", well_name(number), "plate", "2")
         frame = Keyframe(
-            "run", 0, number, KeyframeKind.ASPIRATE, f"{run.pipette}_single_gen2", "left", 1,
+            "run", 0, number, KeyframeKind.ASPIRATE, name, "left", 1,
             f"1:{number}", (source,), (well,), volume, volume, PIPETTES[run.pipette], run.reagent,
         )  # fmt: skip
         loaded = (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT)

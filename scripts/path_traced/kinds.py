@@ -111,7 +111,7 @@ def draw_session(
         look[2] + distance * float(np.sin(down)),
     )
     # Both labwares stay in view, whatever the tip's length.
-    scale = min(u(kind.filling) * kind.size[1] / length, 0.46 * kind.size[0] / 118.0)
+    scale = min(u(kind.filling) * kind.size[1] / length, 0.42 * kind.size[0] / 118.0)
     level = u(kind.panel)
     wall = (level * rng.normal(1, 0.04), level, level * rng.normal(1, 0.04))
     blue, green, red = (gain * rng.normal(1.0, 0.02) for gain in kind.balance)

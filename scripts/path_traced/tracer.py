@@ -30,17 +30,18 @@ Light = NDArray[np.float32]
 
 PLASTIC, LIQUID, AIR = 1.49, 1.333, 1.0
 """Refractive indices: polypropylene, water, air."""
-SOFT_PX = 24
-"""Width over which what is rendered anew passes into what stands still, px."""
+SOFT_PX = 4
+"""By how much what is rendered anew reaches beyond the pipette, px."""
 
 
 @dataclass(frozen=True)
 class Quality:
     """Rays per pixel, and surfaces a ray may meet: a filled tip has eight on the way through."""
 
-    still: int = 48
-    moving: int = 48
-    depth: int = 20
+    still: int = 24
+    body: int = 12
+    tip: int = 48
+    depth: int = 16
 
 
 class PathTracer:
@@ -64,12 +65,16 @@ class PathTracer:
         jitter = rng.normal(0.0, session.axis_jitter_px, 2) / session.px_per_mm
         still, light = self._still(session)
         light = light.copy()
-        shapes, box, truth = self._moving(state, session, camera, jitter)
-        if box is not None:
+        shapes, outlines, truth = self._moving(state, session, camera, jitter)
+        scene = self._scene(still | shapes)
+        for outline, rays in outlines:
+            box = _covering(outline, session.size)
+            if box is None:
+                continue
             x0, y0, x1, y1 = box
             seed = int(rng.integers(2**31))
-            part = self._trace(still | shapes, session, box, self._quality.moving, seed)
-            share = _soft_edges(box, session.size)
+            part = self._trace(scene, session, box, rays, seed)
+            share = _inside(outline, box)
             light[y0:y1, x0:x1] = share * part + (1 - share) * light[y0:y1, x0:x1]
         gain = frame_gain(session, rng)
         image = expose(_levels(light, session) * np.float32(gain), session, rng)
@@ -84,23 +89,24 @@ class PathTracer:
         described = stage(session, self._lamps[session.seed], mi.ScalarTransform4f)
         shapes = {name: mi.load_dict(shape) for name, shape in described.items()}
         whole = (0, 0, *session.size)
-        return shapes, self._trace(shapes, session, whole, self._quality.still, session.seed)
+        scene = self._scene(shapes)
+        return shapes, self._trace(scene, session, whole, self._quality.still, session.seed)
 
+    def _scene(self, shapes: dict[str, Any]) -> Any:
+        integrator = {"type": "path", "max_depth": self._quality.depth}
+        return mi.load_dict({"type": "scene", "integrator": integrator} | shapes)
+
+    @staticmethod
     def _trace(
-        self,
-        shapes: dict[str, Any],
+        scene: Any,
         session: SessionParameters,
         box: tuple[int, int, int, int],
         rays: int,
         seed: int,
     ) -> Light:
         """Linear light (B, G, R) in a part of the frame, ``(y1 - y0, x1 - x0, 3)``."""
-        scene = mi.load_dict(
-            {"type": "scene", "integrator": {"type": "path", "max_depth": self._quality.depth}}
-            | {"camera": _sensor(session, box, rays)}
-            | shapes
-        )
-        picture = np.array(mi.render(scene, spp=rays, seed=seed))[..., :3]
+        sensor = mi.load_dict(_sensor(session, box, rays))
+        picture = np.array(mi.render(scene, sensor=sensor, spp=rays, seed=seed))[..., :3]
         return np.ascontiguousarray(picture[..., ::-1], np.float32)
 
     def _moving(
@@ -109,11 +115,11 @@ class PathTracer:
         session: SessionParameters,
         camera: Pinhole,
         jitter: Floats,
-    ) -> tuple[dict[str, Any], tuple[int, int, int, int] | None, tuple[Any, int]]:
-        """Pipette, tips and liquid; the part of the frame that they cover; the truth."""
+    ) -> tuple[dict[str, Any], list[tuple[Floats, int]], tuple[Any, int]]:
+        """Pipette, tips and liquid; what they cover, px, and with how many rays; the truth."""
         shapes: dict[str, Any] = {}
-        truths, corners = [], []
-        depths = []
+        truths, depths = [], []
+        bodies, tips = [], []
         for channel, content in enumerate(state.contents):
             origin = np.array(state.orifice) + channel * np.array([*state.pitch, 0.0])
             origin += jitter[0] * camera.level_right + np.array([0.0, 0.0, jitter[1]])
@@ -123,13 +129,25 @@ class PathTracer:
             plane = camera.plane((*map(float, origin),), session.tip_tilt_deg)  # type: ignore[arg-type]
             truths.append(tip_truth(channel, plane, state, content, hidden))
             depths.append(float((origin - camera.eye) @ camera.forward))
-            half = max(session.body_mm / 2, 6.0) + 3.0
-            reach = state.tip.length_mm + session.shaft_mm + 200.0
-            local = [(s * half, t * half, z, 1.0) for s in (-1, 1) for t in (-1, 1)
-                     for z in (-6.0, reach)]  # fmt: skip
-            corners.append(np.array(local) @ placing.T[:, :3])
-        box = _covering(camera.project(np.concatenate(corners)), session.size)
-        return shapes, box, (tuple(truths), int(np.argmin(depths)))
+            top = state.tip.length_mm + session.shaft_mm
+            body = _body_width(state, session)
+            wide = max(float(state.tip.outer_radius(state.tip.length_mm)), 3.0) + 0.6
+            bodies.append(camera.project(_corners(placing, body / 2, top, top + 200.0)))
+            tips.append(camera.project(_corners(placing, wide, -3.0, top)))
+        outlines = [(one, self._quality.body) for one in bodies]
+        outlines += [(one, self._quality.tip) for one in tips]
+        return shapes, outlines, (tuple(truths), int(np.argmin(depths)))
+
+
+def _body_width(state: SceneState, session: SessionParameters) -> float:
+    """Of the pipette above one channel, mm: those of a row stand side by side."""
+    return session.body_mm if len(state.contents) == 1 else 9.0
+
+
+def _corners(placing: Floats, half: float, low: float, high: float) -> Floats:
+    """Corners of a box about a tip's axis in the scene, mm, ``(8, 3)``."""
+    local = [(s * half, t * half, z, 1.0) for s in (-1, 1) for t in (-1, 1) for z in (low, high)]
+    return np.asarray(np.array(local) @ placing.T[:, :3])
 
 
 def _placing(camera: Pinhole, origin: Floats, tilt_deg: float) -> Floats:
@@ -162,15 +180,13 @@ def _tip_shapes(
             shapes[f"{name}{channel}_{i}"] = _mesh(f"{name}{channel}_{i}", surface, placing, bsdf)
     high = state.tip.length_mm + session.shaft_mm
     transform = mi.ScalarTransform4f
+    half = _body_width(state, session) / 2
     shapes[f"body{channel}"] = {
         "type": "cube",
         "to_world": transform(placing)
-        @ transform().translate([0, 0, high + 100.0]).scale(
-            [session.body_mm / 2 if len(state.contents) == 1 else 4.5,
-             session.body_mm / 2 if len(state.contents) == 1 else 4.5, 100.0]
-        ),
+        @ transform().translate([0, 0, high + 100.0]).scale([half, half, 100.0]),
         "bsdf": plastic(session.body),
-    }  # fmt: skip
+    }
     return shapes
 
 
@@ -240,26 +256,22 @@ def _sensor(
     }  # fmt: skip
 
 
-def _soft_edges(box: tuple[int, int, int, int], size: tuple[int, int]) -> Light:
-    """1 inside and falling to 0 at those sides of a box that lie in the frame, ``(h, w, 1)``.
-
-    The pipette's shade falls beyond the box; without this its sides would show.
-    """
+def _inside(outline: Floats, box: tuple[int, int, int, int]) -> Light:
+    """1 within the hull of an outline and soft at its edge, ``(h, w, 1)``."""
     x0, y0, x1, y1 = box
-    x, y = np.arange(x0, x1) + 0.5, np.arange(y0, y1) + 0.5
-    left = x - x0 if x0 > 0 else np.full_like(x, np.inf)
-    right = x1 - x if x1 < size[0] else np.full_like(x, np.inf)
-    bottom = y1 - y if y1 < size[1] else np.full_like(y, np.inf)
-    across = np.minimum(left, right)[None, :]
-    share = np.minimum(across, bottom[:, None]) / SOFT_PX
-    return np.clip(share, 0.0, 1.0).astype(np.float32)[..., None]
+    mask = np.zeros((y1 - y0, x1 - x0), np.float32)
+    hull = cv2.convexHull((outline - (x0, y0)).astype(np.float32))
+    cv2.fillConvexPoly(mask, np.round(hull).astype(np.int32), 1.0)
+    mask = cv2.dilate(mask, np.ones((2 * SOFT_PX + 1,) * 2, np.uint8))
+    return np.asarray(cv2.GaussianBlur(mask, (0, 0), SOFT_PX / 2)[..., None], np.float32)
 
 
 def _covering(pixels: Floats, size: tuple[int, int]) -> tuple[int, int, int, int] | None:
     low = np.floor(pixels.min(axis=0)).astype(int)
     high = np.ceil(pixels.max(axis=0)).astype(int)
-    x0, y0 = max(int(low[0]) - SOFT_PX, 0), max(int(low[1]), 0)
-    x1, y1 = min(int(high[0]) + SOFT_PX, size[0]), min(int(high[1]) + SOFT_PX, size[1])
+    x0, y0 = max(int(low[0]) - 3 * SOFT_PX, 0), max(int(low[1]) - 3 * SOFT_PX, 0)
+    x1 = min(int(high[0]) + 3 * SOFT_PX, size[0])
+    y1 = min(int(high[1]) + 3 * SOFT_PX, size[1])
     return (x0, y0, x1, y1) if x1 - x0 > 1 and y1 - y0 > 1 else None
 
 
