@@ -51,6 +51,13 @@ def layer2(
             "paper's scorers, p-value for the ensemble, pooled for the others."
         ),
     ] = "",
+    leave_out: Annotated[
+        str,
+        typer.Option(
+            help="plate, or camera: no plate of the same kind of camera is learned from (meta.json "
+            "names the kinds)."
+        ),
+    ] = "plate",
     json_out: Annotated[
         Path | None, typer.Option("--json", help="Write all figures here as JSON.")
     ] = None,
@@ -70,7 +77,7 @@ def layer2(
 
     Exit codes: 0 scored, 2 the data set or a setting is no good.
     """
-    from ..evaluation.layer2 import PROTOCOLS, THRESHOLDS, evaluate_layer2, find_tips
+    from ..evaluation.layer2 import LEAVE_OUT, PROTOCOLS, THRESHOLDS, evaluate_layer2, find_tips
     from ..vision.scorers import SCORERS
     from .progress import Shown
 
@@ -79,6 +86,7 @@ def layer2(
         one_of("--scorer", name.replace("_", "-"), [known.replace("_", "-") for known in SCORERS])
     one_of("--protocol", protocol, PROTOCOLS)
     one_of("--threshold", threshold, ("", *THRESHOLDS))
+    one_of("--leave-out", leave_out, LEAVE_OUT)
     gates = _model_gates(protocol, model, record)
     if figures is not None:
         writable_folder(figures)
@@ -90,7 +98,8 @@ def layer2(
             begun = time.monotonic()
             result = evaluate_layer2(
                 data, name, protocol,
-                threshold=threshold, seed=seed, tips=tips, gates=gates, progress=shown,
+                threshold=threshold, leave_out=leave_out, seed=seed, tips=tips, gates=gates,
+                progress=shown,
             )  # fmt: skip
             results.append(result)
             seconds.append(time.monotonic() - begun)

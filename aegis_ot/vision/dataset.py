@@ -144,6 +144,11 @@ class Dataset:
         """Names of the plates in order of appearance."""
         return tuple(dict.fromkeys(record.plate for record in self.records))
 
+    @property
+    def cameras(self) -> Mapping[str, str]:
+        """Kind of camera by plate, as ``meta.json`` names them; empty where it does not."""
+        return dict(self.meta.get("cameras") or {})
+
     def true_boxes(self) -> TrueBoxes:
         """The labelled boxes as a detector.
 
@@ -223,6 +228,11 @@ def _read_meta(root: Path, problems: Problems) -> dict[str, Any]:
         problems.add(
             "meta.json", None, "source", f"is {source!r}; it must be one of {', '.join(SOURCES)}"
         )
+    cameras = meta.get("cameras")
+    if cameras is not None and not (
+        isinstance(cameras, dict) and all(isinstance(name, str) for name in cameras.values())
+    ):
+        problems.add("meta.json", None, "cameras", "must name a kind of camera for each plate")
     return meta
 
 

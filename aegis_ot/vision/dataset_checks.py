@@ -83,7 +83,10 @@ def read_manifest(root: Path, problems: Problems) -> list[Record]:
         if row["well"] and not _WELL.fullmatch(row["well"]):
             note("well", f"{row['well']!r} is no well name such as A1")
         if row["pipette"] and not _PIPETTE.fullmatch(row["pipette"]):
-            note("pipette", f"{row['pipette']!r} is no pipette such as p20, p1000 or flex_1channel_50")
+            note(
+                "pipette",
+                f"{row['pipette']!r} is no pipette such as p20, p1000 or flex_1channel_50",
+            )
         _check_label(row, note)
         volume = number(row["volume_ul"], "volume_ul", note)
         if volume is not None and volume <= 0:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
-from ...errors import ConfigurationError
+from ...errors import ConfigurationError, DatasetError
 from ...vision.dataset import Dataset, TrueBoxes, load_dataset
 from ...vision.gates import ConfirmingGate
 from ...vision.scorers import BASELINES, make_scorer
@@ -23,6 +23,7 @@ D = TypeVar("D")
 
 PROTOCOLS = ("lopo", "cascade")
 THRESHOLDS = ("first-normal", "pooled", "p-value")
+LEAVE_OUT = ("plate", "camera")
 
 
 def evaluate_layer2(
@@ -32,6 +33,7 @@ def evaluate_layer2(
     detector: Detector | TrueBoxes | str = "default",
     *,
     threshold: str = "",
+    leave_out: str = "plate",
     make: Callable[[], Scorer] | None = None,
     seed: int = 0,
     tips: FoundTips | None = None,
@@ -50,6 +52,8 @@ def evaluate_layer2(
             detector.
         threshold: ``"first-normal"`` (the default for the paper's scorers), ``"p-value"`` (for
             those whose score is one) or ``"pooled"``; see :func:`~.lopo.hold_out`.
+        leave_out: ``"camera"``: the model that judges a plate saw no plate of its kind of camera
+            (``cameras`` in ``meta.json``).
         make: Makes the scorer in ``make_scorer``'s place.
         seed: Of the bootstrap.
         tips: What :func:`find_tips` found in this set, in ``detector``'s place: several scorers
@@ -59,9 +63,12 @@ def evaluate_layer2(
 
     Raises:
         ConfigurationError: If a name is not known.
-        DatasetError: If the set is faulty or has fewer than two plates.
+        DatasetError: If the set is faulty, has fewer than two plates, or does not name the cameras
+            that are to be left out.
         ModelError: If the detector's file cannot be used.
     """
+    if leave_out not in LEAVE_OUT:
+        raise ConfigurationError(f"leave_out {leave_out!r} is not one of {', '.join(LEAVE_OUT)}")
     if protocol not in PROTOCOLS:
         raise ConfigurationError(f"protocol {protocol!r} is not one of {', '.join(PROTOCOLS)}")
     build = make or (lambda: make_scorer(scorer))
@@ -70,7 +77,8 @@ def evaluate_layer2(
         raise ConfigurationError(f"threshold {threshold!r} is not one of {', '.join(THRESHOLDS)}")
     data = dataset if isinstance(dataset, Dataset) else load_dataset(dataset)
     tips = tips or find_tips(data, detector, progress)
-    held = hold_out(tips.samples, build, threshold, progress)
+    kinds = cameras_of(data) if leave_out == "camera" else None
+    held = hold_out(tips.samples, build, threshold, progress, kinds=kinds)
     wells = list(held.wells)
     routed = flagged = [well.flagged for well in wells]
     settled: Counter[str] = Counter()
@@ -93,6 +101,8 @@ def evaluate_layer2(
         held=held,
         seed=seed,
         settled=settled,
+        leave_out=leave_out,
+        cameras=data.cameras,
         dataset=data.name,
         source=data.source,
         scorer=scorer,
@@ -100,6 +110,26 @@ def evaluate_layer2(
         threshold=threshold,
         detector=tips.detector,
     )
+
+
+def cameras_of(data: Dataset) -> Mapping[str, str]:
+    """The kind of camera of each plate.
+
+    Raises:
+        DatasetError: If ``meta.json`` does not name it for every plate, or names one kind only.
+    """
+    cameras = data.cameras
+    if unnamed := [plate for plate in data.plates if plate not in cameras]:
+        raise DatasetError(
+            f'{data.root / "meta.json"}: "cameras" names no kind of camera for '
+            f'{", ".join(unnamed[:5])}; add {{"cameras": {{"{unnamed[0]}": "KIND"}}}}, '
+            "or leave one plate out"
+        )
+    if len({cameras[plate] for plate in data.plates}) < 2:
+        raise DatasetError(
+            f'{data.root / "meta.json"}: "cameras" names one kind only; leaving one out needs two'
+        )
+    return cameras
 
 
 def own_threshold(scorer: str, make: Callable[[], Scorer]) -> str:

@@ -1,7 +1,8 @@
 """Leave one plate out: every plate is scored by a model that never saw it (paper, Methods, Data).
 
-The model is fitted on the normals of all other plates. The held-out plate's own first normal
-well sets its threshold, or calibrates the scorer, and is not scored.
+The model is fitted on the normals of all other plates, or of the plates of all other kinds of
+camera. The held-out plate's own first normal well sets its threshold, or calibrates the scorer, and
+is not scored.
 """
 
 from __future__ import annotations
@@ -89,6 +90,7 @@ def hold_out(
     progress: Progress | None = None,
     choose: Callable[[list[TrajectorySample]], list[TrajectorySample]] | None = None,
     explain: bool = False,
+    kinds: Mapping[str, str] | None = None,
 ) -> HeldOut:
     """Score every well but the calibration wells, plate by plate.
 
@@ -104,11 +106,16 @@ def hold_out(
         choose: Chooses those of the other plates' normals that are learned from; all if left
             out.
         explain: Keep what each score is made of.
+        kinds: Plates of one kind are left out together; each plate by itself if left out.
 
     Raises:
         ConfigurationError: If the scorer gives no p-values and they are asked for.
         DatasetError: If there are fewer than two plates, or too few normals to learn from.
     """
+
+    def kind_of(plate: str) -> str:
+        return plate if kinds is None else kinds[plate]
+
     like = make()
     if threshold == "p-value" and not hasattr(like, "p_value"):
         raise ConfigurationError(
@@ -128,7 +135,7 @@ def hold_out(
     models: dict[str, Scorer] = {}
     for plate, anchor_well in first.items():
         scorer = models[plate] = make()
-        normals = [s for s in samples if s.plate != plate and s.label == "normal"]
+        normals = [s for s in samples if kind_of(s.plate) != kind_of(plate) and s.label == "normal"]
         if choose is not None:
             normals = choose(normals)
         try:

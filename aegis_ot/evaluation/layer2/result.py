@@ -47,6 +47,8 @@ class Layer2Result:
         tips: In how many of the frames a tip was found; wells labelled ``no_tip`` left out.
         untipped: Plates in whose calibration well no tip was found.
         settled: For the cascade: how many wells each gate settled and how.
+        leave_out: What the model that judged a plate never saw: that ``"plate"``, its ``"camera"``.
+        cameras: Kind of camera by plate, where the set names them.
     """
 
     dataset: str
@@ -64,6 +66,8 @@ class Layer2Result:
     tips: Share = Share(0, 0)
     untipped: Sequence[str] = ()
     settled: Mapping[str, int] = field(default_factory=dict)
+    leave_out: str = "plate"
+    cameras: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def flagged_normals(self) -> Share:
@@ -71,11 +75,11 @@ class Layer2Result:
         flags = [f for w, f in zip(self.wells, self.flagged, strict=True) if not w.failed]
         return Share(sum(flags), len(flags))
 
-    def by(self, key: Callable[[ScoredWell], str]) -> dict[str, Share]:
-        """Caught failures by a property of the well."""
+    def by(self, key: Callable[[ScoredWell], str], failed: bool = True) -> dict[str, Share]:
+        """Flagged failures, or normals, by a property of the well."""
         groups: dict[str, list[bool]] = {}
         for well, flag in zip(self.wells, self.flagged, strict=True):
-            if well.failed:
+            if well.failed == failed:
                 groups.setdefault(key(well), []).append(flag)
         return {name: Share(sum(flags), len(flags)) for name, flags in sorted(groups.items())}
 
@@ -87,6 +91,12 @@ class Layer2Result:
 
     def per_severity(self) -> dict[str, Share]:
         return self.by(severity)
+
+    def per_camera(self, failed: bool = True) -> dict[str, Share]:
+        """Flagged failures, or normals, by kind of camera; empty where the set names none."""
+        if not self.cameras:
+            return {}
+        return self.by(lambda well: self.cameras.get(well.sample.plate, "unknown"), failed)
 
     def notes(self) -> list[str]:
         """What a reader must know of the figures: those that are not defined here, and why."""
@@ -119,12 +129,15 @@ class Layer2Result:
             "per_failure_type": self.per_failure_type(),
             "per_reagent": self.per_reagent(),
             "per_severity": self.per_severity(),
+            "per_camera": self.per_camera(),
+            "flagged_normals_per_camera": self.per_camera(failed=False),
         }
         return {
             "dataset": self.dataset,
             "data": self.source,
             "scorer": self.scorer,
             "protocol": self.protocol,
+            "leave_out": self.leave_out,
             "threshold": self.threshold,
             "detector": self.detector,
             "frames": {"total": self.tips.total, "with_tip": self.tips.caught},
@@ -167,7 +180,7 @@ class Layer2Result:
         """A few lines for the terminal."""
         title = f"{self.scorer} on {self.dataset} ({self.source} frames), {self.protocol}"
         lines = [
-            f"{title}, threshold {self.threshold}",
+            f"{title}, leaving one {self.leave_out} out, threshold {self.threshold}",
             f"  tips found         {self.tips} frames, by {self.detector}",
             *(
                 f"  {name.replace('_', ' '):18} {interval}"
@@ -184,6 +197,8 @@ class Layer2Result:
             ("failure types", self.per_failure_type()),
             ("reagents", self.per_reagent()),
             ("retained", self.per_severity()),
+            ("cameras", self.per_camera()),
+            ("normals of them", self.per_camera(failed=False)),
         ):
             if shares:
                 parts = ", ".join(f"{group} {share}" for group, share in shares.items())
@@ -215,6 +230,7 @@ def summarise(
     held: HeldOut,
     seed: int,
     settled: Mapping[str, int] | None = None,
+    cameras: Mapping[str, str] | None = None,
     **names: str,
 ) -> Layer2Result:
     """Turn decisions on wells into a result; ``no_tip`` wells are counted apart."""
@@ -249,5 +265,6 @@ def summarise(
         tips=Share(sum(tips), len(tips)),
         untipped=[anchor.sample.plate for anchor in held.anchors if anchor.tips_missing],
         settled=settled or {},
+        cameras=cameras or {},
         **names,
     )

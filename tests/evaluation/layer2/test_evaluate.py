@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -64,6 +65,55 @@ def test_no_plate_is_scored_by_a_model_that_saw_it(folder: Path) -> None:
     assert "p0-n0" not in ids, "a plate's first normal sets the threshold and is not scored"
     assert len(ids) == 16
     assert all(well.flagged == well.failed for well in wells)
+
+
+CAMERAS = {"p0": "webcam", "p1": "webcam", "p2": "phone", "p3": "phone", "p4": "old"}
+
+
+def with_cameras(folder: Path, out: Path, cameras: dict[str, str]) -> Path:
+    shutil.copytree(folder, out)
+    meta = {"source": "synthetic", "cameras": cameras}
+    (out / "meta.json").write_text(json.dumps(meta), encoding="utf-8")
+    return out
+
+
+def test_no_camera_is_scored_by_a_model_that_saw_its_kind(folder: Path, tmp_path: Path) -> None:
+    data = with_cameras(folder, tmp_path / "set", CAMERAS)
+    seen.clear()
+    result = evaluate_layer2(data, "spy", detector="true", make=Spy, leave_out="camera",
+                             threshold="first-normal")  # fmt: skip
+    learned = [{CAMERAS[name.split("-")[0]] for name in spy.fitted} for spy in seen if spy.fitted]
+    assert learned == [{"phone", "old"}] * 2 + [{"webcam", "old"}] * 2 + [{"webcam", "phone"}]
+    told = result.to_json()
+    assert told["leave_out"] == "camera"
+    assert told["per_camera"] == {
+        "old": {"caught": 1, "total": 1},
+        "phone": {"caught": 2, "total": 2},
+        "webcam": {"caught": 2, "total": 2},
+    }
+    assert told["flagged_normals_per_camera"]["phone"] == {"caught": 0, "total": 4}
+    assert "leaving one camera out" in result.text()
+
+
+@pytest.mark.parametrize(
+    ("cameras", "words"),
+    [
+        ({"p0": "webcam"}, "names no kind of camera for p1, p2, p3, p4"),
+        (dict.fromkeys(CAMERAS, "webcam"), "one kind only"),
+    ],
+)
+def test_cameras_that_cannot_be_left_out_are_told(
+    folder: Path, tmp_path: Path, cameras: dict[str, str], words: str
+) -> None:
+    data = with_cameras(folder, tmp_path / "set", cameras)
+    with pytest.raises(DatasetError, match=words):
+        evaluate_layer2(data, "pca", detector="true", leave_out="camera")
+
+
+def test_cameras_that_are_no_names_are_a_fault_of_the_set(folder: Path, tmp_path: Path) -> None:
+    data = with_cameras(folder, tmp_path / "set", {"p0": 3})  # type: ignore[dict-item]
+    with pytest.raises(DatasetError, match="must name a kind of camera for each plate"):
+        load_dataset(data)
 
 
 def test_the_result_has_the_five_metrics_with_intervals(folder: Path) -> None:
