@@ -61,15 +61,13 @@ def test_a_host_that_nobody_knows(shell: Shell) -> None:
 
 
 def test_a_key_that_is_not_let_in(robot: Robot, shell: Shell, tmp_path: Path) -> None:
-    stranger = tmp_path / "stranger"
-    shutil.copyfile(robot.host_key, stranger)
-    stranger.chmod(0o600)
-    other = replace(shell, key=stranger)
     with pytest.raises(RobotError, match=r"Permission denied.*public key on the robot"):
-        other.run("true")
-    stranger.chmod(0o644)
+        replace(shell, key=robot.host_key).run("true")
+    readable = tmp_path / "key"
+    shutil.copyfile(robot.key, readable)
+    readable.chmod(0o644)
     with pytest.raises(RobotError, match="chmod 600"):
-        other.run("true")
+        replace(shell, key=readable).run("true")
 
 
 def test_a_robot_is_believed_once_and_has_to_stay_the_same(robot: Robot, shell: Shell) -> None:

@@ -8,13 +8,14 @@ import shutil
 import socket
 import subprocess
 import sys
-import sysconfig
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 
+import opentrons
+import pip
 import pytest
 
 PROFILE = """
@@ -160,7 +161,8 @@ def _python(home: Path) -> Path:
     site = next((home / "python").glob("lib/python*/site-packages"))
     root = home / "user-packages"
     packages = root / site.relative_to("/")
-    (site / "robot.pth").write_text(f"{packages}\n{sysconfig.get_paths()['purelib']}\n")
+    ours = {str(Path(module.__file__ or "").parents[1]) for module in (opentrons, pip)}
+    (site / "robot.pth").write_text("\n".join([str(packages), *ours, ""]))
     (home / "python" / "pip.conf").write_text(f"[install]\nroot = {root}\n")
     packages.mkdir(parents=True)
     return packages
