@@ -24,7 +24,7 @@ from .moments import PastLink, moment_before, moment_of_transit
 from .operations import OperationReader
 from .page_pauses import PagePauses
 from .running import RobotRun, RunDriver, Screen
-from .shapes import Command
+from .shapes import PAUSED, Command
 from .verdicts import WellVerdict
 
 LOSSES = (
@@ -157,6 +157,8 @@ class _Watch:
         elif isinstance(step, StatusChanged):
             if step.run.status not in ("paused", "pause-requested"):
                 self._pauses.is_over()
+            if step.run.status in PAUSED:
+                self._tracker.deck_touched()
             if step.run.status == "succeeded":
                 self._perform(self._tracker.finish(), None)
 
@@ -227,7 +229,7 @@ class _Watch:
             (keyframe, transit if moment is None else moment) for keyframe, moment in self._queue
         )
         operation, self._operation = self._operation, None
-        if operation is not None and command.status == "succeeded":
+        if operation is not None and self._reader.is_done(operation, command):
             self._perform(self._tracker.after(operation), command)
         self._send_due()
 

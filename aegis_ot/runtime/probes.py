@@ -97,4 +97,8 @@ class Probes:
     def event(self, event: Event) -> None:
         """Where a person or the gripper may have touched the deck, nothing holds any longer."""
         if event.kind in _DECK_TOUCHED:
-            self._said.clear()
+            self.forget()
+
+    def forget(self) -> None:
+        """Wells may be other ones than those that were asked about."""
+        self._said.clear()

@@ -128,6 +128,10 @@ class Tracker:
             self._ask(self._awaiting.on(event.labware), "the labware is moved", steps)
         return steps
 
+    def deck_touched(self) -> None:
+        """The robot waits for a person, who may fill wells or put in others."""
+        self._probes.forget()
+
     def finish(self) -> list[Step]:
         """The run has ended by itself: what is still owed, and the last boundary."""
         steps: list[Step] = []
