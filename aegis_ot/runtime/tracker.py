@@ -101,7 +101,7 @@ class Tracker:
             hand.contents.draw(Layer(operation.volume, liquid=False))
         elif kind is OperationKind.ASPIRATE:
             sources = unique(operation.wells)
-            hand.contents.draw(Layer(operation.volume, sources, liquid_found=found))
+            hand.contents.draw(Layer(operation.volume, sources, found=found))
             if not operation.mixing:
                 hand.draw = operation
         elif kind in EXPELLING:

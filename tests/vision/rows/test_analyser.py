@@ -20,6 +20,7 @@ from aegis_ot.vocabulary import (
     Keyframe,
     Outcome,
     Verdict,
+    WellRef,
     from_json,
     to_json,
 )
@@ -44,11 +45,22 @@ class Told:
         )
 
 
-def judge(angle: float, faults: Sequence[str] = (), columns: int = 2) -> list[Any]:
+NONE_FOUND = "The pipette's pressure sensor found no liquid in {} before the aspirate"
+COLUMN_12 = tuple(WellRef("plate", f"{row}12", "plate", "2") for row in "ABCDEFGH")
+
+
+def judge(
+    angle: float,
+    faults: Sequence[str] = (),
+    columns: int = 2,
+    found: tuple[bool | None, ...] = (),
+) -> list[Any]:
     detector = Told()
     analyser, judged = RunMonitor(detector).begin("run"), []
     for keyframe, frame, truth in frames(angle, faults, columns):
         detector.truth = truth
+        if found:
+            keyframe = replace(keyframe, channels_found=found, sources=COLUMN_12)
         analyser.observe(keyframe, frame)
         if keyframe.kind.value == "post_dispense":
             judged.append(analyser.judge(keyframe.trajectory))
@@ -89,6 +101,21 @@ def test_hidden_tips_are_neither_passed_nor_failed() -> None:
     assert (verdict.outcome, outcomes(verdict)) == (Outcome.PASS, "uuuuuuuu")
     assert evidence["tips_judged"] == 0
     assert "nothing was judged" in verdict.reason
+
+
+def test_where_a_tip_is_hidden_the_sensor_at_the_end_of_the_row_still_speaks() -> None:
+    ((verdict, _),) = judge(90, columns=1, found=(False, *[None] * 6, False))
+    assert (verdict.outcome, outcomes(verdict)) == (Outcome.UNDECIDED, "?uuuuuu?")
+    assert verdict.reason.startswith(f"A1: {NONE_FOUND.format('A12')}")
+    assert f"H1: {NONE_FOUND.format('H12')}" in verdict.reason
+    assert "nothing was judged" in verdict.reason
+
+
+def test_a_sensor_speaks_for_its_own_channel() -> None:
+    ((verdict, _),) = judge(30, ["no_aspirate@H1"], columns=1, found=(*[None] * 7, False))
+    assert outcomes(verdict) == ".......F"
+    assert NONE_FOUND.format("H12") in verdict.channels[7].reason
+    assert not any("sensor" in channel.reason for channel in verdict.channels[:7])
 
 
 def test_a_head_that_lost_all_its_tips_fails_where_the_row_is_known() -> None:
