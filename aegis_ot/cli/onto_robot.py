@@ -15,7 +15,12 @@ from .robots import Robot
 @app.command()
 def install(
     robot: Robot,
-    key: Annotated[Path | None, typer.Option(help="Private key file for ssh.")] = None,
+    key: Annotated[
+        Path | None,
+        typer.Option(help="Private key file for ssh.", exists=True, dir_okay=False),
+    ] = None,
+    user: Annotated[str, typer.Option(help="Who logs in there.")] = "root",
+    port: Annotated[int | None, typer.Option(help="Port of its ssh, where not 22.")] = None,
     restart: Annotated[
         bool, typer.Option(help="Restart the robot's server, so that it takes the new version.")
     ] = True,
@@ -24,10 +29,19 @@ def install(
     from ..robot.installing import install as put_there
 
     _refuse_while_running(robot)
-    found = put_there(robot, key, restart, lambda text: typer.echo(f"{robot}: {text} ..."))
+
+    def tell(text: str) -> None:
+        typer.echo(f"{robot}: {text} ...")
+
+    try:
+        found = put_there(robot, key, restart, tell, user=user, port=port)
+    except KeyboardInterrupt:
+        typer.echo(f"{robot}: what is installed there may be half of it. Run it again.", err=True)
+        raise
     typer.echo(
         f"{robot}: aegis-ot {found.version} works there, under Python {found.python} and "
         f"opentrons {found.opentrons}."
+        + (" Its server takes about a minute to come back." if restart else "")
     )
 
 

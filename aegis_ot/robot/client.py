@@ -157,6 +157,12 @@ class RobotClient:
         found = [read_command(first + n, data) for n, data in enumerate(answer["data"])]
         return Page(tuple(command for command in found if command.index >= cursor), total)
 
+    def result(self, run: str, command: str) -> Mapping[str, Any]:
+        """What a command that succeeded gave; lists of commands leave it out."""
+        found = self._ask("GET", f"/runs/{run}/commands/{command}")["data"]
+        result: Mapping[str, Any] = found.get("result") or {}
+        return result
+
     def labware_definitions(self, run: str) -> dict[str, Mapping[str, Any]]:
         """Definitions of the labware of a run, by URI."""
         found = self._ask("GET", f"/runs/{run}/loaded_labware_definitions")["data"]

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
-from ..errors import RobotRefused, RobotUnreachable
+from ..errors import RobotError, RobotRefused, RobotUnreachable
 from ..instrumentation import Pipette
 from ..vocabulary import WellRef
 from .client import RobotClient
@@ -78,6 +78,17 @@ class Deck:
         """Name of a declared liquid."""
         view = self._known(lambda v: identifier in v.liquids)
         return view.liquids.get(identifier, "")
+
+    def liquid_found(self, command: str) -> bool | None:
+        """What a probe that may find no liquid says; ``None`` where the robot does not tell.
+
+        Asked once: a run that goes on is not kept waiting for a witness.
+        """
+        try:
+            result = self._robot.result(self._run, command)
+        except RobotError:
+            return None
+        return result.get("z_position") is not None if result else None
 
     def moved(self, labware: str, slot: str) -> None:
         """A labware stands elsewhere now."""

@@ -2,20 +2,35 @@
 
 from __future__ import annotations
 
-import shlex
-import subprocess
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import urlsplit
 
+from .._version import __version__
 from ..errors import RobotError
 from .address import robot_url
+from .ssh import Failed, Shell
 from .wheel import write_wheel
 
-_TIMEOUT_S = 300.0
-_CONNECT_S = 15
+_INSTALL_S = 300.0
+_TRY_S = 300.0
+"""An OT-2 takes half a minute to import its own software."""
+_LOOK = """
+import sys
+from importlib.util import find_spec
+print("AEGIS", sys.version.split()[0], *(n for n in ("opentrons", "pip") if find_spec(n)))
+"""
+_INSTALL = """
+set -e
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cat > "$folder/{name}"
+python3 -m pip install --no-deps --no-index --force-reinstall --no-cache-dir \
+--disable-pip-version-check "$folder/{name}" 2>&1
+"""
+"""One command, so that nothing of it stays behind where the connection breaks off."""
 _TRY = '''
 import io, sys, opentrons, opentrons.simulate as simulate
 import aegis_ot
@@ -33,6 +48,12 @@ log, _ = simulate.simulate(io.StringIO(text), "try.py", log_level="none")
 said = [e["payload"]["text"] for e in log if "Layer 1: " in e["payload"].get("text", "")]
 print("AEGIS", aegis_ot.__version__, opentrons.__version__, sys.version.split()[0], len(said))
 '''
+_OLDEST = (3, 10)
+_ADVICE = (
+    ("ead-only file system", "Its disk is read-only: run 'mount -o remount,rw /' there first."),
+    ("ermission denied", "Only root may install there."),
+    ("No space left", "Its disk is full: delete old runs and protocols in the App first."),
+)
 
 
 @dataclass(frozen=True)
@@ -56,72 +77,91 @@ def install(
     key: Path | None = None,
     restart: bool = True,
     told: Callable[[str], None] = lambda text: None,
+    *,
+    user: str = "root",
+    port: int | None = None,
 ) -> Installed:
     """Copy the wheel to a robot, install it with the robot's pip, try it, restart the server.
 
     Args:
-        host: The robot, as for :func:`~.address.robot_url`; it must let us in as root by ssh.
-        key: Private key file for ssh.
+        host: The robot, as for :func:`~.address.robot_url`.
+        key, user, port: As for :class:`~.ssh.Shell`.
         restart: Whether the robot's server is restarted, so that it takes the new version.
         told: Told what goes on.
 
     Raises:
-        RobotError: A step failed, with what the robot said.
+        RobotError: A step failed, with what the robot said and what can be done.
     """
-    name = urlsplit(robot_url(host)).hostname or host
-    ssh = ["ssh", "-o", f"ConnectTimeout={_CONNECT_S}", "-o", "BatchMode=yes"]
-    ssh += ["-i", str(key)] if key is not None else []
-    ssh += [f"root@{name}"]
+    shell = Shell(urlsplit(robot_url(host)).hostname or host, user, port, key)
+    told("logging in")
+    _look(shell)
     with tempfile.TemporaryDirectory() as folder:
         wheel = write_wheel(Path(folder))
         data = wheel.read_bytes()
-    there = f"/tmp/{wheel.name}"
-    told(f"copying {wheel.name} ({len(data) / 1000:.0f} kB)")
-    _do(ssh, f"cat > {there}", data, "could not be copied")
-    told("installing")
-    pip = (
-        "python3 -m pip install --no-deps --no-index --force-reinstall --disable-pip-version-check"
-    )
+    told(f"installing {wheel.name} ({len(data) / 1000:.0f} kB)")
     try:
-        _do(ssh, _login(f"{pip} {there}"), b"", "could not be installed")
-    finally:
-        _do(ssh, f"rm -f {there}", b"", "could not be tidied up")
+        shell.run(_INSTALL.format(name=wheel.name), data, _INSTALL_S)
+    except Failed as error:
+        advice = next((words for mark, words in _ADVICE if mark in error.said), "")
+        raise RobotError(f"aegis-ot could not be installed. {error} {advice}".rstrip()) from None
     told("trying it on a protocol of four steps")
-    said = _do(ssh, _login("python3 -"), _TRY.encode(), "is installed, but does not work")
-    words = next((line.split() for line in said.splitlines() if line.startswith("AEGIS ")), [])
-    if len(words) != 5 or words[4] == "0":
-        raise RobotError(f"aegis-ot is installed on {name}, but does not work there: {said[-500:]}")
+    found = _try(shell, len(data))
     if restart:
         told("restarting the robot's server")
-        _do(ssh, "systemctl restart opentrons-robot-server", b"", "could not be taken up")
-    return Installed(words[1], words[2], words[3], len(data))
+        try:
+            shell.run("systemctl restart opentrons-robot-server")
+        except Failed as error:
+            raise RobotError(
+                "aegis-ot is installed and works, but the robot's server still runs without it. "
+                f"{error} Switch the robot off and on."
+            ) from None
+    return found
 
 
-def _login(command: str) -> str:
-    """A login shell: it knows where the robot keeps the packages of its users."""
-    return f"sh -l -c {shlex.quote(command)}"
-
-
-def _do(ssh: Sequence[str], command: str, given: bytes, failed: str) -> str:
+def _look(shell: Shell) -> None:
+    """Refuse what is no robot before anything is changed there."""
     try:
-        done = subprocess.run(
-            [*ssh, command], input=given, capture_output=True, timeout=_TIMEOUT_S, check=False
-        )
-    except FileNotFoundError:
-        raise RobotError("There is no ssh on this computer. Install an OpenSSH client.") from None
-    except subprocess.TimeoutExpired:
-        raise RobotError(f"The robot did not finish within {_TIMEOUT_S:g} s: {command}") from None
-    said = (done.stdout + done.stderr).decode("utf-8", "replace")
-    if done.returncode == 0:
-        return said
-    if done.returncode == 255:
+        words = _words(shell.run("python3 -", _LOOK.encode()))
+    except Failed as error:
+        raise RobotError(f"There is no Python on {shell.host}. {error} Is it a robot?") from None
+    if not words:
+        raise RobotError(f"{shell.host} gave no answer that makes sense. Is it a robot?")
+    python, *packages = words
+    if "opentrons" not in packages:
         raise RobotError(
-            f"ssh cannot log in as {ssh[-1]}: {said.strip()[-300:]} Put your public key on the "
-            "robot first (Opentrons' help: 'Setting up SSH access'), or name yours with --key."
+            f"The Python {python} on {shell.host} has no opentrons. Is it a robot? Nothing was "
+            "installed."
         )
-    hint = (
-        " Its disk is read-only: run 'mount -o remount,rw /' there first."
-        if ("ead-only file system" in said)
-        else ""
-    )
-    raise RobotError(f"aegis-ot {failed}: {said.strip()[-500:]}{hint}")
+    if tuple(int(part) for part in python.split(".")[:2]) < _OLDEST:
+        raise RobotError(
+            f"{shell.host} has Python {python}; the guard needs 3.10. Update the robot's software "
+            "in the Opentrons App first."
+        )
+    if "pip" not in packages:
+        raise RobotError(
+            f"The Python {python} on {shell.host} has no pip, so nothing can be installed. Put "
+            "the guard into your protocols instead: aegis-ot wrap PROTOCOL.py --out GUARDED.py"
+        )
+
+
+def _try(shell: Shell, size: int) -> Installed:
+    try:
+        said = shell.run("python3 -", _TRY.encode(), _TRY_S)
+    except Failed as error:
+        raise RobotError(f"aegis-ot is installed, but does not work there. {error}") from None
+    words = _words(said)
+    if len(words) != 4 or words[3] == "0":
+        raise RobotError(
+            f"aegis-ot is installed on {shell.host}, but does not work there: {said[-500:]}"
+        )
+    if words[0] != __version__:
+        raise RobotError(
+            f"aegis-ot {__version__} is installed on {shell.host}, but its Python finds aegis-ot "
+            f"{words[0]} first. Remove that there: python3 -m pip uninstall aegis-ot, then again."
+        )
+    return Installed(words[0], words[1], words[2], size)
+
+
+def _words(said: str) -> list[str]:
+    """What a script of ours printed, among what a login shell may say."""
+    return next((li.split()[1:] for li in said.splitlines() if li.startswith("AEGIS ")), [])

@@ -37,6 +37,7 @@ _KINDS = {
     "tryLiquidProbe": OperationKind.MOVE,
 }
 _PROBES = ("liquidProbe", "tryLiquidProbe")
+_NOT_FOUND = "liquidNotFound"
 _SINGLE_NOZZLES = {"SINGLE": 1, "COLUMN": 8, "ROW": 12}
 _INSIDE_MM = -1.0
 """Height over the top of a well where a command says less than that it is inside it."""
@@ -54,6 +55,7 @@ class OperationReader:
         self._at_trash: dict[str, bool] = {}
         self._nozzles: dict[str, int] = {}
         self._racks: dict[str, tuple[str, str]] = {}
+        self._found: bool | None = None
 
     def operation(self, command: Command) -> Operation | None:
         """What a pipette does by this command; ``None`` if it does nothing with tip or liquid."""
@@ -107,12 +109,28 @@ class OperationReader:
         tip = self._deck.tip_volume(*rack) if rack is not None else None
         return None if tip is None else min(tip, operation.pipette.max_volume)
 
-    def liquid_found(self, operation: Operation) -> bool | None:
-        """What a probe that succeeded says: one that requires liquid found it.
+    def is_done(self, operation: Operation, command: Command) -> bool:
+        """Whether ``operation`` was done, now that its command is over.
 
-        What ``tryLiquidProbe`` found is not in the list of a run's commands.
+        A probe that found no liquid was, also where the protocol required some: then the robot
+        calls a person, or goes on if its run was told to.
         """
-        return True if operation.call == "liquidProbe" else None
+        done = command.status == "succeeded"
+        if operation.probes:
+            self._found = self._heard(command, done)
+            done = done or self._found is False
+        return done
+
+    def liquid_found(self, _operation: Operation) -> bool | None:
+        """What the last probe that is over said."""
+        return self._found
+
+    def _heard(self, command: Command, done: bool) -> bool | None:
+        if command.kind == "tryLiquidProbe":
+            return self._deck.liquid_found(command.id) if done else None
+        if done:
+            return True
+        return False if command.error_kind == _NOT_FOUND else None
 
     def _note(self, command: Command) -> None:
         params = command.params

@@ -62,7 +62,9 @@ class Command:
         status: ``"queued"``, ``"running"``, ``"succeeded"`` or ``"failed"``.
         params: As the server has them.
         started, completed: Seconds since the epoch on the robot's clock, or ``None``.
-        error: Why it failed.
+        error: Why it failed, in words.
+        error_kind: Likewise, ``"liquidNotFound"``...
+        id: As the server names it.
     """
 
     index: int
@@ -72,6 +74,8 @@ class Command:
     started: float | None = None
     completed: float | None = None
     error: str = ""
+    error_kind: str = ""
+    id: str = ""
 
     @property
     def message(self) -> str:
@@ -186,6 +190,8 @@ def read_command(index: int, data: Mapping[str, Any]) -> Command:
         started=read_time(data.get("startedAt")),
         completed=read_time(data.get("completedAt")),
         error=_tell(error) if error else "",
+        error_kind=str(error.get("errorType") or "") if error else "",
+        id=str(data.get("id", "")),
     )
 
 

@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-import contextlib
 import time
-from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from .._version import __version__
 from ..errors import LinkError, RobotError, RobotRefused
-from ..instrumentation import Operation
-from ..runtime import Tracker
 from ..runtime.courier import Courier
-from ..runtime.steps import Abandon, Capture, Step
+from ..runtime.steps import Abandon
 from ..vocabulary import Keyframe, KeyframeKind, Outcome
 from .client import RobotClient
-from .clocks import RobotClock
+from .clocks import WatchedClock
 from .deck import Deck
 from .following import POLL_S, Completed, Found, Lost, Started, StatusChanged, follow
-from .moments import PastLink, moment_before, moment_of_transit
-from .operations import OperationReader
+from .listening import RunListener, Timed
+from .moments import PastLink
 from .page_pauses import PagePauses
 from .running import RobotRun, RunDriver, Screen
-from .shapes import Command
 from .verdicts import WellVerdict
 
 LOSSES = (
@@ -32,11 +27,6 @@ LOSSES = (
     "some seconds before it is paused. Frames are chosen by the times of its commands and may be "
     "one camera frame off."
 )
-_CLOCK_EVERY_S = 5.0
-_SLACK_S = 0.75
-"""How far the end of a command may lie outside the two looks between which it was seen, s."""
-_UNKNOWN = 0.0
-"""The moment of a keyframe whose time makes no sense: so long ago that it goes as late."""
 _LAST_VERDICTS_S = 20.0
 
 
@@ -126,46 +116,41 @@ class _Watch:
         self.name = name_of_watch(run.id)
         self._courier = Courier(sidecar, self.name, self._about(), time.sleep)
         self._pauses = PagePauses(self._courier, lambda action: robot.act(run.id, action))
-        self._clock = RobotClock(robot.clock)
-        reader = self._reader = OperationReader(Deck(robot, run.id))
-        self._tracker = Tracker(self.name, "off", False, reader.capacity, reader.liquid_found)
-        self._operation: Operation | None = None
-        self._last: float | None = None
-        self._queue: deque[tuple[Keyframe, float | None]] = deque()
+        self._clock = WatchedClock(robot.clock, screen.says)
+        self._listener = RunListener(Deck(robot, run.id), self.name, self._clock)
         self._places: dict[int, str] = {}
         self._awaited: list[int] = []
-        self._next_clock = 0.0
         self._guarded = False
-        self._followed_since: float | None = None
         self._lost = False
         self._heard_at = 0
 
     def begin(self) -> None:
         self._courier.register(self._policies.capture_timeout_s)
-        self._look_at_clock()
+        self._clock.look()
 
     def take(self, step: Any) -> None:
         if isinstance(step, Started):
-            self._started(step.command)
+            if step.command.is_guards and not self._guarded:
+                self._guarded = True
+                self._screen.says(
+                    "This run carries a guard of its own; it need not be watched too."
+                )
+            self._tell(self._listener.started(step.command))
         elif isinstance(step, Completed):
-            self._completed(step.command)
+            self._tell(self._listener.completed(step.command))
         elif isinstance(step, Lost):
             self._lost = True
         elif isinstance(step, Found):
             self._lost = False
-            self._look_at_clock()
+            self._clock.look()
         elif isinstance(step, StatusChanged):
             if step.run.status not in ("paused", "pause-requested"):
                 self._pauses.is_over()
-            if step.run.status == "succeeded":
-                self._perform(self._tracker.finish(), None)
+            self._tell(self._listener.status(step.run.status))
 
     def look_around(self) -> None:
         """Between two looks at the run: the clocks, and the verdict that is due first."""
-        if time.monotonic() >= self._next_clock:
-            self._look_at_clock()
-        if not self._lost:
-            self._followed_since = time.monotonic()
+        self._clock.look_around(followed=not self._lost)
         self._pauses.look_around()
         self._obey()
         if not self._awaited or self._courier.away:
@@ -195,8 +180,7 @@ class _Watch:
         status = self._run.status
         outcome = status if status in ("succeeded", "failed", "stopped") else "failed"
         detail = "" if outcome == status else "The run was followed no longer."
-        left = self._tracker.break_off(f"the run {outcome}")
-        given_up = {step.trajectory: step.reason for step in left if isinstance(step, Abandon)}
+        given_up = self._listener.break_off(f"the run {outcome}")
         try:
             self._courier.finish(outcome, detail, given_up, self._policies.capture_timeout_s)
         except LinkError as error:
@@ -204,60 +188,20 @@ class _Watch:
         finally:
             self._courier.close()
 
-    # Commands
-
-    def _started(self, command: Command) -> None:
-        if command.is_guards and not self._guarded:
-            self._guarded = True
-            self._screen.says("This run carries a guard of its own; it need not be watched too.")
-        event = self._reader.event(command)
-        if event is not None:
-            self._perform(self._tracker.event(event), command)
-        self._operation = self._reader.operation(command)
-        if self._operation is not None:
-            self._perform(self._tracker.before(self._operation), command)
-
-    def _completed(self, command: Command) -> None:
-        transit = moment_of_transit(command)
-        if command.completed is not None:
-            self._last = command.completed
-            if not self._is_plausible(command.completed):
-                self._last = transit = _UNKNOWN
-        self._queue = deque(
-            (keyframe, transit if moment is None else moment) for keyframe, moment in self._queue
-        )
-        operation, self._operation = self._operation, None
-        if operation is not None and command.status == "succeeded":
-            self._perform(self._tracker.after(operation), command)
-        self._send_due()
-
-    def _perform(self, steps: list[Step], command: Command | None) -> None:
-        for step in steps:
-            if isinstance(step, Abandon):
-                self._courier.abandon(step.trajectory, step.reason)
-            elif isinstance(step, Capture):
-                self._note(step.keyframe, command)
-        self._send_due()
-
-    def _note(self, keyframe: Keyframe, command: Command | None) -> None:
-        if keyframe.destinations:
-            self._places[keyframe.trajectory] = str(keyframe.destinations[0])
-        moment: float | None = None
-        if keyframe.kind is not KeyframeKind.TRANSIT or command is None:
-            moment = moment_before(keyframe.kind, self._last or 0.0)
-        self._queue.append((keyframe, moment))
+    def _tell(self, heard: list[Abandon | Timed]) -> None:
+        for one in heard:
+            if isinstance(one, Abandon):
+                self._courier.abandon(one.trajectory, one.reason)
+            else:
+                self._send(one.keyframe, one.moment)
 
     # The sidecar
 
-    def _send_due(self) -> None:
-        while self._queue and self._queue[0][1] is not None:
-            keyframe, moment = self._queue.popleft()
-            assert moment is not None
-            self._send(keyframe, moment)
-
     def _send(self, keyframe: Keyframe, moment: float) -> None:
         courier = self._courier
-        self._link.moments[keyframe.sequence] = self._clock.local(moment)
+        self._link.moments[keyframe.sequence] = moment
+        if keyframe.destinations:
+            self._places[keyframe.trajectory] = str(keyframe.destinations[0])
         courier.offer(keyframe)
         self._heard_at = keyframe.trajectory
         if keyframe.kind is KeyframeKind.POST_DISPENSE:
@@ -299,27 +243,6 @@ class _Watch:
             )
             if trajectory is not None and policy == "pause":
                 self._pauses.begin(trajectory, cause)
-
-    def _is_plausible(self, completed: float) -> bool:
-        """Whether a command ended between the last look and now: else a clock was set meanwhile."""
-        since = self._followed_since
-        if since is None:
-            return True
-        for again in (True, False):
-            local = self._clock.local(completed)
-            if since - _SLACK_S <= local <= time.monotonic() + _SLACK_S:
-                return True
-            if again:
-                self._look_at_clock()
-        return False
-
-    def _look_at_clock(self) -> None:
-        self._next_clock = time.monotonic() + _CLOCK_EVERY_S
-        jumps = self._clock.jumps
-        with contextlib.suppress(RobotError):  # the follower tells of a lost connection
-            self._clock.look()
-        if self._clock.jumps > jumps:
-            self._screen.says("The robot's clock was set; a delivery may have lost its frames.")
 
     def _about(self) -> dict[str, Any]:
         return {

@@ -19,13 +19,13 @@ class Layer:
         volume: Per channel, µL.
         sources: Wells it was drawn from, each once; empty for air.
         liquid: ``False`` for air.
-        liquid_found: Whether the pipette's sensor found liquid there; ``None`` if it was not asked.
+        found: What the pipette's sensors say of the well under each nozzle; empty if nothing.
     """
 
     volume: float
     sources: tuple[WellRef, ...] = ()
     liquid: bool = True
-    liquid_found: bool | None = None
+    found: tuple[bool | None, ...] = ()
 
 
 class Contents:
@@ -50,10 +50,10 @@ class Contents:
         return sources_of(self._layers)
 
     @property
-    def liquid_found(self) -> bool | None:
-        """Whether the sensor found liquid in the source; ``None`` if not all draws say the same."""
-        said = {layer.liquid_found for layer in self._layers if layer.liquid}
-        return said.pop() if len(said) == 1 else None
+    def found(self) -> tuple[bool | None, ...]:
+        """Of which wells the sensors found liquid; empty if not all draws say the same."""
+        said = {layer.found for layer in self._layers if layer.liquid}
+        return said.pop() if len(said) == 1 else ()
 
     def draw(self, layer: Layer) -> None:
         """Take in one layer."""

@@ -40,13 +40,16 @@ class Ledger:
             reagent=" + ".join(names) or None,
             line=hand.draw.line if hand.draw is not None else None,
             recovers=self.recovering.get(hand.pipette.mount),
-            liquid_found=hand.contents.liquid_found,
+            found=hand.contents.found,
         )
         self.trajectories += 1
         return trajectory
 
     def keyframe(self, hand: Hand, trajectory: Trajectory) -> Keyframe:
         """The next of the four keyframes, as things stand now."""
+        known = {found for found in trajectory.found if found is not None}
+        one = len(trajectory.sources) == 1
+        each = known and not one and len(trajectory.found) == trajectory.channels
         keyframe = Keyframe(
             run=self._run,
             sequence=self._sequence,
@@ -67,7 +70,8 @@ class Ledger:
             recovers=trajectory.recovers,
             nozzles=trajectory.nozzles,
             targets=trajectory.targets,
-            liquid_found=trajectory.liquid_found,
+            liquid_found=known.pop() if one and len(known) == 1 else None,
+            channels_found=trajectory.found if each else (),
         )
         self._sequence += 1
         trajectory.frames += 1

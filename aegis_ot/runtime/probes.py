@@ -7,9 +7,11 @@ aspirate with a clean tip (``liquid_presence_detection``). The guard only listen
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 from ..instrumentation import Event, EventKind, Operation, OperationKind
+from ..vocabulary import WellRef
 from .hand import Place
 
 Probe = Callable[[Operation], "bool | None"]
@@ -24,6 +26,8 @@ _CHANGING = frozenset(
         OperationKind.BLOW_OUT,
     }
 )
+_SENSORS = {1: ("A1",), 8: ("A1", "H1"), 96: ("A1", "H12")}
+"""Nozzles with a pressure sensor, by the number that the pipette has."""
 _DECK_TOUCHED = (EventKind.PAUSED, EventKind.LABWARE_MOVING)
 
 
@@ -49,11 +53,21 @@ def liquid_found(operation: Operation) -> bool | None:
     return False if operation.method == "detect_liquid_presence" else None
 
 
+@dataclass(frozen=True)
+class _Word:
+    """What a probe said: of which wells, and which stood under each nozzle."""
+
+    place: Place
+    wells: tuple[WellRef | None, ...]
+    found: Mapping[WellRef, bool]
+
+
 class Probes:
     """The last word of each pipette's sensor, until well or tip may be other ones.
 
-    Only probes of one well are kept: of several tips over several wells the outer ones have a
-    sensor, and the robot does not say which of them met liquid.
+    Several tips over several wells have a sensor at either end, and the probe ends at the first
+    that meets liquid: liquid found is in one well or in the other. No liquid found holds for both.
+    Of the wells between nothing is known.
 
     Args:
         ask: What a probe said.
@@ -61,40 +75,60 @@ class Probes:
 
     def __init__(self, ask: Probe = never_asked) -> None:
         self._ask = ask
-        self._said: dict[str, tuple[Place, bool]] = {}
+        self._said: dict[str, _Word] = {}
 
     def before(self, operation: Operation) -> None:
         """A probe begins: whatever comes of it, what the one before it said holds no longer."""
         if operation.probes:
             self._said.pop(operation.pipette.key, None)
 
-    def after(self, operation: Operation, place: Place) -> bool | None:
+    def after(self, operation: Operation, place: Place) -> tuple[bool | None, ...]:
         """Take in what ``operation`` did at ``place``.
 
         Returns:
-            For a draw, what was said of its well; else ``None``.
+            For a draw, what was said of the well under each nozzle; empty where nothing was.
         """
         key, kind = operation.pipette.key, operation.kind
         if operation.probes:
             found = self._ask(operation)
-            if found is not None and place is not None and len(place) == 1:
-                self._said[key] = (place, found)
-            return None
+            said = _of_wells(operation, place, found)
+            if said:
+                self._said[key] = _Word(place, operation.wells, said)
+            return ()
         if kind not in _CHANGING or operation.is_air:
-            return None
+            return ()
         draws = kind is OperationKind.ASPIRATE
-        for mount, (well, _) in list(self._said.items()):
+        for mount, word in list(self._said.items()):
             # Draws that follow each other in the well are one; a mix gives back what it draws.
             holds = (
-                well == place and (draws or operation.mixing)
+                word.place == place and (draws or operation.mixing)
                 if mount == key
-                else not (place is None or well is None or place & well)
+                else not (place is None or word.place is None or place & word.place)
             )
             if not holds:
                 del self._said[mount]
-        return self._said[key][1] if draws and key in self._said else None
+        if not draws or key not in self._said:
+            return ()
+        word = self._said[key]
+        return tuple(None if well is None else word.found.get(well) for well in word.wells)
 
     def event(self, event: Event) -> None:
         """Where a person or the gripper may have touched the deck, nothing holds any longer."""
         if event.kind in _DECK_TOUCHED:
-            self._said.clear()
+            self.forget()
+
+    def forget(self) -> None:
+        """Wells may be other ones than those that were asked about."""
+        self._said.clear()
+
+
+def _of_wells(operation: Operation, place: Place, found: bool | None) -> Mapping[WellRef, bool]:
+    """What a probe says of which wells."""
+    if found is None or not place:
+        return {}
+    if len(place) == 1:
+        return dict.fromkeys(place, found)
+    sensors = _SENSORS.get(operation.pipette.channels, ())
+    under = zip(operation.nozzles, operation.wells, strict=False)
+    probed = {well for nozzle, well in under if well is not None and nozzle in sensors}
+    return dict.fromkeys(probed, found) if not found or len(probed) == 1 else {}

@@ -65,7 +65,8 @@ class Trajectory:
         delivered: Whether liquid has left the tip into the destination.
         nozzles: The active nozzles, where there are several.
         targets: The well under each of them, once the destination is known.
-        liquid_found: Whether the pipette's sensor found liquid in the source before the draw.
+        found: What the pipette's sensors said of the source well of each nozzle before the draw;
+            empty if nothing.
     """
 
     number: int
@@ -80,4 +81,4 @@ class Trajectory:
     delivered: bool = False
     nozzles: tuple[str, ...] = ()
     targets: tuple[WellRef | None, ...] = ()
-    liquid_found: bool | None = None
+    found: tuple[bool | None, ...] = ()

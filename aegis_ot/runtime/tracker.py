@@ -101,7 +101,7 @@ class Tracker:
             hand.contents.draw(Layer(operation.volume, liquid=False))
         elif kind is OperationKind.ASPIRATE:
             sources = unique(operation.wells)
-            hand.contents.draw(Layer(operation.volume, sources, liquid_found=found))
+            hand.contents.draw(Layer(operation.volume, sources, found=found))
             if not operation.mixing:
                 hand.draw = operation
         elif kind in EXPELLING:
@@ -127,6 +127,10 @@ class Tracker:
                     self._settle(hand, steps, lift=False)  # its wells are about to leave
             self._ask(self._awaiting.on(event.labware), "the labware is moved", steps)
         return steps
+
+    def deck_touched(self) -> None:
+        """The robot waits for a person, who may fill wells or put in others."""
+        self._probes.forget()
 
     def finish(self) -> list[Step]:
         """The run has ended by itself: what is still owed, and the last boundary."""

@@ -237,7 +237,7 @@ def _check_keyframe(keyframe: Keyframe) -> None:
             raise WireError(422, "body", f"Keyframe.{name} must not be negative.")
     if not 1 <= keyframe.channels <= 384:
         raise WireError(422, "body", "Keyframe.channels must be from 1 to 384.")
-    for name in ("nozzles", "targets"):
+    for name in ("nozzles", "targets", "channels_found"):
         if len(getattr(keyframe, name)) not in (0, keyframe.channels):
             raise WireError(422, "body", f"Keyframe.{name} must be empty, or one per channel.")
 

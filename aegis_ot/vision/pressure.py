@@ -59,7 +59,7 @@ def weighed(decision: GateDecision, keyframe: Keyframe, delivery: Delivery | Non
 
 
 def _source(keyframe: Keyframe) -> str:
-    return keyframe.sources[0].name if keyframe.sources else "the source"
+    return keyframe.sources[0].name if len(keyframe.sources) == 1 else "the source"
 
 
 def _adding(decision: GateDecision, words: str) -> GateDecision:

@@ -87,6 +87,8 @@ class Keyframe:
             single tip.
         liquid_found: Whether the pipette's own pressure sensor found liquid in the one source well,
             with this tip, just before the draw; ``None`` where it was not asked.
+        channels_found: Likewise for each nozzle, where they drew from several wells; ``None`` where
+            nothing is known of its well. Empty for one source well, and where nothing is known.
     """
 
     run: str
@@ -111,6 +113,7 @@ class Keyframe:
     nozzles: tuple[str, ...] = ()
     targets: tuple[WellRef | None, ...] = ()
     liquid_found: bool | None = None
+    channels_found: tuple[bool | None, ...] = ()
 
 
 class ChannelOutcome(str, Enum):

@@ -58,6 +58,8 @@ def test_a_good_protocol_is_analysed_and_runs_to_its_end(
     assert [command.index for command in done] == list(range(len(done)))
     assert all(c.started and c.completed and c.started <= c.completed for c in done)
     assert sum(isinstance(step, Started) for step in steps) == len(done)
+    loaded = next(command for command in done if command.kind == "loadLabware")
+    assert "labwareId" in client.result(run, loaded.id)
     last = steps[-1]
     assert isinstance(last, StatusChanged)
     assert last.run.status == "succeeded"

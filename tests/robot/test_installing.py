@@ -1,83 +1,153 @@
-"""``aegis-ot install`` with an ssh that runs on this machine what it should run on the robot."""
+"""``aegis-ot install`` as its user: over a real sshd on loopback, to something like a robot."""
 
 from __future__ import annotations
 
+import os
+import re
+import signal
 import subprocess
 import sys
+import threading
+import time
 import zipfile
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
-from aegis_ot.errors import RobotError
-from aegis_ot.robot.installing import install
+from aegis_ot import __version__
 from aegis_ot.robot.wheel import write_wheel
 
-SSH = """#!/bin/sh
-while [ "$1" != "root@127.0.0.1" ]; do
-    echo "$1" >> "$HOME/options"
-    shift
-done
-echo "$2" >> "$HOME/commands"
-exec sh -c "$2"
+from ..cli.commands import Command, Result
+from ..support.sshd import Robot
+
+Install = Callable[..., Result]
+
+
+PIP_SAYS = """
+case "$1$(cat)" in
+    -m*) {pip} ;;
+    *simulate*) echo AEGIS {version} 8.2.0 3.10.8 1 ;;
+    *) echo AEGIS 3.10.8 opentrons pip ;;
+esac
 """
+"""A Python that takes itself for a robot's, with a pip that does as it is told."""
+
+
+@pytest.fixture(scope="module")
+def one_robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Robot]:
+    with Robot(tmp_path_factory.mktemp("robot")) as robot:
+        yield robot
 
 
 @pytest.fixture
-def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A robot's home; its login shell knows a Python whose pip installs into a folder of it."""
-    tools = tmp_path / "tools"
-    tools.mkdir()
-    for name, text in (("ssh", SSH), ("systemctl", '#!/bin/sh\necho "$@" > "$HOME/restarted"\n')):
-        (tools / name).write_text(text, encoding="utf-8")
-        (tools / name).chmod(0o755)
-    (tools / "python3").symlink_to(sys.executable)
-    (tmp_path / ".profile").write_text(
-        f"export PATH={tools}:$PATH PYTHONPATH={tmp_path}/user-packages\n"
-        f"export PIP_TARGET={tmp_path}/user-packages PYTHONHOME= \nunset PYTHONHOME\n",
-        encoding="utf-8",
-    )
-    python = f'#!/bin/sh\nexec {sys.executable} "$@"\n'
-    (tools / "python3").unlink()
-    (tools / "python3").write_text(python, encoding="utf-8")
-    (tools / "python3").chmod(0o755)
-    monkeypatch.setenv("HOME", str(tmp_path))
-    monkeypatch.setenv("PATH", f"{tools}:/usr/bin:/bin")
-    return tmp_path
+def there(one_robot: Robot, monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
+    monkeypatch.setenv("PATH", f"{one_robot.tools}:/usr/bin:/bin")
+    with one_robot.as_it_is():
+        yield one_robot
+
+
+@pytest.fixture
+def install(there: Robot, aegis: Command) -> Install:
+    robot = f"127.0.0.1:{there.no_server}"
+    reached = ("--user", there.user, "--port", there.port, "--key", there.key)
+    return lambda *more: aegis("install", "--robot", robot, *reached, *more)
 
 
 @pytest.mark.slow
-def test_it_is_copied_installed_tried_and_taken_up(home: Path) -> None:
-    told: list[str] = []
-    found = install("127.0.0.1", Path("my key"), told=told.append)
-    assert found.size < 600_000
-    assert found.opentrons.split(".")[0].isdigit()
-    assert "my key" in (home / "options").read_text(encoding="utf-8")
-    assert (home / "restarted").read_text().strip() == "restart opentrons-robot-server"
-    assert (home / "user-packages" / "aegis_ot" / "guard.py").exists()
-    assert not list(Path("/tmp").glob("aegis_ot-*.whl"))
-    assert len(told) == 4
+def test_it_is_installed_tried_and_taken_up(there: Robot, install: Install) -> None:
+    (there.packages / "aegis_ot").mkdir()
+    (there.packages / "aegis_ot" / "guard.py").write_text("half of an earlier try")
+    done = install()
+    assert done.code == 0, done.err
+    assert f"aegis-ot {__version__} works there, under Python 3." in done.out
+    assert (there.packages / "aegis_ot" / "guard.py").stat().st_size > 1000
+    assert (there.home / "systemctl").read_text().strip() == "restart opentrons-robot-server"
+    assert len(done.out.splitlines()) == 5
 
 
-def test_a_robot_that_lets_nobody_in_says_what_to_do(home: Path) -> None:
-    (home / "tools" / "ssh").write_text(
-        "#!/bin/sh\necho 'Permission denied (publickey).' >&2\nexit 255\n", encoding="utf-8"
-    )
-    with pytest.raises(RobotError, match=r"Permission denied.*public key"):
-        install("127.0.0.1")
+def test_a_server_that_does_not_start_again(there: Robot, install: Install) -> None:
+    there.says("python3", PIP_SAYS.format(pip="true", version=__version__))
+    there.says("systemctl", "echo 'Unit not found.' >&2; exit 5")
+    done = install()
+    assert done.code == 2
+    assert "installed and works, but" in done.err
+    assert "Unit not found. Switch the robot off and on." in done.err
+    assert not list((there.home / "tmp").iterdir())
 
 
-def test_a_disk_that_is_read_only_is_told_with_the_way_out(home: Path) -> None:
-    (home / "tools" / "python3").write_text(
-        "#!/bin/sh\necho 'OSError: [Errno 30] Read-only file system' >&2\nexit 1\n",
-        encoding="utf-8",
-    )
-    with pytest.raises(RobotError, match="remount,rw"):
-        install("127.0.0.1")
+def test_an_older_one_in_its_way(there: Robot, install: Install) -> None:
+    there.says("python3", PIP_SAYS.format(pip="true", version="0.0.9"))
+    done = install()
+    assert done.code == 2
+    assert "finds aegis-ot 0.0.9 first" in done.err
+
+
+@pytest.mark.parametrize(
+    ("python", "said"),
+    [
+        ("exit 127", r"There is no Python on 127\.0\.0\.1\..* Is it a robot\?"),
+        ("echo AEGIS 3.10.8", r"has no opentrons\. Is it a robot\? Nothing was"),
+        ("echo AEGIS 3.7.1 opentrons pip", "Python 3.7.1; the guard needs 3.10. Update"),
+        ("echo AEGIS 3.10.8 opentrons", "aegis-ot wrap PROTOCOL.py --out GUARDED.py"),
+        ("echo Hello.", "no answer that makes sense"),
+    ],
+)
+def test_what_is_no_robot_is_left_alone(
+    there: Robot, install: Install, python: str, said: str
+) -> None:
+    there.says("python3", python)
+    done = install()
+    assert done.code == 2
+    assert re.search(said, done.err)
+    assert len(done.err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("pip", "said"),
+    [
+        ("Could not install packages: [Errno 13] Permission denied: '/usr/x'", "Only root may"),
+        ("OSError: [Errno 30] Read-only file system: '/usr/x'", "mount -o remount,rw"),
+    ],
+)
+def test_a_pip_that_cannot_write(there: Robot, install: Install, pip: str, said: str) -> None:
+    pip = f'echo "ERROR: {pip}"; exit 1'
+    there.says("python3", PIP_SAYS.format(pip=pip, version=__version__))
+    done = install()
+    assert done.code == 2
+    assert "could not be installed" in done.err
+    assert said in done.err
+
+
+@pytest.mark.slow
+def test_interrupted_half_way_it_can_be_done_again(there: Robot, install: Install) -> None:
+    pip = 'touch "$HOME/tmp/half-way"; exec sleep 5'
+    there.says("python3", PIP_SAYS.format(pip=pip, version=__version__))
+    interrupter = threading.Thread(target=_interrupt, args=(there.home / "tmp" / "half-way",))
+    interrupter.start()
+    done = install()
+    interrupter.join()
+    assert done.code == 130
+    assert "Run it again" in done.err
+    assert "Traceback" not in done.err
+
+
+def _interrupt(once: Path) -> None:
+    until = time.monotonic() + 10.0
+    while not once.exists() and time.monotonic() < until:
+        time.sleep(0.02)
+    os.kill(os.getpid(), signal.SIGINT)
+
+
+def test_a_wrong_key_file_is_told_at_once(aegis: Command) -> None:
+    done = aegis("install", "--robot", "127.0.0.1", "--key", "no-such-key")
+    assert done.code == 2
+    assert "no-such-key" in done.err
 
 
 def test_the_wheel_is_pure_and_complete(tmp_path: Path) -> None:
     wheel = write_wheel(tmp_path)
+    assert wheel.stat().st_size < 600_000
     with zipfile.ZipFile(wheel) as files:
         names = files.namelist()
         metadata = next(name for name in names if name.endswith("METADATA"))

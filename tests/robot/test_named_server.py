@@ -136,7 +136,8 @@ def test_a_failed_well_pauses_with_its_reason_and_play_goes_on(
     sidecar.outcomes[0] = "fail"
     run = started(client, upload(sidecar))
     until(lambda: client.run(run).status == "paused")
-    last = client.commands(run, 0).commands[-1]
+    first, *_, last = client.commands(run, 0).commands
+    assert client.result(run, first.id) is not None
     assert last.kind == "waitForResume"
     assert "A2 of Corning 96 Well Plate" in last.message
     client.act(run, "play")

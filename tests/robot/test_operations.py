@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+import httpx
+import pytest
+
 from aegis_ot.instrumentation import Pipette
+from aegis_ot.robot import RobotClient
+from aegis_ot.robot.deck import Deck
 from aegis_ot.robot.operations import OperationReader
 from aegis_ot.robot.shapes import Command
 from aegis_ot.runtime import Tracker
@@ -27,44 +32,109 @@ class OneFlex:
     def depth(self, _labware: str, _well: str) -> float:
         return 10.0
 
+    def liquid_found(self, command: str) -> bool | None:
+        return {"found": True, "none": False}.get(command)
+
     def tip_volume(self, _labware: str, _well: str) -> float:
         return 200.0
 
 
-def told(*commands: tuple[str, str, str]) -> set[bool | None]:
-    """What the keyframes say; a command is its kind, its well, and its status."""
+DONE, FAILED = "succeeded", "failed"
+
+
+def did(kind: str, place: str, status: str = DONE, error: str = "", name: str = "") -> Command:
+    labware, well = place.split(":")
+    inside = {"origin": "bottom", "offset": {"z": 1.0}}
+    params = {"pipetteId": "p", "labwareId": labware, "wellName": well, "volume": 50.0}
+    return Command(0, kind, status, params | {"wellLocation": inside}, error_kind=error, id=name)
+
+
+def told(*commands: Command | None) -> set[bool | None]:
+    """What the keyframes say; ``None`` for a person who deals with the robot."""
     reader: Any = OperationReader(OneFlex())  # type: ignore[arg-type]
     tracker = Tracker("run", "off", False, reader.capacity, reader.liquid_found)
     steps = []
-    for index, (kind, place, status) in enumerate(commands):
-        labware, well = place.split(":")
-        inside = {"origin": "bottom", "offset": {"z": 1.0}}
-        params = {"pipetteId": "p", "labwareId": labware, "wellName": well, "volume": 50.0}
-        command = Command(index, kind, status, params | {"wellLocation": inside})
+    for command in commands:
+        if command is None:
+            tracker.deck_touched()
+            continue
         operation = reader.operation(command)
         steps += tracker.before(operation)
-        if status == "succeeded":
+        if reader.is_done(operation, command):
             steps += tracker.after(operation)
     steps += tracker.finish()
     return {step.keyframe.liquid_found for step in steps if isinstance(step, Capture)}
 
 
-def delivery(*probes: tuple[str, str]) -> list[tuple[str, str, str]]:
-    done = "succeeded"
+def delivery(*between: Command | None) -> list[Command | None]:
     return [
-        ("pickUpTip", "rack:A1", done),
-        *((kind, "reservoir:A1", status) for kind, status in probes),
-        ("aspirate", "reservoir:A1", done),
-        ("dispense", "plate:A1", done),
-        ("dropTip", "rack:A1", done),
+        did("pickUpTip", "rack:A1"),
+        *between,
+        did("aspirate", "reservoir:A1"),
+        did("dispense", "plate:A1"),
+        did("dropTip", "rack:A1"),
     ]
 
 
+def probe(status: str = DONE, error: str = "") -> Command:
+    return did("liquidProbe", "reservoir:A1", status, error)
+
+
+def tried(name: str, status: str = DONE, error: str = "") -> Command:
+    return did("tryLiquidProbe", "reservoir:A1", status, error, name)
+
+
 def test_a_probe_that_had_to_find_liquid_and_succeeded_did() -> None:
-    assert told(*delivery(("liquidProbe", "succeeded"))) == {True}
+    assert told(*delivery(probe())) == {True}
 
 
-def test_one_that_failed_or_may_find_none_says_nothing() -> None:
+def test_one_that_may_find_none_is_asked_what_it_found() -> None:
+    assert told(*delivery(tried("found"))) == {True}
+    assert told(*delivery(tried("none"))) == {False}
+    assert told(*delivery(tried("gone"))) == {None}
+    assert told(*delivery(tried("found"), tried("none"))) == {False}
+
+
+def test_one_that_failed_for_want_of_liquid_found_none() -> None:
+    missing = probe(FAILED, "liquidNotFound")
+    assert told(*delivery(missing)) == {False}
+    assert told(*delivery(missing, probe())) == {True}
+
+
+def test_what_a_person_dealt_with_is_unknown_until_asked_again() -> None:
+    missing = probe(FAILED, "liquidNotFound")
+    assert told(*delivery(missing, None)) == {None}
+    assert told(*delivery(missing, None, probe())) == {True}
+
+
+def test_one_that_failed_otherwise_says_nothing() -> None:
     assert told(*delivery()) == {None}
-    assert told(*delivery(("tryLiquidProbe", "succeeded"))) == {None}
-    assert told(*delivery(("liquidProbe", "succeeded"), ("liquidProbe", "failed"))) == {None}
+    assert told(*delivery(probe(), probe(FAILED, "overpressure"))) == {None}
+    assert told(*delivery(tried("found", FAILED, "stallOrCollision"))) == {None}
+
+
+@pytest.mark.parametrize(
+    ("status", "data", "said"),
+    [
+        (200, {"result": {"z_position": 12.5, "position": {"x": 1, "y": 2, "z": 3}}}, True),
+        (200, {"result": {"z_position": None, "position": {"x": 1, "y": 2, "z": 3}}}, False),
+        (200, {"result": {"position": {"x": 1, "y": 2, "z": 3}}}, False),
+        (200, {}, None),
+        (404, {}, None),
+    ],
+)
+def test_what_the_robot_says_of_a_probe(status: int, data: Any, said: bool | None) -> None:
+    def answer(request: httpx.Request) -> httpx.Response:
+        assert request.url.path == "/runs/r/commands/c"
+        return httpx.Response(status, json={"data": data})
+
+    with RobotClient("127.0.0.1", httpx.MockTransport(answer)) as client:
+        assert Deck(client, "r").liquid_found("c") is said
+
+
+def test_a_robot_that_gives_no_answer_does_not_hold_up_the_watch() -> None:
+    def answer(request: httpx.Request) -> httpx.Response:
+        raise httpx.ConnectError("gone", request=request)
+
+    with RobotClient("127.0.0.1", httpx.MockTransport(answer)) as client:
+        assert Deck(client, "r").liquid_found("c") is None

@@ -7,9 +7,11 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from datetime import datetime, timezone
 from pathlib import Path
 from typing import Any
 
+import httpx
 import pytest
 
 from aegis_ot.account import Situation, situations
@@ -306,3 +308,81 @@ def test_the_wells_under_a_head(
 )  # fmt: skip
 def test_a_pipettes_name_says_its_size(name: str, channels: int, volume: float) -> None:
     assert (channels_of(name), largest_volume(name)) == (channels, volume)
+
+
+class FlexRun:
+    """A Flex's run as its server tells it, a look at a time; pictures of what was observed."""
+
+    def __init__(self, looks: list[tuple[str, list[dict[str, Any]]]]) -> None:
+        self._looks = looks
+        self._done: list[dict[str, Any]] = []
+
+    def __call__(self, request: httpx.Request) -> httpx.Response:
+        now = datetime.now(timezone.utc).isoformat()
+        path = request.url.path
+        if path == "/system/time":
+            return _told({"systemTime": now})
+        if path == "/runs/r":
+            pipettes = [{"id": "p", "pipetteName": "flex_1channel_1000", "mount": "left"}]
+            labware = [
+                {
+                    "id": name,
+                    "loadName": name,
+                    "definitionUri": name,
+                    "location": {"slotName": slot},
+                }
+                for name, slot in (("rack", "B2"), ("reservoir", "C1"), ("plate", "C2"))
+            ]
+            status = self._looks[0][0] if self._looks else "succeeded"
+            return _told({"id": "r", "status": status, "pipettes": pipettes, "labware": labware})
+        if path == "/runs/r/commands":
+            if self._looks:
+                times = {"startedAt": now, "completedAt": now}
+                self._done += [command | times for command in self._looks.pop(0)[1]]
+            cursor = int(request.url.params["cursor"])
+            meta = {"cursor": cursor, "totalLength": len(self._done)}
+            return httpx.Response(200, json={"data": self._done[cursor:], "meta": meta})
+        if path.startswith("/runs/r/commands/"):
+            return _told({"result": {"position": {"x": 0, "y": 0, "z": 0}}})  # no liquid found
+        return httpx.Response(404, json={"errors": [{"detail": "not here"}]})
+
+
+def _told(data: dict[str, Any]) -> httpx.Response:
+    return httpx.Response(200, json={"data": data})
+
+
+def _did(kind: str, place: str, error: str = "") -> dict[str, Any]:
+    labware, well = place.split(":")
+    inside = {"origin": "bottom", "offset": {"z": 1.0}}
+    params = {"pipetteId": "p", "labwareId": labware, "wellName": well, "volume": 50.0}
+    status = (
+        {"status": "failed", "error": {"errorType": error}} if error else {"status": "succeeded"}
+    )
+    return {"id": "c", "commandType": kind, "params": params | {"wellLocation": inside}} | status
+
+
+def test_what_a_flexs_sensor_found_is_watched_too(tmp_path: Path) -> None:
+    def delivery(well: str) -> list[dict[str, Any]]:
+        done = [_did("aspirate", "reservoir:A1"), _did("dispense", f"plate:{well}")]
+        return [*done, _did("dropTip", "rack:A1")]
+
+    tip, missing = (
+        _did("pickUpTip", "rack:A1"),
+        _did("liquidProbe", "reservoir:A1", "liquidNotFound"),
+    )
+    looks = [
+        ("running", [tip, _did("liquidProbe", "reservoir:A1"), *delivery("A1")]),
+        ("running", [tip, _did("tryLiquidProbe", "reservoir:A1"), *delivery("B1")]),
+        ("running", [tip, missing, *delivery("C1")]),  # as if told to ignore this kind of error
+        ("running", [tip, missing]),
+        ("awaiting-recovery", []),
+        ("running", delivery("D1")),
+    ]
+    transport = httpx.MockTransport(FlexRun(looks))
+    view = RobotRun("flex.py", "flex", "http://127.0.0.1", "r", Analysis("", done=False))
+    with sidecar(tmp_path) as url, RobotClient("127.0.0.1", transport) as client:
+        watch_run(client, view, PastLink(url, None), Shown(), poll_s=0.01)
+        with Robot(url, "watch-r") as reader:
+            seen = reader.overview()["trajectories"]
+    said = [{frame.get("liquid_found") for frame in one["keyframes"]} for one in seen]
+    assert said == [{True}, {False}, {False}, {None}]

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
+from opentrons.protocol_api import PARTIAL_COLUMN
 
 from aegis_ot.instrumentation import Operation
 
@@ -144,6 +145,54 @@ def test_liquids_of_several_wells_and_tips_over_several_wells_are_told_of_as_unk
 
     assert told(pooled, True) == told(pooled, False) == [None]
     assert told(row) == [True, None]
+
+
+def each(protocol: Callable[[Any], None], word: bool) -> dict[str, bool]:
+    """What the keyframes of one delivery say of its nozzles, where they say anything."""
+    recorder = record(protocol, "2.20", "Flex", probe=Sensor(word))
+    said = {(keyframe.nozzles, keyframe.channels_found) for keyframe in recorder.keyframes}
+    assert {keyframe.liquid_found for keyframe in recorder.keyframes} == {None}
+    nozzles, found = said.pop()
+    assert not said
+    return {n: known for n, known in zip(nozzles, found, strict=False) if known is not None}
+
+
+def between_plates(name: str, first: str = "A1", **layout: Any) -> Callable[[Any], None]:
+    """One delivery of a head of which ``first`` is the nozzle that the protocol names."""
+
+    def protocol(context: Any) -> None:
+        pipette, _, plate = flex(context, name)
+        target = context.load_labware("nest_96_wellplate_200ul_flat", "D2")
+        tips = pipette.tip_racks
+        if name == "flex_96channel_1000":
+            adapter = context.load_adapter("opentrons_flex_96_tiprack_adapter", "A1")
+            tips = [adapter.load_labware(WITH_TIP)]
+        if layout:
+            pipette.configure_nozzle_layout(**layout, start=first, tip_racks=tips)
+        pipette.pick_up_tip(None if layout else tips[0]["A1"])
+        pipette.detect_liquid_presence(plate[first])
+        deliver(pipette, plate[first], target[first])
+        pipette.drop_tip()
+
+    return protocol
+
+
+def test_of_a_column_no_liquid_holds_for_the_ends_and_liquid_for_none() -> None:
+    column = between_plates("flex_8channel_1000")
+    assert each(column, False) == {"A1": False, "H1": False}
+    assert each(column, True) == {}
+
+
+def test_of_a_part_of_a_column_the_one_tip_with_a_sensor_speaks() -> None:
+    part = between_plates("flex_8channel_1000", "H1", style=PARTIAL_COLUMN, end="E1")
+    assert each(part, True) == {"H1": True}
+    assert each(part, False) == {"H1": False}
+
+
+def test_of_a_whole_head_two_corners_speak() -> None:
+    whole = between_plates("flex_96channel_1000")
+    assert each(whole, False) == {"A1": False, "H12": False}
+    assert each(whole, True) == {}
 
 
 @pytest.mark.parametrize("meanwhile", ["pause", "moved", "filled", "other"])

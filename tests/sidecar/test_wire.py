@@ -274,3 +274,12 @@ def test_what_the_sensor_found_is_kept_and_robots_and_sidecars_of_other_age_unde
     assert [one["liquid_found"] for one in second] == [None, None]
     assert from_json(Keyframe, first[0] | {"more": 1}).liquid_found is True
     assert robot.send(6, liquid_found="yes").status_code == 422
+
+
+def test_what_the_sensors_of_a_row_found_is_kept_one_word_a_channel(robot: Robot) -> None:
+    row = {"channels": 3, "nozzles": ["A1", "B1", "C1"]}
+    assert robot.send(0, **row, channels_found=[False, None]).status_code == 422
+    assert robot.send(0, **row, channels_found=[False, None, "no"]).status_code == 422
+    assert robot.send(0, **row, channels_found=[False, None, False]).status_code == 200
+    (kept,) = robot.overview()["trajectories"][0]["keyframes"]
+    assert from_json(Keyframe, kept).channels_found == (False, None, False)

@@ -204,6 +204,9 @@ class _Run:
             "meta": {"cursor": found.cursor, "totalLength": found.total_length},
         }
 
+    def command(self, command: str) -> dict[str, Any]:
+        return _plain(self.orchestrator.get_command(command))
+
     def _links(self) -> dict[str, Any]:
         current = self.orchestrator.get_current_command()
         if current is None:
@@ -404,6 +407,12 @@ def _run_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
         if run not in robot.runs:
             return unknown(run)
         return body(robot.runs[run].commands(cursor, pageLength))
+
+    @app.get("/runs/{run}/commands/{command}")
+    async def command(run: str, command: str) -> Any:
+        if run not in robot.runs:
+            return unknown(run)
+        return body({"data": robot.runs[run].command(command)})
 
     @app.post("/runs/{run}/actions")
     async def act(run: str, request: Request) -> Any:

@@ -196,6 +196,7 @@ class RowFinder:
 def channel_keyframe(keyframe: Keyframe, number: int) -> Keyframe:
     """What a keyframe says of one of its channels, as of a single tip."""
     target = keyframe.targets[number] if keyframe.targets else None
+    found = keyframe.channels_found
     sources = keyframe.sources
     each = len(sources) == keyframe.channels
     return replace(
@@ -205,4 +206,6 @@ def channel_keyframe(keyframe: Keyframe, number: int) -> Keyframe:
         destinations=() if target is None else (target,),
         nozzles=(),
         targets=(),
+        liquid_found=found[number] if found else keyframe.liquid_found,
+        channels_found=(),
     )

@@ -19,6 +19,7 @@ from ...vocabulary import (
 )
 from ..gates import GateDecision
 from ..pressure import weighed
+from .finder import channel_keyframe
 
 Judged = tuple[Verdict, Mapping[str, Any]]
 _GRAVITY = (Outcome.FAIL, Outcome.UNDECIDED, Outcome.PASS)
@@ -65,7 +66,10 @@ def row_verdict(
         trouble: Why the tips cannot be told apart; empty if they can.
         assumed: Whether nothing told which end of the row is the first channel.
     """
-    each = tuple(channel.verdict(trouble) for channel in channels)
+    each = tuple(
+        _sensed(channel.verdict(trouble), channel_keyframe(keyframe, number))
+        for number, channel in enumerate(channels)
+    )
     judged = [channel.judged for channel in channels if channel.judged is not None]
     if all(channel.hidden for channel in channels):
         return _unseen(keyframe, each), {"channels": len(each), "tips_judged": 0}
@@ -77,6 +81,8 @@ def row_verdict(
         )  # fmt: skip
         return verdict, {"channels": len(each), "tips_judged": 0}
     gravest, evidence = min(judged, key=lambda one: _rank(one[0]))
+    if gravest.outcome is Outcome.PASS and _doubted(each):
+        gravest = replace(gravest, outcome=Outcome.UNDECIDED, gate=Gate.OPERATOR)
     reason = _reason(each)
     if assumed and gravest.outcome is not Outcome.PASS:
         reason += (
@@ -99,15 +105,30 @@ def row_verdict(
 
 def _unseen(keyframe: Keyframe, each: tuple[ChannelVerdict, ...]) -> Verdict:
     """On tips of which none is seen: the robot's own sensor may still have a word."""
+    outcome, gate = Outcome.PASS, Gate.NONE
     reason = f"None of {len(each)} tips is seen apart from the others: nothing was judged."
-    said = weighed(GateDecision(Outcome.PASS, Gate.NONE, reason), keyframe, None)
-    if said.outcome is Outcome.UNDECIDED:
-        doubt = ChannelOutcome.UNDECIDED
-        each = tuple(replace(one, outcome=doubt, reason=said.reason) for one in each)
+    if _doubted(each):
+        outcome, gate = Outcome.UNDECIDED, Gate.OPERATOR
+        same = len({one.reason for one in each}) == 1
+        reason = each[0].reason if same else " ".join([*_troubles(each), reason])
     return Verdict(
-        keyframe.run, keyframe.trajectory, said.outcome, Route.UNCALIBRATED, gate=said.gate,
-        reason=said.reason, channels=each,
+        keyframe.run, keyframe.trajectory, outcome, Route.UNCALIBRATED, gate=gate,
+        reason=reason, channels=each,
     )  # fmt: skip
+
+
+def _sensed(verdict: ChannelVerdict, keyframe: Keyframe) -> ChannelVerdict:
+    """Of a tip that is not seen the robot's own sensor is the only witness."""
+    if verdict.outcome is not ChannelOutcome.UNOBSERVED:
+        return verdict
+    said = weighed(GateDecision(Outcome.PASS, Gate.NONE, verdict.reason), keyframe, None)
+    if said.outcome is Outcome.PASS:
+        return verdict
+    return replace(verdict, outcome=ChannelOutcome.UNDECIDED, reason=said.reason)
+
+
+def _doubted(each: Sequence[ChannelVerdict]) -> bool:
+    return any(one.outcome is ChannelOutcome.UNDECIDED for one in each)
 
 
 def _rank(verdict: Verdict) -> tuple[int, float]:
@@ -116,6 +137,16 @@ def _rank(verdict: Verdict) -> tuple[int, float]:
 
 def _reason(channels: Sequence[ChannelVerdict]) -> str:
     """``"B3: nothing left the tip. Not seen: C3 to H3 ..."``."""
+    said = _troubles(channels)
+    passed = [one for one in channels if one.outcome is ChannelOutcome.PASS]
+    said.append(f"{len(passed)} of {len(channels)} tips passed.")
+    unseen = [one for one in channels if one.outcome is ChannelOutcome.UNOBSERVED]
+    if unseen:
+        said.append(f"Not seen by the camera: {named_wells(unseen)}.")
+    return " ".join(said)
+
+
+def _troubles(channels: Sequence[ChannelVerdict]) -> list[str]:
     said = []
     for outcome in (ChannelOutcome.FAIL, ChannelOutcome.UNDECIDED):
         those = [one for one in channels if one.outcome is outcome]
@@ -127,9 +158,4 @@ def _reason(channels: Sequence[ChannelVerdict]) -> str:
         rest = [one for ones in list(same.values())[_TOLD:] for one in ones]
         if rest:
             said.append(f"Likewise {outcome.value}: {named_wells(rest)}.")
-    passed = [one for one in channels if one.outcome is ChannelOutcome.PASS]
-    said.append(f"{len(passed)} of {len(channels)} tips passed.")
-    unseen = [one for one in channels if one.outcome is ChannelOutcome.UNOBSERVED]
-    if unseen:
-        said.append(f"Not seen by the camera: {named_wells(unseen)}.")
-    return " ".join(said)
+    return said

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from aegis_ot.sidecar import make_analyser
-from aegis_ot.simulation import FrameTruth
+from aegis_ot.simulation import FrameTruth, SessionParameters, SimulatedCamera
 from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.monitor import RunMonitor
 from aegis_ot.vision.rows import ChannelAnalyser
+from aegis_ot.vision.rows.finder import channel_keyframe
 from aegis_ot.vision.types import End, Ends, Image, TipDetection
 from aegis_ot.vocabulary import (
     ChannelOutcome,
@@ -20,11 +21,12 @@ from aegis_ot.vocabulary import (
     Keyframe,
     Outcome,
     Verdict,
+    WellRef,
     from_json,
     to_json,
 )
 
-from .frames import frames
+from .frames import frames, keyframes
 
 
 class Told:
@@ -44,11 +46,22 @@ class Told:
         )
 
 
-def judge(angle: float, faults: Sequence[str] = (), columns: int = 2) -> list[Any]:
+NONE_FOUND = "The pipette's pressure sensor found no liquid in {} before the aspirate"
+COLUMN_12 = tuple(WellRef("plate", f"{row}12", "plate", "2") for row in "ABCDEFGH")
+
+
+def judge(
+    angle: float,
+    faults: Sequence[str] = (),
+    columns: int = 2,
+    found: tuple[bool | None, ...] = (),
+) -> list[Any]:
     detector = Told()
     analyser, judged = RunMonitor(detector).begin("run"), []
     for keyframe, frame, truth in frames(angle, faults, columns):
         detector.truth = truth
+        if found:
+            keyframe = replace(keyframe, channels_found=found, sources=COLUMN_12)
         analyser.observe(keyframe, frame)
         if keyframe.kind.value == "post_dispense":
             judged.append(analyser.judge(keyframe.trajectory))
@@ -89,6 +102,64 @@ def test_hidden_tips_are_neither_passed_nor_failed() -> None:
     assert (verdict.outcome, outcomes(verdict)) == (Outcome.PASS, "uuuuuuuu")
     assert evidence["tips_judged"] == 0
     assert "nothing was judged" in verdict.reason
+
+
+@pytest.mark.parametrize(
+    ("faults", "taken_for"),
+    [
+        (["no_dispense@H2"], Outcome.PASS),
+        ([f"no_dispense@{row}2" for row in "ABCDEFG"], Outcome.FAIL),
+    ],
+)
+def test_the_nearest_of_hidden_tips_would_be_judged_by_what_those_behind_hold(
+    faults: list[str], taken_for: Outcome
+) -> None:
+    """Why it is left unobserved too: where its own place is known, H2 is still judged wrongly."""
+    camera = SimulatedCamera(2, faults, from_the_front_of(9.0))
+    camera.expect(keyframes(2))
+    detector = Nearest()
+    alone, row = RunMonitor(detector).begin("run"), RunMonitor(detector).begin("run")
+    for keyframe in keyframes(2):
+        camera.announce(keyframe)
+        frame = camera.frame_after(0.0, 5.0)
+        assert camera.truth is not None
+        detector.truth = camera.truth
+        alone.observe(channel_keyframe(keyframe, 7), frame)
+        row.observe(keyframe, frame)
+        if keyframe.kind.value == "post_dispense":
+            (wrong, _), (told, _) = (it.judge(keyframe.trajectory) for it in (alone, row))
+    assert wrong.outcome is taken_for
+    assert outcomes(told) == "uuuuuuuu"
+
+
+class Nearest(Told):
+    """Knows where the nearest tip is."""
+
+    def detect(self, _image: Image) -> TipDetection | None:
+        tip = self.truth.tips[self.truth.front]
+        return None if tip.box is None else TipDetection(*tip.box, 0.9, tip.orifice, tip.collar)
+
+
+def from_the_front_of(x: float) -> SessionParameters:
+    """A camera before the deck that looks along a column of tips, x mm from that of the first."""
+    front = SessionParameters.beside(90, 2)
+    eye, look = ((place[0] + x, place[1], place[2]) for place in (front.eye, front.look))
+    return replace(front, eye=eye, look=look)
+
+
+def test_where_a_tip_is_hidden_the_sensor_at_the_end_of_the_row_still_speaks() -> None:
+    ((verdict, _),) = judge(90, columns=1, found=(False, *[None] * 6, False))
+    assert (verdict.outcome, outcomes(verdict)) == (Outcome.UNDECIDED, "?uuuuuu?")
+    assert verdict.reason.startswith(f"A1: {NONE_FOUND.format('A12')}")
+    assert f"H1: {NONE_FOUND.format('H12')}" in verdict.reason
+    assert "nothing was judged" in verdict.reason
+
+
+def test_a_sensor_speaks_for_its_own_channel() -> None:
+    ((verdict, _),) = judge(30, ["no_aspirate@H1"], columns=1, found=(*[None] * 7, False))
+    assert outcomes(verdict) == ".......F"
+    assert NONE_FOUND.format("H12") in verdict.channels[7].reason
+    assert not any("sensor" in channel.reason for channel in verdict.channels[:7])
 
 
 def test_a_head_that_lost_all_its_tips_fails_where_the_row_is_known() -> None:
