@@ -1,12 +1,14 @@
 """Rows of eight tips on simulated frames, seen at several angles: a verdict for each channel.
 
-``python -m benchmarks.channels [--seeds FIRST COUNT] [--angles A ...] [--columns N] [--json OUT]``
+``python -m benchmarks.channels [--seeds FIRST COUNT] [--angles A ...] [--columns N] [--json OUT]
+[--rendered]``
 
 Angle 0 looks squarely at a column's tips from beside the deck, 90 along it from the front. Each run
 fills the columns of a plate from a trough with a new row of tips for each. In some columns a fault
 is planted in one channel; the other seven of that row, and whole rows without one, must pass. A
 planted channel counts as named if its own verdict is a fail or undecided, and not if only another
-one's is. Results are those of simulated frames, and say so.
+one's is. Results are those of simulated frames, and say so; with ``--rendered`` of path-traced ones
+(``scripts/path_traced``, which needs ``pip install mitsuba``).
 """
 
 from __future__ import annotations
@@ -22,6 +24,8 @@ from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 from typing import Any
+
+from .rendering import renderer
 
 DEVELOPMENT_SEED, REPORT_SEED = 2000, 7100
 """First seeds: limits were chosen while looking at the runs of the first, and are reported on those
@@ -85,13 +89,15 @@ def keyframes_of(run: Run, columns: int) -> Iterator[list[Any]]:
         ]  # fmt: skip
 
 
-def judged(run: Run, columns: int) -> Iterator[tuple[str, Any, tuple[float, float]]]:
+def judged(run: Run, columns: int, render: Any) -> Iterator[tuple[str, Any, tuple[float, float]]]:
     """Planted fault, verdict, and processor time, s: for its last frame, and to judge it."""
     from aegis_ot.sidecar import make_analyser
     from aegis_ot.simulation import SessionParameters, SimulatedCamera
 
     faults = [fault for number in range(columns) if (fault := run.fault(number + 1))]
-    camera = SimulatedCamera(run.seed, faults, SessionParameters.beside(run.angle, run.seed))
+    camera = SimulatedCamera(
+        run.seed, faults, SessionParameters.beside(run.angle, run.seed), render=render
+    )
     analyser: Any = make_analyser().begin("run")
     for number, keyframes in enumerate(keyframes_of(run, columns)):
         for keyframe in keyframes:
@@ -109,16 +115,22 @@ def judged(run: Run, columns: int) -> Iterator[tuple[str, Any, tuple[float, floa
 
 
 def measure(
-    angle: float, first: int, count: int, columns: int = 10, progress: bool = False
+    angle: float,
+    first: int,
+    count: int,
+    columns: int = 10,
+    progress: bool = False,
+    rendered: bool = False,
 ) -> dict[str, Any]:
     """Counts over ``count`` runs at one angle."""
     counts: Counter[str] = Counter()
+    render = renderer(rendered)
     faults: Counter[tuple[str, str, str]] = Counter()
     alarms, missed = [], []
     costs: list[tuple[float, float]] = []
     for run in runs(angle, first, count):
         liquid = "water" if run.reagent == "water" else "dye"
-        for fault, verdict, cost in judged(run, columns):
+        for fault, verdict, cost in judged(run, columns, render):
             costs.append(cost)
             kind, _, well = fault.partition("@")
             stopped = [
@@ -146,7 +158,8 @@ def measure(
         if progress:
             sys.stderr.write(f"{run}\n")
     return {
-        "frames": "simulated", "angle": angle, "seeds": [first, first + count - 1],
+        "frames": "rendered" if rendered else "simulated", "angle": angle,
+        "seeds": [first, first + count - 1],
         "counts": dict(counts), "alarms": alarms, "missed": missed,
         "faults": [
             {"liquid": liquid, "fault": kind, "which": which, "count": number}
@@ -169,7 +182,7 @@ def show(found: Sequence[dict[str, Any]]) -> str:
     """The counts as text."""
     first, last = found[0]["seeds"]
     lines = [
-        f"Rows of eight tips on simulated frames, seeds {first} to {last}",
+        f"Rows of eight tips on {found[0]['frames']} frames, seeds {first} to {last}",
         f"{'angle':>5} {'unobserved':>11} {'rows stopped falsely':>21} {'asked':>6} "
         f"{'named of planted, seen':>23} {'not seen':>9} {'CPU ms a row (median, p95)':>28}",
     ]
@@ -209,9 +222,13 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--angles", nargs="+", type=float, default=ANGLES)
     parser.add_argument("--columns", type=int, default=8, help="of each run")
     parser.add_argument("--json", type=Path)
+    parser.add_argument(
+        "--rendered", action="store_true", help="path-traced frames, about 5 s each"
+    )
     given = parser.parse_args(arguments)
     found = [
-        measure(angle, *given.seeds, columns=given.columns, progress=True) for angle in given.angles
+        measure(angle, *given.seeds, columns=given.columns, progress=True, rendered=given.rendered)
+        for angle in given.angles
     ]
     sys.stdout.write(show(found))
     if given.json is not None:

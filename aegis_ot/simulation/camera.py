@@ -21,7 +21,7 @@ from .dyes import DYES, WATER, Dye, dye_for
 from .exposure import decode
 from .fault_plan import FaultPlan, PhysicalState
 from .faults import Fault
-from .render import render_jpeg
+from .render import Renderer, render_jpeg
 from .scene import SceneState, TipContent, place_tip
 from .session import SessionParameters
 from .truth import FrameTruth
@@ -47,6 +47,7 @@ class SimulatedCamera:
             (``{"sample": "red"}``), before the rules of :func:`~.dyes.dye_for`.
         rate: Frames per second to imitate a camera that runs freely; ``None``: a frame whenever
             one is asked for.
+        render: Draws the frames.
 
     Raises:
         ConfigurationError: A fault or a colour cannot be used, or ``rate`` is not positive.
@@ -61,6 +62,7 @@ class SimulatedCamera:
         parameters: SessionParameters | None = None,
         reagent_colours: Mapping[str, Dye | str] | None = None,
         rate: float | None = None,
+        render: Renderer = render_jpeg,
     ) -> None:
         if rate is not None and not rate > 0:
             raise ConfigurationError(
@@ -70,6 +72,7 @@ class SimulatedCamera:
         self._parameters = parameters
         self._colours = _colours(reagent_colours or {})
         self._rate = rate
+        self._render = render
         film = (parameters or SessionParameters()).film
         self.plan = FaultPlan(faults, film)
         self._lock = threading.RLock()
@@ -148,7 +151,7 @@ class SimulatedCamera:
             run = zlib.crc32(keyframe.run.encode()) if keyframe else 0
             sequence = keyframe.sequence if keyframe else 0
             rng = np.random.default_rng((self.seed, run, max(sequence, 0), exposure))
-            return render_jpeg(scene, self.parameters, rng)
+            return self._render(scene, self.parameters, rng)
 
     def _idle(self) -> SceneState:
         missing = (TipContent(present=False),)

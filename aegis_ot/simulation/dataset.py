@@ -6,7 +6,7 @@ their source is ``"synthetic"``: call results on them so.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -20,13 +20,10 @@ from ..vocabulary import KeyframeKind
 from .dyes import DYES
 from .exposure import decode
 from .plans import PlannedWell, contents_of, normal_plan, paper_plan
-from .render import render_jpeg
-from .scene import SceneState, place_tip
+from .render import Renderer, render_jpeg
+from .scene import place_tip
 from .session import SessionParameters
 from .truth import FrameTruth, TipTruth
-
-Renderer = Callable[[SceneState, SessionParameters, np.random.Generator], tuple[bytes, FrameTruth]]
-"""What draws one frame as JPEG and says what is in it: :func:`~.render.render_jpeg`, for one."""
 
 
 @dataclass(frozen=True)

@@ -48,12 +48,14 @@ class PathTracer:
     """Renders one session's frames; call it where ``simulation.render_jpeg`` is called.
 
     Args:
-        lamps: Light of each session, by the session's seed.
+        lamps: Light of each session, by the session's seed; the same for all if left out.
         quality: Rays per pixel.
     """
 
-    def __init__(self, lamps: Mapping[int, Lamps], quality: Quality | None = None) -> None:
-        self._lamps = lamps
+    def __init__(
+        self, lamps: Mapping[int, Lamps] | None = None, quality: Quality | None = None
+    ) -> None:
+        self._lamps = lamps or {}
         self._quality = quality or Quality()
         self._still = lru_cache(maxsize=2)(self._render_still)
 
@@ -86,7 +88,7 @@ class PathTracer:
 
     def _render_still(self, session: SessionParameters) -> tuple[dict[str, Any], Light]:
         """What stands still, loaded once, and the whole frame without a pipette."""
-        described = stage(session, self._lamps[session.seed], mi.ScalarTransform4f)
+        described = stage(session, self._lamps.get(session.seed, Lamps()), mi.ScalarTransform4f)
         shapes = {name: mi.load_dict(shape) for name, shape in described.items()}
         whole = (0, 0, *session.size)
         scene = self._scene(shapes)
@@ -134,8 +136,11 @@ class PathTracer:
             wide = max(float(state.tip.outer_radius(state.tip.length_mm)), 3.0) + 0.6
             bodies.append(camera.project(_corners(placing, body / 2, top, top + 200.0)))
             tips.append(camera.project(_corners(placing, wide, -3.0, top)))
-        outlines = [(one, self._quality.body) for one in bodies]
-        outlines += [(one, self._quality.tip) for one in tips]
+        # A row's tips stand so close that what holds them all is soon traced.
+        outlines = [
+            (np.concatenate(bodies), self._quality.body),
+            (np.concatenate(tips), self._quality.tip),
+        ]
         return shapes, outlines, (tuple(truths), int(np.argmin(depths)))
 
 
