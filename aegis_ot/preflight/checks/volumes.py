@@ -101,8 +101,8 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
         return "It is drawn to mix, not to be delivered."
     fed = {
         given.well
-        for given in case.trace.visits
-        if given.tip is visit.tip and given.index > visit.index
+        for given in case.by_tip[visit.tip]
+        if given.index > visit.index
         if given.session == visit.session and any(part[0] is well for part in given.parts)
     }
     if all(_is_waste(case, one) for one in fed):

@@ -78,7 +78,7 @@ def infer_families(
     scored = []
     for family in database.families:
         found = _found(family, texts, database.common)
-        found += _seen(family, shapes, bool(found), roles_of)
+        found += _seen(family, shapes, bool(found))
         if family.known_by and found and not (_score(found) >= SURE and _defines(found)):
             told = _shown(found) and any(one.defining for one in found)
             named = _named_roles(roles_of(family), in_texts=told)
@@ -208,18 +208,13 @@ def _nothing_against(found: Sequence[_Found]) -> bool:
 
 
 def _seen(
-    family: Family,
-    shapes: Mapping[str, tuple[float, str]],
-    spoken: bool,
-    roles_of: Callable[[Family], Roles],
+    family: Family, shapes: Mapping[str, tuple[float, str]], spoken: bool
 ) -> Iterable[_Found]:
     """What the shapes of the run say of a family; most of them only beside words."""
     for signal in family.shapes:
         if not (spoken or signal.defining):
             continue
         if signal.shape in shapes and shapes.keys().isdisjoint(signal.unless):
-            if signal.unless_named and _named_roles(roles_of(family)) & {*signal.unless_named}:
-                continue
             clear, said = shapes[signal.shape]
             defining = signal.defining and clear >= 1
             yield _Found(signal.weight * clear, said, LONE if defining else 0.0, defining, True)
