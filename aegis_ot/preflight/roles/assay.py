@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ..evidence import DOUBTFUL, Evidence, Kind
@@ -120,28 +120,13 @@ def infer_families(
     if given or any(inference.applies for inference in inferences):
         inferences.sort(key=lambda i: (not i.applies, i.family in odd, -i.score))
         return inferences
-    return [
-        _as_default(inference) if _is_default(database, inference.family) else inference
-        for inference in sorted(
-            inferences, key=lambda i: (not _is_default(database, i.family), -i.score)
-        )
+    inferences = [
+        replace(i, reasons=(*i.reasons, "no other family fits"), applies=True, left_over=True)
+        if database.family(i.family).default
+        else i
+        for i in inferences
     ]
-
-
-def _is_default(database: Database, name: str) -> bool:
-    return database.family(name).default
-
-
-def _as_default(inference: Inference) -> Inference:
-    return Inference(
-        inference.family,
-        inference.score,
-        inference.confidence,
-        (*inference.reasons, "no other family fits"),
-        True,
-        inference.sure,
-        True,
-    )
+    return sorted(inferences, key=lambda i: (not i.left_over, -i.score))
 
 
 def _texts(
