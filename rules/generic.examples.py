@@ -61,6 +61,32 @@ for destination in destinations:
         p300.mix(1, 30, destination)
     p300.drop_tip()
 
+# GEN-2, GEN-1 warns: the tip is rinsed twice before it goes back into the water
+waste = reservoir["A12"]
+washes = [reservoir["A10"], reservoir["A11"]]
+p300.transfer(50, sources, destinations, new_tip="always")
+p300.pick_up_tip()
+for destination in destinations:
+    p300.transfer(40, water, destination, mix_after=(2, 40), new_tip="never")
+    for wash in washes:
+        p300.transfer(100, wash, waste.top(-5), new_tip="never")
+p300.drop_tip()
+
+# GEN-2, GEN-1 fails: one rinse is not enough
+waste, wash = reservoir["A12"], reservoir["A11"]
+p300.transfer(50, sources, destinations, new_tip="always")
+p300.pick_up_tip()
+for destination in destinations:
+    p300.transfer(40, water, destination, mix_after=(2, 40), new_tip="never")
+    p300.transfer(100, wash, waste.top(-5), new_tip="never")
+p300.drop_tip()
+
+# GEN-2 warns: water goes into a second reagent with the tip, and all wells get both of them
+metal_mix = reservoir["A3"]
+p300.transfer(90, water, destinations, new_tip="once")
+p300.transfer(30, metal_mix, destinations, new_tip="once")
+p300.transfer(30, sources, destinations, new_tip="always")
+
 # GEN-3 passes: exactly full
 p300.transfer(200, tubes["A1"], plate["A1"])
 
@@ -79,6 +105,13 @@ p300.transfer(80, destinations[0], plate["B1"])
 # GEN-3 fails: a loop fills the pool's tube over
 for _ in range(12):
     p300.transfer(200, sources[0], pool)
+
+# GEN-3 warns: more is declared than the tube holds, and the run adds nothing to it
+tubes["A6"].load_liquid(protocol.define_liquid("trypsin", "", "#9900ff"), 2500)
+p300.transfer(100, tubes["A6"], destinations, mix_before=(1, 150))
+
+# GEN-3 warns: drops that fall from high over a tube may not all be in it
+p300.transfer(200, sources[0], [pool.top(30)] * 12)
 
 # deck
 donors = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 9, "source plate")

@@ -269,3 +269,16 @@ p300.transfer(30, tubes["A1"], titration[1:], new_tip="always")
 p300.transfer(60, tubes["A1"], titration[0])
 for upper, lower in zip(titration, titration[1:]):
     p300.transfer(30, upper, lower, mix_after=(4, 25), new_tip="always")
+
+# deck
+lysis_buffer, dpbs, urea = reservoir["A1"], reservoir["A2"], reservoir["A3"]
+standard = tubes["A1"]
+curve = plate.rows()[0][:6]
+samples = deepwell.columns()[0]
+
+# SD-4 warns: several buffers are used, and nothing says that the standards' own is no diluent
+p300.distribute(50, lysis_buffer, curve)
+p300.transfer(50, standard, curve[0], mix_after=(3, 40))
+for left, right in zip(curve, curve[1:]):
+    p300.transfer(50, left, right, mix_after=(3, 40), new_tip="always")
+p300.distribute(100, dpbs, [well.top() for column in deepwell.columns()[:4] for well in column])

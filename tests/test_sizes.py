@@ -9,17 +9,17 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 11_200,
-    "preflight/checks": 2_530,
-    "preflight/database": 400,
-    "preflight/evidence": 1_000,
-    "preflight/judging": 970,
-    "preflight/opinion": 950,
-    "preflight/rehearsal": 1_200,
-    "preflight/roles": 1_100,
-    "preflight/rules": 800,
-    "preflight/source": 780,
-    "preflight/trace": 1_900,
+    "preflight": 11_070,
+    "preflight/checks": 2_570,
+    "preflight/database": 330,
+    "preflight/evidence": 770,
+    "preflight/judging": 985,
+    "preflight/opinion": 920,
+    "preflight/rehearsal": 1_140,
+    "preflight/roles": 1_070,
+    "preflight/rules": 660,
+    "preflight/source": 760,
+    "preflight/trace": 1_610,
     "": 65_000,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500

@@ -17,8 +17,8 @@ from ..preflight.rules import (
     SeriesSpec,
     ShapeSignal,
     Signal,
-    json_schema,
 )
+from .rule_schema import json_schema
 
 _PARTS: dict[type[Any], str] = {
     Family: "Family",

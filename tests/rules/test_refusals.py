@@ -12,9 +12,9 @@ import pytest
 
 from aegis_ot.errors import RuleError
 from aegis_ot.preflight import load_database
-from aegis_ot.preflight.database import family_schema
 from aegis_ot.preflight.roles.shapes import SHAPES
 from aegis_ot.preflight.rules.specs import Shape
+from aegis_ot.reports.rule_schema import family_schema
 
 ELISA = (Path(__file__).parents[2] / "examples" / "rules" / "elisa.json").read_text("utf-8")
 CARRY = {"check": "carry", "carried": ["sample"], "into": ["sample"]}

@@ -11,8 +11,9 @@ import pytest
 from aegis_ot.checking.rule_examples import run_examples
 from aegis_ot.errors import RuleError
 from aegis_ot.preflight import load_database
-from aegis_ot.preflight.database import family_schema, load_family, schema_text, shipped_rules
+from aegis_ot.preflight.database import load_family, shipped_rules
 from aegis_ot.preflight.rules import Family
+from aegis_ot.reports.rule_schema import family_schema, schema_text
 
 SIXTH = Path(__file__).parents[2] / "examples" / "rules" / "elisa.json"
 IDS = (

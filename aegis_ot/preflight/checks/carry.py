@@ -15,6 +15,9 @@ from .check import Check, Result, Violation, at, place, role_field
 from .unnamed import unnamed_contact
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
+_RINSED = "The tip was rinsed in between: what is left on it is a trace."
+_RINSES = 2
+"""So many times a tip is rinsed to be taken for clean, where nothing amplifies a trace."""
 
 
 @dataclass(frozen=True)
@@ -138,6 +141,20 @@ class Carry(Check):
         roles = case.family.roles
         return any(roles[role].one_liquid for role in case.of(well))
 
+    def _rinses_before(self, case: Case, visit: Visit) -> int:
+        """How often a shared liquid was drawn into the tip and given to the waste just before."""
+        rinses = 0
+        visits = case.by_tip[visit.tip]
+        for other in reversed(visits[: visits.index(visit)]):
+            if other.kind is OperationKind.ASPIRATE:
+                if not self._is_one_liquid(case, other.well):
+                    break
+            elif other.well.ref not in case.waste:
+                break
+            elif other.kind is OperationKind.DISPENSE:
+                rinses += 1
+        return rinses
+
     def _made_of(self, case: Case, visit: Visit, origin: Well) -> bool:
         """Whether the liquid is brought as a measured volume to make what the well is drawn for.
 
@@ -190,14 +207,20 @@ class Carry(Check):
         )
 
     def _practice(self, case: Case, visit: Visit, origin: Well, met: Met) -> str:
-        """Why going back into a shared stock is practice: all that is made of it from now on, at
-        last, is given whatever stood in the well that the tip comes from.
+        """Why it is practice: the tip was rinsed, and no trace is amplified; or it goes back into a
+        shared stock of which all that is made from now on, at last, is given whatever stood in the
+        well that the tip comes from.
         """
-        if not self.pooled or self.via_destination != "only" or met.well.prefilled:
+        if not self.pooled:
+            return ""
+        if case.family.default and self._rinses_before(case, visit) >= _RINSES:
+            return _RINSED
+        if self.via_destination != "only" or met.well.prefilled:
             return ""
         made = _made_after(case, visit.well, visit.index, further=True) - {visit.well}
         ends = [dest for dest in made if not _made_after(case, dest, visit.index, further=False)]
-        stood = {origin, *case.meant.get(met.well, {})}
+        brought = case.meant.get(met.well, {}).items()
+        stood = {origin, *(liquid for liquid, first in brought if first < visit.index)}
         told = all(
             any(case.same_liquid(one, other) for other in case.meant.get(dest, {}))
             for dest in ends

@@ -10,7 +10,7 @@ from itertools import islice
 from ...vocabulary import WellRef
 from ..roles import Roles
 from ..rules import Common, Family
-from ..trace import Met, Trace, Usage, Visit, Well
+from ..trace import Met, Tip, Trace, Usage, Visit, Well
 from .same_liquid import SameLiquid
 from .series import Series, find_series
 
@@ -43,6 +43,14 @@ class Case:
     waste: frozenset[WellRef] = frozenset()
     unsure: frozenset[WellRef] = frozenset()
     left_over: bool = False
+
+    @cached_property
+    def by_tip(self) -> Mapping[Tip, Sequence[Visit]]:
+        """What each tip did, in order."""
+        found: dict[Tip, list[Visit]] = {}
+        for visit in self.trace.visits:
+            found.setdefault(visit.tip, []).append(visit)
+        return found
 
     @property
     def family(self) -> Family:

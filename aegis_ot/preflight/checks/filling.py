@@ -19,6 +19,8 @@ from .dilution_steps import (
 )
 from .series import Series
 
+_GUESSED = "Several buffers are used, and none of them is called the diluent."
+
 
 @dataclass(frozen=True)
 class SeriesFilledFirst(Check):
@@ -59,7 +61,13 @@ class SeriesFilledFirst(Check):
                 if fills:
                     late = next(v for v in well.visits if v.index == fills[0])
                     sites.append(Site(late.line, well.ref, "the diluent comes only here"))
-                yield Violation(message, tuple(sites), well, (step.visit.line, bool(fills)))
+                yield Violation(
+                    message,
+                    tuple(sites),
+                    well,
+                    (step.visit.line, bool(fills)),
+                    warning=_GUESSED if case.roles.diluent_guessed else "",
+                )
 
 
 @dataclass(frozen=True)
@@ -73,6 +81,8 @@ class SeriesFilledFrom(Check):
         if not case.series:
             yield Doubt(NO_SERIES)
         diluent, stock = diluent_roles(case), stock_roles(case)
+        spec = case.family.series
+        buffers = frozenset(spec.diluent_else) if spec else frozenset()
         plates = {well.ref.labware for series in case.series for well in series.wells}
         served = case.trace.served()
         known = any(
@@ -99,6 +109,7 @@ class SeriesFilledFrom(Check):
                 if case.has(source, stock) and _is_in_all(case, series, source):
                     yield Doubt(f"all wells are given {place(source)}; it may be what dilutes")
                     continue
+                is_buffer = case.has(source, buffers)
                 yield Violation(
                     f"{place(step.well)} is filled from the {case.title(source)} "
                     f"{place(source)}, {at(line)}, where its diluent "
@@ -109,6 +120,7 @@ class SeriesFilledFrom(Check):
                     ),
                     step.well,
                     (visit.line, id(source)),
+                    warning=_GUESSED if case.roles.diluent_guessed and is_buffer else "",
                 )
 
     @staticmethod

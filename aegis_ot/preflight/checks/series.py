@@ -16,6 +16,8 @@ from ..trace import Trace, Transfer, Well, chains_of, links_of
 from .series_links import along_series, is_copying
 from .series_order import best_order, turned_to_fall
 
+_SHORTEST = 2
+
 
 @dataclass
 class Series:
@@ -40,10 +42,8 @@ class Series:
     fillers: frozenset[Well] = frozenset()
 
 
-def find_series(
-    trace: Trace, roles: Roles, waste: Collection[WellRef] = (), shortest: int = 2
-) -> list[Series]:
-    """All series with at least ``shortest`` transfers between their wells."""
+def find_series(trace: Trace, roles: Roles, waste: Collection[WellRef]) -> list[Series]:
+    """All series with at least two transfers between their wells."""
     spec = roles.family.series
     stock = frozenset(spec.stock) if spec else frozenset()
     diluent = frozenset(spec.diluent) if spec else frozenset()
@@ -62,7 +62,7 @@ def find_series(
     groups = [
         group
         for group in chains_of(links)
-        if len({(s.source, s.well) for s in group}) >= shortest and not is_copying(trace, group)
+        if len({(s.source, s.well) for s in group}) >= _SHORTEST and not is_copying(trace, group)
     ]
     linked = {well for group in groups for link in group for well in (link.source, link.well)}
     in_all = [_in_all(trace, roles, group, diluent) for group in groups]

@@ -88,6 +88,10 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
     """Why an imbalance is a warning, in a sentence; empty for an error."""
     visit, well = imbalance.visit, imbalance.visit.well
     if imbalance.overfilled:
+        if well.declared is not None and imbalance.volume <= well.declared:
+            return "So much is declared for it before the run: that, or the labware, is wrong."
+        if imbalance.volume - well.fallen <= well.capacity:
+            return "Drops that fall from so high over it may land elsewhere."
         if imbalance.volume > well.brim or _is_filled_again(case, visit):
             return ""
         return f"It stays below the brim ({well.brim:.4g} µL)."
@@ -97,8 +101,8 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
         return "It is drawn to mix, not to be delivered."
     fed = {
         given.well
-        for given in case.trace.visits
-        if given.tip is visit.tip and given.index > visit.index
+        for given in case.by_tip[visit.tip]
+        if given.index > visit.index
         if given.session == visit.session and any(part[0] is well for part in given.parts)
     }
     if all(_is_waste(case, one) for one in fed):

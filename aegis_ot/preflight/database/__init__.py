@@ -1,6 +1,5 @@
-"""The rule database: its files, their validation, their published schema."""
+"""The rule database: its files and their validation."""
 
 from .files import load_database, load_family, shipped_rules
-from .schema import family_schema, schema_text
 
-__all__ = ["family_schema", "load_database", "load_family", "schema_text", "shipped_rules"]
+__all__ = ["load_database", "load_family", "shipped_rules"]

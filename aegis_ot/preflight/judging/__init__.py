@@ -3,7 +3,7 @@
 from .doubts import missing_needs, spelled, unnamed_wells
 from .judging import judge, judge_reading
 from .options import Options
-from .reading import Reading, read_recording
+from .reading import Reading, read_recording, uncollected
 from .report import Report, RoleEvidence, unanswered, verdict_of
 from .waivers import MODEL, Waived, Waiver, apply_waivers, read_waivers
 
@@ -23,6 +23,7 @@ __all__ = [
     "read_waivers",
     "spelled",
     "unanswered",
+    "uncollected",
     "unnamed_wells",
     "verdict_of",
 ]

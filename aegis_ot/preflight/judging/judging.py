@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from ...instrumentation import OperationKind
 from ...vocabulary import Remark, Severity, Undecided
 from ..checks import Case, Doubt, Violation, make_check
 from ..evidence import Deck, Kind, unknown_places
@@ -128,7 +129,16 @@ def _are_named(wells: Sequence[Well], case: Case) -> bool:
         return False
     if not case.left_over or len(unsaid) < len(wells) or not wells:
         return True
-    return any(case.roles.says_what_it_holds(well.ref) for well in wells)
+    return any(
+        case.roles.says_what_it_holds(well.ref)
+        # A "sample plate" that is only given water may be one for samples.
+        and (not roles[well.ref].evidence[0].whole or _is_drawn(well))
+        for well in wells
+    )
+
+
+def _is_drawn(well: Well) -> bool:
+    return any(visit.kind is OperationKind.ASPIRATE for visit in well.visits)
 
 
 def _report(

@@ -60,21 +60,20 @@ def stopped(
     return RehearsalError(f"{where}: {told}", line)
 
 
-def is_unexecuted(result: Any) -> bool:
-    """Whether calling ``run`` gave something that was to be executed, and never is."""
-    kinds = (inspect.isgenerator, inspect.isasyncgen, inspect.iscoroutine)
-    return any(is_kind(result) for is_kind in kinds)
-
-
-def never_executed(result: Any, file_name: str) -> RehearsalError:
-    """The error of a ``run`` that gives a generator or a coroutine, and so executes nothing."""
+def never_executed(result: Any, file_name: str) -> RehearsalError | None:
+    """The error of a ``run`` that gives a generator or a coroutine, and so executes nothing;
+    ``None`` for any other result.
+    """
+    told = "it is async"
     if inspect.isgenerator(result):
         code, told = result.gi_code, "it is a generator: a yield stands in it"
-    else:
-        code = result.cr_code if inspect.iscoroutine(result) else result.ag_code
-        told = "it is async"
-    if inspect.iscoroutine(result):
+    elif inspect.isasyncgen(result):
+        code = result.ag_code
+    elif inspect.iscoroutine(result):
+        code = result.cr_code
         result.close()  # else Python warns that nobody awaits it
+    else:
+        return None
     line = code.co_firstlineno if code.co_filename == file_name else None
     where = f"{file_name}, line {line}" if line else file_name
     name = "run" if code.co_name == "run" else f"what run returns, {code.co_name},"

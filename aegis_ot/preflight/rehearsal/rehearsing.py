@@ -18,7 +18,7 @@ from .interruption import interrupted_after
 from .loading import load
 from .parameters import Limit, copied_parameters, lacking_files, plain_values, runtime_parameters
 from .recording import Recorder, Recording
-from .refusals import is_unexecuted, never_executed, stopped
+from .refusals import never_executed, stopped
 from .script import Script, being_played
 from .simulated_context import simulated_context
 from .virtual_time import builtins_in_virtual_time
@@ -131,8 +131,8 @@ def _perform(
             if not callable(run):
                 raise RehearsalError(f"{file_name} defines no function run(protocol).")
             result = wrap(run)(context)
-            if is_unexecuted(result):
-                raise never_executed(result, file_name)
+            if (unexecuted := never_executed(result, file_name)) is not None:
+                raise unexecuted
     except AegisError:
         raise
     except Exception as error:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ..evidence import DOUBTFUL, Evidence, Kind
@@ -78,7 +78,7 @@ def infer_families(
     scored = []
     for family in database.families:
         found = _found(family, texts, database.common)
-        found += _seen(family, shapes, bool(found), roles_of)
+        found += _seen(family, shapes, bool(found))
         if family.known_by and found and not (_score(found) >= SURE and _defines(found)):
             told = _shown(found) and any(one.defining for one in found)
             named = _named_roles(roles_of(family), in_texts=told)
@@ -120,28 +120,13 @@ def infer_families(
     if given or any(inference.applies for inference in inferences):
         inferences.sort(key=lambda i: (not i.applies, i.family in odd, -i.score))
         return inferences
-    return [
-        _as_default(inference) if _is_default(database, inference.family) else inference
-        for inference in sorted(
-            inferences, key=lambda i: (not _is_default(database, i.family), -i.score)
-        )
+    inferences = [
+        replace(i, reasons=(*i.reasons, "no other family fits"), applies=True, left_over=True)
+        if database.family(i.family).default
+        else i
+        for i in inferences
     ]
-
-
-def _is_default(database: Database, name: str) -> bool:
-    return database.family(name).default
-
-
-def _as_default(inference: Inference) -> Inference:
-    return Inference(
-        inference.family,
-        inference.score,
-        inference.confidence,
-        (*inference.reasons, "no other family fits"),
-        True,
-        inference.sure,
-        True,
-    )
+    return sorted(inferences, key=lambda i: (not i.left_over, -i.score))
 
 
 def _texts(
@@ -208,18 +193,13 @@ def _nothing_against(found: Sequence[_Found]) -> bool:
 
 
 def _seen(
-    family: Family,
-    shapes: Mapping[str, tuple[float, str]],
-    spoken: bool,
-    roles_of: Callable[[Family], Roles],
+    family: Family, shapes: Mapping[str, tuple[float, str]], spoken: bool
 ) -> Iterable[_Found]:
     """What the shapes of the run say of a family; most of them only beside words."""
     for signal in family.shapes:
         if not (spoken or signal.defining):
             continue
         if signal.shape in shapes and shapes.keys().isdisjoint(signal.unless):
-            if signal.unless_named and _named_roles(roles_of(family)) & {*signal.unless_named}:
-                continue
             clear, said = shapes[signal.shape]
             defining = signal.defining and clear >= 1
             yield _Found(signal.weight * clear, said, LONE if defining else 0.0, defining, True)

@@ -142,10 +142,11 @@ def _chosen(
             if best.evidence.kind <= Kind.PASSING_NAME:
                 return None
     agreeing = [other for other in found if not _differ(roles, best, other)]
-    evidence = dict.fromkeys([best.evidence, *(other.evidence for other in agreeing)])
+    # By identity: each piece is there once, and comparing pieces of many wells is dear.
+    evidence = {id(one.evidence): one.evidence for one in (best, *agreeing)}
     levels = [other.level for other in agreeing if other.level is not None]
     level = best.level if best.level is not None else next(iter(levels), None)
-    return Assignment(best.role, tuple(evidence), level, conflict)
+    return Assignment(best.role, tuple(evidence.values()), level, conflict)
 
 
 def _differ(roles: Roles, one: Candidate, other: Candidate) -> bool:

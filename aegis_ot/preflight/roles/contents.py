@@ -52,6 +52,7 @@ def settle_diluent(roles: Roles, trace: Trace) -> None:
     if not filled:
         _settle_by_use(roles, trace, spec.diluent[0])
         return
+    roles.diluent_guessed = len(filled) > 1
     total = len(set().union(*filled.values()))
     for text, wells in filled.items():
         if len(wells) >= _SHARE * total:

@@ -58,6 +58,7 @@ class Roles:
         unnamed: Wells with a loaded liquid whose name is none of the family's words.
         unread: Evidence that names no role that fits its wells.
         apart: Unnamed wells that each serve one well of their own, and so hold different things.
+        diluent_guessed: Whether use alone tells which of several buffers dilutes.
     """
 
     family: Family
@@ -67,6 +68,7 @@ class Roles:
     unnamed: set[WellRef] = field(default_factory=set)
     unread: list[Evidence] = field(default_factory=list)
     apart: set[WellRef] = field(default_factory=set)
+    diluent_guessed: bool = False
     _closure: dict[str, frozenset[str]] = field(default_factory=dict)
 
     def of(self, ref: WellRef) -> frozenset[str]:

@@ -6,11 +6,9 @@ checks that they name, in :mod:`aegis_ot.preflight.database`.
 
 from .common import READABLE, SCHEMA_VERSION, Common
 from .database import Database
-from .described import meanings
 from .json_text import parse_json
 from .limits import AtLeast, Word
-from .reading import read_dataclass
-from .schema import json_schema
+from .reading import hints_of, is_required, public_fields, read_dataclass
 from .specs import (
     Example,
     Examples,
@@ -39,8 +37,9 @@ __all__ = [
     "ShapeSignal",
     "Signal",
     "Word",
-    "json_schema",
-    "meanings",
+    "hints_of",
+    "is_required",
     "parse_json",
+    "public_fields",
     "read_dataclass",
 ]

@@ -2,7 +2,7 @@
 
 The robot has no pydantic and no jsonschema; a rule file must still be refused with the file,
 the rule and the field that is wrong. What is refused here is refused by the published schema
-(:mod:`.schema`) as well: both go by the types and limits that the dataclasses declare.
+(:mod:`aegis_ot.reports.rule_schema`) as well: both go by the types and limits of the dataclasses.
 """
 
 from __future__ import annotations

@@ -49,18 +49,15 @@ class ShapeSignal:
 
     Attributes:
         shape: ``chain``, ``pooling`` or ``reactions``.
-        weight: How much it counts for three wells; twice as much from six on. A chain counts
-            twice where its wells were filled from one place before, and a culture plate once.
+        weight: How much it counts for three wells; twice as much from six on.
         unless: Shapes beside which it says nothing.
         defining: Whether it can make the family known.
-        unless_named: Roles of the family: it says nothing where a well is named for one of them.
     """
 
     shape: Shape
     weight: float
     unless: tuple[Shape, ...] = ()
     defining: bool = False
-    unless_named: tuple[str, ...] = role_names()
 
 
 @dataclass(frozen=True)

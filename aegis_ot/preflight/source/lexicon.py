@@ -19,8 +19,6 @@ _PIECES = re.compile(r"#|[A-Z]{2,}s(?![a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+(?:
 _MIXED = re.compile(r"(?<![A-Za-z])[A-Za-z]*[a-z][A-Z][A-Za-z]*")
 """A word with a capital inside."""
 
-_SHORTEST_PART = 3
-
 
 class Match(NamedTuple):
     """A phrase found: its topic, the phrase, and which tokens it covers."""
@@ -79,18 +77,14 @@ class Lexicon:
         phrases: For each topic its phrases. A phrase that stands under several topics is
             reported for each.
         aliases: Abbreviations and what they stand for, word by word.
-        endings: What compound words may end in: with ``reagenz``, "Bradfordreagenz" is read as
-            "Bradford Reagenz", unless a phrase begins with the whole word.
     """
 
     def __init__(
         self,
         phrases: Mapping[str, Sequence[str]],
         aliases: Mapping[str, str] | None = None,
-        endings: Sequence[str] = (),
     ) -> None:
         self._aliases = aliases or {}
-        self._endings = tuple(tokens(ending)[0] for ending in endings)
         self._by_first: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
         for topic, listed in phrases.items():
             for phrase in listed:
@@ -113,8 +107,8 @@ class Lexicon:
         return found
 
     def words(self, text: str) -> tuple[str, ...]:
-        """The words of a text that matches count: abbreviations spelled out, compounds cut."""
-        return self._cut(self._full(tokens(_MIXED.sub(self._joined, text))))
+        """The words of a text that matches count: abbreviations spelled out."""
+        return self._full(tokens(_MIXED.sub(self._joined, text)))
 
     def _joined(self, written: re.Match[str]) -> str:
         """One word of "HeLa" or "siRNA", where the lists have that and none of its parts."""
@@ -122,20 +116,6 @@ class Lexicon:
         if any(part in self._by_first for part in tokens(written.group())):
             return written.group()
         return word if tokens(word)[0] in self._by_first else written.group()
-
-    def _cut(self, words: tuple[str, ...]) -> tuple[str, ...]:
-        """Compound words cut before their last part, the longest one that fits."""
-        if not self._endings or all(word in self._by_first for word in words):
-            return words
-        parts: list[str] = []
-        for word in words:
-            fitting = [end for end in self._endings if word.endswith(end)]
-            ending = max(fitting, key=len, default=word)
-            if word in self._by_first or len(word) - len(ending) < _SHORTEST_PART:
-                parts.append(word)
-            else:
-                parts += [word[: -len(ending)], ending]
-        return tuple(parts)
 
     def _full(self, words: tuple[str, ...]) -> tuple[str, ...]:
         aliases = self._aliases
@@ -163,17 +143,15 @@ class Lexicon:
 def lexicon_of(
     phrases: Mapping[str, Sequence[str]],
     aliases: Mapping[str, str] | None = None,
-    endings: Sequence[str] = (),
 ) -> Lexicon:
     """The lexicon of a rule file's lists (see :class:`Lexicon`), made once for equal lists."""
     listed = tuple((topic, tuple(words)) for topic, words in phrases.items())
-    return _made(listed, tuple((aliases or {}).items()), tuple(endings))
+    return _made(listed, tuple((aliases or {}).items()))
 
 
 @functools.lru_cache(maxsize=128)
 def _made(
     phrases: tuple[tuple[str, tuple[str, ...]], ...],
     aliases: tuple[tuple[str, str], ...],
-    endings: tuple[str, ...],
 ) -> Lexicon:
-    return Lexicon(dict(phrases), dict(aliases), endings)
+    return Lexicon(dict(phrases), dict(aliases))

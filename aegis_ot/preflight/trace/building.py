@@ -20,6 +20,9 @@ from .trace import Trace
 _MOST = 0.5
 """A mix gives back at least this share of what it drew."""
 
+_FALLS_MM = 20.0
+"""A drop let go higher over a well's top than this may land anywhere."""
+
 
 def build_trace(
     log: Iterable[Record],
@@ -223,6 +226,8 @@ class _Builder:
             unsure = min(tip.unsure, volume)
             tip.unsure -= unsure
             well.add(volume, liquid, unsure)
+        if step.from_top is not None and step.from_top > _FALLS_MM:
+            well.fallen += visit.volume
         if well.least > well.capacity + _slack(well.capacity) and visit.volume > 0:
             self._trace.imbalances.append(Imbalance(visit, True, well.least, well.capacity))
         if visit.empty_before:

@@ -56,6 +56,7 @@ class Well:
         most: What it holds at most while that is unknown, µL: a full well less what was taken.
         unsure: µL of ``volume`` that may not be there: air drawn beyond what a source held, or
             what was there before somebody may have changed it by hand.
+        fallen: µL let go so high over it that they may land elsewhere.
     """
 
     ref: WellRef
@@ -74,6 +75,7 @@ class Well:
     fed: bool = False
     most: float = math.inf
     unsure: float = 0.0
+    fallen: float = 0.0
     pure: Composition = field(init=False)
     last: Composition = field(init=False)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from dataclasses import dataclass, field
 
 from ...instrumentation import LabwareInfo
@@ -36,6 +36,7 @@ class Trace:
     descriptions: dict[str, str] = field(default_factory=dict)
     groups: dict[WellRef, tuple[WellRef, ...]] = field(default_factory=dict)
     singles: set[WellRef] = field(default_factory=set)
+    _served: dict[bool, dict[WellRef, set[WellRef]]] = field(default_factory=dict)
 
     def deliveries(self, well: Well) -> Iterator[Visit]:
         """Visits that brought liquid from elsewhere into ``well``."""
@@ -51,17 +52,18 @@ class Trace:
                     if source is not None and source is not well:
                         yield source, well, visit
 
-    def served(self, prefilled: bool = False) -> dict[WellRef, set[WellRef]]:
-        """For each well the wells that liquid drawn from it came into.
+    def served(self, prefilled: bool = False) -> Mapping[WellRef, Set[WellRef]]:
+        """For each well the wells that liquid drawn from it came into; asked once all is read.
 
         Args:
             prefilled: Only of wells that held liquid before the run.
         """
-        found: dict[WellRef, set[WellRef]] = {}
-        for source, well, _ in self.feedings():
-            if source.prefilled or not prefilled:
-                found.setdefault(source.ref, set()).add(well.ref)
-        return found
+        if prefilled not in self._served:
+            found = self._served[prefilled] = {}
+            for source, well, _ in self.feedings():
+                if source.prefilled or not prefilled:
+                    found.setdefault(source.ref, set()).add(well.ref)
+        return self._served[prefilled]
 
     def mixed_since(self, well: Well, index: int, before: float) -> bool:
         """Whether ``well`` was mixed or shaken after ``index`` and before ``before``."""

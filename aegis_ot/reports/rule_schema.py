@@ -1,15 +1,44 @@
-"""Writes the JSON Schema of dataclasses that are read from JSON."""
+"""The published JSON Schema of rule files, made from the dataclasses that read them."""
 
 from __future__ import annotations
 
 import dataclasses
+import inspect
+import json
+import re
 import types
 import typing
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from .described import meanings, summary
-from .reading import hints_of, is_required, public_fields
+from ..preflight.checks import CHECKS
+from ..preflight.rules import READABLE, Family, hints_of, is_required, public_fields
+
+
+def family_schema() -> dict[str, Any]:
+    """JSON Schema (draft 2020-12) of a family file, every check with its parameters."""
+    schema = json_schema(Family)
+    schema["title"] = "aegis_ot assay family"
+    schema["properties"]["$schema"] = {"type": "string"}
+    schema["properties"]["schema"]["enum"] = list(READABLE)
+    schema["$defs"]["RuleSpec"]["properties"]["checks"]["items"] = {"oneOf": _checks()}
+    return schema
+
+
+def _checks() -> list[dict[str, Any]]:
+    described = []
+    for name, check in CHECKS.items():
+        schema = json_schema(check)
+        schema.pop("$schema")
+        schema["properties"]["check"] = {"const": name}
+        schema["required"] = ["check", *schema["required"]]
+        described.append(schema)
+    return described
+
+
+def schema_text() -> str:
+    """The schema as the file ``rules/family.schema.json`` holds it."""
+    return json.dumps(family_schema(), indent=1, ensure_ascii=False) + "\n"
 
 
 def json_schema(cls: type[Any]) -> dict[str, Any]:
@@ -54,7 +83,7 @@ def _schema_of(hint: Any, definitions: dict[str, Any]) -> dict[str, Any]:
 
 
 def _object_schema(cls: type[Any], definitions: dict[str, Any]) -> dict[str, Any]:
-    fields, hints, told = public_fields(cls), hints_of(cls), meanings(cls)
+    fields, hints, told = public_fields(cls), hints_of(cls), _meanings(cls)
     properties = {}
     for f in fields:
         schema = properties[f.name] = _schema_of(hints[f.name], definitions)
@@ -64,8 +93,25 @@ def _object_schema(cls: type[Any], definitions: dict[str, Any]) -> dict[str, Any
             schema["default"] = f.default
     return {
         "type": "object",
-        "description": summary(cls),
+        "description": _summary(cls),
         "properties": properties,
         "required": [f.name for f in fields if is_required(f)],
         "additionalProperties": False,
     }
+
+
+def _summary(cls: type[Any]) -> str:
+    """The first sentence or two: all before the first empty line, on one line."""
+    return _plain((inspect.getdoc(cls) or "").split("\n\n")[0])
+
+
+def _meanings(cls: type[Any]) -> dict[str, str]:
+    """For each field under "Attributes" what it means, on one line."""
+    _, _, text = (inspect.getdoc(cls) or "").partition("Attributes:\n")
+    entries = re.split(r"\n(?=    \S)", text.split("\n\n")[0].rstrip())
+    told = (_plain(entry).partition(": ") for entry in entries if entry)
+    return {name: meaning for name, _, meaning in told}
+
+
+def _plain(text: str) -> str:
+    return re.sub(r":\w+:`([^`]*)`", r"`\1`", " ".join(text.split())).replace("``", "`")
