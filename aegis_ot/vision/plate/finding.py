@@ -118,6 +118,7 @@ def _fit(image: Image, corners: Corners, plate: PlateFormat) -> tuple[float, Fou
     votes = _votes(cv2.cvtColor(straight, cv2.COLOR_BGR2GRAY), plate)
     middle = np.array(size) / 2
     places = _coarse(votes, plate, middle)
+    grid: Points | None = None
     for reach in (0.35, 0.35, 0.25, 0.18):
         seen, strong = _peaks(votes, plate, places, reach * plate.pitch_mm * _SCALE)
         grid = _grid(plate, seen, strong)
@@ -125,6 +126,7 @@ def _fit(image: Image, corners: Corners, plate: PlateFormat) -> tuple[float, Fou
             return None
         grid = _set_right(votes, plate, grid)
         places = cv2.perspectiveTransform(plate.centres().reshape(-1, 1, 2), grid).reshape(-1, 2)
+    assert grid is not None
     off = np.linalg.norm(seen - places, axis=1) / (plate.pitch_mm * _SCALE)
     share = float(((off < _WITHIN) & strong).mean())
     like = _contrast(votes, plate, grid)
