@@ -2,7 +2,7 @@
 
 from .finding import LEAST_PITCH_PX, FoundPlate, find_plate
 from .formats import FORMATS, PlateFormat
-from .measuring import Change, change_between
+from .measuring import Change, PlateLight, change_between, plate_light
 
 __all__ = [
     "FORMATS",
@@ -10,6 +10,8 @@ __all__ = [
     "Change",
     "FoundPlate",
     "PlateFormat",
+    "PlateLight",
     "change_between",
     "find_plate",
+    "plate_light",
 ]

@@ -1,4 +1,4 @@
-"""How the colour of each well changed between two pictures of a plate."""
+"""The light of each well of a plate in a picture, and how it changed from one to another."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from ..types import Image
 from .finding import FoundPlate
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 
 _CORE = 0.55
 """Share of a well's radius within which its colour is read: beyond are walls and meniscus."""
@@ -23,7 +24,35 @@ _SATURATED, _BLACK = 250, 3
 """Grey levels from which on, and up to which, a pixel tells nothing."""
 
 _GLARE = 0.35
-"""Share of a well's core that may be saturated or black: beyond, its colour is not told."""
+"""Share of a well's core that may be saturated, black or outside the picture: beyond, its colour is
+not told."""
+
+_HALO_MM = 15.0
+"""Pitch below which a lamp's reflection that hides a well reaches the wells beside it as well."""
+
+_COVERED, _SHADED = 0.25, 0.8
+"""Changes of the plate's own surface around a well, in colour and in light (natural logarithms,
+beside the plate's median), from which something lies over it: a hand, a label, a lid."""
+
+
+@dataclass(frozen=True)
+class PlateLight:
+    """A plate's wells in one picture, row by row from A1.
+
+    Attributes:
+        wells: Natural logarithm of each well's light by that of the plate beside it,
+            ``(wells, 3)``; blue, green, red.
+        beside: Natural logarithm of the light of the plate beside each well, ``(wells, 3)``.
+        blinded: Whether glare, darkness or the picture's edge hides a well.
+    """
+
+    wells: Array
+    beside: Array
+    blinded: Flags
+
+    def turned(self) -> PlateLight:
+        """The same with A1 at the opposite corner."""
+        return PlateLight(self.wells[::-1], self.beside[::-1], self.blinded[::-1])
 
 
 @dataclass(frozen=True)
@@ -34,40 +63,42 @@ class Change:
         absorbed: Light lost since, ``(wells, 3)``: natural logarithm of the well's light by its
             surroundings' before, less the same after; blue, green, red. By Beer-Lambert it grows
             with the amount of dye over an area. Positive is darker.
-        blinded: Whether glare, or darkness, hides the well in either picture.
+        blinded: Whether glare, darkness or a thing over it hides the well in either picture.
     """
 
     absorbed: Array
-    blinded: NDArray[np.bool_]
+    blinded: Flags
 
 
-def change_between(
-    before: Image, found_before: FoundPlate, after: Image, found_after: FoundPlate
-) -> Change:
-    """Measure every well of a plate that was found in both pictures.
+def plate_light(image: Image, found: FoundPlate) -> PlateLight:
+    """Measure every well of a plate.
 
-    Each well is compared with the plate between the wells beside it, so that light which falls
+    Each is compared with the plate between the wells beside it, so that light which falls
     unevenly, and another exposure or white balance, weigh little.
     """
-    first, hidden_first = _relative(before, found_before)
-    second, hidden_second = _relative(after, found_after)
-    return Change(first - second, hidden_first | hidden_second)
-
-
-def _relative(image: Image, found: FoundPlate) -> tuple[Array, NDArray[np.bool_]]:
-    """Logarithm of each well's light by that of the plate around it; and whether it is hidden."""
     plate = found.plate
     wells, hidden = _light(image, found, plate.centres(), _CORE * plate.radius_mm)
+    if plate.pitch_mm < _HALO_MM:
+        near = hidden.reshape(plate.rows, plate.columns).astype(np.uint8)
+        hidden = cv2.dilate(near, np.ones((3, 3), np.uint8)).ravel() > 0
     corner = plate.radius_mm * (2**0.5 if plate.square else 1.0)
     gap = 0.45 * (plate.pitch_mm / 2**0.5 - corner)
-    between = plate.centres(margin=1, shift=0.5)
-    light, _ = _light(image, found, between, gap)
-    rows, columns = plate.rows + 2, plate.columns + 2
-    grid = light.reshape(rows, columns, 3)[:-1, :-1]
+    light, _ = _light(image, found, plate.centres(margin=1, shift=0.5), gap)
+    grid = light.reshape(plate.rows + 2, plate.columns + 2, 3)[:-1, :-1]
     around = np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, :-1], grid[1:, 1:]])
     # The mean of the middle two: one of the four may be a scratch or a glint.
     beside = np.median(around, axis=0).reshape(-1, 3)
-    return wells - beside, hidden
+    return PlateLight(wells - beside, beside, hidden)
+
+
+def change_between(before: PlateLight, after: PlateLight) -> Change:
+    """What changed in each well of a plate that was measured twice."""
+    around = before.beside - after.beside
+    around = around - np.median(around, axis=0)
+    light = around.mean(axis=1)
+    covered = np.abs(around - light[:, None]).max(axis=1) > _COVERED
+    blinded = before.blinded | after.blinded | covered | (np.abs(light) > _SHADED)
+    return Change(before.wells - after.wells, blinded)
 
 
 def _light(
@@ -82,6 +113,9 @@ def _light(
     shape = (len(places), len(disc))
     seen = cv2.remap(image, at[:, 0].reshape(shape), at[:, 1].reshape(shape), cv2.INTER_LINEAR,
                      borderMode=cv2.BORDER_REPLICATE).astype(np.float64)  # fmt: skip
-    lost = (seen.max(axis=2) >= _SATURATED) | (seen.max(axis=2) <= _BLACK)
+    tall, wide = image.shape[:2]
+    outside = (at < 0).any(axis=1) | (at[:, 0] > wide - 1) | (at[:, 1] > tall - 1)
+    brightest = seen.max(axis=2)
+    lost = (brightest >= _SATURATED) | (brightest <= _BLACK) | outside.reshape(shape)
     linear = (np.clip(seen, 1, 255) / 255) ** 2.2
     return np.median(np.log(linear), axis=1), lost.mean(axis=1) > _GLARE
