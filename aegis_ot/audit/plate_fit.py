@@ -79,6 +79,11 @@ class PlateReading:
         return sorted((one for one in self.wells if one.state == state), key=lambda one: -one.score)
 
     @property
+    def shows(self) -> bool:
+        """Whether any well shows the change that its liquids make elsewhere."""
+        return any((one.share or 0.0) > _OFF for one in self.wells)
+
+    @property
     def contradicting(self) -> int:
         """Wells that contradict the record and the run's own verdict."""
         return sum(one.state == CONTRADICTS and not one.why for one in self.wells)

@@ -12,13 +12,13 @@ import numpy as np
 
 from ..errors import ConfigurationError
 from ..vision.plate import (
-    FORMATS,
     LEAST_PITCH_PX,
     FoundPlate,
     PlateFormat,
     PlateLight,
     change_between,
     find_plate,
+    other_kind,
     plate_light,
 )
 from ..vision.types import Image
@@ -121,10 +121,9 @@ def read_picture(path: Path, plate: PlateFormat) -> PlatePicture:
         raise ConfigurationError(f"--plate: {path} is no picture that can be read (JPEG, PNG).")
     image = np.asarray(decoded, np.uint8)
     found = find_plate(image, plate)
-    if found is None:
-        others = (other for other in FORMATS.values() if other is not plate)
-        other = next((one for one in others if find_plate(image, one) is not None), None)
-        seen = f"It looks like one of {other.wells} wells. " if other else ""
+    other = other_kind(image, found)
+    if found is None or other is not None:
+        seen = f"It rather looks like one of {other.wells} wells. " if other else ""
         raise ConfigurationError(
             f"--plate: in {path} no plate of {plate.wells} wells is found. {seen}Take the picture "
             "from straight above, the whole plate in it with some of what it stands on, without a "
@@ -166,20 +165,18 @@ def compare_pictures(
             f"A1 is taken to be at the {corners[0]} of {before.name} and the {corners[1]} of "
             f"{after.name}." + same
         )
-    if doubt:
-        reading = replace(reading, wells=[_doubted(one) for one in reading.wells])
-    elif not any(one.share is not None for one in reading.wells):
-        doubt = (
-            "No well shows the change of a delivery: its liquids are too clear for these pictures, "
-            "both were taken before the run or both after it, or nothing arrived."
-        )
     arrived = [one.well for one in reading.wells if one.state == AGREES and one.why]
+    if doubt:
+        # Nothing that such pictures say of a well is worth anything, be it good or bad.
+        doubted = [WellReading(one.well, UNJUDGED, "doubt") for one in reading.wells]
+        reading = replace(reading, wells=doubted)
+    else:
+        notes += [*([arrived_words(arrived)] if arrived else ()),
+                  *unjudged_words(reading, recorded)]  # fmt: skip
     return PlateAudit(
         recorded.title, recorded.plate.rows, recorded.plate.columns, before.name, after.name,
         corners, bool(a1), doubt, reading.wells,
-        [contradiction_words(one, recorded) for one in reading.of(CONTRADICTS)],
-        [*notes, *([arrived_words(arrived)] if arrived else ()),
-         *unjudged_words(reading, recorded)],
+        contradiction_words(reading, recorded), notes,
     )  # fmt: skip
 
 
@@ -207,7 +204,8 @@ def _turned(
     off, judged = reading.contradicting, _judged(reading)
     for turn in ((True, True), (False, True), (True, False)):
         other = _read(lights, turn, recorded)
-        if off and _CLEARLY * other.contradicting <= off and _judged(other) >= judged:
+        better = _CLEARLY * other.contradicting <= off and _judged(other) >= judged
+        if off and better and other.shows:
             ways = [opposite(one) if way else one for one, way in zip(corners, turn, strict=True)]
             said = f"--a1 {ways[0]}" + (f" --a1 {ways[1]}" if ways[0] != ways[1] else "")
             return (
@@ -216,7 +214,8 @@ def _turned(
                 f"it): a plate seems to lie turned. Look where A1 is, and say {said} if it is so.",
                 "",
             )
-        if turn == (True, True) and _judged(other) >= judged and other.contradicting <= off + 1:
+        same = _judged(other) >= judged and other.contradicting <= off + 1
+        if turn == (True, True) and same and other.shows:
             return "", " The record fits as well with A1 opposite: say with --a1 where it is."
     return "", ""
 
@@ -224,6 +223,3 @@ def _turned(
 def _judged(reading: PlateReading) -> int:
     return sum(one.state != UNJUDGED for one in reading.wells)
 
-
-def _doubted(one: WellReading) -> WellReading:
-    return replace(one, state=UNJUDGED, why="doubt") if one.state == CONTRADICTS else one

@@ -20,34 +20,49 @@ _UNJUDGED: Mapping[str, str] = {
     "unknown": "the record does not tell what {they} held: liquid that was there before the run "
     "was drawn, or a delivery was given up.",
     "alone": "too few other wells got the same liquids to compare the colour with.",
-    "doubt": "the pictures as a whole do not fit the record (see above).",
 }
 
 
-def contradiction_words(one: WellReading, recorded: RecordedPlate) -> str:
-    """``"B3 shows no change although 50 µL of dye were dispensed into it."``."""
-    told = recorded.wells.get(one.well)
-    if told is None or not told.gained:
-        return f"{one.well} changed although the record tells of no delivery into it."
-    held, share = _held(told.gained), one.share
+def contradiction_words(reading: PlateReading, recorded: RecordedPlate) -> list[str]:
+    """``"B3 shows no change although 50 µL of dye were dispensed into it."``, the farthest off
+    first; wells of which the same is said stand together."""
+    told: dict[tuple[str, str, str], list[str]] = {}
+    for one in reading.of(CONTRADICTS):
+        well = recorded.wells.get(one.well)
+        held = _held(well.gained) if well is not None else ""
+        told.setdefault((*_contradiction(one, held), one.why), []).append(one.well)
+    said = []
+    for (single, many, why), wells in told.items():
+        order = sorted(wells, key=recorded.plate.names.index)
+        known = " The run had failed it, too." if len(wells) == 1 else " The run had failed them."
+        words = single if len(wells) == 1 else many
+        said.append(f"{listed(order)} {words}{known if why else ''}")
+    return said
+
+
+def _contradiction(one: WellReading, held: str) -> tuple[str, str]:
+    """What is said of a well, and of several."""
+    share = one.share
+    if not held:
+        said = "changed although the record tells of no delivery into"
+        return f"{said} it.", f"{said} them."
     if share is None:
-        said = f"{one.well} changed although {held} show too little in other wells to be seen."
-    elif share <= _NOTHING:
-        change = "shows no change" if share > -_NOTHING else "became lighter"
-        said = f"{one.well} {change} although {held} were dispensed into it."
-    elif one.other:
-        said = (
-            f"{one.well} changed, but not to the colour of the other wells with these liquids: "
-            f"{held} were dispensed into it."
-        )
-    elif _LESS < share < _MORE:
-        said = f"{one.well} does not show the change that {held} make in other wells."
-    else:
-        said = (
-            f"{one.well} shows {share * 100:.0f} % of the change that {held} make in other wells: "
-            f"too {'little' if share < 1 else 'much'} may be in it."
-        )
-    return said + (" The run had failed it, too." if one.why == "known" else "")
+        said = f"changed although {held} are too clear in other wells to be seen."
+        return said, said
+    if share <= _NOTHING:
+        change = ("shows", "show") if share > -_NOTHING else ("became", "became")
+        what = "no change" if share > -_NOTHING else "lighter"
+        said = f"{what} although {held} were dispensed into"
+        return f"{change[0]} {said} it.", f"{change[1]} {said} each of them."
+    if one.other:
+        said = f"changed, but to another colour than {held} give other wells."
+        return said, said
+    amount = f"{share * 100:.0f} % of" if not _LESS < share < _MORE else "not quite"
+    said = f"{amount} the change that {held} make in other wells"
+    if amount.endswith("of"):
+        said += f": too {'little' if share < 1 else 'much'} may be in"
+        return f"shows {said} it.", f"show {said} them."
+    return f"shows {said}.", f"show {said}."
 
 
 def arrived_words(wells: Sequence[str]) -> str:
@@ -89,18 +104,26 @@ def doubt_words(reading: PlateReading, recorded: RecordedPlate, before: str, aft
     """Why the pictures are to be doubted as a whole; empty if nothing speaks against them."""
     judged = len(reading.wells) - len(reading.of(UNJUDGED))
     off = [one.well for one in reading.of(CONTRADICTS) if not one.why]
-    check = f"that both show {recorded.title}, that {before} was taken before the run and {after} after it"
+    check = (
+        f"Check that both pictures show {recorded.title}, that {before} was taken before the run "
+        f"and {after} after it, and where A1 is (--a1)."
+    )
     if reading.lighter:
         return (
             "The wells that received liquid are lighter in the second picture than in the first: "
-            f"are they in the wrong order? Check {check}."
+            f"are they in the wrong order? {check}"
+        )
+    order = listed(sorted(off, key=recorded.plate.names.index))
+    if not reading.shows and recorded.wells:
+        others = f", but other wells do: {order}" if len(off) > 1 else ""
+        return (
+            f"None of the wells that received liquid shows a change{others}. {check} If all that is "
+            "right, their liquids are too clear for these pictures, or nothing arrived."
         )
     if len(off) > 1 and 3 * len(off) > judged:
-        order = sorted(off, key=recorded.plate.names.index)
         return (
             f"{len(off)} of {counted(judged, 'judged well')} contradict the record: rather the "
-            f"pictures are wrong than so many wells. Check {check}, and where A1 is "
-            f"(--a1). If all that is right, look at {listed(order)}."
+            f"pictures are wrong than so many wells. {check} If all that is right, look at {order}."
         )
     return ""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter
 
 from ..types import Image
-from .formats import LENGTH_MM, WIDTH_MM, PlateFormat
+from .formats import FORMATS, LENGTH_MM, WIDTH_MM, PlateFormat
 from .outline import Corners, outlines
 
 Points = NDArray[np.float64]
@@ -41,6 +41,9 @@ _LEAST_LIKE, _BEYOND = 1.0, 0.6
 """How much the grid's places must stand out of the votes, standard deviations; and how much of
 that the places just outside the grid may show."""
 
+_SURE = 7.0
+"""How much no grid of another kind than the plate's own stood out in development pictures."""
+
 LEAST_PITCH_PX = 9.0
 """Wells nearer to each other than this in the picture show no colour of their own."""
 
@@ -54,12 +57,15 @@ class FoundPlate:
         to_picture: Homography from the plane of the wells' rims (mm from the plate's middle, y
             down the rows) to the picture, px.
         share: Of the wells that were seen in their places, 0 to 1.
+        like: How much the grid stands out of what else is seen, standard deviations: highest for
+            the plate's own kind.
         upright: Whether the columns run down the picture instead of across it.
     """
 
     plate: PlateFormat
     to_picture: Points
     share: float
+    like: float
     upright: bool
 
     def pixels(self, places: Points) -> Points:
@@ -77,7 +83,7 @@ class FoundPlate:
     def turned(self) -> FoundPlate:
         """The same with A1 at the opposite corner."""
         half = np.diag([-1.0, -1.0, 1.0])
-        return FoundPlate(self.plate, self.to_picture @ half, self.share, self.upright)
+        return replace(self, to_picture=self.to_picture @ half)
 
 
 def find_plate(image: Image, plate: PlateFormat) -> FoundPlate | None:
@@ -98,16 +104,26 @@ def find_plate(image: Image, plate: PlateFormat) -> FoundPlate | None:
     found = [one for corners in outlines(small) if (one := _fit(small, corners, plate))]
     if not found:
         return None
-    like, best = max(found, key=lambda one: (one[1].share, one[0]))
-    if best.share < _LEAST_SHARE or like < _LEAST_LIKE:
+    best = max(found, key=lambda one: (one.share, one.like))
+    if best.share < _LEAST_SHARE or best.like < _LEAST_LIKE:
         return None
     # Pixels are counted from their corners: no half to add when the size changes.
-    whole = np.diag([1 / scale, 1 / scale, 1.0]) @ best.to_picture
-    return FoundPlate(plate, whole, best.share, best.upright)
+    return replace(best, to_picture=np.diag([1 / scale, 1 / scale, 1.0]) @ best.to_picture)
 
 
-def _fit(image: Image, corners: Corners, plate: PlateFormat) -> tuple[float, FoundPlate] | None:
-    """The grid inside an outline, and how much it stands out."""
+def other_kind(image: Image, found: FoundPlate | None) -> PlateFormat | None:
+    """The kind of plate that a picture shows rather than the one that was looked for, if any."""
+    like = 0.0 if found is None else found.like
+    if like > _SURE:
+        return None
+    kinds = (one for one in FORMATS.values() if found is None or one is not found.plate)
+    seen = [one for one in (find_plate(image, kind) for kind in kinds) if one is not None]
+    best = max(seen, key=lambda one: one.like, default=None)
+    return best.plate if best is not None and best.like > like else None
+
+
+def _fit(image: Image, corners: Corners, plate: PlateFormat) -> FoundPlate | None:
+    """The grid inside an outline."""
     wide, tall = LENGTH_MM + 2 * _MARGIN_MM, WIDTH_MM + 2 * _MARGIN_MM
     size = (round(wide * _SCALE), round(tall * _SCALE))
     edges = np.array([(_MARGIN_MM, _MARGIN_MM), (wide - _MARGIN_MM, _MARGIN_MM),
@@ -132,7 +148,7 @@ def _fit(image: Image, corners: Corners, plate: PlateFormat) -> tuple[float, Fou
     like = _contrast(votes, plate, grid)
     along = corners[1] - corners[0] + corners[2] - corners[3]
     to_picture = np.linalg.inv(straighten) @ grid
-    return like, FoundPlate(plate, to_picture, share, bool(abs(along[1]) > abs(along[0])))
+    return FoundPlate(plate, to_picture, share, like, bool(abs(along[1]) > abs(along[0])))
 
 
 def _votes(grey: NDArray[np.uint8], plate: PlateFormat) -> Votes:
