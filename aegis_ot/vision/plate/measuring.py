@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import uniform_filter
 
 from ..types import Image
 from .finding import FoundPlate
@@ -26,6 +27,9 @@ _SATURATED, _BLACK = 250, 3
 _GLARE = 0.35
 """Share of a well's core that may be saturated, black or outside the picture: beyond, its colour is
 not told."""
+
+_ASIDE = 0.3
+"""How far a floor may be seen aside of its well's middle, pitches."""
 
 _HALO_MM = 15.0
 """Pitch below which a lamp's reflection that hides a well reaches the wells beside it as well."""
@@ -77,7 +81,9 @@ def plate_light(image: Image, found: FoundPlate) -> PlateLight:
     unevenly, and another exposure or white balance, weigh little.
     """
     plate = found.plate
-    wells, hidden = _light(image, found, plate.centres(), _CORE * plate.radius_mm)
+    radius = _CORE * plate.radius_mm
+    floors = _floors(image, found, radius) if plate.square else plate.centres()
+    wells, hidden = _light(image, found, floors, radius)
     if plate.pitch_mm < _HALO_MM:
         near = hidden.reshape(plate.rows, plate.columns).astype(np.uint8)
         hidden = cv2.dilate(near, np.ones((3, 3), np.uint8)).ravel() > 0
@@ -101,10 +107,34 @@ def change_between(before: PlateLight, after: PlateLight) -> Change:
     return Change(before.wells - after.wells, blinded)
 
 
+def _floors(image: Image, found: FoundPlate, radius: float) -> Array:
+    """Where wells that are deep and narrow are read, mm: their floor, seen aside, lies off their
+    middle, and much of what is seen there is wall. The floor is where a well looks most even.
+
+    Neighbours, which are seen from the same side, are read together.
+    """
+    plate = found.plate
+    reach = np.linspace(-_ASIDE, _ASIDE, 7) * plate.pitch_mm
+    around = np.stack(np.meshgrid(reach, reach), axis=-1).reshape(-1, 2)
+    uneven = np.stack([
+        np.std(_samples(image, found, plate.centres() + aside, radius)[0].mean(axis=2), axis=1)
+        for aside in around
+    ], axis=-1)  # fmt: skip
+    grid = uneven.reshape(plate.rows, plate.columns, -1)
+    together = uniform_filter(grid, (5, 5, 1)).reshape(uneven.shape)
+    return plate.centres() + around[together.argmin(axis=1)]
+
+
 def _light(
     image: Image, found: FoundPlate, places: Array, radius: float
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Logarithm of the light at discs on the plate (median), and whether they are hidden."""
+    light, lost = _samples(image, found, places, radius)
+    return np.median(light, axis=1), lost.mean(axis=1) > _GLARE
+
+
+def _samples(image: Image, found: FoundPlate, places: Array, radius: float) -> tuple[Array, Flags]:
+    """Logarithm of the light at points of discs, ``(discs, points, 3)``, and which tell nothing."""
     steps = np.linspace(-1, 1, _POINTS)
     x, y = np.meshgrid(steps, steps)
     disc = np.column_stack([x.ravel(), y.ravel()])
@@ -117,5 +147,4 @@ def _light(
     outside = (at < 0).any(axis=1) | (at[:, 0] > wide - 1) | (at[:, 1] > tall - 1)
     brightest = seen.max(axis=2)
     lost = (brightest >= _SATURATED) | (brightest <= _BLACK) | outside.reshape(shape)
-    linear = (np.clip(seen, 1, 255) / 255) ** 2.2
-    return np.median(np.log(linear), axis=1), lost.mean(axis=1) > _GLARE
+    return np.log((np.clip(seen, 1, 255) / 255) ** 2.2), lost
