@@ -28,8 +28,12 @@ _GLARE = 0.35
 """Share of a well's core that may be saturated, black or outside the picture: beyond, its colour is
 not told."""
 
-_ASIDE = 0.3
-"""How far a floor may be seen aside of its well's middle, pitches."""
+_ASIDE, _BESIDE = 0.3, 0.2
+"""How far a floor may be seen aside of its well's middle, and the plate's surface between wells
+aside of its place, pitches."""
+
+_CROSSING = 1.6
+"""Radius in which the surface between four wells must look even, by that in which it is read."""
 
 _HALO_MM = 15.0
 """Pitch below which a lamp's reflection that hides a well reaches the wells beside it as well."""
@@ -82,15 +86,21 @@ def plate_light(image: Image, found: FoundPlate) -> PlateLight:
     """
     plate = found.plate
     radius = _CORE * plate.radius_mm
-    floors = _floors(image, found, radius) if plate.square else plate.centres()
-    wells, hidden = _light(image, found, floors, radius)
+    middles, between = plate.centres(), plate.centres(margin=1, shift=0.5)
+    corner = plate.radius_mm * (2**0.5 if plate.square else 1.0)
+    gap = 0.45 * (plate.pitch_mm / 2**0.5 - corner)
+    if plate.square:
+        middles = _most_even(image, found, middles, radius, _ASIDE)
+        between = _most_even(image, found, between, _CROSSING * gap, _BESIDE)
+    wells, hidden = _light(image, found, middles, radius)
     if plate.pitch_mm < _HALO_MM:
         near = hidden.reshape(plate.rows, plate.columns).astype(np.uint8)
         hidden = cv2.dilate(near, np.ones((3, 3), np.uint8)).ravel() > 0
-    corner = plate.radius_mm * (2**0.5 if plate.square else 1.0)
-    gap = 0.45 * (plate.pitch_mm / 2**0.5 - corner)
-    light, _ = _light(image, found, plate.centres(margin=1, shift=0.5), gap)
+    light, _ = _light(image, found, between, gap)
     grid = light.reshape(plate.rows + 2, plate.columns + 2, 3)[:-1, :-1]
+    if plate.square:
+        # Outside the outer wells the surface ends in the plate's rim.
+        grid = np.pad(grid[1:-1, 1:-1], ((1, 1), (1, 1), (0, 0)), mode="edge")
     around = np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, :-1], grid[1:, 1:]])
     # The mean of the middle two: one of the four may be a scratch or a glint.
     beside = np.median(around, axis=0).reshape(-1, 3)
@@ -107,22 +117,28 @@ def change_between(before: PlateLight, after: PlateLight) -> Change:
     return Change(before.wells - after.wells, blinded)
 
 
-def _floors(image: Image, found: FoundPlate, radius: float) -> Array:
-    """Where wells that are deep and narrow are read, mm: their floor, seen aside, lies off their
-    middle, and much of what is seen there is wall. The floor is where a well looks most even.
+def _most_even(
+    image: Image, found: FoundPlate, places: Array, radius: float, aside: float
+) -> Array:
+    """Places near to the given ones, mm, where discs look most even.
 
-    Neighbours, which are seen from the same side, are read together.
+    Wells that are deep and narrow are read on their floor. Seen aside it lies off their middle,
+    and much of what is seen there is wall; their grid is not so well found either. All lie aside
+    by nearly the same, so that what most of them say holds for all.
     """
-    plate = found.plate
-    reach = np.linspace(-_ASIDE, _ASIDE, 7) * plate.pitch_mm
+    reach = np.linspace(-aside, aside, 7) * found.plate.pitch_mm
     around = np.stack(np.meshgrid(reach, reach), axis=-1).reshape(-1, 2)
     uneven = np.stack([
-        np.std(_samples(image, found, plate.centres() + aside, radius)[0].mean(axis=2), axis=1)
-        for aside in around
+        np.std(_samples(image, found, places + move, radius)[0].mean(axis=2), axis=1)
+        for move in around
     ], axis=-1)  # fmt: skip
-    grid = uneven.reshape(plate.rows, plate.columns, -1)
+    columns = len(np.unique(places[:, 0]))
+    grid = uneven.reshape(-1, columns, len(around))
     together = uniform_filter(grid, (5, 5, 1)).reshape(uneven.shape)
-    return plate.centres() + around[together.argmin(axis=1)]
+    moved = places + around[together.argmin(axis=1)]
+    limit = 0.06 * found.plate.pitch_mm
+    change, _ = cv2.estimateAffine2D(places, moved, ransacReprojThreshold=limit)
+    return places if change is None else places @ change[:, :2].T + change[:, 2]
 
 
 def _light(
