@@ -37,9 +37,9 @@ _WITHIN = 0.12
 _LEAST_SHARE = 0.8
 """Share of the wells that must be seen in their places."""
 
-_LEAST_LIKE, _BEYOND = 1.0, 0.6
-"""How much the grid's places must stand out of the votes, standard deviations; and how much of
-that the places just outside the grid may show."""
+_LEAST_LIKE, _LEAST_LIKE_SQUARE, _BEYOND = 4.5, 2.0, 0.6
+"""How much the grid's places must stand out of the votes, standard deviations: a plate of another
+kind rarely does as much; and how much of that the places just outside the grid may show."""
 
 _SURE = 7.0
 """How much no grid of another kind than the plate's own stood out in development pictures."""
@@ -105,7 +105,8 @@ def find_plate(image: Image, plate: PlateFormat) -> FoundPlate | None:
     if not found:
         return None
     best = max(found, key=lambda one: (one.share, one.like))
-    if best.share < _LEAST_SHARE or best.like < _LEAST_LIKE:
+    least = _LEAST_LIKE_SQUARE if plate.square else _LEAST_LIKE
+    if best.share < _LEAST_SHARE or best.like < least:
         return None
     # Pixels are counted from their corners: no half to add when the size changes.
     return replace(best, to_picture=np.diag([1 / scale, 1 / scale, 1.0]) @ best.to_picture)
@@ -113,9 +114,9 @@ def find_plate(image: Image, plate: PlateFormat) -> FoundPlate | None:
 
 def other_kind(image: Image, found: FoundPlate | None) -> PlateFormat | None:
     """The kind of plate that a picture shows rather than the one that was looked for, if any."""
-    like = 0.0 if found is None else found.like
-    if like > _SURE:
+    if found is not None and (found.plate.square or found.like > _SURE):
         return None
+    like = 0.0 if found is None else found.like
     kinds = (one for one in FORMATS.values() if found is None or one is not found.plate)
     seen = [one for one in (find_plate(image, kind) for kind in kinds) if one is not None]
     best = max(seen, key=lambda one: one.like, default=None)
