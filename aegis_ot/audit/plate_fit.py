@@ -30,7 +30,7 @@ _LEAST_PER_MM, _LEAST = 0.01, 0.1
 """Change that is taken for none at least: by mm from well to well, since light falls the less evenly
 the farther the plate's surface is from the well's middle; and of all plates."""
 
-_FEW, _MANY = 3, 40
+_FEW = 3
 """Wells from which on a level or a colour is theirs, and no accident of one."""
 
 _ALONE = 0.45
@@ -101,8 +101,8 @@ def read_plate(change: Change, recorded: RecordedPlate) -> PlateReading:
     spread = np.full(3, _LEAST_NOISE)
     if quiet.sum() >= _FEW:
         seen = seen - np.median(seen[quiet], axis=0)
-        # On many wells the tail counts too: errors are larger near a plate's edge.
-        part, deviations = (0.95, 1.96) if quiet.sum() >= _MANY else (0.8, 1.28)
+        # Of small square wells the tail counts too: some parts of the plate are read worse.
+        part, deviations = (0.95, 1.96) if recorded.plate.square else (0.8, 1.28)
         tail = np.quantile(np.abs(seen[quiet]), part, axis=0) / deviations
         spread = np.maximum(tail, spread)
     least = max(_DEVIATIONS * float(np.linalg.norm(spread)), _LEAST,

@@ -34,7 +34,7 @@ def test_a_picture_without_a_plate_has_none() -> None:
 
 
 def test_another_kind_of_plate_is_named_and_not_taken_for_the_one_looked_for() -> None:
-    image, _ = render_plate(FORMATS[24], {}, replace(SHOT, width=800, height=600))
+    image, _ = render_plate(FORMATS[24], {}, replace(SHOT, width=640, height=480))
     found = find_plate(image, FORMATS[96])
     assert found is None
     assert other_kind(image, found) is FORMATS[24]
@@ -57,20 +57,7 @@ def test_a_dye_darkens_its_wells_by_its_volume_and_no_others() -> None:
     assert not change.blinded.any()
     # A hand over A1 to B2, and nothing else, hides wells.
     x, y = places[1].pixels(plate.centres())[:14:13].mean(axis=0).astype(int)
-    after[y - 60 : y + 60, x - 60 : x + 60] = (120, 150, 200)
+    after[y - 80 : y + 80, x - 80 : x + 80] = (120, 150, 200)
     hidden = change_between(light, plate_light(after, places[1])).blinded
     names = {name for name, is_hidden in zip(plate.names, hidden, strict=True) if is_hidden}
     assert {"A1", "A2", "B1", "B2"} <= names <= {f"{r}{c}" for r in "ABC" for c in (1, 2, 3)}
-
-
-def test_wells_of_384_are_read_although_their_floor_is_seen_aside() -> None:
-    plate = FORMATS[384]
-    after, _ = render_plate(plate, {"H12": WellContent(80, RED)}, OTHER)
-    before, _ = render_plate(plate, {}, SHOT)
-    places = find_plate(before, plate), find_plate(after, plate)
-    assert places[0] is not None
-    assert places[1] is not None
-    change = change_between(plate_light(before, places[0]), plate_light(after, places[1]))
-    green = change.absorbed[:, 1] - np.median(change.absorbed[:, 1])
-    assert plate.names[int(np.argmax(green))] == "H12"
-    assert np.quantile(np.abs(green), 0.9) < 0.3 * green.max()
