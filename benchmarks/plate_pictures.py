@@ -3,10 +3,11 @@
 ``python -m benchmarks.plate_pictures [--seeds FIRST COUNT] [--wells A,B] [--json OUT]``
 
 Each plate is pictured twice, empty and after the run: turned a little, tilted, unevenly lit, some
-with a shadow or a lamp's reflection, as somebody takes it by hand. Half of the wells get a dye, each
-second one half as much; one well in 24 (one at least) gets nothing, and as many (none of 6 wells) get
-half. What counts is whether the wells are found where they are, whether each fault is named, and
-what else is. Half of the runs have no fault. Results are those of rendered pictures, and say so.
+with a shadow or a lamp's reflection, as somebody takes it by hand. Half of the wells get a dye,
+each second one half as much; one well in 24 (one at least) gets nothing, and as many (none of 6
+wells) get half. Every other run has no fault. What counts is whether the wells are found where they
+are, whether each fault is named, and what else is. Results are those of rendered pictures, and say
+so.
 """
 
 from __future__ import annotations
@@ -141,7 +142,9 @@ def show(found: Mapping[str, Any]) -> str:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run and print."""
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.plate_pictures", description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.plate_pictures", description=__doc__
+    )
     parser.add_argument("--seeds", nargs=2, type=int, default=(REPORT_SEED, 20))
     parser.add_argument("--wells", default="6,12,24,48,96,384")
     parser.add_argument("--json", type=Path)

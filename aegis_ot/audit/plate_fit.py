@@ -6,7 +6,7 @@ darkens a well by its amount), so a well is judged beside the others, and never 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,8 +27,8 @@ _LEAST_NOISE = 0.015
 """Standard deviation of a channel that is taken at least; natural logarithm of light."""
 
 _LEAST_PER_MM, _LEAST = 0.01, 0.1
-"""Change that is taken for none at least: by mm from well to well, since light falls the less evenly
-the farther the plate's surface is from the well's middle; and of all plates."""
+"""Change that is taken for none at least: by mm from well to well, since light falls the less
+evenly the farther the plate's surface is from the well's middle; and of all plates."""
 
 _FEW = 3
 """Wells from which on a level or a colour is theirs, and no accident of one."""
@@ -96,50 +96,50 @@ def read_plate(change: Change, recorded: RecordedPlate) -> PlateReading:
     unknown = np.array([name in wells and wells[name].unknown for name in names])
     failed = np.array([name in wells and wells[name].failed for name in names])
     told = ~change.blinded & ~unknown
-    quiet = told & np.array([not one for one in gained])
-    seen = change.absorbed
-    spread = np.full(3, _LEAST_NOISE)
-    if quiet.sum() >= _FEW:
-        seen = seen - np.median(seen[quiet], axis=0)
-        # Of small square wells the tail counts too: some parts of the plate are read worse.
-        part, deviations = (0.95, 1.96) if recorded.plate.square else (0.8, 1.28)
-        tail = np.quantile(np.abs(seen[quiet]), part, axis=0) / deviations
-        spread = np.maximum(tail, spread)
-    least = max(_DEVIATIONS * float(np.linalg.norm(spread)), _LEAST,
-                _LEAST_PER_MM * recorded.plate.pitch_mm)  # fmt: skip
+    filled = np.array([bool(one) for one in gained])
+    seen, least = _beside_quiet(change.absorbed, told & ~filled, recorded)
     shows = np.linalg.norm(seen, axis=1) > least
     fitted, silent = _fitted(gained, told & ~failed, shows)
     expected, weight, known = _expected(gained, seen, fitted)
     size, off = np.linalg.norm(expected, axis=1), np.linalg.norm(seen - expected, axis=1)
-    score = off / np.maximum(_OFF * size, least)
+    limit = np.maximum(_OFF * size, least)
+    score = off / limit
+    faint = filled & (size < _SEEN * least)
+    alone = filled & ~known & (shows | faint) | fitted & (weight > _ALONE) & ~silent
+    reasons = (("hidden", change.blinded), ("unknown", unknown), ("alone", alone),
+               ("faint", faint & (score <= 1)))  # fmt: skip
     readings = []
     for n, name in enumerate(names):
-        faint = bool(gained[n]) and size[n] < _SEEN * least
-        if not told[n]:
-            reading = WellReading(name, UNJUDGED, "hidden" if change.blinded[n] else "unknown")
-        elif gained[n] and not known[n] and (shows[n] or faint):
-            reading = WellReading(name, UNJUDGED, "alone")
-        elif fitted[n] and weight[n] > _ALONE and not silent[n]:
-            reading = WellReading(name, UNJUDGED, "alone")
-        elif score[n] <= 1 and faint:
-            reading = WellReading(name, UNJUDGED, "faint")
-        else:
-            share = None
-            if not faint and gained[n]:
-                share = float(seen[n] @ expected[n] / size[n] ** 2)
-            aside = 0.0 if share is None else np.linalg.norm(seen[n] - share * expected[n])
-            state = CONTRADICTS if score[n] > 1 else AGREES
-            other = bool(aside > max(_OFF * size[n], least))
-            why = "known" if failed[n] else ""
-            reading = WellReading(name, state, why, float(score[n]), share, other)
-        readings.append(reading)
-    filled = fitted & shows
-    lighter = filled.sum() > 0 and float(np.median(seen[filled].sum(axis=1))) < 0
-    return PlateReading(readings, bool(lighter))
+        why = next((reason for reason, holds in reasons if holds[n]), "")
+        if why:
+            readings.append(WellReading(name, UNJUDGED, why))
+            continue
+        share, other = None, False
+        if filled[n] and not faint[n]:
+            share = float(seen[n] @ expected[n] / size[n] ** 2)
+            other = bool(np.linalg.norm(seen[n] - share * expected[n]) > limit[n])
+        state = CONTRADICTS if score[n] > 1 else AGREES
+        why = "known" if failed[n] else ""
+        readings.append(WellReading(name, state, why, float(score[n]), share, other))
+    darker = seen[fitted & shows].sum(axis=1)
+    return PlateReading(readings, bool(darker.size and np.median(darker) < 0))
+
+
+def _beside_quiet(absorbed: Array, quiet: Flags, recorded: RecordedPlate) -> tuple[Array, float]:
+    """The change beside that of wells that got nothing, and the least that is told from none."""
+    spread = np.full(3, _LEAST_NOISE)
+    if quiet.sum() >= _FEW:
+        absorbed = absorbed - np.median(absorbed[quiet], axis=0)
+        # Of small square wells the tail counts too: some parts of the plate are read worse.
+        part, deviations = (0.95, 1.96) if recorded.plate.square else (0.5, 0.6745)
+        tail = np.quantile(np.abs(absorbed[quiet]), part, axis=0) / deviations
+        spread = np.maximum(tail, spread)
+    noise = _DEVIATIONS * float(np.linalg.norm(spread))
+    return absorbed, max(noise, _LEAST, _LEAST_PER_MM * recorded.plate.pitch_mm)
 
 
 def _fitted(
-    gained: list[Mapping[str, float]], told: Flags, shows: Flags
+    gained: Sequence[Mapping[str, float]], told: Flags, shows: Flags
 ) -> tuple[Flags, Flags]:
     """Wells that tell the liquids' colours, and those of them whose liquids show nothing.
 
@@ -168,7 +168,7 @@ def _fitted(
 
 
 def _expected(
-    gained: list[Mapping[str, float]], seen: Array, fitted: Flags
+    gained: Sequence[Mapping[str, float]], seen: Array, fitted: Flags
 ) -> tuple[Array, Array, Flags]:
     """Change that the record lets expect: each liquid's colour per µL, fitted, times its volume.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -222,4 +222,3 @@ def _turned(
 
 def _judged(reading: PlateReading) -> int:
     return sum(one.state != UNJUDGED for one in reading.wells)
-

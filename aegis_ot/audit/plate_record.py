@@ -141,8 +141,8 @@ def _contents(trajectories: Trajectories, plate: PlateMap) -> dict[str, Recorded
         for (labware, well), one in held.items()
         if labware == plate.key and (one.received or one.unknown)
     }
-    for well, one in touched.items():
-        one.failed = well in plate.cells and plate.cells[well].state == "fail"
+    for name, held_well in touched.items():
+        held_well.failed = name in plate.cells and plate.cells[name].state == "fail"
     return touched
 
 

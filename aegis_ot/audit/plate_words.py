@@ -67,9 +67,7 @@ def _contradiction(one: WellReading, held: str) -> tuple[str, str]:
 
 def arrived_words(wells: Sequence[str]) -> str:
     """Of wells that the run failed and that look as if nothing had."""
-    return (
-        f"{listed(wells)}: failed by the run, but of the colour that the record lets expect."
-    )
+    return f"{listed(wells)}: failed by the run, but of the colour that the record lets expect."
 
 
 def unjudged_words(reading: PlateReading, recorded: RecordedPlate) -> list[str]:
@@ -86,12 +84,12 @@ def unjudged_words(reading: PlateReading, recorded: RecordedPlate) -> list[str]:
         order = sorted(wells, key=recorded.plate.names.index)
         named = f"Not judged: {listed(order)}: "
         if why == "faint":
-            one = len(wells) == 1
+            single = len(wells) == 1
             said.append(
-                f"{named}{'it shows' if one else f'none of these {len(wells)} wells shows'} a "
+                f"{named}{'it shows' if single else f'none of these {len(wells)} wells shows'} a "
                 f"change that could be told from none. {liquids[:1].upper()}{liquids[1:]}: too "
                 f"clear or too little for these pictures, or nothing arrived in "
-                f"{'it' if one else 'any of them'}."
+                f"{'it' if single else 'any of them'}."
             )
         else:
             many = len(wells) > 1
@@ -117,8 +115,8 @@ def doubt_words(reading: PlateReading, recorded: RecordedPlate, before: str, aft
     if not reading.shows and recorded.wells:
         others = f", but other wells do: {order}" if len(off) > 1 else ""
         return (
-            f"None of the wells that received liquid shows a change{others}. {check} If all that is "
-            "right, their liquids are too clear for these pictures, or nothing arrived."
+            f"None of the wells that received liquid shows a change{others}. {check} If all that "
+            "is right, their liquids are too clear for these pictures, or nothing arrived."
         )
     if len(off) > 1 and 3 * len(off) > judged:
         return (

@@ -47,8 +47,10 @@ def audit(
     ] = None,
     plate: Annotated[
         tuple[Path, Path] | None,
-        typer.Option(help="Two pictures of a plate from above, before and after the run.",
-                     metavar="BEFORE AFTER"),
+        typer.Option(
+            help="Two pictures of a plate from above, before and after the run.",
+            metavar="BEFORE AFTER",
+        ),
     ] = None,
     plate_slot: Annotated[
         str, typer.Option(help="Slot or label of that plate, where the run filled several.")
@@ -58,8 +60,10 @@ def audit(
     ] = None,
     a1: Annotated[
         list[str] | None,
-        typer.Option(help="Corner of the pictures where A1 is: top-left, top-right, bottom-left "
-                          "or bottom-right. Twice if it differs, before and after."),
+        typer.Option(
+            help="Corner of the pictures where A1 is: top-left, top-right, bottom-left "
+            "or bottom-right. Twice if it differs, before and after."
+        ),
     ] = None,
 ) -> None:
     """Read every well of a finished run again with all that the run tells, and rank what passed.

@@ -60,8 +60,9 @@ def plate_views(
 
 def _ring(found: FoundPlate, well: str) -> Ring:
     plate = found.plate
-    middle = plate.centres()[[plate.names.index(well)]]
-    (x, y), (edge_x, edge_y) = found.pixels(np.vstack([middle, middle + [plate.radius_mm, 0.0]]))
+    middle = plate.centres()[plate.names.index(well)]
+    edge = middle + np.array([plate.radius_mm, 0.0])
+    (x, y), (edge_x, edge_y) = found.pixels(np.stack([middle, edge]))
     return float(x), float(y), float(np.hypot(edge_x - x, edge_y - y))
 
 
