@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 800,
     "preflight/source": 780,
     "preflight/trace": 1_900,
-    "": 65_400,
+    "": 66_250,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""
