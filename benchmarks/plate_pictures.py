@@ -145,7 +145,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.plate_pictures", description=__doc__
     )
-    parser.add_argument("--seeds", nargs=2, type=int, default=(REPORT_SEED, 20))
+    parser.add_argument("--seeds", nargs=2, type=int, default=(REPORT_SEED, 8))
     parser.add_argument("--wells", default="6,12,24,48,96,384")
     parser.add_argument("--json", type=Path)
     given = parser.parse_args(arguments)
