@@ -49,6 +49,7 @@ class Audit:
         suspects: The silent passes, the most suspect first.
         costs: Of asking a vision model, by model; empty if none was asked.
         notes: What else must be said.
+        plate: What two pictures of a plate say, as plain values; ``None`` where none were given.
     """
 
     run: str
@@ -60,6 +61,7 @@ class Audit:
     suspects: Sequence[Suspect]
     costs: Sequence[Mapping[str, Any]] = ()
     notes: Sequence[str] = ()
+    plate: Mapping[str, Any] | None = None
 
     @property
     def standing_out(self) -> list[Suspect]:

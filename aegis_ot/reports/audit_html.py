@@ -10,6 +10,7 @@ from ..account import PlateMap, SeenWell, plate_maps, seen_well
 from ..account.pictures import cut_pictures
 from ..account.seen import no_pictures
 from .html_page import html_page
+from .plate_views import PlateViews
 
 LEAST_SHOWN, MOST_SHOWN = 5, 40
 """Suspects with frames: the first ones even where none stands out, and no more than that."""
@@ -32,6 +33,7 @@ def audit_html(
     overview: Mapping[str, Any],
     audit: Mapping[str, Any],
     frame: Callable[[int], bytes | None],
+    views: PlateViews | None = None,
 ) -> str:
     """Render the audit of a run.
 
@@ -39,6 +41,8 @@ def audit_html(
         overview: Answer of ``GET /v1/runs/{run}``.
         audit: The audit, as plain JSON.
         frame: The JPEG of a keyframe's number; ``None`` where it is missing.
+        views: Of the pictures of a plate that the audit tells of; ``None`` where they are not at
+            hand: a store keeps none.
     """
     suspects: Sequence[Mapping[str, Any]] = audit["suspects"]
     standing = [one for one in suspects if one["stands_out"]]
@@ -56,6 +60,8 @@ def audit_html(
         ranked=suspects,
         plates=plates,
         ranks=ranks_of(suspects, len(shown)),
+        pictured=audit.get("plate"),
+        views=views,
         singles=sum(one["kind"] == "well" for one in suspects),
     )
 

@@ -112,8 +112,9 @@ def check_call(arguments: list[str]) -> None:
         assert word in options, f"{' '.join(path)} has no option {word}"
         given.add(options[word].name)
         if not options[word].is_flag:
-            assert rest, f"{word} without its value"
-            rest.pop(0)
+            values = options[word].nargs
+            assert len(rest) >= values, f"{word} without its value"
+            del rest[:values]
     required = {p.name for p in options.values() if p.required}
     assert required <= given, f"{' '.join(path)} requires {required - given}"
     places = [p for p in command.params if p.param_type_name == "argument"]
