@@ -1,7 +1,7 @@
 """Whole live runs on simulated frames: normal wells, and the same wells with a fault planted.
 
 ``python -m benchmarks.live_runs [--seeds FIRST COUNT] [--wells N] [--no-faults] [--json OUT]
-[--only planted|silent|camera]``
+[--only planted|silent|camera] [--flex]``
 
 Every run is judged as the sidecar judges it, with an operator who finds sound wells right where
 the frames prove nothing. At four of its wells (the second, the fifth, and two
@@ -35,11 +35,24 @@ FAULTS = (
 )
 CAMERAS = ("bench", "webcam", "corner", "drawn")
 REAGENTS = ("red", "yellow", "water")
-PIPETTES = {"p20": 20.0, "p300": 300.0, "p1000": 1000.0}
+PIPETTES = {
+    "p20": ("p20_single_gen2", 20.0),
+    "p300": ("p300_single_gen2", 300.0),
+    "p1000": ("p1000_single_gen2", 1000.0),
+}
+"""Name of Opentrons' and working volume of the tip, µL."""
+FLEX = {
+    "flex 50": ("flex_1channel_50", 50.0),
+    "flex 200": ("flex_1channel_1000", 200.0),
+    "flex 1000": ("flex_1channel_1000", 1000.0),
+}
 VOLUMES = {
     "p20": ((15.0,), (8.0, 18.0, 12.0, 20.0, 5.0)),
     "p300": ((100.0,), (150.0, 60.0, 200.0, 250.0, 40.0)),
     "p1000": ((300.0,), (60.0, 500.0, 200.0, 800.0, 120.0)),
+    "flex 50": ((30.0,), (15.0, 40.0, 25.0, 48.0, 10.0)),
+    "flex 200": ((100.0,), (150.0, 60.0, 180.0, 40.0, 120.0)),
+    "flex 1000": ((300.0,), (60.0, 500.0, 200.0, 800.0, 120.0)),
 }
 STRUCK = (1, 4, 8, 13)
 CALIBRATION = 6
@@ -56,11 +69,11 @@ class Run:
     seed: int
 
 
-def runs(first: int, count: int) -> Iterator[Run]:
+def runs(first: int, count: int, flex: bool = False) -> Iterator[Run]:
     """``count`` runs through cameras, pipettes, reagents and constant or varied volumes."""
     kinds = [
         (camera, pipette, reagent)
-        for camera, pipette, reagent in product(CAMERAS, PIPETTES, REAGENTS)
+        for camera, pipette, reagent in product(CAMERAS, FLEX if flex else PIPETTES, REAGENTS)
         # At 640x480 a p20 tip is a hundred pixels long and its bore two wide.
         if pipette != "p20" or camera in ("bench", "drawn")
     ]
@@ -121,7 +134,8 @@ def session_of(run: Run) -> Any:
 
     if run.camera == "drawn":
         rng = np.random.default_rng((run.seed, 5))
-        return SessionParameters.draw(rng, pipette=run.pipette, size=(960, 540))
+        pipette, _ = (PIPETTES | FLEX)[run.pipette]
+        return SessionParameters.draw(rng, pipette=pipette, size=(960, 540))
     return getattr(SessionParameters, run.camera)(run.seed)
 
 
@@ -136,18 +150,17 @@ def well_name(number: int) -> str:
 
 
 def keyframes_of(run: Run, number_of_wells: int) -> list[list[Any]]:
-    from aegis_ot.vision.tips import is_flex
     from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
     source = WellRef("reservoir", "A1", "reservoir", "1")
-    name = run.pipette if is_flex(run.pipette) else f"{run.pipette}_single_gen2"
+    pipette, capacity = (PIPETTES | FLEX)[run.pipette]
     wells = []
     for number in range(number_of_wells):
         volume = run.volumes[number % len(run.volumes)]
         well = WellRef("plate", well_name(number), "plate", "2")
         frame = Keyframe(
-            "run", 0, number, KeyframeKind.ASPIRATE, name, "left", 1,
-            f"1:{number}", (source,), (well,), volume, volume, PIPETTES[run.pipette], run.reagent,
+            "run", 0, number, KeyframeKind.ASPIRATE, pipette, "left", 1,
+            f"1:{number}", (source,), (well,), volume, volume, capacity, run.reagent,
         )  # fmt: skip
         loaded = (KeyframeKind.ASPIRATE, KeyframeKind.TRANSIT)
         wells.append(
@@ -168,12 +181,13 @@ def measure(
     progress: bool = False,
     wells: int = 16,
     planted: Sequence[str] = FAULTS,
+    flex: bool = False,
 ) -> dict[str, Any]:
     """Counts over ``count`` runs: normal wells by outcome and route, faults caught by kind."""
     normals: Counter[str] = Counter()
     faults: Counter[tuple[str, str, str, str]] = Counter()
     alarms = []
-    for run in runs(first, count):
+    for run in runs(first, count, flex):
         liquid = "water" if run.reagent == "water" else "dye"
         for number, fault, verdict in judged(run, wells, planted):
             outcome = verdict.outcome.value
@@ -222,7 +236,7 @@ def show(found: dict[str, Any]) -> str:
         (row["pipette"], row["liquid"], row["fault"], row["which"]): row["count"]
         for row in found["faults"]
     }
-    lines.append(f"{'pipette':8} {'liquid':6} " + " ".join(f"{fault:>12}" for fault in FAULTS))
+    lines.append(f"{'pipette':9} {'liquid':6} " + " ".join(f"{fault:>12}" for fault in FAULTS))
     for pipette, liquid in sorted({key[:2] for key in counts}):
         cells = []
         for fault in FAULTS:
@@ -232,7 +246,7 @@ def show(found: dict[str, Any]) -> str:
                 for when in ("first wells", "later")
             ]
             cells.append(f"{' '.join(shares):>12}")
-        lines.append(f"{pipette:8} {liquid:6} " + " ".join(cells))
+        lines.append(f"{pipette:9} {liquid:6} " + " ".join(cells))
     lines += [f"alarm on a normal well: {alarm}" for alarm in found["alarms"]]
     return "\n".join(lines) + "\n"
 
@@ -244,19 +258,22 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--wells", type=int, default=16, help="of each run")
     parser.add_argument("--no-faults", action="store_true", help="normal wells only")
     parser.add_argument("--only", choices=("planted", "silent", "camera"))
+    parser.add_argument("--flex", action="store_true", help="a Flex's pipettes and tips")
     parser.add_argument("--json", type=Path)
     given = parser.parse_args(arguments)
     planted = () if given.no_faults else FAULTS
     first, count = given.seeds
     found: dict[str, Any] = {}
     if given.only in (None, "planted"):
-        found = measure(first, count, progress=True, wells=given.wells, planted=planted)
+        found = measure(
+            first, count, progress=True, wells=given.wells, planted=planted, flex=given.flex
+        )
         sys.stdout.write(show(found))
     if given.only != "planted" and not given.no_faults:
         from . import silent_passes
 
         found["silent"] = silent_passes.measure(
-            list(runs(first, count)), progress=True, faults=given.only != "camera"
+            list(runs(first, count, given.flex)), progress=True, faults=given.only != "camera"
         )
         sys.stdout.write(silent_passes.show(found["silent"]))
     if given.json is not None:

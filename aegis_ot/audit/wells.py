@@ -131,9 +131,7 @@ def _well(
     tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
     reader = MeasuredColumns()
     looks = {
-        kind: reader.look(
-            TipView(kind, frames[kind], found, tip, sample.pipette, sample.expected_ul[kind])
-        )
+        kind: reader.look(TipView(kind, frames[kind], found, tip, sample.expected_ul[kind]))
         for kind, found in detections.items()
         if found is not None
     }

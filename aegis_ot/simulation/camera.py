@@ -21,7 +21,8 @@ from .dyes import DYES, WATER, Dye, dye_for
 from .exposure import decode
 from .fault_plan import FaultPlan, PhysicalState
 from .faults import Fault
-from .render import Renderer, render_jpeg
+from .render import render_jpeg
+from .renderer import Renderer
 from .scene import SceneState, TipContent, place_tip
 from .session import SessionParameters
 from .truth import FrameTruth

@@ -20,7 +20,8 @@ from ..vocabulary import KeyframeKind
 from .dyes import DYES
 from .exposure import decode
 from .plans import PlannedWell, contents_of, normal_plan, paper_plan
-from .render import Renderer, render_jpeg
+from .render import render_jpeg
+from .renderer import Renderer
 from .scene import place_tip
 from .session import SessionParameters
 from .truth import FrameTruth, TipTruth

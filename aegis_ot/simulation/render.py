@@ -7,7 +7,6 @@ per session, and each frame only redraws the patches that the pipette covers.
 from __future__ import annotations
 
 import zlib
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -27,8 +26,6 @@ from .shading import shade_tip
 from .truth import FrameTruth, TipTruth, tip_truth
 
 Plane = NDArray[np.float32]
-Renderer = Callable[[SceneState, SessionParameters, np.random.Generator], tuple[bytes, FrameTruth]]
-"""What draws one frame as JPEG and says what is in it: :func:`render_jpeg`, for one."""
 
 
 @dataclass(frozen=True)

@@ -102,7 +102,7 @@ class MeasuredColumns:
     def look(self, view: TipView) -> Look:
         self._contrast.prepare()
         # Shared with the scorers: each frame is straightened once.
-        profile = look(view.image, view.detection, view.pipette).profile
+        profile = look(view.image, view.detection, view.tip).profile
         return Look(profile, view.tip, float(np.median(view.image[::16, ::16])))
 
     def read(

@@ -44,7 +44,6 @@ class TipView:
         image: Whole frame.
         detection: The tip in it.
         tip: Its geometry.
-        pipette: Short class of the pipette, ``"p1000"``.
         expected_ul: Liquid that should be in it, µL.
     """
 
@@ -52,7 +51,6 @@ class TipView:
     image: Image
     detection: TipDetection
     tip: TipGeometry
-    pipette: str
     expected_ul: float
 
 

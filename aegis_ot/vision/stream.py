@@ -16,7 +16,7 @@ from .consistency import TipConsistency, once_each, second_look
 from .gates import Case, Gates, VolumetricGate
 from .measuring import ColumnReader, TipView
 from .run_scorer import LEAST_ALARM, RunScorer
-from .tips import pipette_class, tip_for
+from .tips import tip_for
 from .types import FREE, Detector, Image, Scorer, TipDetection, TrajectorySample
 
 _MODEL_WEIGHT = 4.0
@@ -62,7 +62,8 @@ class OpenTrajectory:
             id=f"{run}-{last.trajectory}",
             plate=run,
             well=last.destinations[0].name if last.destinations else "",
-            pipette=pipette_class(last.pipette),
+            pipette=last.pipette,
+            capacity_ul=last.capacity_ul,
             volume_ul=last.commanded_ul,
             frames=self.frames,
             detections=self.detections,
@@ -137,8 +138,7 @@ class Stream:
         """Measure the tip in one frame."""
         keyframe = seen.keyframes[kind]
         tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
-        pipette = pipette_class(keyframe.pipette)
-        view = TipView(kind, seen.frames[kind], detection, tip, pipette, keyframe.expected_ul)
+        view = TipView(kind, seen.frames[kind], detection, tip, keyframe.expected_ul)
         seen.looks[kind] = self.reader.look(view)
 
     def settle(self, seen: OpenTrajectory, detector: Detector) -> None:

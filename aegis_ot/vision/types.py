@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..vocabulary import KeyframeKind
+from .tips import TipGeometry, tip_for
 
 Image = NDArray[np.uint8]
 
@@ -91,7 +92,7 @@ class TrajectorySample:
         id: Unique within its data set or run.
         plate: Unit of calibration: one camera pose, lighting and reagent (or one run).
         well: ``"A1"``.
-        pipette: Short tip class: ``"p20"``, ``"p300"``, ``"p1000"``.
+        pipette: Short class, ``"p20"``, ``"p1000"``, or a Flex pipette's whole name.
         reagent: What the liquid is called, if known.
         volume_ul: Volume that the protocol commanded, µL.
         expected_ul: Liquid that should be in the tip at each keyframe, µL.
@@ -100,6 +101,7 @@ class TrajectorySample:
         label: ``"normal"``, ``"failure"``, or ``""`` when unknown.
         failure_type: As in the data set format; empty for normals.
         retained_fraction: Fraction of the volume left in the tip, if known.
+        capacity_ul: Working volume of its tip, µL; ``None`` for the pipette's own size.
     """
 
     id: str
@@ -114,7 +116,13 @@ class TrajectorySample:
     label: str = ""
     failure_type: str = ""
     retained_fraction: float | None = None
+    capacity_ul: float | None = None
     notes: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def tip(self) -> TipGeometry:
+        """The kind of tip that it was pipetted with."""
+        return tip_for(self.pipette, self.capacity_ul)
 
     @property
     def lacks_tip(self) -> bool:

@@ -8,7 +8,7 @@ from aegis_ot.simulation import SessionParameters, SimulatedCamera
 from aegis_ot.vision.column_reader import MeasuredColumns
 from aegis_ot.vision.delivery import Delivery, Shown, delivery_of
 from aegis_ot.vision.measuring import TipView
-from aegis_ot.vision.tips import pipette_class, tip_for
+from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import FREE, TipDetection
 
 from .test_monitor import keyframes
@@ -28,7 +28,7 @@ def delivery(fault: str = "", reagent: str = "red dye", kept: float = 0.0) -> De
         looks[keyframe.kind] = reader.look(
             TipView(
                 keyframe.kind, frame.image, found, tip_for(keyframe.pipette),
-                pipette_class(keyframe.pipette), keyframe.expected_ul,
+                keyframe.expected_ul,
             )
         )  # fmt: skip
     return delivery_of(looks, expected)

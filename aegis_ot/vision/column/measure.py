@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..tips import TipGeometry, pipette_class, tip_for
+from ..tips import TipGeometry, tip_for
 from ..types import Image, TipDetection
 from .alone import alone
 from .axis import rectify
@@ -91,20 +91,24 @@ class ColumnMeasurement:
         )
 
 
-def shape_for(pipette: str, capacity_ul: float | None = None) -> TipShape:
-    """Outline of the tip that a pipette most likely carries."""
-    tip = tip_for(pipette, capacity_ul)
-    known = {"ot2_1000": "p1000", "ot2_300": "p300", "ot2_200": "p300"}
-    name = known.get(tip.name, "p20" if tip.name.startswith("ot2_") else "")
-    if name:
-        return SHAPES[name]
-    radius = (max(tip.profile[-1][1], tip.nozzle_radius_mm) + tip.wall_mm) / tip.length_mm
+_MEASURED = {"ot2_1000": "p1000", "ot2_300": "p300", "ot2_200": "p300"}
+
+
+def shape_of(tip: TipGeometry) -> TipShape:
+    """Outline of a kind of tip."""
+    if tip.name.startswith("ot2_"):
+        return SHAPES[_MEASURED.get(tip.name, "p20")]
+    collar = (max(tip.profile[-1][1], tip.nozzle_radius_mm) + tip.wall_mm) / tip.length_mm
     return TipShape(
-        pipette_class(pipette),
+        tip.name,
         240 if tip.nominal_ul >= 500 else 160,
-        radius,
+        collar,
         (tip.profile[0][1] + tip.wall_mm) / tip.length_mm,
         tip.overlap_mm / tip.length_mm,
+        tuple(
+            (1.0 - height / tip.length_mm, (radius + tip.wall_mm) / tip.length_mm)
+            for height, radius in reversed(tip.profile[1:-1])
+        ),
     )
 
 
@@ -133,15 +137,14 @@ class TipLook:
 def look_at_tip(
     image: Image,
     detection: TipDetection,
-    pipette: str,
-    capacity_ul: float | None = None,
+    tip: TipGeometry,
     length: float | None = None,
 ) -> TipLook:
     """Straighten the tip and read its signals: all that takes time, done once per frame.
 
     ``length``: of the tip in px, where other frames of the trajectory show it better.
     """
-    shape = shape_for(pipette, capacity_ul)
+    shape = shape_of(tip)
     left, top = 0, 0
     if detection.apart is not None:
         image, detection, (left, top) = alone(image, detection, shape)
@@ -170,8 +173,8 @@ def measure_column(
         reference: What is known of this run.
         capacity_ul: Working volume of the tip, if known.
     """
-    look = look_at_tip(image, detection, pipette, capacity_ul)
     tip = tip_for(pipette, capacity_ul)
+    look = look_at_tip(image, detection, tip)
     found = read_column(look.profile, tip, expected_ul, reference or Reference())
     return replace(found, collar=look.collar, orifice=look.orifice)
 

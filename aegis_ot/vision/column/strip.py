@@ -30,6 +30,7 @@ class TipShape:
         collar_radius: Outer radius at the collar, tip lengths.
         orifice_radius: Outer radius at the orifice, tip lengths.
         nozzle_end: Where the pipette's nozzle ends inside the tip, tip lengths below the collar.
+        bends: Outer radii between the ends, ``(u, radius)``, where the taper is not straight.
     """
 
     name: str
@@ -37,6 +38,7 @@ class TipShape:
     collar_radius: float
     orifice_radius: float
     nozzle_end: float
+    bends: tuple[tuple[float, float], ...] = ()
 
     @property
     def half_width(self) -> float:
@@ -44,11 +46,10 @@ class TipShape:
         return 2.0 * self.collar_radius
 
     def radius(self, u: Array) -> Array:
-        """Outer radius at ``u`` (0 collar, 1 orifice), tip lengths; straight taper."""
-        inside = np.clip(u, 0.0, 1.0)
-        return (self.collar_radius + (self.orifice_radius - self.collar_radius) * inside).astype(
-            np.float32
-        )
+        """Outer radius at ``u`` (0 collar, 1 orifice), tip lengths."""
+        ends = ((0.0, self.collar_radius), *self.bends, (1.0, self.orifice_radius))
+        places, radii = zip(*ends, strict=True)
+        return np.interp(u, places, radii).astype(np.float32)
 
 
 # Lengths and nozzle overlaps are Opentrons' own (labware definitions 2/opentrons_96_tiprack_*);

@@ -210,7 +210,7 @@ def _profiles(sample: TrajectorySample) -> dict[KeyframeKind, Any]:
 
 
 def _weigh(sample: TrajectorySample, model: TipModel, run: RunReference) -> Signs:
-    return weigh(_profiles(sample), tip_for(sample.pipette), sample.expected_ul, model, run)
+    return weigh(_profiles(sample), sample.tip, sample.expected_ul, model, run)
 
 
 def _as_in_use(

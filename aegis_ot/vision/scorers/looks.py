@@ -11,6 +11,7 @@ from ...vocabulary import KeyframeKind
 from ..column import TipLook, look_at_tip
 from ..column.trajectory import LOADED
 from ..crops import remember
+from ..tips import TipGeometry
 from ..types import FREE, Image, TipDetection, TrajectorySample
 
 _PERSPECTIVE = 0.08
@@ -31,13 +32,13 @@ _taken: dict[int, _Taken] = {}
 
 
 def look(
-    image: Image, detection: TipDetection, pipette: str, length: float | None = None
+    image: Image, detection: TipDetection, tip: TipGeometry, length: float | None = None
 ) -> TipLook:
     """:func:`look_at_tip`, once for as long as the frame lives.
 
     A live run calls it as each frame arrives, so that little is left to do after the last one.
     """
-    key: _Key = (detection, pipette)
+    key: _Key = (detection, tip.name)
     place = id(image)
     known = _taken.get(place)
     if known is None or known[0]() is not image or known[1] != key:
@@ -46,7 +47,7 @@ def look(
     for other, taken in known[2].items():
         if other == length or (other and length and abs(other / length - 1.0) < _SAME):
             return taken
-    known[2][length] = look_at_tip(image, detection, pipette, length=length)
+    known[2][length] = look_at_tip(image, detection, tip, length)
     return known[2][length]
 
 
@@ -67,7 +68,7 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
         detection = sample.detections.get(kind)
         frame = None if detection is None else sample.frames.get(kind)
         if detection is not None and frame is not None:
-            seen = look(frame, detection, sample.pipette)
+            seen = look(frame, detection, sample.tip)
             if not seen.washed_out:
                 images[kind], taken[kind] = frame, seen
     usual = _usual_length({kind: seen.profile.length for kind, seen in taken.items()})
@@ -77,7 +78,7 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
             continue
         sure = detection.confidence >= _SURE and kind in LOADED
         if abs(seen.profile.length / usual - 1.0) > (_SURELY_OFF if sure else _PERSPECTIVE):
-            taken[kind] = look(images[kind], detection, sample.pipette, usual)
+            taken[kind] = look(images[kind], detection, sample.tip, usual)
     return taken
 
 

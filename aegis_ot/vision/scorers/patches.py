@@ -23,7 +23,7 @@ from ..column import Reference, TipLook, expected_top
 from ..column.profile import LANES
 from ..crops import remember
 from ..models import ModelFile
-from ..tips import pipette_class, tip_for
+from ..tips import pipette_class
 from ..types import TrajectorySample
 from .looks import looks
 from .surprise import NO_TIP, Tail, fit_tail
@@ -180,7 +180,7 @@ def describe(sample: TrajectorySample) -> Array:
 
 def _describe(sample: TrajectorySample) -> Array:
     seen: Mapping[KeyframeKind, TipLook] = looks(sample)
-    tip = tip_for(sample.pipette)
+    tip = sample.tip
     full = max(sample.expected_ul.values(), default=sample.volume_ul)
     # Above and below the full column's meniscus in every frame: after the dispense too, that
     # is where a normal tip is empty and a failed one is not.

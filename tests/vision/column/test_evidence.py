@@ -7,6 +7,7 @@ import pytest
 
 from aegis_ot.vision.column import Dye, EmptyColour, combine, look_at_tip, mean_dye
 from aegis_ot.vision.column.evidence import colour_evidence, long_step, taper
+from aegis_ot.vision.tips import tip_for
 
 from .drawn import RED, WATER, detection, draw_tip
 
@@ -42,8 +43,8 @@ def test_a_step_has_no_finite_uncertainty_where_too_few_rows_lie_beside_it() -> 
 
 
 def test_colour_speaks_for_its_own_dye_and_against_another() -> None:
-    look = look_at_tip(draw_tip(top=0.6, dye=RED), detection(), "p1000").profile
-    clear = look_at_tip(draw_tip(top=0.6, dye=WATER), detection(), "p1000").profile
+    look = look_at_tip(draw_tip(top=0.6, dye=RED), detection(), tip_for("p1000")).profile
+    clear = look_at_tip(draw_tip(top=0.6, dye=WATER), detection(), tip_for("p1000")).profile
     red, yellow = Dye(0.13, 0.0, 0.005), Dye(0.0, -0.13, 0.005)
     empty = EmptyColour()
     row = int(np.argmin(np.abs(look.u - 0.6)))

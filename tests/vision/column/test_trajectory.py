@@ -27,7 +27,7 @@ def looks(sample: TrajectorySample) -> Looks:
     found = {}
     for kind, detection in sample.detections.items():
         if detection is not None:
-            found[kind] = look_at_tip(sample.frames[kind], detection, "p1000").profile
+            found[kind] = look_at_tip(sample.frames[kind], detection, tip_for("p1000")).profile
     return found
 
 
