@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .._version import __version__
-from ..errors import LinkError, RobotError, RobotRefused
+from ..errors import LinkError, RobotError, RobotRefused, RobotUnreachable
 from ..runtime.courier import Courier
 from ..runtime.steps import Abandon
 from ..vocabulary import Keyframe, KeyframeKind, Outcome
@@ -40,14 +40,31 @@ class WatchPolicies:
     capture_timeout_s: float = 3.0
 
 
-def await_run(robot: RobotClient, rest: Callable[[float], None] = time.sleep) -> str:
-    """Wait until a run has begun on the robot; its identifier."""
+def await_run(
+    robot: RobotClient,
+    rest: Callable[[float], None] = time.sleep,
+    says: Callable[[str], None] = lambda text: None,
+) -> str:
+    """Wait until a run has begun on the robot, also while it is switched off; its identifier.
+
+    Args:
+        robot: Where.
+        rest: Between two looks.
+        says: Told, once each time, why the robot does not answer.
+    """
+    lost = False
     while True:
-        current = robot.current_run()
-        if current is not None:
-            view = robot.run(current)
-            if view.status != "idle" and not view.ended:
-                return current
+        try:
+            current = robot.current_run()
+            view = None if current is None else robot.run(current)
+        except (RobotUnreachable, RobotRefused) as error:  # refused: its server is starting
+            if not lost:
+                says(f"{error} Trying again.")
+            lost = True
+        else:
+            lost = False
+            if view is not None and view.status != "idle" and not view.ended:
+                return view.id
         rest(0.5)
 
 

@@ -240,6 +240,26 @@ def test_a_lost_sidecar_pauses_once_and_the_watch_goes_on(
     assert sum("Paused by the watch: the sidecar is away" in said for said in shown.said) == 1
 
 
+def test_a_robot_that_is_away_is_waited_for() -> None:
+    idle = httpx.Response(200, json={"data": [], "links": {}})
+    begun = httpx.Response(200, json={"data": [], "links": {"current": {"href": "/runs/one"}}})
+    running = httpx.Response(200, json={"data": {"id": "one", "status": "running"}})
+    starting = httpx.Response(503, json={"errors": [{"detail": "The server starts."}]})
+    answers = iter((idle, None, None, starting, idle, begun, running))
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        found = next(answers)
+        if found is None:
+            raise httpx.ConnectError("refused", request=request)
+        return found
+
+    said: list[str] = []
+    with RobotClient("robot", httpx.MockTransport(answer)) as robot:
+        assert await_run(robot, lambda seconds: None, said.append) == "one"
+    (words,) = said
+    assert "cannot be reached" in words
+
+
 def test_a_run_with_a_guard_is_told_so(client: RobotClient, tmp_path: Path) -> None:
     shown = Shown()
     text = SLOW.replace("tips =", 'protocol.comment("aegis_ot: hello")\n    tips =')
