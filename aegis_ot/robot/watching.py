@@ -91,8 +91,8 @@ def watch_run(
         RobotError: The robot is lost for too long. The run goes on unwatched.
         LinkError: The sidecar is not there at the beginning.
     """
-    watch = _Watch(robot, run, sidecar, screen, policies or WatchPolicies())
     driver = RunDriver(robot, run, screen)
+    watch = _Watch(robot, run, sidecar, screen, policies or WatchPolicies(), driver.paused_because)
     watch.begin()
     screen.says(LOSSES)
     began = time.monotonic()
@@ -124,7 +124,9 @@ class _Watch:
         sidecar: PastLink,
         screen: Screen,
         policies: WatchPolicies,
+        paused: Callable[[str], None],
     ) -> None:
+        self._paused = paused
         self._robot = robot
         self._run = run
         self._link = sidecar
@@ -258,8 +260,10 @@ class _Watch:
             self._screen.says(
                 f"{did.capitalize()} by the watch: {why}. Motion ends with the current move."
             )
-            if trajectory is not None and policy == "pause":
-                self._pauses.begin(trajectory, cause)
+            if policy == "pause":
+                self._paused(f"The watch paused the run: {why}.")
+                if trajectory is not None:
+                    self._pauses.begin(trajectory, cause)
 
     def _about(self) -> dict[str, Any]:
         return {

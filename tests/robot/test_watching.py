@@ -142,12 +142,12 @@ def test_an_unguarded_run_is_watched_to_its_end(client: RobotClient, tmp_path: P
 
 def test_a_failed_delivery_pauses_the_robot_by_its_api(client: RobotClient, tmp_path: Path) -> None:
     shown = Shown()
-    shown.wants["Somebody paused"] = "play"
+    shown.wants["The watch paused"] = "play"
     with sidecar(tmp_path, 1) as url:
         run = watch_run(client, begin(client, tmp_path), PastLink(url, None), shown, poll_s=0.05)
     assert run.status == "succeeded"
     assert any("Paused by the watch: B2 of my plate (slot 2) failed" in said for said in shown.said)
-    assert len(run.pauses) == 1
+    assert run.pauses == ["The watch paused the run: B2 of my plate (slot 2) failed."]
     assert run.verdicts[1].verdict.outcome is Outcome.FAIL
 
 
@@ -231,7 +231,7 @@ def test_a_lost_sidecar_pauses_once_and_the_watch_goes_on(
     client: RobotClient, tmp_path: Path
 ) -> None:
     shown = Shown()
-    shown.wants["Somebody paused"] = "play"
+    shown.wants["The watch paused"] = "play"
     with sidecar(tmp_path) as url:
         link = LosingLink(url, None)
         run = begin(client, tmp_path)
