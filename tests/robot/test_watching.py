@@ -17,7 +17,7 @@ import pytest
 from aegis_ot.account import Situation, situations
 from aegis_ot.errors import SidecarUnreachable
 from aegis_ot.robot import Analysis, RobotClient
-from aegis_ot.robot.deck import channels_of, largest_volume, under
+from aegis_ot.robot.deck import channels_of, largest_volume
 from aegis_ot.robot.moments import PastLink, moment_of_transit
 from aegis_ot.robot.running import RobotRun
 from aegis_ot.robot.shapes import Command as RobotCommand
@@ -301,24 +301,6 @@ def test_transit_lies_before_the_plunger_moves() -> None:
     assert moment_of_transit(RobotCommand(0, "dispense", "succeeded", params, 10.0, 15.0)) == 12.8
     # Within the command, however short it was.
     assert moment_of_transit(RobotCommand(0, "dispense", "succeeded", params, 14.0, 15.0)) == 14.0
-
-
-@pytest.mark.parametrize(
-    ("rows", "columns", "channels", "first", "wells"),
-    [
-        (8, 12, 1, "C3", ("C3",)),
-        (8, 12, 8, "A3", tuple(f"{row}3" for row in "ABCDEFGH")),
-        (16, 24, 8, "B5", tuple(f"{row}5" for row in "BDFHJLNP")),
-        (1, 12, 8, "A4", ("A4",) * 8),
-        (8, 12, 96, "A1", tuple(f"{row}{c}" for c in range(1, 13) for row in "ABCDEFGH")),
-    ],
-)
-def test_the_wells_under_a_head(
-    rows: int, columns: int, channels: int, first: str, wells: tuple[str, ...]
-) -> None:
-    letters = "ABCDEFGHIJKLMNOP"[:rows]
-    ordering = [[f"{row}{column}" for row in letters] for column in range(1, columns + 1)]
-    assert under(ordering, first, channels) == wells
 
 
 @pytest.mark.parametrize(
