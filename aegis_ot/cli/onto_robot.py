@@ -46,14 +46,14 @@ def install(
 
 
 def _refuse_while_running(robot: str) -> None:
-    from ..errors import RobotUnreachable
+    from ..errors import RobotRefused, RobotUnreachable
     from ..robot import RobotClient
 
     with RobotClient(robot) as client:
         try:
             current = client.current_run()
             view = None if current is None else client.run(current)
-        except RobotUnreachable:
+        except (RobotUnreachable, RobotRefused):
             return  # its server may be what is to be mended
     if view is not None and not view.ended and view.status != "idle":
         raise ConfigurationError(f"{robot} runs a protocol ({view.status}). Install afterwards.")

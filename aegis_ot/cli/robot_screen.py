@@ -18,6 +18,8 @@ from ..vocabulary import Outcome, counted
 from .keys import Keys
 
 _WANTED = {"p": "pause", "r": "play", "s": "stop"}
+_STOPPED = "RunStoppedError"
+"""What the server says of a command during which the run was stopped: no news."""
 _STYLES = {Outcome.FAIL: "bold red", Outcome.UNDECIDED: "yellow"}
 HELP = "Keys: p pause, r resume, s stop. Ctrl-C pauses; a second one leaves the run to the App."
 
@@ -72,7 +74,7 @@ class TerminalScreen:
     def done(self, command: Command) -> None:
         """Count it."""
         self._bar.advance(self._task)
-        if command.error:
+        if command.error and command.error_kind != _STOPPED:
             self._print(f"{command.kind} failed: {command.error}", "red")
 
     def says(self, text: str) -> None:

@@ -133,19 +133,21 @@ def watch(
         link = PastLink(url, secret)
         link.health(policies.capture_timeout_s)
         _say(f"Waiting for a run on {name}")
-        identifier = await_run(client)
+        identifier = await_run(client, says=_say)
         analysis = Analysis("", done=False)
         result = RobotRun(client.protocol_name(identifier), name, client.url, identifier, analysis)
-        with TerminalScreen(console) as screen:
-            screen.began(None)
-            watch_run(client, result, link, screen, policies)
+        try:
+            with TerminalScreen(console) as screen:
+                screen.began(None)
+                watch_run(client, result, link, screen, policies)
+        finally:
+            if report is not None:
+                reader = VerdictReader(url, secret, run=name_of_watch(identifier))
+                with contextlib.suppress(LinkError):  # the robot's own side is worth a report too
+                    result.overview = reader.overview()
+                reader.close()
+                _write_report(report, result)
     show_end(console, result)
-    if report is not None:
-        reader = VerdictReader(url, secret, run=name_of_watch(identifier))
-        with contextlib.suppress(LinkError):  # the robot's own side is worth a report too
-            result.overview = reader.overview()
-        reader.close()
-        _write_report(report, result)
     raise typer.Exit(_code(result))
 
 

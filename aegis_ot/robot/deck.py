@@ -13,6 +13,7 @@ from ..instrumentation import Pipette
 from ..vocabulary import WellRef
 from .client import RobotClient
 from .following import PATIENCE_S
+from .nozzles import Layout, under
 from .shapes import Labware, RunView
 
 T = TypeVar("T")
@@ -53,10 +54,10 @@ class Deck:
         slot = self._moved.get(labware, found.slot)
         return WellRef(labware, name, self._label(found), slot)
 
-    def wells(self, labware: str, name: str, channels: int) -> tuple[WellRef, ...]:
-        """The well under each of ``channels`` tips, the first of them over ``name``."""
+    def wells(self, labware: str, name: str, layout: Layout) -> tuple[WellRef, ...]:
+        """The well under each tip, the primary nozzle's over ``name``."""
         columns: Sequence[Sequence[str]] = self._definition(labware).get("ordering") or ()
-        names = under(columns, name, channels)
+        names = under(columns, name, layout)
         return tuple(self.well(labware, known) for known in names)
 
     def is_trash(self, labware: str) -> bool:
@@ -149,31 +150,3 @@ def largest_volume(name: str) -> float:
     """Of a pipette, µL, from its Opentrons name: ``p300_single_gen2``, ``flex_1channel_50``."""
     found = re.search(r"^p(\d+)_", name) or re.search(r"_(\d+)$", name)
     return float(found.group(1)) if found else 1000.0
-
-
-def under(columns: Sequence[Sequence[str]], name: str, channels: int) -> tuple[str, ...]:
-    """Names of the wells under the tips, ``name`` under the first; tips are 9 mm apart.
-
-    Args:
-        columns: Well names of the labware, column by column.
-        name: The first tip's.
-        channels: 1, 8 or 96; others are taken for one well that they share.
-    """
-    place = next(
-        ((c, column.index(name)) for c, column in enumerate(columns) if name in column), None
-    )
-    if place is None or channels == 1:
-        return (name,)
-    first_column, first_row = place
-    rows = len(columns[first_column])
-    row_step = {8: 1, 16: 2}.get(rows)
-    column_step = {12: 1, 24: 2}.get(len(columns))
-    if channels not in (8, 96) or row_step is None or first_row + 7 * row_step >= rows:
-        return (name,) * (8 if channels == 8 else 1)
-    rows_hit = range(first_row, first_row + 8 * row_step, row_step)
-    if channels == 8:
-        return tuple(columns[first_column][row] for row in rows_hit)
-    if column_step is None or first_column + 11 * column_step >= len(columns):
-        return (name,)
-    columns_hit = range(first_column, first_column + 12 * column_step, column_step)
-    return tuple(columns[column][row] for column in columns_hit for row in rows_hit)

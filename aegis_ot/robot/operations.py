@@ -11,7 +11,8 @@ from typing import Any
 
 from ..instrumentation import Event, EventKind, Operation, OperationKind, Pipette
 from ..vocabulary import WellRef
-from .deck import Deck, channels_of
+from .deck import Deck
+from .nozzles import Layout, layout_of, whole_head
 from .shapes import Command
 
 _KINDS = {
@@ -38,7 +39,6 @@ _KINDS = {
 }
 _PROBES = ("liquidProbe", "tryLiquidProbe")
 _NOT_FOUND = "liquidNotFound"
-_SINGLE_NOZZLES = {"SINGLE": 1, "COLUMN": 8, "ROW": 12}
 _INSIDE_MM = -1.0
 """Height over the top of a well where a command says less than that it is inside it."""
 
@@ -53,7 +53,7 @@ class OperationReader:
     def __init__(self, deck: Deck) -> None:
         self._deck = deck
         self._at_trash: dict[str, bool] = {}
-        self._nozzles: dict[str, int] = {}
+        self._layouts: dict[str, Layout] = {}
         self._racks: dict[str, tuple[str, str]] = {}
         self._found: bool | None = None
 
@@ -70,16 +70,16 @@ class OperationReader:
         in_place = "InPlace" in command.kind
         labware, well = str(params.get("labwareId", "")), str(params.get("wellName", ""))
         disposal = self._disposal(pipette, command, labware, in_place)
-        channels = self._nozzles.get(pipette.key, pipette.channels)
-        wells: tuple[WellRef | None, ...] = (None,) * channels
+        layout = self._layouts.get(pipette.key) or whole_head(pipette.channels)
+        wells: tuple[WellRef | None, ...] = (None,) * len(layout.nozzles)
         if labware and well and not disposal:
-            wells = self._deck.wells(labware, well, channels)
+            wells = self._deck.wells(labware, well, layout)
         if kind is OperationKind.PICK_UP_TIP:
             self._racks[pipette.key] = (labware, well)
         return Operation(
             kind=kind,
             pipette=pipette,
-            nozzles=_nozzle_names(max(1, channels)),
+            nozzles=layout.nozzles,
             wells=wells,
             disposal=disposal,
             volume=_number(params.get("volume")),
@@ -137,7 +137,8 @@ class OperationReader:
         if command.kind == "configureNozzleLayout":
             pipette = self._deck.pipette(str(params.get("pipetteId", "")))
             if pipette is not None:
-                self._nozzles[pipette.key] = _active(params, channels_of(pipette.name))
+                configured: Mapping[str, Any] = params.get("configurationParams") or {}
+                self._layouts[pipette.key] = layout_of(configured, pipette.channels)
         elif command.kind == "moveLabware":
             place = params.get("newLocation")
             slot = place.get("slotName", "") if isinstance(place, Mapping) else ""
@@ -162,28 +163,6 @@ class OperationReader:
         if depth is None or origin == "meniscus":
             return _INSIDE_MM
         return z - (depth if origin == "bottom" else depth / 2)
-
-
-def _nozzle_names(count: int) -> tuple[str, ...]:
-    """A column's nozzles, or a whole head's; of others only their number is known."""
-    if count == 8:
-        return tuple(f"{row}1" for row in "ABCDEFGH")
-    if count == 96:
-        return tuple(f"{row}{column}" for column in range(1, 13) for row in "ABCDEFGH")
-    return tuple(str(number) for number in range(count))
-
-
-def _active(params: Mapping[str, Any], channels: int) -> int:
-    """How many nozzles a layout leaves at work."""
-    layout = params.get("configurationParams") or {}
-    style = str(layout.get("style", "ALL"))
-    if style == "QUADRANT":  # part of a column, or a rectangle
-        corners = [str(layout.get(name, "")) for name in ("primaryNozzle", "frontRightNozzle")]
-        if all(corners):
-            rows = abs(ord(corners[0][0]) - ord(corners[1][0])) + 1
-            columns = abs(int(corners[0][1:]) - int(corners[1][1:])) + 1
-            return rows * columns
-    return min(channels, _SINGLE_NOZZLES.get(style, channels))
 
 
 def _number(value: Any) -> float:

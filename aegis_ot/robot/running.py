@@ -202,6 +202,10 @@ class RunDriver:
             self._next_look = self._now() + VERDICTS_EVERY_S
             self._read_verdicts()
 
+    def paused_because(self, text: str) -> None:
+        """The run was told to pause, and why: its next pause is no stranger's."""
+        self._waiting_for = text
+
     def last_words(self) -> None:
         """The run is over: what the sidecar has to say at the end."""
         self._read_verdicts()
@@ -224,7 +228,7 @@ class RunDriver:
             text = self._waiting_for or _PAUSE_WORDS.get(view.status, "The run is paused.")
             self._run.pauses.append(text)
             self._screen.waits(text)
-        else:
+        elif view.status != "pause-requested":
             self._waiting_for = ""
             self._screen.waits("")
 

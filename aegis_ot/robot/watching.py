@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .._version import __version__
-from ..errors import LinkError, RobotError, RobotRefused
+from ..errors import LinkError, RobotError, RobotRefused, RobotUnreachable
 from ..runtime.courier import Courier
 from ..runtime.steps import Abandon
 from ..vocabulary import Keyframe, KeyframeKind, Outcome
@@ -40,14 +40,31 @@ class WatchPolicies:
     capture_timeout_s: float = 3.0
 
 
-def await_run(robot: RobotClient, rest: Callable[[float], None] = time.sleep) -> str:
-    """Wait until a run has begun on the robot; its identifier."""
+def await_run(
+    robot: RobotClient,
+    rest: Callable[[float], None] = time.sleep,
+    says: Callable[[str], None] = lambda text: None,
+) -> str:
+    """Wait until a run has begun on the robot, also while it is switched off; its identifier.
+
+    Args:
+        robot: Where.
+        rest: Between two looks.
+        says: Told, once each time, why the robot does not answer.
+    """
+    lost = False
     while True:
-        current = robot.current_run()
-        if current is not None:
-            view = robot.run(current)
-            if view.status != "idle" and not view.ended:
-                return current
+        try:
+            current = robot.current_run()
+            view = None if current is None else robot.run(current)
+        except (RobotUnreachable, RobotRefused) as error:  # refused: its server is starting
+            if not lost:
+                says(f"{error} Trying again.")
+            lost = True
+        else:
+            lost = False
+            if view is not None and view.status != "idle" and not view.ended:
+                return view.id
         rest(0.5)
 
 
@@ -74,8 +91,8 @@ def watch_run(
         RobotError: The robot is lost for too long. The run goes on unwatched.
         LinkError: The sidecar is not there at the beginning.
     """
-    watch = _Watch(robot, run, sidecar, screen, policies or WatchPolicies())
     driver = RunDriver(robot, run, screen)
+    watch = _Watch(robot, run, sidecar, screen, policies or WatchPolicies(), driver.paused_because)
     watch.begin()
     screen.says(LOSSES)
     began = time.monotonic()
@@ -107,7 +124,9 @@ class _Watch:
         sidecar: PastLink,
         screen: Screen,
         policies: WatchPolicies,
+        paused: Callable[[str], None],
     ) -> None:
+        self._paused = paused
         self._robot = robot
         self._run = run
         self._link = sidecar
@@ -241,8 +260,10 @@ class _Watch:
             self._screen.says(
                 f"{did.capitalize()} by the watch: {why}. Motion ends with the current move."
             )
-            if trajectory is not None and policy == "pause":
-                self._pauses.begin(trajectory, cause)
+            if policy == "pause":
+                self._paused(f"The watch paused the run: {why}.")
+                if trajectory is not None:
+                    self._pauses.begin(trajectory, cause)
 
     def _about(self) -> dict[str, Any]:
         return {

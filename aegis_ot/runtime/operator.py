@@ -63,7 +63,9 @@ class Operator:
 
     def aside(self) -> AbstractContextManager[None]:
         """While the guard does commands of its own, before the operation that waits."""
-        return nullcontext() if self._legacy_run is None else self._legacy_run.aside()
+        if self._legacy_run is not None:
+            return self._legacy_run.aside()
+        return _step_group(self._protocol, "aegis_ot: recovery")
 
     def comment(self, text: str) -> None:
         """Write into the run log."""
@@ -129,6 +131,20 @@ class Operator:
             if time.monotonic() - reminded > _REMIND_S:
                 reminded = time.monotonic()
                 _say(f"Still waiting. {how}.")
+
+
+@contextmanager
+def _step_group(protocol: Any, name: str) -> Iterator[None]:
+    """Shows commands as one step in the App, where it can (apiLevel 2.29)."""
+    try:
+        group = protocol.create_and_start_step_group(name)
+    except Exception:  # an older level, or within a group of the protocol's: there is but one
+        group = None
+    try:
+        yield
+    finally:
+        if group is not None:
+            group.end_group()
 
 
 def _say(text: str) -> None:

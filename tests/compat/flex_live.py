@@ -19,6 +19,7 @@ from typing import Any
 
 from opentrons.hardware_control.ot3api import OT3API
 from opentrons.protocol_engine.error_recovery_policy import ErrorRecoveryType
+from opentrons.protocols.api_support.definitions import MAX_SUPPORTED_VERSION
 from opentrons_shared_data.errors.exceptions import PipetteLiquidNotFoundError
 
 from aegis_ot.settings import Settings
@@ -171,6 +172,52 @@ def what_the_sensor_says_goes_with_the_delivery(sidecar: FakeSidecar) -> None:
     assert sum("iquidProbe" in kind for kind in kinds(run)) == len(asked) == 3
 
 
+RECOVERED = """
+from aegis_ot import guard
+requirements = {{"robotType": "Flex", "apiLevel": "{api}"}}
+
+@guard(sidecar="{sidecar}", run_id="run", rules="off", recover={{"no_aspirate": "retry"}})
+def run(context):
+    tips = context.load_labware("opentrons_flex_96_tiprack_200ul", "B2")
+    plate = context.load_labware("nest_96_wellplate_200ul_flat", "C2")
+    context.load_trash_bin("A3")
+    pipette = context.load_instrument("flex_1channel_1000", "left", [tips])
+    {group}
+        for source, target in (("A1", "A2"), ("B1", "B2")):
+            pipette.transfer(50, plate[source], plate[target], new_tip="always")
+"""
+
+
+def a_recovery_is_one_group_of_steps(sidecar: FakeSidecar) -> None:
+    groups = MAX_SUPPORTED_VERSION.minor >= 29
+    level = f"2.{29 if groups else 22}"
+    grouped = recovered(sidecar, level, "if True:")
+    assert [name for name, _ in grouped] == (["aegis_ot: recovery"] if groups else [])
+    if not groups:
+        return
+    steps = grouped[0][1]
+    assert (steps[0], steps[-1]) == ("comment", "dispense"), steps
+    assert steps.count("pickUpTip") == steps.count("aspirate") == 1, steps
+    # There is but one group at a time; the protocol's own goes first.
+    sidecar.keyframes.clear()
+    grouped = recovered(sidecar, level, 'with context.group_steps("first plate"):')
+    assert [name for name, _ in grouped] == ["first plate"]
+
+
+def recovered(sidecar: FakeSidecar, api: str, group: str) -> list[tuple[str, list[str]]]:
+    """The groups of a run in which one well is put right: name, types of the commands."""
+    sidecar.outcomes[0] = "fail"
+    sidecar.findings[0] = {"failure": "no_aspirate", "gate": "volumetric", "measured_ul": 0.0}
+    text = RECOVERED.format(api=api, sidecar=sidecar.url, group=group)
+    run = LiveRun(text, api=api, robot="Flex").start().join(60)
+    assert run.told == "", run.told
+    assert kinds(run).count("aspirate") == 3, kinds(run)
+    return [
+        (one.name, [c.commandType for c in run.commands if one.id in c.commandAnnotationIds])
+        for one in run.groups
+    ]
+
+
 def in_time(condition: Callable[[], bool]) -> None:
     until = time.monotonic() + 20.0
     while not condition():
@@ -184,6 +231,7 @@ STORIES = (
     a_stop_during_a_hold_is_quick,
     error_recovery_goes_on_with_the_guard,
     what_the_sensor_says_goes_with_the_delivery,
+    a_recovery_is_one_group_of_steps,
 )
 
 

@@ -13,16 +13,26 @@ import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import httpx
 import pytest
 
 from aegis_ot import __version__
+from aegis_ot.robot import RobotClient
 from aegis_ot.robot.wheel import write_wheel
 
 from ..cli.commands import Command, Result
+from ..support.robot_server import RobotServer
 from ..support.sshd import Robot
 
 Install = Callable[..., Result]
 
+
+WAITS = """
+metadata = {"apiLevel": "2.15"}
+
+def run(protocol):
+    protocol.pause("Wait.")
+"""
 
 PIP_SAYS = """
 case "$1$(cat)" in
@@ -143,6 +153,33 @@ def test_a_wrong_key_file_is_told_at_once(aegis: Command) -> None:
     done = aegis("install", "--robot", "127.0.0.1", "--key", "no-such-key")
     assert done.code == 2
     assert "no-such-key" in done.err
+
+
+def test_a_robot_that_runs_a_protocol_is_left_alone(
+    aegis: Command, robot: RobotServer, client: RobotClient, tmp_path: Path
+) -> None:
+    protocol = tmp_path / "waits.py"
+    protocol.write_text(WAITS, encoding="utf-8")
+    run = client.create_run(client.upload(protocol)[0])
+    client.act(run, "play")
+    done = aegis("install", "--robot", robot.url, "--port", "1")
+    client.act(run, "stop")
+    assert done.code == 2
+    assert "runs a protocol" in done.err
+    assert "logging in" not in done.out
+
+
+def test_a_server_that_does_not_come_up_is_no_reason_to_leave_it(
+    aegis: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    broken = httpx.Response(503, json={"errors": [{"detail": "It failed to start."}]})
+    answers = httpx.MockTransport(lambda request: broken)
+    monkeypatch.setattr(
+        "aegis_ot.robot.RobotClient", lambda robot: RobotClient(robot, transport=answers)
+    )
+    done = aegis("install", "--robot", "127.0.0.1", "--port", "1")
+    assert done.code == 2
+    assert "logging in" in done.out
 
 
 def test_the_wheel_is_pure_and_complete(tmp_path: Path) -> None:

@@ -119,6 +119,7 @@ def test_the_person_stops_the_run(
     done = aegis("run", written(PAUSES), "--robot", robot.url, "--yes")
     assert done.code == 1, done.out + done.err
     assert "stopped" in done.out
+    assert " failed: " not in done.out
 
 
 def test_the_person_pauses_and_resumes(

@@ -17,7 +17,7 @@ import pytest
 from aegis_ot.account import Situation, situations
 from aegis_ot.errors import SidecarUnreachable
 from aegis_ot.robot import Analysis, RobotClient
-from aegis_ot.robot.deck import channels_of, largest_volume, under
+from aegis_ot.robot.deck import channels_of, largest_volume
 from aegis_ot.robot.moments import PastLink, moment_of_transit
 from aegis_ot.robot.running import RobotRun
 from aegis_ot.robot.shapes import Command as RobotCommand
@@ -142,12 +142,12 @@ def test_an_unguarded_run_is_watched_to_its_end(client: RobotClient, tmp_path: P
 
 def test_a_failed_delivery_pauses_the_robot_by_its_api(client: RobotClient, tmp_path: Path) -> None:
     shown = Shown()
-    shown.wants["Somebody paused"] = "play"
+    shown.wants["The watch paused"] = "play"
     with sidecar(tmp_path, 1) as url:
         run = watch_run(client, begin(client, tmp_path), PastLink(url, None), shown, poll_s=0.05)
     assert run.status == "succeeded"
     assert any("Paused by the watch: B2 of my plate (slot 2) failed" in said for said in shown.said)
-    assert len(run.pauses) == 1
+    assert run.pauses == ["The watch paused the run: B2 of my plate (slot 2) failed."]
     assert run.verdicts[1].verdict.outcome is Outcome.FAIL
 
 
@@ -231,13 +231,33 @@ def test_a_lost_sidecar_pauses_once_and_the_watch_goes_on(
     client: RobotClient, tmp_path: Path
 ) -> None:
     shown = Shown()
-    shown.wants["Somebody paused"] = "play"
+    shown.wants["The watch paused"] = "play"
     with sidecar(tmp_path) as url:
         link = LosingLink(url, None)
         run = begin(client, tmp_path)
         watch_run(client, run, link, shown, WatchPolicies(capture_timeout_s=0.3), poll_s=0.05)
     assert run.status == "succeeded"
     assert sum("Paused by the watch: the sidecar is away" in said for said in shown.said) == 1
+
+
+def test_a_robot_that_is_away_is_waited_for() -> None:
+    idle = httpx.Response(200, json={"data": [], "links": {}})
+    begun = httpx.Response(200, json={"data": [], "links": {"current": {"href": "/runs/one"}}})
+    running = httpx.Response(200, json={"data": {"id": "one", "status": "running"}})
+    starting = httpx.Response(503, json={"errors": [{"detail": "The server starts."}]})
+    answers = iter((idle, None, None, starting, idle, begun, running))
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        found = next(answers)
+        if found is None:
+            raise httpx.ConnectError("refused", request=request)
+        return found
+
+    said: list[str] = []
+    with RobotClient("robot", httpx.MockTransport(answer)) as robot:
+        assert await_run(robot, lambda seconds: None, said.append) == "one"
+    (words,) = said
+    assert "cannot be reached" in words
 
 
 def test_a_run_with_a_guard_is_told_so(client: RobotClient, tmp_path: Path) -> None:
@@ -281,24 +301,6 @@ def test_transit_lies_before_the_plunger_moves() -> None:
     assert moment_of_transit(RobotCommand(0, "dispense", "succeeded", params, 10.0, 15.0)) == 12.8
     # Within the command, however short it was.
     assert moment_of_transit(RobotCommand(0, "dispense", "succeeded", params, 14.0, 15.0)) == 14.0
-
-
-@pytest.mark.parametrize(
-    ("rows", "columns", "channels", "first", "wells"),
-    [
-        (8, 12, 1, "C3", ("C3",)),
-        (8, 12, 8, "A3", tuple(f"{row}3" for row in "ABCDEFGH")),
-        (16, 24, 8, "B5", tuple(f"{row}5" for row in "BDFHJLNP")),
-        (1, 12, 8, "A4", ("A4",) * 8),
-        (8, 12, 96, "A1", tuple(f"{row}{c}" for c in range(1, 13) for row in "ABCDEFGH")),
-    ],
-)
-def test_the_wells_under_a_head(
-    rows: int, columns: int, channels: int, first: str, wells: tuple[str, ...]
-) -> None:
-    letters = "ABCDEFGHIJKLMNOP"[:rows]
-    ordering = [[f"{row}{column}" for row in letters] for column in range(1, columns + 1)]
-    assert under(ordering, first, channels) == wells
 
 
 @pytest.mark.parametrize(

@@ -95,6 +95,12 @@ class LiveRun:
         """The errors in which the run ended, as the App shows them."""
         return "\n".join(error.model_dump_json() for error in self._ask("get_state_summary").errors)
 
+    @property
+    def groups(self) -> list[Any]:
+        """The groups of steps, where this ``opentrons`` has such."""
+        known = hasattr(self._orchestrator, "get_all_command_annotations")
+        return list(self._ask("get_all_command_annotations")) if known else []
+
     def seen(self) -> list[Any]:
         """The commands so far, as the App would list them."""
         return list(self._ask("get_all_commands"))
