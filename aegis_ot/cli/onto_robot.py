@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-from ..errors import ConfigurationError
-from .app import app
+from ..errors import ConfigurationError, ProtocolRejected
+from .app import FINDINGS, app
 from .robots import Robot
 
 
@@ -71,7 +71,11 @@ def wrap(
         bool, typer.Option(help="Simulate both here, and say what the guard adds.")
     ] = True,
 ) -> None:
-    """Write a protocol with the guard inside, for a robot on which nothing may be installed."""
+    """Write a protocol with the guard inside, for a robot on which nothing may be installed.
+
+    Exit codes: 0 written, 1 written, but the guard refuses this protocol, 2 it cannot be read, does
+    not simulate, or a setting is no good.
+    """
     from ..robot.timing import simulation_s
     from ..robot.wrapping import wrap as put_in
 
@@ -91,7 +95,11 @@ def wrap(
     if wrapped.moved:
         typer.echo("The protocol began in its first line: its lines are one further down now.")
     if measure:
-        plain, guarded = simulation_s(protocol, protocol.name), simulation_s(out, out.name)
+        try:
+            plain, guarded = simulation_s(protocol, protocol.name), simulation_s(out, out.name)
+        except ProtocolRejected as refusal:
+            typer.echo(f"A robot will refuse it, as Layer 1 does here:\n{refusal}", err=True)
+            raise typer.Exit(FINDINGS) from None
         typer.echo(
             f"Simulated here in {guarded:.1f} s, {plain:.1f} s without the guard; a second "
             "analysis in the same process is faster. An OT-2 takes about ten times as long."

@@ -7,7 +7,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from ..errors import RehearsalError
+from ..errors import ProtocolRejected, RehearsalError
 
 _TIMEOUT_S = 600.0
 _TIMED = """
@@ -24,6 +24,9 @@ except Exception as error:
     # What the App would show of it; the engine's error prints as its whole record.
     engine = error.args[0] if error.args and isinstance(error.args[0], list) else ()
     told["error"] = "; ".join(one.detail for one in engine) or f"{type(error).__name__}: {error}"
+    classes = [type(error).__name__]
+    classes += [why.errorInfo.get("class") for one in engine for why in one.wrappedErrors]
+    told["refused"] = "ProtocolRejected" in classes
 print("TOLD", json.dumps(told))
 """
 
@@ -36,6 +39,7 @@ def simulation_s(protocol: Path, name: str) -> float:
         name: Under which it is simulated.
 
     Raises:
+        ProtocolRejected: The guard in it refuses it.
         RehearsalError: It does not simulate; with what was said.
     """
     try:
@@ -53,6 +57,8 @@ def simulation_s(protocol: Path, name: str) -> float:
             told = json.loads(line[5:])
             if "seconds" in told:
                 return float(told["seconds"])
+            if told["refused"]:
+                raise ProtocolRejected(told["error"])
             raise RehearsalError(f"{name} does not simulate: {told['error']}")
     said = [line for line in done.stderr.splitlines() if line.strip()]
     raise RehearsalError(f"{name} does not simulate: {said[-1] if said else 'nothing was said'}")
