@@ -41,7 +41,7 @@ FAILURE_TYPES = (
     "no_tip",
 )
 _WELL = re.compile(r"[A-Z]{1,2}[1-9][0-9]?")
-_PIPETTE = re.compile(r"p[1-9][0-9]*|flex_[0-9]{1,2}channel_[1-9][0-9]*")
+_PIPETTE = re.compile(r"p[1-9][0-9]*|flex_[0-9]{1,2}channel_[1-9][0-9]*|p[1-9][0-9]*_[a-z0-9_]+")
 
 Box = tuple[float, float, float, float]
 

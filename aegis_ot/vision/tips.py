@@ -200,6 +200,11 @@ def is_flex(pipette: str) -> bool:
     return name.startswith("flex") or name.endswith("_flex") or name == "p1000_96"
 
 
+def in_data_sets(pipette: str) -> str:
+    """A pipette as data sets name it: an OT-2's by class, a Flex's in full: its tips differ."""
+    return pipette if is_flex(pipette) else pipette_class(pipette)
+
+
 def tip_for(pipette: str, capacity_ul: float | None = None) -> TipGeometry:
     """The tip that a pipette most likely carries.
 

@@ -14,7 +14,7 @@ from ...errors import ConfigurationError, StoreError
 from ...sidecar.overview import run_overview
 from ...sidecar.store import DATABASE, Store
 from ...vision.dataset import LazyDetections
-from ...vision.tips import pipette_class
+from ...vision.tips import in_data_sets
 from ...vision.types import Detector, Image, TrajectorySample
 from ...vocabulary import FailureType, KeyframeKind, Outcome
 
@@ -137,7 +137,8 @@ def _sample(
         # What is calibrated together: one run, one pipette, one liquid.
         plate=" ".join(filter(None, (run, last["mount"], reagent))),
         well=wells[0]["name"] if wells else "",
-        pipette=pipette_class(last["pipette"]),
+        pipette=in_data_sets(last["pipette"]),
+        capacity_ul=float(last["capacity_ul"]),
         volume_ul=float(last["commanded_ul"]),
         frames=frames,
         detections=LazyDetections(frames, dict.fromkeys(KeyframeKind, ""), detector),

@@ -19,7 +19,9 @@ from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 VOLUME = 150.0
 
 
-def make_store(folder: Path, faults: tuple[str, ...], run: str = "run-1") -> Path:
+def make_store(
+    folder: Path, faults: tuple[str, ...], run: str = "run-1", pipette: str = "p300_single_gen2"
+) -> Path:
     """One run with a well for each of ``faults`` (``""``: none), judged as a sidecar does."""
     rng = np.random.default_rng(7)
     plate = SimulatedPlate("plate00", SessionParameters.webcam(7), "p300", VOLUME)
@@ -34,7 +36,7 @@ def make_store(folder: Path, faults: tuple[str, ...], run: str = "run-1") -> Pat
         for place, kind in enumerate(KeyframeKind):
             keyframe = Keyframe(
                 run=run, sequence=4 * number + place, trajectory=number, kind=kind,
-                pipette="p300_single_gen2", mount="left", channels=1, tip=f"1:{name}",
+                pipette=pipette, mount="left", channels=1, tip=f"1:{name}",
                 sources=(WellRef("2", "A1", "dye"),), destinations=(WellRef("3", name, "plate"),),
                 commanded_ul=VOLUME, expected_ul=sample.expected_ul[kind], capacity_ul=300.0,
                 reagent="red dye", line=10,

@@ -18,6 +18,8 @@ from aegis_ot.vision.dataset import load_dataset
 from aegis_ot.vision.detection import load_detector
 from aegis_ot.vocabulary import Outcome
 
+from .stores import make_store
+
 
 def test_only_wells_that_passed_are_learned(store: Path, tmp_path: Path) -> None:
     model = fit_model([store], tmp_path / "lab.model", "pca")
@@ -53,6 +55,16 @@ def test_plates_of_two_sets_are_not_mixed_up(drawn: Path, tmp_path: Path, monkey
     monkeypatch.setattr("aegis_ot.vision.scorers.pca.PcaScorer.to_arrays", lambda self: ({}, {}))
     fit_model([drawn, drawn], tmp_path / "x", "pca")
     assert len(seen) == 6
+
+
+def test_a_flex_pipette_keeps_its_name_and_its_tip(tmp_path: Path) -> None:
+    folder = make_store(tmp_path / "store", ("", ""), pipette="flex_1channel_1000")
+    (run,) = recorded_runs(Store(folder), load_detector())
+    assert {sample.tip.name for sample in run.samples} == {"flex_200"}
+    export_runs(folder, tmp_path / "out")
+    assert {record.pipette for record in load_dataset(tmp_path / "out").records} == {
+        "flex_1channel_1000"
+    }
 
 
 def test_a_run_becomes_a_data_set(store: Path, tmp_path: Path) -> None:
