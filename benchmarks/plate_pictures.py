@@ -47,9 +47,9 @@ def one_plate(wells: int, seed: int, faulty: bool) -> dict[str, Any]:
     from aegis_ot.audit.plate_record import RecordedPlate, RecordedWell
     from aegis_ot.errors import ConfigurationError
     from aegis_ot.simulation.dyes import DYES as LIQUIDS
-    from aegis_ot.simulation.plate_above import WellContent, render_plate
-    from aegis_ot.simulation.plate_shots import random_shot
     from aegis_ot.vision.plate import FORMATS, find_plate
+    from scripts.plates_from_above.rendering import WellContent, render_plate
+    from scripts.plates_from_above.shots import random_shot
 
     rng = np.random.default_rng((wells, seed))
     plate, shots = FORMATS[wells], random_shot(rng)

@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 660,
     "preflight/source": 760,
     "preflight/trace": 1_610,
-    "": 66_750,
+    "": 66_600,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""

@@ -1,0 +1,1 @@
+"""The simulated scenes path-traced with Mitsuba: ``python -m scripts.path_traced --help``."""

@@ -16,8 +16,8 @@ from aegis_ot.audit.plate_words import contradiction_words, doubt_words, unjudge
 from aegis_ot.sidecar.overview import run_overview
 from aegis_ot.sidecar.store import Store
 from aegis_ot.simulation.dyes import DYES
-from aegis_ot.simulation.plate_above import PlateShot, WellContent, render_plate
 from aegis_ot.vision.plate import FORMATS, Change
+from scripts.plates_from_above.rendering import PlateShot, WellContent, render_plate
 from tests.cli.commands import Command
 from tests.sidecar.browser import CHROMIUM, chromium
 

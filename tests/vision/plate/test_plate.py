@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from aegis_ot.simulation.dyes import DYES
-from aegis_ot.simulation.plate_above import PlateShot, WellContent, render_plate
 from aegis_ot.vision.plate import FORMATS, change_between, find_plate, other_kind, plate_light
+from scripts.plates_from_above.rendering import PlateShot, WellContent, render_plate
 
 SHOT = PlateShot(tilt_deg=(3.0, -2.0), turn_deg=6.0, slope=(0.3, -0.2))
 OTHER = PlateShot(tilt_deg=(-2.0, 2.0), turn_deg=-3.0, gain=(1.05, 0.95, 0.9), seed=1)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .plate_above import PlateShot
+from .rendering import PlateShot
 
 
 def random_shot(rng: np.random.Generator) -> tuple[PlateShot, PlateShot]:

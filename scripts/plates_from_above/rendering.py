@@ -14,9 +14,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from ..vision.plate.formats import LENGTH_MM, WIDTH_MM, PlateFormat
-from ..vision.types import Image
-from .dyes import REFERENCE_PATH_MM, Dye
+from aegis_ot.simulation.dyes import REFERENCE_PATH_MM, Dye
+from aegis_ot.vision.plate.formats import LENGTH_MM, WIDTH_MM, PlateFormat
+from aegis_ot.vision.types import Image
 
 Plane = NDArray[np.float32]
 
