@@ -1,10 +1,11 @@
 """Render a trajectory data set of several kinds of camera by path tracing.
 
-``python -m scripts.path_traced OUT [--kind NAME]... [--plates 4] [--seed 1]``
+``python -m scripts.path_traced OUT [--kind NAME]... [--plates 4] [--seed 1] [--for-detector N]``
 
 It needs ``pip install mitsuba`` beside ``aegis-ot[sidecar]``; a plate of twelve wells
 takes a minute or two. ``meta.json`` names the kind of each plate, which
-``aegis-ot evaluate layer2 OUT --leave-out camera`` leaves out as a whole.
+``aegis-ot evaluate layer2 OUT --leave-out camera`` leaves out as a whole. ``--for-detector``
+renders instead N wells, each before a camera of its own: for ``aegis-ot train detector``.
 """
 
 from __future__ import annotations
@@ -17,10 +18,11 @@ from typing import Any
 import numpy as np
 
 from aegis_ot.simulation.dataset import SimulatedPlate, typical_volume, write_plates
+from aegis_ot.simulation.dyes import DYES
 from aegis_ot.simulation.plans import REAGENTS, PlannedWell
 from aegis_ot.vision.tips import tip_for
 
-from .kinds import KINDS, draw_session
+from .kinds import KINDS, CameraKind, any_kind, draw_session
 from .stage import Lamps
 
 FIRST_NORMALS = 4
@@ -40,16 +42,23 @@ def main() -> None:
     parser.add_argument("--kind", action="append", choices=list(KINDS), help="default: all")
     parser.add_argument("--plates", type=int, default=4, help="of each kind")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--for-detector", type=int, default=0, metavar="N")
     asked = parser.parse_args()
     rng = np.random.default_rng((asked.seed, 31))
     plates, plan, lamps, cameras = [], [], {}, {}
-    for name in asked.kind or KINDS:
+    for name in () if asked.for_detector else asked.kind or KINDS:
         for number in range(asked.plates):
-            plate, light = _plate(name, number, rng)
+            plate, light = _plate(name, KINDS[name], number, rng)
             plan += _wells(len(plates), number, rng)
             plates.append(plate)
             lamps[plate.session.seed] = light
             cameras[plate.name] = name
+    for number in range(asked.for_detector):
+        plate, light = _plate("any", any_kind(rng), number, rng)
+        # A data set's plate begins with a normal well.
+        plan.append(PlannedWell(number, str(rng.choice(tuple(DYES))), ""))
+        plates.append(plate)
+        lamps[plate.session.seed] = light
     meta: dict[str, Any] = {
         "source": "rendered",
         "renderer": "path-traced (scripts/path_traced)",
@@ -61,12 +70,13 @@ def main() -> None:
     write_plates(asked.out, plates, plan, meta, rng, PathTracer(lamps))
 
 
-def _plate(kind: str, number: int, rng: np.random.Generator) -> tuple[SimulatedPlate, Lamps]:
-    pipettes = KINDS[kind].pipettes
-    pipette = pipettes[number % len(pipettes)]
-    session, light = draw_session(KINDS[kind], pipette, rng)
+def _plate(
+    name: str, kind: CameraKind, number: int, rng: np.random.Generator
+) -> tuple[SimulatedPlate, Lamps]:
+    pipette = kind.pipettes[number % len(kind.pipettes)]
+    session, light = draw_session(kind, pipette, rng)
     volume = typical_volume(rng, tip_for(pipette))
-    return SimulatedPlate(f"{kind}-{number:02d}", session, pipette, volume), light
+    return SimulatedPlate(f"{name}-{number:02d}", session, pipette, volume), light
 
 
 def _wells(plate: int, number: int, rng: np.random.Generator) -> list[PlannedWell]:

@@ -93,6 +93,22 @@ KINDS: Mapping[str, CameraKind] = {
 """Kinds by name. They were written down before anything was scored on them."""
 
 
+PIPETTES = ("p1000", "p300", "p20", "flex_1channel_1000", "flex_1channel_50")
+
+
+def any_kind(rng: np.random.Generator) -> CameraKind:
+    """A set-up from a range that holds all of :data:`KINDS` and more: for training a detector."""
+    place = (float(rng.uniform(-400, 400)), float(rng.uniform(-500, 150)), 800.0)
+    sizes = ((640, 480), (640, 480), (960, 540), (1280, 720))
+    warm = float(rng.uniform(-0.1, 0.1))
+    return CameraKind(
+        sizes[int(rng.integers(len(sizes)))], (PIPETTES[int(rng.integers(len(PIPETTES)))],),
+        (-35, 35), (1, 34), (220, 650), (0.24, 0.5), (12, 250), (0.5, 2.0), (1.5, 9), (55, 97),
+        (0.0, 0.6), (0.2, 1.4), (2, 40), place, (float(rng.uniform(12, 300)),) * 2,
+        (1.0 + warm, 1.0, 1.0 - warm), (0.5, 3.0),
+    )  # fmt: skip
+
+
 def draw_session(
     kind: CameraKind, pipette: str, rng: np.random.Generator
 ) -> tuple[SessionParameters, Lamps]:
