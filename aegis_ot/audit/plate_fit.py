@@ -97,17 +97,19 @@ def read_plate(change: Change, recorded: RecordedPlate) -> PlateReading:
     failed = np.array([name in wells and wells[name].failed for name in names])
     told = ~change.blinded & ~unknown
     filled = np.array([bool(one) for one in gained])
-    seen, least = _beside_quiet(change.absorbed, told & ~filled, recorded)
+    quarters, seen, least = _beside_quiet(change.absorbed, told & ~filled, recorded)
     shows = np.linalg.norm(seen, axis=1) > least
     fitted, silent = _fitted(gained, told & ~failed, shows)
     expected, weight, known = _expected(gained, seen, fitted)
     size, off = np.linalg.norm(expected, axis=1), np.linalg.norm(seen - expected, axis=1)
     limit = np.maximum(_OFF * size, least)
     score = off / limit
+    # Walls that are seen aside, glints and shadows reach some of a well, a change of content all.
+    everywhere = np.linalg.norm(quarters - expected[:, None], axis=2).min(axis=1) > limit
     faint = filled & (size < _SEEN * least)
     alone = filled & ~known & (shows | faint) | fitted & (weight > _ALONE) & ~silent
     reasons = (("hidden", change.blinded), ("unknown", unknown), ("alone", alone),
-               ("faint", faint & (score <= 1)))  # fmt: skip
+               ("faint", faint & (score <= 1)), ("uneven", (score > 1) & ~everywhere))  # fmt: skip
     readings = []
     for n, name in enumerate(names):
         why = next((reason for reason, holds in reasons if holds[n]), "")
@@ -125,17 +127,22 @@ def read_plate(change: Change, recorded: RecordedPlate) -> PlateReading:
     return PlateReading(readings, bool(darker.size and np.median(darker) < 0))
 
 
-def _beside_quiet(absorbed: Array, quiet: Flags, recorded: RecordedPlate) -> tuple[Array, float]:
-    """The change beside that of wells that got nothing, and the least that is told from none."""
+def _beside_quiet(
+    quarters: Array, quiet: Flags, recorded: RecordedPlate
+) -> tuple[Array, Array, float]:
+    """The change of quarters and of wells beside that of wells that got nothing, and the least that
+    is told from none."""
     spread = np.full(3, _LEAST_NOISE)
     if quiet.sum() >= _FEW:
-        absorbed = absorbed - np.median(absorbed[quiet], axis=0)
+        quarters = quarters - np.median(quarters[quiet], axis=0)
+    absorbed = np.median(quarters, axis=1)
+    if quiet.sum() >= _FEW:
         # Of small square wells the tail counts too: some parts of the plate are read worse.
         part, deviations = (0.95, 1.96) if recorded.plate.square else (0.5, 0.6745)
         tail = np.quantile(np.abs(absorbed[quiet]), part, axis=0) / deviations
         spread = np.maximum(tail, spread)
     noise = _DEVIATIONS * float(np.linalg.norm(spread))
-    return absorbed, max(noise, _LEAST, _LEAST_PER_MM * recorded.plate.pitch_mm)
+    return quarters, absorbed, max(noise, _LEAST, _LEAST_PER_MM * recorded.plate.pitch_mm)
 
 
 def _fitted(

@@ -19,6 +19,8 @@ _UNJUDGED: Mapping[str, str] = {
     "{them} in one of the pictures.",
     "unknown": "the record does not tell what {they} held: liquid that was there before the run "
     "was drawn, or a delivery was given up.",
+    "uneven": "part of {them} contradicts the record and part agrees, as where a wall or a shadow is "
+    "seen. Look at {them}.",
     "alone": "too few other wells got the same liquids to compare the colour with.",
 }
 
