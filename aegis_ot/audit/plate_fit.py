@@ -36,8 +36,9 @@ _FEW = 3
 _ALONE = 0.45
 """Weight of a well in its own expectation (leverage) from which the others say too little."""
 
-_SEEN = 1.25
-"""Least change that can be missed, in limits: a fainter one is not told from none."""
+_SEEN, _HALF = 1.25, 2.0
+"""Least change that can be missed, in limits: a fainter one is not told from none; and of which a
+half can be."""
 
 _ROUNDS = 8
 """Of the robust fit."""
@@ -50,9 +51,11 @@ class WellReading:
     Attributes:
         well: Its name.
         state: ``"agrees"``, ``"contradicts"`` or ``"unjudged"``.
-        why: Of an unjudged one: ``"hidden"``, ``"unknown"`` (content), ``"faint"`` (its liquids
-            show too little in any well) or ``"alone"`` (too few others hold its liquid). Else
-            ``"known"`` where the run had failed it, or empty.
+        why: Of an unjudged one: ``"hidden"``, ``"unknown"`` (content), ``"alone"`` (too few others
+            hold its liquid), ``"faint"`` (its liquids show too little in any well), ``"weak"`` (it
+            changed, but half of its volume could look alike), ``"lighter"`` (than before: no dye
+            does that) or ``"uneven"`` (only a part of it contradicts). Else ``"known"`` where the
+            run had failed it, or empty.
         score: How far it is off, by what is allowed.
         share: What it shows of the expected change, 1 for all; ``None`` if none was expected.
         other: Whether its colour is off rather than its amount.
@@ -109,19 +112,19 @@ def read_plate(change: Change, recorded: RecordedPlate) -> PlateReading:
     faint = filled & (size < _SEEN * least)
     alone = filled & ~known & (shows | faint) | fitted & (weight > _ALONE) & ~silent
     reasons = (("hidden", change.blinded), ("unknown", unknown), ("alone", alone),
-               ("faint", faint & (score <= 1)), ("uneven", (score > 1) & ~everywhere))  # fmt: skip
+               ("faint", faint & (score <= 1)),
+               ("weak", filled & (size < _HALF * least) & (score <= 1)),
+               ("lighter", (score > 1) & (seen.sum(axis=1) < -least)),
+               ("uneven", (score > 1) & ~everywhere))  # fmt: skip
     readings = []
     for n, name in enumerate(names):
         why = next((reason for reason, holds in reasons if holds[n]), "")
-        if why:
-            readings.append(WellReading(name, UNJUDGED, why))
-            continue
         share, other = None, False
-        if filled[n] and not faint[n]:
+        if filled[n] and not faint[n] and (not why or why == "weak"):
             share = float(seen[n] @ expected[n] / size[n] ** 2)
             other = bool(np.linalg.norm(seen[n] - share * expected[n]) > limit[n])
-        state = CONTRADICTS if score[n] > 1 else AGREES
-        why = "known" if failed[n] else ""
+        state = UNJUDGED if why else CONTRADICTS if score[n] > 1 else AGREES
+        why = why or ("known" if failed[n] else "")
         readings.append(WellReading(name, state, why, float(score[n]), share, other))
     darker = seen[fitted & shows].sum(axis=1)
     return PlateReading(readings, bool(darker.size and np.median(darker) < 0))

@@ -145,7 +145,9 @@ def _pictured(
     if before.image.shape == after.image.shape and (before.image == after.image).all():
         raise ConfigurationError(f"--plate: {plate[0]} and {plate[1]} are the same picture.")
     said = compare_pictures(before, after, recorded, a1)
+    doubtful = ("lighter", "uneven")
     shown = [one.well for one in said.wells if one.state == "contradicts"]
+    shown += [one.well for one in said.wells if one.why in doubtful]
     return said, plate_views((before.image, before.found), (after.image, after.found), shown)
 
 
