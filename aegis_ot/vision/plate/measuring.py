@@ -43,6 +43,11 @@ _COVERED, _SHADED = 0.25, 0.8
 beside the plate's median), from which something lies over it: a hand, a label, a lid."""
 
 
+_LIT = 0.2
+"""How much brighter a quarter of a well may be than others before anything was put into them (natural
+logarithm): beyond, a lamp is mirrored in it."""
+
+
 @dataclass(frozen=True)
 class PlateLight:
     """A plate's wells in one picture, row by row from A1.
@@ -117,7 +122,9 @@ def change_between(before: PlateLight, after: PlateLight) -> Change:
     around = around - np.median(around, axis=0)
     light = around.mean(axis=1)
     covered = np.abs(around - light[:, None]).max(axis=1) > _COVERED
-    blinded = before.blinded | after.blinded | covered | (np.abs(light) > _SHADED)
+    bright = before.wells.mean(axis=2).max(axis=1)
+    lit = bright - np.median(bright) > _LIT
+    blinded = before.blinded | after.blinded | covered | lit | (np.abs(light) > _SHADED)
     return Change(before.wells - after.wells, blinded)
 
 
