@@ -174,8 +174,8 @@ def _gate(
 def _tell_plate(seen: PlateAudit) -> None:
     typer.echo(
         f"{seen.title}, {seen.before} and {seen.after}: {counted(len(seen.wells), 'well')}, "
-        f"{seen.counted('agrees')} agree with the record, {seen.counted('contradicts')} contradict "
-        f"it, {seen.counted('unjudged')} not judged."
+        f"{counted(seen.counted('agrees'), 'agrees', 'agree')} with the record, "
+        f"{counted(seen.counted('contradicts'), 'contradicts', 'contradict')} it, {seen.counted('unjudged')} not judged."
     )
     for said in (seen.doubt, *seen.contradictions, *seen.notes):
         if said:

@@ -190,7 +190,7 @@ def test_the_command_names_the_well_and_the_page_shows_it(
     code, said = audit("before.png", "after.png", "--out", page)
     assert code == 1
     assert "C1 shows no change although 150 µL of red dye from A1 of dye were dispensed" in said
-    assert "1 contradict" in said
+    assert "1 contradicts it" in said
     text = page.read_text("utf-8")
     assert 'aria-label="C1: contradicts the record"' in text
     assert "after; ringed: A1" in text
