@@ -133,8 +133,7 @@ def read_plate(change: Change, recorded: RecordedPlate) -> PlateReading:
 def _beside_quiet(
     quarters: Array, quiet: Flags, recorded: RecordedPlate
 ) -> tuple[Array, Array, float]:
-    """The change of quarters and of wells beside that of wells that got nothing, and the least that
-    is told from none."""
+    """The change of quarters and wells beside that of wells without a delivery; the least told."""
     spread = np.full(3, _LEAST_NOISE)
     if quiet.sum() >= _FEW:
         quarters = quarters - np.median(quarters[quiet], axis=0)

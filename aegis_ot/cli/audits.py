@@ -175,7 +175,8 @@ def _tell_plate(seen: PlateAudit) -> None:
     typer.echo(
         f"{seen.title}, {seen.before} and {seen.after}: {counted(len(seen.wells), 'well')}, "
         f"{counted(seen.counted('agrees'), 'agrees', 'agree')} with the record, "
-        f"{counted(seen.counted('contradicts'), 'contradicts', 'contradict')} it, {seen.counted('unjudged')} not judged."
+        f"{counted(seen.counted('contradicts'), 'contradicts', 'contradict')} it, "
+        f"{seen.counted('unjudged')} not judged."
     )
     for said in (seen.doubt, *seen.contradictions, *seen.notes):
         if said:

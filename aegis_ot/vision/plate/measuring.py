@@ -18,8 +18,9 @@ Flags = NDArray[np.bool_]
 _CORE = 0.55
 """Share of a well's radius within which its colour is read: beyond are walls and meniscus."""
 
-_POINTS = 14
-"""Points across a well at which it is read."""
+_STEPS = np.linspace(-1, 1, 14)
+_DISC = np.array([(x, y) for y in _STEPS for x in _STEPS if np.hypot(x, y) <= 1])
+"""Points at which a disc of radius 1 is read."""
 
 _SATURATED, _BLACK = 250, 3
 """Grey levels from which on, and up to which, a pixel tells nothing."""
@@ -44,7 +45,7 @@ beside the plate's median), from which something lies over it: a hand, a label, 
 
 
 _LIT = 0.2
-"""How much brighter a quarter of a well may be than others before anything was put into them (natural
+"""How much brighter than others a quarter of a well may be in the first picture (natural
 logarithm): beyond, a lamp is mirrored in it."""
 
 
@@ -98,9 +99,8 @@ def plate_light(image: Image, found: FoundPlate) -> PlateLight:
         middles = _most_even(image, found, middles, radius, _ASIDE)
         between = _most_even(image, found, between, _CROSSING * gap, _BESIDE)
     seen, lost = _samples(image, found, middles, radius)
-    right, below = _disc()[:, 0] > 0, _disc()[:, 1] > 0
-    quarters = (~right & ~below, right & ~below, ~right & below, right & below)
-    wells = np.stack([np.median(seen[:, one], axis=1) for one in quarters], axis=1)
+    quarter = (_DISC > 0) @ (1, 2)
+    wells = np.stack([np.median(seen[:, quarter == one], axis=1) for one in range(4)], axis=1)
     hidden = lost.mean(axis=1) > _GLARE
     if plate.pitch_mm < _HALO_MM:
         near = hidden.reshape(plate.rows, plate.columns).astype(np.uint8)
@@ -152,16 +152,9 @@ def _most_even(
     return places if change is None else places @ change[:, :2].T + change[:, 2]
 
 
-def _disc() -> Array:
-    """Points of a disc of radius 1."""
-    steps = np.linspace(-1, 1, _POINTS)
-    x, y = np.meshgrid(steps, steps)
-    return np.column_stack([x.ravel(), y.ravel()])[(np.hypot(x, y) <= 1).ravel()]
-
-
 def _samples(image: Image, found: FoundPlate, places: Array, radius: float) -> tuple[Array, Flags]:
     """Logarithm of the light at points of discs, ``(discs, points, 3)``, and which tell nothing."""
-    disc = _disc() * radius
+    disc = _DISC * radius
     at = found.pixels((places[:, None] + disc[None]).reshape(-1, 2)).astype(np.float32) - 0.5
     shape = (len(places), len(disc))
     seen = cv2.remap(image, at[:, 0].reshape(shape), at[:, 1].reshape(shape), cv2.INTER_LINEAR,
