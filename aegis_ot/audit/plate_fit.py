@@ -36,8 +36,9 @@ _FEW = 3
 _ALONE = 0.45
 """Weight of a well in its own expectation (leverage) from which the others say too little."""
 
-_SEEN = 1.25
-"""Least change that can be missed, in limits: a fainter one is not told from none."""
+_SEEN, _HALF = 1.25, 2.0
+"""Least change that can be missed, in limits: a fainter one is not told from none; and of which a
+half can be."""
 
 _ROUNDS = 8
 """Of the robust fit."""
@@ -50,9 +51,11 @@ class WellReading:
     Attributes:
         well: Its name.
         state: ``"agrees"``, ``"contradicts"`` or ``"unjudged"``.
-        why: Of an unjudged one: ``"hidden"``, ``"unknown"`` (content), ``"faint"`` (its liquids
-            show too little in any well) or ``"alone"`` (too few others hold its liquid). Else
-            ``"known"`` where the run had failed it, or empty.
+        why: Of an unjudged one: ``"hidden"``, ``"unknown"`` (content), ``"alone"`` (too few others
+            hold its liquid), ``"faint"`` (its liquids show too little in any well), ``"weak"`` (it
+            changed, but half of its volume could look alike), ``"lighter"`` (than before: no dye
+            does that) or ``"uneven"`` (only a part of it contradicts). Else ``"known"`` where the
+            run had failed it, or empty.
         score: How far it is off, by what is allowed.
         share: What it shows of the expected change, 1 for all; ``None`` if none was expected.
         other: Whether its colour is off rather than its amount.
@@ -97,45 +100,51 @@ def read_plate(change: Change, recorded: RecordedPlate) -> PlateReading:
     failed = np.array([name in wells and wells[name].failed for name in names])
     told = ~change.blinded & ~unknown
     filled = np.array([bool(one) for one in gained])
-    seen, least = _beside_quiet(change.absorbed, told & ~filled, recorded)
+    quarters, seen, least = _beside_quiet(change.absorbed, told & ~filled, recorded)
     shows = np.linalg.norm(seen, axis=1) > least
     fitted, silent = _fitted(gained, told & ~failed, shows)
     expected, weight, known = _expected(gained, seen, fitted)
     size, off = np.linalg.norm(expected, axis=1), np.linalg.norm(seen - expected, axis=1)
     limit = np.maximum(_OFF * size, least)
     score = off / limit
+    # Walls that are seen aside, glints and shadows reach some of a well, a change of content all.
+    everywhere = np.linalg.norm(quarters - expected[:, None], axis=2).min(axis=1) > limit
     faint = filled & (size < _SEEN * least)
     alone = filled & ~known & (shows | faint) | fitted & (weight > _ALONE) & ~silent
     reasons = (("hidden", change.blinded), ("unknown", unknown), ("alone", alone),
-               ("faint", faint & (score <= 1)))  # fmt: skip
+               ("faint", faint & (score <= 1)),
+               ("weak", filled & (size < _HALF * least) & (score <= 1)),
+               ("lighter", (score > 1) & (seen.sum(axis=1) < -least)),
+               ("uneven", (score > 1) & ~everywhere))  # fmt: skip
     readings = []
     for n, name in enumerate(names):
         why = next((reason for reason, holds in reasons if holds[n]), "")
-        if why:
-            readings.append(WellReading(name, UNJUDGED, why))
-            continue
         share, other = None, False
-        if filled[n] and not faint[n]:
+        if filled[n] and not faint[n] and (not why or why == "weak"):
             share = float(seen[n] @ expected[n] / size[n] ** 2)
             other = bool(np.linalg.norm(seen[n] - share * expected[n]) > limit[n])
-        state = CONTRADICTS if score[n] > 1 else AGREES
-        why = "known" if failed[n] else ""
+        state = UNJUDGED if why else CONTRADICTS if score[n] > 1 else AGREES
+        why = why or ("known" if failed[n] else "")
         readings.append(WellReading(name, state, why, float(score[n]), share, other))
     darker = seen[fitted & shows].sum(axis=1)
     return PlateReading(readings, bool(darker.size and np.median(darker) < 0))
 
 
-def _beside_quiet(absorbed: Array, quiet: Flags, recorded: RecordedPlate) -> tuple[Array, float]:
-    """The change beside that of wells that got nothing, and the least that is told from none."""
+def _beside_quiet(
+    quarters: Array, quiet: Flags, recorded: RecordedPlate
+) -> tuple[Array, Array, float]:
+    """The change of quarters and wells beside that of wells without a delivery; the least told."""
     spread = np.full(3, _LEAST_NOISE)
     if quiet.sum() >= _FEW:
-        absorbed = absorbed - np.median(absorbed[quiet], axis=0)
+        quarters = quarters - np.median(quarters[quiet], axis=0)
+    absorbed = np.median(quarters, axis=1)
+    if quiet.sum() >= _FEW:
         # Of small square wells the tail counts too: some parts of the plate are read worse.
         part, deviations = (0.95, 1.96) if recorded.plate.square else (0.5, 0.6745)
         tail = np.quantile(np.abs(absorbed[quiet]), part, axis=0) / deviations
         spread = np.maximum(tail, spread)
     noise = _DEVIATIONS * float(np.linalg.norm(spread))
-    return absorbed, max(noise, _LEAST, _LEAST_PER_MM * recorded.plate.pitch_mm)
+    return quarters, absorbed, max(noise, _LEAST, _LEAST_PER_MM * recorded.plate.pitch_mm)
 
 
 def _fitted(

@@ -205,7 +205,7 @@ def _turned(
     for turn in ((True, True), (False, True), (True, False)):
         other = _read(lights, turn, recorded)
         better = _CLEARLY * other.contradicting <= off and _judged(other) >= judged
-        if off and better and other.shows:
+        if off > 1 and better and other.shows:
             ways = [opposite(one) if way else one for one, way in zip(corners, turn, strict=True)]
             said = f"--a1 {ways[0]}" + (f" --a1 {ways[1]}" if ways[0] != ways[1] else "")
             return (

@@ -19,6 +19,10 @@ _UNJUDGED: Mapping[str, str] = {
     "{them} in one of the pictures.",
     "unknown": "the record does not tell what {they} held: liquid that was there before the run "
     "was drawn, or a delivery was given up.",
+    "weak": "a change shows, but half of the volume could look alike in these pictures.",
+    "lighter": "{they} became lighter, as by a reflection. Look at {them}.",
+    "uneven": "part of {them} contradicts the record and part agrees, as where a wall or a shadow "
+    "is seen. Look at {them}.",
     "alone": "too few other wells got the same liquids to compare the colour with.",
 }
 
@@ -50,10 +54,8 @@ def _contradiction(one: WellReading, held: str) -> tuple[str, str]:
         said = f"changed although {held} are too clear in other wells to be seen."
         return said, said
     if share <= _NOTHING:
-        change = ("shows", "show") if share > -_NOTHING else ("became", "became")
-        what = "no change" if share > -_NOTHING else "lighter"
-        said = f"{what} although {held} were dispensed into"
-        return f"{change[0]} {said} it.", f"{change[1]} {said} each of them."
+        said = f"no change although {held} were dispensed into"
+        return f"shows {said} it.", f"show {said} each of them."
     if one.other:
         said = f"changed, but to another colour than {held} give other wells."
         return said, said

@@ -145,7 +145,9 @@ def _pictured(
     if before.image.shape == after.image.shape and (before.image == after.image).all():
         raise ConfigurationError(f"--plate: {plate[0]} and {plate[1]} are the same picture.")
     said = compare_pictures(before, after, recorded, a1)
+    doubtful = ("lighter", "uneven")
     shown = [one.well for one in said.wells if one.state == "contradicts"]
+    shown += [one.well for one in said.wells if one.why in doubtful]
     return said, plate_views((before.image, before.found), (after.image, after.found), shown)
 
 
@@ -172,8 +174,9 @@ def _gate(
 def _tell_plate(seen: PlateAudit) -> None:
     typer.echo(
         f"{seen.title}, {seen.before} and {seen.after}: {counted(len(seen.wells), 'well')}, "
-        f"{seen.counted('agrees')} agree with the record, {seen.counted('contradicts')} contradict "
-        f"it, {seen.counted('unjudged')} not judged."
+        f"{counted(seen.counted('agrees'), 'agrees', 'agree')} with the record, "
+        f"{counted(seen.counted('contradicts'), 'contradicts', 'contradict')} it, "
+        f"{seen.counted('unjudged')} not judged."
     )
     for said in (seen.doubt, *seen.contradictions, *seen.notes):
         if said:

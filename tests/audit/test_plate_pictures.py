@@ -40,7 +40,7 @@ def seen(**shown: float) -> Change:
     absorbed = np.random.default_rng(1).normal(0, 0.01, (96, 3))
     for well, ul in shown.items():
         absorbed[PLATE.names.index(well)] += RED * ul
-    return Change(absorbed, np.zeros(96, bool))
+    return Change(np.repeat(absorbed[:, None], 4, axis=1), np.zeros(96, bool))
 
 
 def states(reading: PlateReading) -> dict[str, str]:
@@ -94,6 +94,28 @@ def test_what_the_pictures_cannot_tell_is_listed_and_neither_passed_nor_accused(
     assert "Buffer: too clear or too little for these pictures, or nothing arrived" in said
     assert "A2, H12: glare" in said
     assert not reading.of("contradicts")
+
+
+def test_a_well_that_contradicts_in_part_or_became_lighter_is_listed_and_not_accused() -> None:
+    told = record(**row("A", red=100.0), **row("B", red=50.0))
+    change = seen(**filled("A", 100) | filled("B", 50) | {"A1": 0, "A2": 0, "A3": -60, "H1": -60})
+    shaded, floor = PLATE.names.index("H12"), PLATE.names.index("A2")
+    change.absorbed[shaded, :3] += 0.5  # a wall: all of an empty well but one quarter
+    change.absorbed[floor, 3] += RED * 100
+    reading = read_plate(change, told)
+    assert [one.well for one in reading.of("contradicts")] == ["A1"]
+    why = {one.well: one.why for one in reading.of("unjudged")}
+    assert why == {"A2": "uneven", "H12": "uneven", "A3": "lighter", "H1": "lighter"}
+    said = "\n".join(unjudged_words(reading, told))
+    assert "part of them contradicts the record and part agrees" in said
+    assert "A3, H1: they became lighter" in said
+
+
+def test_where_half_would_look_alike_a_well_is_not_said_to_agree() -> None:
+    told = record(**row("A", red=100.0), **row("B", red=10.0))
+    reading = read_plate(seen(**filled("A", 100) | filled("B", 10) | {"B3": 0}), told)
+    assert states(reading)["B3"] == "contradicts"
+    assert {one.well for one in reading.wells if one.why == "weak"} == set(row("B")) - {"B3"}
 
 
 def test_a_whole_plate_of_one_volume_needs_no_empty_wells() -> None:
@@ -168,7 +190,7 @@ def test_the_command_names_the_well_and_the_page_shows_it(
     code, said = audit("before.png", "after.png", "--out", page)
     assert code == 1
     assert "C1 shows no change although 150 µL of red dye from A1 of dye were dispensed" in said
-    assert "1 contradict" in said
+    assert "1 contradicts it" in said
     text = page.read_text("utf-8")
     assert 'aria-label="C1: contradicts the record"' in text
     assert "after; ringed: A1" in text

@@ -18,8 +18,9 @@ Flags = NDArray[np.bool_]
 _CORE = 0.55
 """Share of a well's radius within which its colour is read: beyond are walls and meniscus."""
 
-_POINTS = 13
-"""Points across a well at which it is read."""
+_STEPS = np.linspace(-1, 1, 14)
+_DISC = np.array([(x, y) for y in _STEPS for x in _STEPS if np.hypot(x, y) <= 1])
+"""Points at which a disc of radius 1 is read."""
 
 _SATURATED, _BLACK = 250, 3
 """Grey levels from which on, and up to which, a pixel tells nothing."""
@@ -43,13 +44,18 @@ _COVERED, _SHADED = 0.25, 0.8
 beside the plate's median), from which something lies over it: a hand, a label, a lid."""
 
 
+_LIT = 0.2
+"""How much brighter than others a quarter of a well may be in the first picture (natural
+logarithm): beyond, a lamp is mirrored in it."""
+
+
 @dataclass(frozen=True)
 class PlateLight:
     """A plate's wells in one picture, row by row from A1.
 
     Attributes:
-        wells: Natural logarithm of each well's light by that of the plate beside it,
-            ``(wells, 3)``; blue, green, red.
+        wells: Natural logarithm of the light of the four quarters of each well's core by that of
+            the plate beside it, ``(wells, 4, 3)``; blue, green, red.
         beside: Natural logarithm of the light of the plate beside each well, ``(wells, 3)``.
         blinded: Whether glare, darkness or the picture's edge hides a well.
     """
@@ -60,7 +66,7 @@ class PlateLight:
 
     def turned(self) -> PlateLight:
         """The same with A1 at the opposite corner."""
-        return PlateLight(self.wells[::-1], self.beside[::-1], self.blinded[::-1])
+        return PlateLight(self.wells[::-1, ::-1], self.beside[::-1], self.blinded[::-1])
 
 
 @dataclass(frozen=True)
@@ -68,9 +74,9 @@ class Change:
     """What changed from one picture to the other, well by well, row by row from A1.
 
     Attributes:
-        absorbed: Light lost since, ``(wells, 3)``: natural logarithm of the well's light by its
-            surroundings' before, less the same after; blue, green, red. By Beer-Lambert it grows
-            with the amount of dye over an area. Positive is darker.
+        absorbed: Light lost since, ``(wells, 4, 3)``: natural logarithm of the light of each
+            quarter of a well by its surroundings' before, less the same after; blue, green, red.
+            By Beer-Lambert it grows with the amount of dye over an area. Positive is darker.
         blinded: Whether glare, darkness or a thing over it hides the well in either picture.
     """
 
@@ -92,11 +98,14 @@ def plate_light(image: Image, found: FoundPlate) -> PlateLight:
     if plate.square:
         middles = _most_even(image, found, middles, radius, _ASIDE)
         between = _most_even(image, found, between, _CROSSING * gap, _BESIDE)
-    wells, hidden = _light(image, found, middles, radius)
+    seen, lost = _samples(image, found, middles, radius)
+    quarter = (_DISC > 0) @ (1, 2)
+    wells = np.stack([np.median(seen[:, quarter == one], axis=1) for one in range(4)], axis=1)
+    hidden = lost.mean(axis=1) > _GLARE
     if plate.pitch_mm < _HALO_MM:
         near = hidden.reshape(plate.rows, plate.columns).astype(np.uint8)
         hidden = cv2.dilate(near, np.ones((3, 3), np.uint8)).ravel() > 0
-    light, _ = _light(image, found, between, gap)
+    light = np.median(_samples(image, found, between, gap)[0], axis=1)
     grid = light.reshape(plate.rows + 2, plate.columns + 2, 3)[:-1, :-1]
     if plate.square:
         # Outside the outer wells the surface ends in the plate's rim.
@@ -104,7 +113,7 @@ def plate_light(image: Image, found: FoundPlate) -> PlateLight:
     around = np.stack([grid[:-1, :-1], grid[:-1, 1:], grid[1:, :-1], grid[1:, 1:]])
     # The mean of the middle two: one of the four may be a scratch or a glint.
     beside = np.median(around, axis=0).reshape(-1, 3)
-    return PlateLight(wells - beside, beside, hidden)
+    return PlateLight(wells - beside[:, None], beside, hidden)
 
 
 def change_between(before: PlateLight, after: PlateLight) -> Change:
@@ -113,7 +122,9 @@ def change_between(before: PlateLight, after: PlateLight) -> Change:
     around = around - np.median(around, axis=0)
     light = around.mean(axis=1)
     covered = np.abs(around - light[:, None]).max(axis=1) > _COVERED
-    blinded = before.blinded | after.blinded | covered | (np.abs(light) > _SHADED)
+    bright = before.wells.mean(axis=2).max(axis=1)
+    lit = bright - np.median(bright) > _LIT
+    blinded = before.blinded | after.blinded | covered | lit | (np.abs(light) > _SHADED)
     return Change(before.wells - after.wells, blinded)
 
 
@@ -141,20 +152,9 @@ def _most_even(
     return places if change is None else places @ change[:, :2].T + change[:, 2]
 
 
-def _light(
-    image: Image, found: FoundPlate, places: Array, radius: float
-) -> tuple[Array, NDArray[np.bool_]]:
-    """Logarithm of the light at discs on the plate (median), and whether they are hidden."""
-    light, lost = _samples(image, found, places, radius)
-    return np.median(light, axis=1), lost.mean(axis=1) > _GLARE
-
-
 def _samples(image: Image, found: FoundPlate, places: Array, radius: float) -> tuple[Array, Flags]:
     """Logarithm of the light at points of discs, ``(discs, points, 3)``, and which tell nothing."""
-    steps = np.linspace(-1, 1, _POINTS)
-    x, y = np.meshgrid(steps, steps)
-    disc = np.column_stack([x.ravel(), y.ravel()])
-    disc = disc[np.hypot(disc[:, 0], disc[:, 1]) <= 1] * radius
+    disc = _DISC * radius
     at = found.pixels((places[:, None] + disc[None]).reshape(-1, 2)).astype(np.float32) - 0.5
     shape = (len(places), len(disc))
     seen = cv2.remap(image, at[:, 0].reshape(shape), at[:, 1].reshape(shape), cv2.INTER_LINEAR,

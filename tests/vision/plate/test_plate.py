@@ -50,7 +50,7 @@ def test_a_dye_darkens_its_wells_by_its_volume_and_no_others() -> None:
     assert places[1] is not None
     light = plate_light(before, places[0])
     change = change_between(light, plate_light(after, places[1]))
-    green = dict(zip(plate.names, change.absorbed[:, 1], strict=True))
+    green = dict(zip(plate.names, np.median(change.absorbed, axis=1)[:, 1], strict=True))
     assert green["B3"] / green["C4"] == pytest.approx(2.0, rel=0.35)
     others = [value for name, value in green.items() if name not in contents]
     assert np.abs(others).max() < 0.5 * green["C4"]
