@@ -142,12 +142,16 @@ def read_labware(places: Sequence[Path]) -> dict[str, Mapping[str, Any]]:
 def labware_files(places: Sequence[Path]) -> list[Path]:
     """The files of custom labware in ``places``: files, or folders searched for ``*.json``.
 
+    Hidden files are left out: macOS puts ``._NAME.json`` beside each file of an archive.
+
     Raises:
         ConfigurationError: A folder holds none.
     """
     found: list[Path] = []
     for place in places:
-        files = sorted(place.rglob("*.json")) if place.is_dir() else [place]
+        files = [place]
+        if place.is_dir():
+            files = sorted(file for file in place.rglob("*.json") if not file.name.startswith("."))
         if not files:
             raise ConfigurationError(f"--labware {place}: the folder holds no *.json.")
         found += files
