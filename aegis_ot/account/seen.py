@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ..vision.tips import TipGeometry, pipette_class, tip_for
+from ..vision.tips import TipGeometry, tip_for
 from ..vocabulary import KeyframeKind
 from .levels import axis_of, mark_at, share_of
 from .wells import Axis, Box, Level, Picture, SeenFrame, SeenWell
@@ -90,7 +90,7 @@ def _frames(entry: Mapping[str, Any], pictures: Pictures) -> dict[KeyframeKind, 
     frames = {}
     for keyframe in entry["keyframes"]:
         kind = KeyframeKind(keyframe["kind"])
-        tip = tip_for(pipette_class(keyframe["pipette"]), keyframe["capacity_ul"])
+        tip = tip_for(keyframe["pipette"], keyframe["capacity_ul"])
         box = _box(evidence.get("boxes", {}).get(kind.value))
         whole, close, missing = pictures(int(keyframe["sequence"]), box)
         # The store keeps no axes: an upright tip is drawn, which is a pixel or two off.

@@ -16,7 +16,7 @@ from ..evaluation.layer2.lopo import HeldOut, ScoredWell, hold_out, score_with
 from ..vision.dataset import Dataset, first_normals
 from ..vision.measuring import ColumnReading
 from ..vision.scorers import make_scorer
-from ..vision.tips import TipGeometry, tip_for
+from ..vision.tips import TipGeometry
 from ..vision.types import Scorer, TipDetection, TrajectorySample
 from ..vocabulary import KeyframeKind
 from .choosing import pictured
@@ -153,7 +153,7 @@ def _agreement(failed: bool, flagged: bool) -> str:
 
 def _frames(data: Dataset, judged: JudgedWell, show: bool) -> dict[KeyframeKind, SeenFrame]:
     sample = judged.sample
-    tip = tip_for(sample.pipette)
+    tip = sample.tip
     readings = judged.readings
     stretch = _stretch(readings, tip)
     paths = next(record.frames for record in data.records if record.id == sample.id)

@@ -12,7 +12,7 @@ from ..vocabulary import KeyframeKind
 from .crops import trajectory_vector
 from .scorers import Calibrating, signs_of
 from .scorers.pca import PcaScorer
-from .tips import tip_for
+from .tips import TIPS, tip_for
 from .types import FREE, Scorer, TrajectorySample
 
 LEAST_ALARM = 3.5
@@ -62,7 +62,7 @@ class RunScorer:
     def height_factors(self) -> Mapping[str, float]:
         """How high columns stood in the runs it was fitted on, over what the geometry says."""
         models = getattr(getattr(self._scorer, "column", self._scorer), "models", {})
-        return {tip_for(name).name: model.height_scale for name, model in models.items()}
+        return {_tip_of(name): model.height_scale for name, model in models.items()}
 
     @property
     def needed(self) -> tuple[KeyframeKind, ...]:
@@ -133,3 +133,8 @@ class RunScorer:
         own.fit_vectors(vectors)
         self._scorer = own
         self._vectors = []
+
+
+def _tip_of(learned: str) -> str:
+    """The tip that a model's part is of: it is kept under an OT-2 class or a Flex tip's name."""
+    return learned if learned in TIPS else tip_for(learned).name

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..vocabulary import KeyframeKind
-from .tips import TipGeometry, tip_for
+from .tips import TipGeometry, is_flex, pipette_class, tip_for
 
 Image = NDArray[np.uint8]
 
@@ -123,6 +123,11 @@ class TrajectorySample:
     def tip(self) -> TipGeometry:
         """The kind of tip that it was pipetted with."""
         return tip_for(self.pipette, self.capacity_ul)
+
+    @property
+    def tip_class(self) -> str:
+        """What is learned by kind of tip is kept under it: ``"p20"``, or a Flex tip's name."""
+        return self.tip.name if is_flex(self.pipette) else pipette_class(self.pipette)
 
     @property
     def lacks_tip(self) -> bool:

@@ -19,7 +19,6 @@ from ...vision.camera import Frame
 from ...vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
 from ...vision.measuring import ColumnReading
 from ...vision.monitor import MonitorSettings, RunMonitor
-from ...vision.tips import tip_for
 from ...vision.types import Detector, Image, TipDetection, TrajectorySample
 from ...vocabulary import Keyframe, KeyframeKind, Outcome, Route, Verdict, WellRef
 from .lopo import ALPHA, HeldOut, ScoredWell
@@ -142,7 +141,7 @@ def keyframes(sample: TrajectorySample, number: int) -> list[Keyframe]:
             destinations=(well,),
             commanded_ul=sample.volume_ul,
             expected_ul=sample.expected_ul[kind],
-            capacity_ul=tip_for(sample.pipette).nominal_ul,
+            capacity_ul=sample.tip.nominal_ul,
             reagent=sample.reagent or None,
         )
         for place, kind in enumerate(KeyframeKind)

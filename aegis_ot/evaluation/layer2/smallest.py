@@ -20,7 +20,6 @@ from ...vision.column.strip import Array
 from ...vision.column.trajectory import DELIVERED
 from ...vision.crops import remember
 from ...vision.scorers.looks import looks
-from ...vision.tips import pipette_class, tip_for
 from ...vision.types import Scorer, TrajectorySample
 from ...vocabulary import KeyframeKind
 from .lopo import HeldOut, hold_out
@@ -107,12 +106,12 @@ def smallest_caught(
     planted = []
     for members in list(plates.values())[:PLATES]:
         for sample in (members[1:] or members)[:WELLS]:
-            scale = scales[pipette_class(sample.pipette)]
+            scale = scales[sample.tip_class]
             planted += [with_retained(sample, share, scale) for share in SHARES]
     held = hold_out([*normals, *planted], make, "p-value")
     groups: dict[tuple[str, str], list[TrajectorySample]] = defaultdict(list)
     for sample in normals:
-        groups[pipette_class(sample.pipette), sample.reagent].append(sample)
+        groups[sample.tip_class, sample.reagent].append(sample)
     return [
         _summary(pipette, reagent, samples, held) for (pipette, reagent), samples in groups.items()
     ]
@@ -121,14 +120,14 @@ def smallest_caught(
 def _height_scales(normals: Sequence[TrajectorySample]) -> dict[str, float]:
     classes: dict[str, list[TrajectorySample]] = defaultdict(list)
     for sample in normals:
-        classes[pipette_class(sample.pipette)].append(sample)
+        classes[sample.tip_class].append(sample)
     return {
         name: learn_tip(
             [
                 ({kind: look.profile for kind, look in looks(sample).items()}, sample.expected_ul)
                 for sample in samples
             ],
-            tip_for(name),
+            samples[0].tip,
         ).height_scale
         for name, samples in classes.items()
     }
@@ -140,7 +139,7 @@ def _summary(
     wells = [
         well
         for well in held.wells
-        if (pipette_class(well.sample.pipette), well.sample.reagent) == (pipette, reagent)
+        if (well.sample.tip_class, well.sample.reagent) == (pipette, reagent)
     ]
     normal = [well.flagged for well in wells if not well.failed]
     caught: dict[float, float] = {}
@@ -149,7 +148,7 @@ def _summary(
         if flags:
             caught[share] = float(np.mean(flags))
     volume = float(np.median([sample.volume_ul for sample in samples]))
-    tip = tip_for(pipette)
+    tip = samples[0].tip
     lengths = [look.profile.length for sample in samples for look in looks(sample).values()]
     scale = float(np.median(lengths)) / tip.length_mm
     smallest = None
@@ -194,7 +193,7 @@ def _planted(
     full, empty = seen.get(KeyframeKind.TRANSIT), seen.get(KeyframeKind.POST_DISPENSE)
     if full is None or empty is None:
         return seen
-    tip, scale = tip_for(sample.pipette), Reference(height_scale=height_scale)
+    tip, scale = sample.tip, Reference(height_scale=height_scale)
     tops = (expected_top(tip, part * sample.volume_ul, scale) for part in (1.0, share))
     was, now = (int(np.argmax(full.profile.u > top)) for top in tops)
     for kind in DELIVERED:

@@ -15,7 +15,7 @@ from ...vocabulary import KeyframeKind
 from ..column import EmptyColour, RunReference, Signs, TipModel, learn_run, learn_tip, weigh
 from ..column.trajectory import LOADED
 from ..models import ModelFile
-from ..tips import pipette_class, tip_for
+from ..tips import pipette_class
 from ..types import TrajectorySample
 from .looks import looks
 from .surprise import NO_TIP, Tail, fit_tail
@@ -90,9 +90,9 @@ class ColumnScorer:
         self.models, self.tails = {}, {}
         classes: dict[str, list[TrajectorySample]] = defaultdict(list)
         for sample in normals:
-            classes[pipette_class(sample.pipette)].append(sample)
+            classes[sample.tip_class].append(sample)
         for name, samples in classes.items():
-            tip = tip_for(name)
+            tip = samples[0].tip
             pairs = [(_profiles(sample), sample.expected_ul) for sample in samples]
             model = learn_tip(pairs, tip)
             self.models[name] = model
@@ -118,7 +118,7 @@ class ColumnScorer:
         self.run, self._own = RunReference(), {}
         if not normals:
             return
-        model = self._model(normals[0].pipette)
+        model = self._model(normals[0])
         self.run = learn_run([_weigh(sample, model, RunReference()) for sample in normals])
         seen: dict[str, list[float]] = defaultdict(list)
         for sample in normals:
@@ -137,10 +137,9 @@ class ColumnScorer:
 
     def report(self, sample: TrajectorySample) -> ColumnReport:
         """Score and everything behind it, from as many frames as there are."""
-        name = pipette_class(sample.pipette)
-        model = self._model(sample.pipette)
+        model = self._model(sample)
         signs = _weigh(sample, model, self.run)
-        tails = self.tails.get(name, PRIORS)
+        tails = self.tails.get(self._known(sample), PRIORS)
         surprises = {
             sign: tails[sign].surprise(None if value is None else value - self._usual(sign, tails))
             for sign, value in _values(signs, model).items()
@@ -152,8 +151,13 @@ class ColumnScorer:
         clear = tails[sign].start + 2 * tails[sign].scale
         return self._shared * max(self._own.get(sign, -np.inf) - clear, 0.0)
 
-    def _model(self, pipette: str) -> TipModel:
-        return self.models.get(pipette_class(pipette), TipModel())
+    def _model(self, sample: TrajectorySample) -> TipModel:
+        return self.models.get(self._known(sample), TipModel())
+
+    def _known(self, sample: TrajectorySample) -> str:
+        """Under which name its tip was learned; a Flex tip's nearest is the OT-2's of its size."""
+        own = sample.tip_class
+        return own if own in self.models else pipette_class(sample.pipette)
 
     def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
         """Arrays and settings for a model file."""
