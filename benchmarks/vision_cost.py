@@ -93,7 +93,6 @@ def main(folder: str, scorer: str) -> None:
 def _trajectory(run: Any, number: int, sample: Any) -> tuple[float, float, tuple[int, int]]:
     """Processor time of a whole trajectory and of what follows its last frame, ms."""
     from aegis_ot.vision.camera import Frame
-    from aegis_ot.vision.tips import tip_for
     from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
     well = WellRef("labware-1", sample.well, "", "1")
@@ -103,7 +102,7 @@ def _trajectory(run: Any, number: int, sample: Any) -> tuple[float, float, tuple
             run="bench", sequence=4 * number + place, trajectory=number, kind=kind,
             pipette=sample.pipette, mount="right", channels=1, tip="1:A1", sources=(well,),
             destinations=(well,), commanded_ul=sample.volume_ul,
-            expected_ul=sample.expected_ul[kind], capacity_ul=tip_for(sample.pipette).nominal_ul,
+            expected_ul=sample.expected_ul[kind], capacity_ul=sample.tip.nominal_ul,
             reagent=sample.reagent,
         )  # fmt: skip
         image = sample.frames[kind]

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..vision.dataset_writer import DatasetWriter
-from ..vision.tips import TipGeometry, pipette_class, tip_for
+from ..vision.tips import TipGeometry, in_data_sets, tip_for
 from ..vision.types import TipDetection, TrajectorySample
 from ..vocabulary import KeyframeKind
 from .dyes import DYES
@@ -76,7 +76,7 @@ def write_dataset(
     rng = np.random.default_rng((seed, 20))
     plan = normal_plan(plates, normals_per_plate) if normals_per_plate else paper_plan(plates, rng)
     tip = tip_for(pipette)
-    short = pipette_class(pipette)
+    short = in_data_sets(pipette)
     sessions = [
         parameters or SessionParameters.draw(rng, pipette=pipette, size=size) for _ in range(plates)
     ]

@@ -201,8 +201,9 @@ def is_flex(pipette: str) -> bool:
 
 
 def in_data_sets(pipette: str) -> str:
-    """A pipette as data sets name it: an OT-2's by class, a Flex's in full: its tips differ."""
-    return pipette if is_flex(pipette) else pipette_class(pipette)
+    """A pipette as data sets name it: by its class, or in full where the class means other tips."""
+    short = pipette_class(pipette)
+    return short if tip_for(short) is tip_for(pipette) else pipette
 
 
 def tip_for(pipette: str, capacity_ul: float | None = None) -> TipGeometry:

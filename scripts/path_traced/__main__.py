@@ -42,8 +42,12 @@ def main() -> None:
     parser.add_argument("--kind", action="append", choices=list(KINDS), help="default: all")
     parser.add_argument("--plates", type=int, default=4, help="of each kind")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--for-detector", type=int, default=0, metavar="N")
+    parser.add_argument(
+        "--for-detector", type=int, default=0, metavar="N", help="wells, instead of plates of kinds"
+    )
     asked = parser.parse_args()
+    if asked.for_detector and asked.kind:
+        parser.error("--for-detector draws its own cameras: leave --kind out")
     rng = np.random.default_rng((asked.seed, 31))
     plates, plan, lamps, cameras = [], [], {}, {}
     for name in () if asked.for_detector else asked.kind or KINDS:

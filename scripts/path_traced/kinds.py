@@ -29,7 +29,7 @@ class CameraKind:
         azimuth_deg: Camera to the left of the front.
         elevation_deg: How far it looks down.
         distance_mm: From the tip.
-        filling: Height of the tip over height of the frame.
+        filling: Height of the tip over height of the frame; less where both labwares would not fit.
         panel: Grey level behind the deck.
         blur_px, noise, jpeg: Of lens, sensor and encoder.
         frost: Haze of the tips.

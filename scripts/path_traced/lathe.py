@@ -91,10 +91,9 @@ def _split_at_corners(
     return np.array(places), np.array(normals), None if colour is None else colour[index]
 
 
-def ball(radius: float, centre_height: float, colour: Floats | None = None) -> Surface:
-    """A sphere on the axis, of one colour (R, G, B)."""
+def ball(radius: float, centre_height: float) -> Surface:
+    """A sphere on the axis."""
     angle = np.linspace(-np.pi / 2, np.pi / 2, 13)
     profile = np.stack([centre_height + radius * np.sin(angle), radius * np.cos(angle)], axis=1)
     profile[[0, -1], 1] = 1e-4
-    tint = None if colour is None else np.tile(colour, (len(profile), 1))
-    return turn([(float(h), float(r)) for h, r in profile], tint)
+    return turn([(float(h), float(r)) for h, r in profile])

@@ -32,7 +32,7 @@ class TipSurfaces:
         plastic: Plastic within, air without: the tip's outer side and its two rings.
         bore: Air within, plastic without: the dry inner wall.
         wet_bore: Liquid within, plastic without; coloured by the light that the dye leaves.
-        liquid: Liquid within, air without: menisci, the lower end, a hanging drop.
+        liquid: Liquid within, air without: menisci, the lower end, a hanging drop (drawn clear).
         shaft: The pipette's nozzle, which is not transparent.
     """
 
@@ -89,7 +89,7 @@ def tip_surfaces(
     dry.append(_bore(tip, at, tip.length_mm))
     if content.drop_ul > 0:
         size = float(np.cbrt(0.75 * content.drop_ul / np.pi))
-        ends.append(ball(size, -0.92 * size, liquid.left(1.3 * size)))
+        ends.append(ball(size, -0.92 * size))
     return TipSurfaces((_plastic(tip),), tuple(dry), tuple(wet), tuple(ends), shaft)
 
 

@@ -86,6 +86,8 @@ def test_data_sets_keep_the_robot_whose_tips_differ() -> None:
     assert in_data_sets("p300_single_gen2") == "p300"
     assert in_data_sets("flex_1channel_1000") == "flex_1channel_1000"
     assert in_data_sets("p1000_single_flex") == "p1000_single_flex"
+    for name in ("p10_single", "p50_single", "p50_multi", "p300_multi_gen2", "flex_96channel_1000"):
+        assert tip_for(in_data_sets(name)) is tip_for(name)
 
 
 def test_pipette_names() -> None:

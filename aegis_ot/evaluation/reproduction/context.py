@@ -17,7 +17,7 @@ import aegis_ot
 from ...errors import ConfigurationError, DatasetError
 from ...simulation import SessionParameters, write_dataset
 from ...vision.dataset import Dataset, load_dataset
-from ...vision.tips import pipette_class
+from ...vision.tips import in_data_sets
 from ..layer2 import FoundTips, Progress, find_tips, fit_model
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ class Context:
         sets: dict[str, list[Dataset]] = {pipette: [] for pipette in PIPETTES}
         for folder in self.options.data:
             data = load_dataset(folder)
-            used = {pipette_class(record.pipette) for record in data.records}
+            used = {in_data_sets(record.pipette) for record in data.records}
             if len(used) != 1 or not used <= set(PIPETTES):
                 held = ", ".join(sorted(used)) or "nothing"
                 raise DatasetError(

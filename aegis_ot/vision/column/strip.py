@@ -22,10 +22,10 @@ MARGIN = 0.06
 
 @dataclass(frozen=True)
 class TipShape:
-    """The outline of a tip class in units of its length, collar (0) to orifice (1).
+    """The outline of a kind of tip in units of its length, collar (0) to orifice (1).
 
     Attributes:
-        name: Short tip class, ``"p1000"``.
+        name: ``"p1000"``: an OT-2 class; a Flex tip's own name.
         rows: Rows of a strip from collar to orifice; about 1.3 times the usual length in px.
         collar_radius: Outer radius at the collar, tip lengths.
         orifice_radius: Outer radius at the orifice, tip lengths.

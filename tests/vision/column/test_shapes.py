@@ -36,7 +36,7 @@ def test_a_flex_tip_is_laid_straight_where_it_hangs(name: str) -> None:
     assert abs(look.orifice[1] - true.orifice[1]) < 0.015 * length
 
 
-@pytest.mark.parametrize("name", ["flex_200", "flex_1000"])
+@pytest.mark.parametrize("name", ["flex_20", "flex_50", "flex_200", "flex_1000"])
 def test_an_outline_bends_where_the_tip_does(name: str) -> None:
     tip, u = TIPS[name], np.linspace(0.02, 0.98, 30)
     outer = tip.outer_radius((1 - u) * tip.length_mm) / tip.length_mm
