@@ -179,6 +179,7 @@ class Dataset:
             label=record.label,
             failure_type=record.failure_type,
             retained_fraction=record.retained_fraction,
+            capacity_ul=(self.meta.get("tips_ul") or {}).get(record.id),
         )
 
 
@@ -228,6 +229,11 @@ def _read_meta(root: Path, problems: Problems) -> dict[str, Any]:
         problems.add(
             "meta.json", None, "source", f"is {source!r}; it must be one of {', '.join(SOURCES)}"
         )
+    tips = meta.get("tips_ul") or {}
+    if not isinstance(tips, dict) or not all(
+        isinstance(volume, (int, float)) and volume > 0 for volume in tips.values()
+    ):
+        problems.add("meta.json", None, "tips_ul", "must hold a tip's volume, µL, by trajectory_id")
     cameras = meta.get("cameras")
     if cameras is not None and not (
         isinstance(cameras, dict) and all(isinstance(name, str) for name in cameras.values())

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from ...errors import DatasetError, StoreError
 from ...vision.dataset_writer import DatasetWriter
+from ...vision.tips import tip_for
 from ...vision.types import Detector
 from ...vocabulary import KeyframeKind
 from .evaluate import named_detector
@@ -75,6 +76,7 @@ def export_runs(
         "source": sources.pop() if len(sources) == 1 else "synthetic",
         "runs": [run.run for run in found],
         "boxes": name,
+        "tips_ul": {s.id: s.capacity_ul for s in kept if s.tip is not tip_for(s.pipette)},
         "notes": "Labels are verdicts of aegis_ot and decisions of its operators, not truth.",
     }
     progress.begin("Writing", len(kept))

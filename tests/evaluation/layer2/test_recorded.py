@@ -65,6 +65,9 @@ def test_a_flex_pipette_keeps_its_name_and_its_tip(tmp_path: Path) -> None:
     assert {record.pipette for record in load_dataset(tmp_path / "out").records} == {
         "flex_1channel_1000"
     }
+    data = load_dataset(tmp_path / "out")
+    again = data.samples(data.true_boxes())
+    assert {sample.tip.name for sample in again} == {"flex_200"}
 
 
 def test_a_run_becomes_a_data_set(store: Path, tmp_path: Path) -> None:
