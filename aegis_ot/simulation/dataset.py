@@ -13,8 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from ..vision.dataset_checks import in_data_sets
 from ..vision.dataset_writer import DatasetWriter
-from ..vision.tips import TipGeometry, in_data_sets, tip_for
+from ..vision.tips import TipGeometry, tip_for
 from ..vision.types import TipDetection, TrajectorySample
 from ..vocabulary import KeyframeKind
 from .dyes import DYES

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..vocabulary import KeyframeKind
 from .tables import Note, Problems, number, read_table
+from .tips import pipette_class, tip_for
 
 FRAME_COLUMNS = tuple(kind.value for kind in KeyframeKind)
 COLUMNS = (
@@ -60,6 +61,12 @@ class Record:
     retained_fraction: float | None
     volume_ul: float
     frames: Mapping[KeyframeKind, str]
+
+
+def in_data_sets(pipette: str) -> str:
+    """A pipette as data sets name it: by its class, or in full where the class means other tips."""
+    short = pipette_class(pipette)
+    return short if tip_for(short) is tip_for(pipette) else pipette
 
 
 def read_manifest(root: Path, problems: Problems) -> list[Record]:

@@ -200,12 +200,6 @@ def is_flex(pipette: str) -> bool:
     return name.startswith("flex") or name.endswith("_flex") or name == "p1000_96"
 
 
-def in_data_sets(pipette: str) -> str:
-    """A pipette as data sets name it: by its class, or in full where the class means other tips."""
-    short = pipette_class(pipette)
-    return short if tip_for(short) is tip_for(pipette) else pipette
-
-
 def tip_for(pipette: str, capacity_ul: float | None = None) -> TipGeometry:
     """The tip that a pipette most likely carries.
 

@@ -10,7 +10,9 @@ import pytest
 
 from aegis_ot.errors import DatasetError
 from aegis_ot.vision.dataset import load_dataset
+from aegis_ot.vision.dataset_checks import in_data_sets
 from aegis_ot.vision.dataset_writer import DatasetWriter
+from aegis_ot.vision.tips import tip_for
 from aegis_ot.vocabulary import KeyframeKind
 
 from .samples import sample
@@ -124,3 +126,11 @@ def test_images_round_trip_within_jpeg_noise(folder: Path) -> None:
     read = data.samples(data.true_boxes())[0].frames[KeyframeKind.TRANSIT]
     written = sample("p1-a").frames[KeyframeKind.TRANSIT]
     assert np.abs(read.astype(int) - written.astype(int)).mean() < 4
+
+
+def test_data_sets_keep_the_robot_whose_tips_differ() -> None:
+    assert in_data_sets("p300_single_gen2") == "p300"
+    assert in_data_sets("flex_1channel_1000") == "flex_1channel_1000"
+    assert in_data_sets("p1000_single_flex") == "p1000_single_flex"
+    for name in ("p10_single", "p50_single", "p50_multi", "p300_multi_gen2", "flex_96channel_1000"):
+        assert tip_for(in_data_sets(name)) is tip_for(name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aegis_ot.vision.tips import TIPS, TipGeometry, in_data_sets, is_flex, pipette_class, tip_for
+from aegis_ot.vision.tips import TIPS, TipGeometry, is_flex, pipette_class, tip_for
 
 
 @pytest.mark.parametrize("tip", TIPS.values(), ids=lambda tip: tip.name)
@@ -80,14 +80,6 @@ def test_lengths_are_those_of_the_labware_definitions() -> None:
 )
 def test_tip_for(pipette: str, capacity: float | None, name: str) -> None:
     assert tip_for(pipette, capacity).name == name
-
-
-def test_data_sets_keep_the_robot_whose_tips_differ() -> None:
-    assert in_data_sets("p300_single_gen2") == "p300"
-    assert in_data_sets("flex_1channel_1000") == "flex_1channel_1000"
-    assert in_data_sets("p1000_single_flex") == "p1000_single_flex"
-    for name in ("p10_single", "p50_single", "p50_multi", "p300_multi_gen2", "flex_96channel_1000"):
-        assert tip_for(in_data_sets(name)) is tip_for(name)
 
 
 def test_pipette_names() -> None:

@@ -14,7 +14,7 @@ from ...errors import ConfigurationError, StoreError
 from ...sidecar.overview import run_overview
 from ...sidecar.store import DATABASE, Store
 from ...vision.dataset import LazyDetections
-from ...vision.tips import in_data_sets
+from ...vision.dataset_checks import in_data_sets
 from ...vision.types import Detector, Image, TrajectorySample
 from ...vocabulary import FailureType, KeyframeKind, Outcome
 

@@ -17,7 +17,7 @@ import aegis_ot
 from ...errors import ConfigurationError, DatasetError
 from ...simulation import SessionParameters, write_dataset
 from ...vision.dataset import Dataset, load_dataset
-from ...vision.tips import in_data_sets
+from ...vision.dataset_checks import in_data_sets
 from ..layer2 import FoundTips, Progress, find_tips, fit_model
 
 if TYPE_CHECKING:
