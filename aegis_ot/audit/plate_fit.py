@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 AGREES, CONTRADICTS, UNJUDGED = "agrees", "contradicts", "unjudged"
+ODD = ("lighter", "uneven")
+"""Reasons of unjudged wells that a person should see close up."""
 
 _OFF, _DEVIATIONS = 0.25, 4.0
 """Share of the expected change, and robust standard deviations, by which a well must be off."""

@@ -22,7 +22,7 @@ from ..vision.plate import (
     plate_light,
 )
 from ..vision.types import Image
-from .plate_fit import AGREES, CONTRADICTS, UNJUDGED, PlateReading, WellReading, read_plate
+from .plate_fit import AGREES, CONTRADICTS, ODD, UNJUDGED, PlateReading, WellReading, read_plate
 from .plate_record import RecordedPlate
 from .plate_words import arrived_words, contradiction_words, doubt_words, unjudged_words
 
@@ -97,6 +97,12 @@ class PlateAudit:
             one.state == CONTRADICTS and not one.why for one in self.wells
         )
 
+    @property
+    def to_look_at(self) -> list[str]:
+        """Wells that the pictures contradict, then those that look odd and are not accused."""
+        contradicting = [one.well for one in self.wells if one.state == CONTRADICTS]
+        return contradicting + [one.well for one in self.wells if one.why in ODD]
+
     def counted(self, state: str) -> int:
         """How many wells are in a state."""
         return sum(one.state == state for one in self.wells)
@@ -149,8 +155,10 @@ def compare_pictures(
         a1: The corner of A1, of both pictures or of each; empty if the user did not say.
 
     Raises:
-        ConfigurationError: A1 cannot be in that corner.
+        ConfigurationError: A1 cannot be in that corner, or it is one picture twice.
     """
+    if np.array_equal(before.image, after.image):
+        raise ConfigurationError(f"--plate: {before.name} and {after.name} are the same picture.")
     if a1:
         before, after = before.with_a1(a1[0]), after.with_a1(a1[-1])
     corners = (a1[0], a1[-1]) if a1 else (before.a1, after.a1)

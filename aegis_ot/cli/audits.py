@@ -142,13 +142,9 @@ def _pictured(
         raise ConfigurationError(f"--a1 is one of {', '.join(CORNERS)}, once or twice.")
     recorded = recorded_plate(run_overview(store, run)["trajectories"], slot, wells)
     before, after = (read_picture(path, recorded.plate) for path in plate)
-    if before.image.shape == after.image.shape and (before.image == after.image).all():
-        raise ConfigurationError(f"--plate: {plate[0]} and {plate[1]} are the same picture.")
     said = compare_pictures(before, after, recorded, a1)
-    doubtful = ("lighter", "uneven")
-    shown = [one.well for one in said.wells if one.state == "contradicts"]
-    shown += [one.well for one in said.wells if one.why in doubtful]
-    return said, plate_views((before.image, before.found), (after.image, after.found), shown)
+    pictured = (before.image, before.found), (after.image, after.found)
+    return said, plate_views(*pictured, said.to_look_at)
 
 
 def _gate(

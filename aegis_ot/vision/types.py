@@ -7,7 +7,7 @@ right, y down, and are floats: the centre of the first pixel is ``(0.5, 0.5)``.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
@@ -128,6 +128,10 @@ class TrajectorySample:
     def tip_class(self) -> str:
         """What is learned by kind of tip is kept under it: ``"p20"``, or a Flex tip's name."""
         return self.tip.name if is_flex(self.pipette) else pipette_class(self.pipette)
+
+    def learned_as(self, known: Container[str]) -> str:
+        """Its tip class, or, where none of these is that, the OT-2's of its pipette's size."""
+        return self.tip_class if self.tip_class in known else pipette_class(self.pipette)
 
     @property
     def lacks_tip(self) -> bool:

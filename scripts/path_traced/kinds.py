@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aegis_ot.simulation.session import Labware, SessionParameters
+from aegis_ot.simulation.session import SessionParameters
 from aegis_ot.vision.tips import tip_for
 
 from .stage import Lamps
@@ -131,19 +131,15 @@ def draw_session(
     level = u(kind.panel)
     wall = (level * rng.normal(1, 0.04), level, level * rng.normal(1, 0.04))
     blue, green, red = (gain * rng.normal(1.0, 0.02) for gain in kind.balance)
+    # Only the two blocks in use: others take time to render.
     session = replace(
         base, eye=eye, look=look, focal_px=scale * distance, wall=wall, backdrop_top=wall,
         clutter=0.0, blur_px=u(kind.blur_px), noise=u(kind.noise), jpeg_quality=int(u(kind.jpeg)),
         frost=u(kind.frost), dye_strength=u(kind.dyes), white_balance=(blue, green, red),
-        gain=u((0.9, 1.1)), brightness_fall=0.0, side_fall=0.0, labware=_clear_of(base.labware),
+        gain=u((0.9, 1.1)), brightness_fall=0.0, side_fall=0.0, labware=base.labware[:2],
     )  # fmt: skip
     x, y, z = (place + u((-60, 60)) for place in kind.lamp_place)
     lamps = Lamps(
         around=u(kind.around), strength=u(kind.lamp), place=(x, y, z), size=kind.lamp_size
     )
     return session, lamps
-
-
-def _clear_of(labware: tuple[Labware, ...]) -> tuple[Labware, ...]:
-    """The two blocks in use: others only take time to render."""
-    return labware[:2]

@@ -38,10 +38,9 @@ class PlateShot:
         tilt_deg: Of the camera against straight down, about the plate's x and y axis.
         turn_deg: Of the plate in the picture, clockwise; 180 puts A1 at the bottom right.
         offset: Of the plate's middle from the picture's, shares of the width.
-        background, sheet: Linear colour (B, G, R) of what the plate stands on, and whether a
-            clear plate is meant: wells show what is below.
+        background: Linear colour (B, G, R) of what the plate stands on.
         body: Linear colour of the plate.
-        clear: Whether the wells' floor is see-through.
+        clear: Whether the wells' floor is see-through: they show what is below.
         gain: By channel: exposure and white balance.
         slope: Fall of light across the picture in x and y, 0 even.
         shadow: Darkening by a soft-edged shadow over part of the picture, 0 none.

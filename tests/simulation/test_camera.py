@@ -12,6 +12,7 @@ import pytest
 from aegis_ot.errors import CameraError, ConfigurationError
 from aegis_ot.simulation import SessionParameters, SimulatedCamera
 from aegis_ot.simulation.exposure import decode
+from aegis_ot.simulation.render import render_jpeg
 from aegis_ot.vision.camera import Camera
 from aegis_ot.vocabulary import Keyframe
 
@@ -44,6 +45,20 @@ def test_it_shows_what_the_tip_holds_at_each_keyframe() -> None:
         present.append(camera.truth.kind is keyframe.kind)
     assert all(present)
     assert held == pytest.approx([200, 200, 0, 0, 200, 200, 100, 100], rel=0.08, abs=1e-6)
+
+
+def test_another_renderer_draws_what_stands_there() -> None:
+    drawn = []
+
+    def render(state, session, rng):
+        drawn.append(state)
+        return render_jpeg(state, session, rng)
+
+    camera = SimulatedCamera(3, render=render)
+    keyframe = run_of(["A1"], 200.0)[0]
+    shown = frame_of(camera, keyframe)
+    assert [one.kind for one in drawn] == [keyframe.kind]
+    assert np.array_equal(shown, frame_of(SimulatedCamera(3), keyframe))
 
 
 def test_a_resent_keyframe_looks_the_same() -> None:

@@ -15,7 +15,6 @@ from ...vocabulary import KeyframeKind
 from ..column import EmptyColour, RunReference, Signs, TipModel, learn_run, learn_tip, weigh
 from ..column.trajectory import LOADED
 from ..models import ModelFile
-from ..tips import pipette_class
 from ..types import TrajectorySample
 from .looks import looks
 from .surprise import NO_TIP, Tail, fit_tail
@@ -139,7 +138,7 @@ class ColumnScorer:
         """Score and everything behind it, from as many frames as there are."""
         model = self._model(sample)
         signs = _weigh(sample, model, self.run)
-        tails = self.tails.get(self._known(sample), PRIORS)
+        tails = self.tails.get(sample.learned_as(self.tails), PRIORS)
         surprises = {
             sign: tails[sign].surprise(None if value is None else value - self._usual(sign, tails))
             for sign, value in _values(signs, model).items()
@@ -152,12 +151,7 @@ class ColumnScorer:
         return self._shared * max(self._own.get(sign, -np.inf) - clear, 0.0)
 
     def _model(self, sample: TrajectorySample) -> TipModel:
-        return self.models.get(self._known(sample), TipModel())
-
-    def _known(self, sample: TrajectorySample) -> str:
-        """Under which name its tip was learned; a Flex tip's nearest is the OT-2's of its size."""
-        own = sample.tip_class
-        return own if own in self.models else pipette_class(sample.pipette)
+        return self.models.get(sample.learned_as(self.models), TipModel())
 
     def to_arrays(self) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
         """Arrays and settings for a model file."""

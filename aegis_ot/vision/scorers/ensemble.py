@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from ...errors import ModelError
 from ..models import ModelFile
-from ..tips import pipette_class
 from ..types import TrajectorySample
 from .column import ColumnReport, ColumnScorer
 from .patches import PatchesScorer, describe
@@ -69,7 +68,7 @@ class EnsembleScorer:
         self.patches.fit(normals)
         plates: dict[tuple[str, str], list[TrajectorySample]] = defaultdict(list)
         for sample in normals:
-            plates[pipette_class(sample.pipette), sample.plate].append(sample)
+            plates[sample.tip_class, sample.plate].append(sample)
         sums: dict[str, list[float]] = defaultdict(list)
         for (name, _), members in plates.items():
             for i, sample in enumerate(members):
@@ -105,7 +104,8 @@ class EnsembleScorer:
         column = self.column.report(sample)
         patches = self.patches.score_of_seen(sample)
         total = column.score + _OVERLAP * patches
-        return EnsembleReport(self._surprise(total, pipette_class(sample.pipette)), column, patches)
+        name = sample.learned_as(self.sums)
+        return EnsembleReport(self._surprise(total, name), column, patches)
 
     def p_value(self, sample: TrajectorySample) -> float:
         """How often a normal trajectory scores this high."""

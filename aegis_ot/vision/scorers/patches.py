@@ -23,7 +23,6 @@ from ..column import Reference, TipLook, expected_top
 from ..column.profile import LANES
 from ..crops import remember
 from ..models import ModelFile
-from ..tips import pipette_class
 from ..types import TrajectorySample
 from .looks import looks
 from .surprise import NO_TIP, Tail, fit_tail
@@ -73,7 +72,7 @@ class PatchesScorer:
         self._left_out = {}
         classes: dict[str, list[TrajectorySample]] = defaultdict(list)
         for sample in normals:
-            classes[pipette_class(sample.pipette)].append(sample)
+            classes[sample.tip_class].append(sample)
         for name, samples in classes.items():
             bank = np.stack([describe(sample) for sample in samples])
             plates = np.array([sample.plate for sample in samples])
@@ -108,7 +107,7 @@ class PatchesScorer:
 
     def score_of_seen(self, sample: TrajectorySample) -> float:
         """The same where a frame does not show the tip, though it is on: from the others."""
-        name = pipette_class(sample.pipette)
+        name = sample.learned_as(self.banks)
         if name not in self.banks:
             if self.banks:
                 return 0.0  # a tip class that no normal showed: nothing can be said
@@ -119,7 +118,7 @@ class PatchesScorer:
 
     def left_out(self, sample: TrajectorySample) -> float:
         """Surprise of a trajectory of the fit as if it had not been in the bank, nats."""
-        name = pipette_class(sample.pipette)
+        name = sample.learned_as(self.banks)
         return self.tails[name].surprise(self._left_out[sample.id])
 
     def _distances(self, name: str, one: Array, bank: Array, own: Array) -> Array:

@@ -11,6 +11,7 @@ from aegis_ot.simulation import SessionParameters
 from aegis_ot.simulation.dataset import PlannedWell, SimulatedPlate, render_trajectory
 from aegis_ot.vision.run_scorer import RunScorer
 from aegis_ot.vision.scorers.column import ColumnScorer
+from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vision.types import TrajectorySample
 
 SESSION = replace(SessionParameters.bench(5), overexposed_chance=0.0)
@@ -32,6 +33,13 @@ def test_each_robots_tips_have_a_model_of_their_own() -> None:
     for model in scorer.models.values():
         assert model.height_scale == pytest.approx(1.0, abs=0.06)
     assert set(RunScorer(scorer, 6).height_factors) == {"ot2_1000", "flex_1000"}
+
+
+def test_the_ensemble_keeps_them_apart_too() -> None:
+    scorer = EnsembleScorer()
+    scorer.fit([*wells("p1000", 300.0), *wells("flex_1channel_1000", 300.0)])
+    assert set(scorer.sums) == set(scorer.patches.banks) == {"p1000", "flex_1000"}
+    assert np.isfinite(scorer.score(wells("flex_1channel_1000", 300.0, 1)[0]))
 
 
 def test_a_flex_tip_that_was_not_learned_is_judged_by_the_size_of_its_pipette() -> None:
