@@ -48,12 +48,12 @@ class DetectorSettings:
         threads: CPU threads.
     """
 
-    rounds: int = 7
-    frames: int = 1200
+    rounds: int = 9
+    frames: int = 1400
     passes: int = 3
     frozen: int = 2
-    drawn_share: float = 0.3
-    simulated_share: float = 0.35
+    drawn_share: float = 0.2
+    simulated_share: float = 0.3
     close_ups: int = 2
     batch: int = 16
     learning_rate: float = 4e-3

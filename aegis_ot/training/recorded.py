@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DatasetError
+from ..vision.dataset_checks import AXIS_COLUMNS
 from .axes import PlateCamera, TipLabel, rendered_labels
 from .photometry import photograph
 from .rooms import draw_room
@@ -42,8 +43,8 @@ class RecordedFrame:
 def read_frames(folder: Path) -> list[RecordedFrame]:
     """All frames of a data set that has ``boxes.csv``, in its order.
 
-    The axis follows from the plate's camera where ``meta.json`` gives one, and is the box's
-    vertical centre line otherwise.
+    The axis is that of ``axes.csv`` where the frame has a row there; else it follows from the
+    plate's camera where ``meta.json`` gives one, and is the box's vertical centre line otherwise.
 
     Raises:
         DatasetError: A file is missing or a row cannot be used; every bad row is listed.
@@ -80,6 +81,11 @@ def read_frames(folder: Path) -> list[RecordedFrame]:
     if not any(box is not None for _, _, box in read):
         raise DatasetError(f"{folder.name}: boxes.csv has no tip box to learn from.")
     labels = _labels(folder, [(plate, box) for _, plate, box in read])
+    axes = _axes(folder)
+    for i, (path, _, box) in enumerate(read):
+        axis = axes.get(path.relative_to(folder).as_posix())
+        if box is not None and axis is not None:
+            labels[i] = _label(axis, box)
     return [
         RecordedFrame(path, f"{folder.name}/{plate}", label, box)
         for (path, plate, box), label in zip(read, labels, strict=True)
@@ -101,6 +107,30 @@ def _plates(folder: Path) -> dict[str, str]:
             if row.get(keyframe):
                 plates[row[keyframe]] = row.get("plate") or ""
     return plates
+
+
+def _axes(folder: Path) -> dict[str, tuple[float, ...]]:
+    """Collar and orifice (x, y, x, y) by frame, of the optional ``axes.csv``."""
+    if not (folder / "axes.csv").exists():
+        return {}
+    axes: dict[str, tuple[float, ...]] = {}
+    problems: list[str] = []
+    for line, row in enumerate(_rows(folder / "axes.csv"), start=2):
+        cells = [row.get(column) or "" for column in AXIS_COLUMNS[1:]]
+        try:
+            axes[row.get("frame") or ""] = tuple(float(cell) for cell in cells)
+        except ValueError:
+            problems.append(f"axes.csv row {line}: {', '.join(cells)!r} are not four numbers")
+    if problems:
+        raise DatasetError(f"{folder.name}:\n" + "\n".join(problems))
+    return axes
+
+
+def _label(axis: Sequence[float], box: tuple[float, float, float, float]) -> TipLabel:
+    """The tip of an axis; a tip is widest at its collar, which touches one side of its box."""
+    collar, orifice = (axis[0], axis[1]), (axis[2], axis[3])
+    x, _, w, _ = box
+    return TipLabel(collar, orifice, max(0.5, min(collar[0] - x, x + w - collar[0])))
 
 
 def _labels(
@@ -140,6 +170,9 @@ def _cameras(folder: Path, plates: Sequence[str]) -> list[PlateCamera] | None:
 class FramePool:
     """Draws training frames from recorded ones, each as another camera might have seen it.
 
+    A data set is drawn as often as the square root of its size says: a large one teaches most,
+    and does not drown a small one.
+
     Args:
         frames: What to draw from; the images are kept in memory.
     """
@@ -161,10 +194,13 @@ class FramePool:
             for plate, members in by_plate.items()
             if len(members) >= 6 and len({self._images[i].shape for i in members}) == 1
         }
+        sets = [frame.plate.partition("/")[0] for frame in self._frames]
+        weights = np.array([1.0 / np.sqrt(sets.count(name)) for name in sets])
+        self.chances = weights / weights.sum()
 
     def draw(self, rng: np.random.Generator) -> tuple[Image, TipLabel | None, TipLabel | None]:
         """A frame, its tip, and where a tip is missing from a bare nozzle, if it is known."""
-        i = int(rng.integers(len(self._frames)))
+        i = int(rng.choice(len(self._frames), p=self.chances))
         image, label, decoy = self._images[i], self._frames[i].label, None
         room = self._rooms.get(self._frames[i].plate)
         if room is not None and rng.random() < 0.45:

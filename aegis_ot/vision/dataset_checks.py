@@ -29,6 +29,7 @@ COLUMNS = (
     *FRAME_COLUMNS,
 )
 BOX_COLUMNS = ("frame", "x", "y", "w", "h")
+AXIS_COLUMNS = ("frame", "collar_x", "collar_y", "orifice_x", "orifice_y")
 LABELS = ("normal", "failure")
 FAILURE_TYPES = (
     "partial_25",

@@ -13,8 +13,8 @@ import cv2
 
 from ..errors import DatasetError
 from ..vocabulary import KeyframeKind
-from .dataset_checks import BOX_COLUMNS, COLUMNS
-from .types import TrajectorySample
+from .dataset_checks import AXIS_COLUMNS, BOX_COLUMNS, COLUMNS
+from .types import TipDetection, TrajectorySample
 
 
 class DatasetWriter:
@@ -43,10 +43,13 @@ class DatasetWriter:
         self._ids: set[str] = set()
         self._manifest = (self.root / "manifest.csv").open("w", newline="", encoding="utf-8")
         self._boxes = (self.root / "boxes.csv").open("w", newline="", encoding="utf-8")
+        self._axes = (self.root / "axes.csv").open("w", newline="", encoding="utf-8")
         self._rows = csv.writer(self._manifest, lineterminator="\n")
         self._box_rows = csv.writer(self._boxes, lineterminator="\n")
+        self._axis_rows = csv.writer(self._axes, lineterminator="\n")
         self._rows.writerow(COLUMNS)
         self._box_rows.writerow(BOX_COLUMNS)
+        self._axis_rows.writerow(AXIS_COLUMNS)
 
     def __enter__(self) -> DatasetWriter:
         return self
@@ -57,6 +60,7 @@ class DatasetWriter:
     def close(self) -> None:
         self._manifest.close()
         self._boxes.close()
+        self._axes.close()
 
     def add(
         self, sample: TrajectorySample, jpegs: Mapping[KeyframeKind, bytes] | None = None
@@ -92,9 +96,7 @@ class DatasetWriter:
                 data = encoded.tobytes()
             (self.root / path).write_bytes(data)
             paths[kind] = path
-            box = sample.detections.get(kind)
-            cells = [f"{v:.1f}" for v in (box.x, box.y, box.w, box.h)] if box else [""] * 4
-            self._box_rows.writerow([path, *cells])
+            self._add_tip(path, sample.detections.get(kind))
         retained = sample.retained_fraction
         self._rows.writerow(
             [
@@ -110,6 +112,13 @@ class DatasetWriter:
                 *(paths[kind] for kind in KeyframeKind),
             ]
         )
+
+    def _add_tip(self, frame: str, tip: TipDetection | None) -> None:
+        if tip is None:
+            self._box_rows.writerow([frame, *[""] * 4])
+            return
+        self._box_rows.writerow([frame, *(f"{v:.1f}" for v in (tip.x, tip.y, tip.w, tip.h))])
+        self._axis_rows.writerow([frame, *(f"{v:.2f}" for v in (*tip.collar, *tip.orifice))])
 
     def _free_path(self, stem: str) -> str:
         path, number = f"frames/{stem}.jpg", 1

@@ -5,7 +5,8 @@
 It needs ``pip install mitsuba`` beside ``aegis-ot[sidecar]``; a plate of twelve wells
 takes a minute or two. ``meta.json`` names the kind of each plate, which
 ``aegis-ot evaluate layer2 OUT --leave-out camera`` leaves out as a whole. ``--for-detector``
-renders instead N wells, each before a camera of its own: for ``aegis-ot train detector``.
+renders instead N plates of three wells, each before a camera of its own and the last without a
+tip: for ``aegis-ot train detector``.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ def main() -> None:
     parser.add_argument("--plates", type=int, default=4, help="of each kind")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument(
-        "--for-detector", type=int, default=0, metavar="N", help="wells, instead of plates of kinds"
+        "--for-detector", type=int, default=0, metavar="N", help="cameras, instead of plates of kinds"
     )
     asked = parser.parse_args()
     if asked.for_detector and asked.kind:
@@ -60,7 +61,8 @@ def main() -> None:
     for number in range(asked.for_detector):
         plate, light = _plate("any", any_kind(rng), number, rng)
         # A data set's plate begins with a normal well.
-        plan.append(PlannedWell(number, str(rng.choice(tuple(DYES))), ""))
+        for failure in ("", str(rng.choice(LATER)), "no_tip"):
+            plan.append(PlannedWell(number, str(rng.choice(tuple(DYES))), failure))
         plates.append(plate)
         lamps[plate.session.seed] = light
     meta: dict[str, Any] = {
