@@ -125,10 +125,11 @@ def write_plates(
             order = counts[well.plate]
             counts[well.plate] += 1
             name = f"{'ABCDEFGH'[order % 8]}{order // 8 + 1}"
-            sample, jpegs = render_trajectory(
-                f"p{well.plate:02d}_{name}", name, well, plates[well.plate], rng, render
+            writer.add(
+                *render_trajectory(
+                    f"p{well.plate:02d}_{name}", name, well, plates[well.plate], rng, render
+                )
             )
-            writer.add(sample, jpegs)
     return Path(folder)
 
 
@@ -151,8 +152,10 @@ def render_trajectory(
     plate: SimulatedPlate,
     rng: np.random.Generator,
     render: Renderer = render_jpeg,
-) -> tuple[TrajectorySample, dict[KeyframeKind, bytes]]:
-    """One trajectory with its true detections, and its four frames as JPEG.
+) -> tuple[
+    TrajectorySample, dict[KeyframeKind, bytes], dict[KeyframeKind, tuple[TipDetection, ...]]
+]:
+    """One trajectory with its true detections, its four frames as JPEG, and a row's other tips.
 
     Args:
         identifier: Its id.
@@ -163,6 +166,7 @@ def render_trajectory(
         render: Draws the frames.
     """
     session, volume, tip = plate.session, plate.volume_ul, tip_for(plate.pipette)
+    channels = 8 if "multi" in plate.pipette or "8channel" in plate.pipette else 1
     states, kept = contents_of(well.failure, volume, rng, session.film)
     drops = rng.random() < session.drop_chance and well.failure != "no_tip"
     column = 1 + int(rng.integers(12))
@@ -172,7 +176,7 @@ def render_trajectory(
         if drops and kind is KeyframeKind.POST_DISPENSE:
             content = replace(content, drop_ul=min(4.0, 0.02 * volume) * rng.uniform(0.3, 1.0))
         state = place_tip(
-            session, kind, tip, (content,), DYES[well.reagent],
+            session, kind, tip, (content,) * channels, DYES[well.reagent],
             source="A1", destination=f"{name[0]}{column}",
         )  # fmt: skip
         jpegs[kind], truths[kind] = render(state, session, rng)
@@ -193,7 +197,13 @@ def render_trajectory(
         failure_type=well.failure,
         retained_fraction=kept,
     )
-    return sample, jpegs
+    beside = {
+        kind: tuple(
+            one for tip in truth.tips if tip is not truth.tip and (one := as_detection(tip))
+        )
+        for kind, truth in truths.items()
+    }
+    return sample, jpegs, beside
 
 
 def as_detection(truth: TipTruth) -> TipDetection | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cv2
@@ -83,9 +83,9 @@ def read_frames(folder: Path) -> list[RecordedFrame]:
     labels = _labels(folder, [(plate, box) for _, plate, box in read])
     axes = _axes(folder)
     for i, (path, _, box) in enumerate(read):
-        axis = axes.get(path.relative_to(folder).as_posix())
-        if box is not None and axis is not None:
-            labels[i] = _label(axis, box)
+        own = axes.get(path.relative_to(folder).as_posix())
+        if box is not None and own:
+            labels[i] = _label(own, box)
     return [
         RecordedFrame(path, f"{folder.name}/{plate}", label, box)
         for (path, plate, box), label in zip(read, labels, strict=True)
@@ -109,16 +109,17 @@ def _plates(folder: Path) -> dict[str, str]:
     return plates
 
 
-def _axes(folder: Path) -> dict[str, tuple[float, ...]]:
-    """Collar and orifice (x, y, x, y) by frame, of the optional ``axes.csv``."""
+def _axes(folder: Path) -> dict[str, list[tuple[float, ...]]]:
+    """Collars and orifices (x, y, x, y) by frame, of the optional ``axes.csv``."""
     if not (folder / "axes.csv").exists():
         return {}
-    axes: dict[str, tuple[float, ...]] = {}
+    axes: dict[str, list[tuple[float, ...]]] = {}
     problems: list[str] = []
     for line, row in enumerate(_rows(folder / "axes.csv"), start=2):
         cells = [row.get(column) or "" for column in AXIS_COLUMNS[1:]]
         try:
-            axes[row.get("frame") or ""] = tuple(float(cell) for cell in cells)
+            numbers = tuple(float(cell) for cell in cells)
+            axes.setdefault(row.get("frame") or "", []).append(numbers)
         except ValueError:
             problems.append(f"axes.csv row {line}: {', '.join(cells)!r} are not four numbers")
     if problems:
@@ -126,11 +127,12 @@ def _axes(folder: Path) -> dict[str, tuple[float, ...]]:
     return axes
 
 
-def _label(axis: Sequence[float], box: tuple[float, float, float, float]) -> TipLabel:
-    """The tip of an axis; a tip is widest at its collar, which touches one side of its box."""
-    collar, orifice = (axis[0], axis[1]), (axis[2], axis[3])
+def _label(axes: Sequence[tuple[float, ...]], box: tuple[float, float, float, float]) -> TipLabel:
+    """The tip of the box and those beside it; a tip is widest at its collar, inside its box."""
     x, _, w, _ = box
-    return TipLabel(collar, orifice, max(0.5, min(collar[0] - x, x + w - collar[0])))
+    radius = max(0.5, min(axes[0][0] - x, x + w - axes[0][0]))
+    first, *others = (TipLabel((a, b), (c, d), radius) for a, b, c, d in axes)
+    return replace(first, beside=tuple(others))
 
 
 def _labels(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -63,13 +63,17 @@ class DatasetWriter:
         self._axes.close()
 
     def add(
-        self, sample: TrajectorySample, jpegs: Mapping[KeyframeKind, bytes] | None = None
+        self,
+        sample: TrajectorySample,
+        jpegs: Mapping[KeyframeKind, bytes] | None = None,
+        beside: Mapping[KeyframeKind, Sequence[TipDetection]] | None = None,
     ) -> None:
         """Append one trajectory.
 
         Args:
             sample: A missing label is written as ``normal`` only if the sample says so.
             jpegs: The frames as the camera gave them; without, frames are encoded at quality 95.
+            beside: The other tips of a row, for the detector to learn from.
 
         Raises:
             DatasetError: If the id was written before, the label is missing, or a frame is.
@@ -96,7 +100,9 @@ class DatasetWriter:
                 data = encoded.tobytes()
             (self.root / path).write_bytes(data)
             paths[kind] = path
-            self._add_tip(path, sample.detections.get(kind))
+            self._add_tips(
+                path, sample.detections.get(kind), beside.get(kind, ()) if beside else ()
+            )
         retained = sample.retained_fraction
         self._rows.writerow(
             [
@@ -113,12 +119,13 @@ class DatasetWriter:
             ]
         )
 
-    def _add_tip(self, frame: str, tip: TipDetection | None) -> None:
-        if tip is None:
-            self._box_rows.writerow([frame, *[""] * 4])
-            return
-        self._box_rows.writerow([frame, *(f"{v:.1f}" for v in (tip.x, tip.y, tip.w, tip.h))])
-        self._axis_rows.writerow([frame, *(f"{v:.2f}" for v in (*tip.collar, *tip.orifice))])
+    def _add_tips(
+        self, frame: str, tip: TipDetection | None, beside: Sequence[TipDetection]
+    ) -> None:
+        box = [f"{v:.1f}" for v in (tip.x, tip.y, tip.w, tip.h)] if tip else [""] * 4
+        self._box_rows.writerow([frame, *box])
+        for each in (tip, *beside) if tip else ():
+            self._axis_rows.writerow([frame, *(f"{v:.2f}" for v in (*each.collar, *each.orifice))])
 
     def _free_path(self, stem: str) -> str:
         path, number = f"frames/{stem}.jpg", 1

@@ -1,12 +1,13 @@
 """Render a trajectory data set of several kinds of camera by path tracing.
 
-``python -m scripts.path_traced OUT [--kind NAME]... [--plates 4] [--seed 1] [--for-detector N]``
+``python -m scripts.path_traced OUT [--kind NAME]... [--plates 4] [--seed 1]``
+``python -m scripts.path_traced OUT --for-detector N [--rows] [--seed 1]``
 
 It needs ``pip install mitsuba`` beside ``aegis-ot[sidecar]``; a plate of twelve wells
 takes a minute or two. ``meta.json`` names the kind of each plate, which
 ``aegis-ot evaluate layer2 OUT --leave-out camera`` leaves out as a whole. ``--for-detector``
 renders instead N plates of three wells, each before a camera of its own and the last without a
-tip: for ``aegis-ot train detector``.
+tip: for ``aegis-ot train detector``; ``--rows``: of eight tips each.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from aegis_ot.simulation.dyes import DYES
 from aegis_ot.simulation.plans import REAGENTS, PlannedWell
 from aegis_ot.vision.tips import tip_for
 
-from .kinds import KINDS, CameraKind, any_kind, draw_session
+from .kinds import KINDS, CameraKind, any_kind, any_row, draw_session
 from .stage import Lamps
 
 FIRST_NORMALS = 4
@@ -44,11 +45,18 @@ def main() -> None:
     parser.add_argument("--plates", type=int, default=4, help="of each kind")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument(
-        "--for-detector", type=int, default=0, metavar="N", help="cameras, instead of plates of kinds"
+        "--for-detector",
+        type=int,
+        default=0,
+        metavar="N",
+        help="cameras, instead of plates of kinds",
     )
+    parser.add_argument("--rows", action="store_true", help="of eight tips, for the detector")
     asked = parser.parse_args()
     if asked.for_detector and asked.kind:
         parser.error("--for-detector draws its own cameras: leave --kind out")
+    if asked.rows and not asked.for_detector:
+        parser.error("--rows says what --for-detector N renders: name that too")
     rng = np.random.default_rng((asked.seed, 31))
     plates, plan, lamps, cameras = [], [], {}, {}
     for name in () if asked.for_detector else asked.kind or KINDS:
@@ -59,7 +67,8 @@ def main() -> None:
             lamps[plate.session.seed] = light
             cameras[plate.name] = name
     for number in range(asked.for_detector):
-        plate, light = _plate("any", any_kind(rng), number, rng)
+        kind = any_row(rng) if asked.rows else any_kind(rng)
+        plate, light = _plate("row" if asked.rows else "any", kind, number, rng)
         # A data set's plate begins with a normal well.
         for failure in ("", str(rng.choice(LATER)), "no_tip"):
             plan.append(PlannedWell(number, str(rng.choice(tuple(DYES))), failure))

@@ -94,6 +94,7 @@ KINDS: Mapping[str, CameraKind] = {
 
 
 PIPETTES = ("p1000", "p300", "p20", "flex_1channel_1000", "flex_1channel_50")
+ROW_PIPETTES = ("p20_multi_gen2", "p300_multi_gen2", "flex_8channel_50", "flex_8channel_1000")
 
 
 def any_kind(rng: np.random.Generator) -> CameraKind:
@@ -106,6 +107,15 @@ def any_kind(rng: np.random.Generator) -> CameraKind:
         (-35, 35), (1, 34), (220, 650), (0.24, 0.5), (12, 250), (0.5, 2.0), (1.5, 9), (55, 97),
         (0.0, 0.6), (0.2, 1.4), (2, 40), place, (float(rng.uniform(12, 300)),) * 2,
         (1.0 + warm, 1.0, 1.0 - warm), (0.5, 3.0),
+    )  # fmt: skip
+
+
+def any_row(rng: np.random.Generator) -> CameraKind:
+    """As :func:`any_kind`, of eight tips in a row: seen from beside the deck, not end-on."""
+    pipette = str(rng.choice(ROW_PIPETTES))
+    return replace(
+        any_kind(rng), pipettes=(pipette,), azimuth_deg=(38, 95), elevation_deg=(1, 16),
+        distance_mm=(380, 650),
     )  # fmt: skip
 
 
@@ -137,6 +147,8 @@ def draw_session(
         clutter=0.0, blur_px=u(kind.blur_px), noise=u(kind.noise), jpeg_quality=int(u(kind.jpeg)),
         frost=u(kind.frost), dye_strength=u(kind.dyes), white_balance=(blue, green, red),
         gain=u((0.9, 1.1)), brightness_fall=0.0, side_fall=0.0, labware=base.labware[:2],
+        # Whoever looks from beside the deck has the panel at its right end.
+        panel_right_mm=230.0 if kind.azimuth_deg[0] > 35 else base.panel_right_mm,
     )  # fmt: skip
     x, y, z = (place + u((-60, 60)) for place in kind.lamp_place)
     lamps = Lamps(

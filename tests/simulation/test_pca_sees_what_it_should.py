@@ -36,7 +36,7 @@ class Bench:
     def _vector(self, failure: str) -> NDArray[np.float32]:
         pipette, reagent, volume = self._what
         name = f"{'ABCDEFGH'[self._rng.integers(8)]}1"
-        sample, _ = render_trajectory(
+        sample, *_ = render_trajectory(
             name,
             name,
             PlannedWell(0, reagent, failure),

@@ -29,10 +29,21 @@ def test_an_axis_that_the_set_gives_is_the_label(dataset: Path) -> None:
         "frame,collar_x,collar_y,orifice_x,orifice_y\nframes/w0_aspirate.png,61,60,58.5,140\n"
     )
     first, second, *_ = read_frames(dataset)
-    assert first.label is not None and second.label is not None
+    assert first.label is not None
+    assert second.label is not None
     assert (first.label.collar, first.label.orifice) == ((61.0, 60.0), (58.5, 140.0))
     assert first.label.radius == 4.0  # the collar reaches the box's right side, 65
     assert second.label.collar == (100.0, 60.0)
+
+
+def test_the_tips_beside_it_are_labelled_too(dataset: Path) -> None:
+    (dataset / "axes.csv").write_text(
+        "frame,collar_x,collar_y,orifice_x,orifice_y\n"
+        "frames/w0_aspirate.png,60,60,60,140\nframes/w0_aspirate.png,80,61,80,141\n"
+    )
+    label = read_frames(dataset)[0].label
+    assert label is not None
+    assert [(tip.collar, tip.orifice) for tip in label.beside] == [((80.0, 61.0), (80.0, 141.0))]
 
 
 def test_a_bad_axis_is_named(dataset: Path) -> None:

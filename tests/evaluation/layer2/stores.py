@@ -30,7 +30,7 @@ def make_store(
     analyser = make_analyser().begin(run)
     for number, fault in enumerate(faults):
         name = f"{'ABCDEFGH'[number % 8]}{number // 8 + 1}"
-        sample, jpegs = render_trajectory(
+        sample, jpegs, _ = render_trajectory(
             str(number), name, PlannedWell(0, "red", fault), plate, rng
         )
         for place, kind in enumerate(KeyframeKind):
