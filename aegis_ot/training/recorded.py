@@ -215,13 +215,14 @@ class FramePool:
 
 
 def _without_tip(image: Image, label: TipLabel, room: Image) -> Image:
-    """The frame with the tip replaced by the empty room behind it."""
+    """The frame with the tip, or the whole row, replaced by the empty room behind it."""
     out = image.copy()
-    (cx, cy), (ox, oy) = label.collar, label.orifice
-    margin = 3 * label.radius
-    x0, x1 = int(max(0, min(cx, ox) - margin)), int(max(cx, ox) + margin)
-    y0, y1 = int(max(0, cy)), int(oy + 2 * margin)
-    out[y0:y1, x0:x1] = room[y0:y1, x0:x1]
+    for tip in (label, *label.beside):
+        (cx, cy), (ox, oy) = tip.collar, tip.orifice
+        margin = 3 * tip.radius
+        x0, x1 = int(max(0, min(cx, ox) - margin)), int(max(cx, ox) + margin)
+        y0, y1 = int(max(0, cy)), int(oy + 2 * margin)
+        out[y0:y1, x0:x1] = room[y0:y1, x0:x1]
     return out
 
 
