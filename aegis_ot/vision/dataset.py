@@ -209,7 +209,19 @@ def load_dataset(folder: str | Path) -> Dataset:
     meta = _read_meta(root, problems)
     if problems:
         raise DatasetError(problems.text(root))
+    warnings += _strangers(meta, records)
     return Dataset(root, tuple(records), boxes, meta, tuple(warnings))
+
+
+def _strangers(meta: Mapping[str, Any], records: Sequence[Record]) -> list[str]:
+    """What ``meta.json`` says of plates and trajectories that the manifest does not have."""
+    known = {"cameras": {r.plate for r in records}, "tips_ul": {r.id for r in records}}
+    found = {key: [n for n in meta.get(key) or () if n not in known[key]] for key in known}
+    return [
+        f"meta.json, {key}: {', '.join(map(repr, names[:5]))} is in no row of manifest.csv"
+        for key, names in found.items()
+        if names
+    ]
 
 
 def _read_meta(root: Path, problems: Problems) -> dict[str, Any]:

@@ -134,3 +134,22 @@ def test_data_sets_keep_the_robot_whose_tips_differ() -> None:
     assert in_data_sets("p1000_single_flex") == "p1000_single_flex"
     for name in ("p10_single", "p50_single", "p50_multi", "p300_multi_gen2", "flex_96channel_1000"):
         assert tip_for(in_data_sets(name)) is tip_for(name)
+
+
+def test_cameras_of_unknown_plates_are_named(folder: Path) -> None:
+    (folder / "meta.json").write_text('{"cameras": {"p1": "webcam", "plate7": "phone"}}')
+    assert load_dataset(folder).warnings == (
+        "meta.json, cameras: 'plate7' is in no row of manifest.csv",
+    )
+
+
+def test_the_axis_of_every_tip_of_a_row_is_written(tmp_path: Path) -> None:
+    one = sample("a")
+    tips = {kind: (tip,) for kind, tip in one.detections.items() if tip is not None}
+    with DatasetWriter(tmp_path / "rows", {}) as writer:
+        writer.add(one, beside=tips)
+    rows = list(csv.DictReader((tmp_path / "rows" / "axes.csv").open()))
+    assert [row["frame"] for row in rows[:3]] == ["frames/a_aspirate.jpg"] * 2 + [
+        "frames/a_transit.jpg"
+    ]
+    assert (rows[0]["collar_x"], rows[0]["orifice_y"]) == ("60.00", "131.00")
