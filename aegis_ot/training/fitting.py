@@ -48,7 +48,7 @@ class DetectorSettings:
         threads: CPU threads.
     """
 
-    rounds: int = 9
+    rounds: int = 8
     frames: int = 1400
     passes: int = 3
     frozen: int = 2
@@ -59,7 +59,7 @@ class DetectorSettings:
     learning_rate: float = 4e-3
     threshold: float | None = None
     threshold_frames: int = 600
-    threads: int = 1
+    threads: int = 2
 
 
 def fit(

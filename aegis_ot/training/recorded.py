@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import DatasetError
-from ..vision.dataset_checks import AXIS_COLUMNS
 from .axes import PlateCamera, TipLabel, rendered_labels
 from .photometry import photograph
 from .rooms import draw_room
 from .transplant import transplanted
 
 Image = NDArray[np.uint8]
+_AXIS = ("collar_x", "collar_y", "orifice_x", "orifice_y")
 _KEYFRAMES = ("aspirate", "transit", "dispense", "post_dispense")
 
 
@@ -116,7 +116,7 @@ def _axes(folder: Path) -> dict[str, list[tuple[float, ...]]]:
     axes: dict[str, list[tuple[float, ...]]] = {}
     problems: list[str] = []
     for line, row in enumerate(_rows(folder / "axes.csv"), start=2):
-        cells = [row.get(column) or "" for column in AXIS_COLUMNS[1:]]
+        cells = [row.get(column) or "" for column in _AXIS]
         try:
             numbers = tuple(float(cell) for cell in cells)
             axes.setdefault(row.get("frame") or "", []).append(numbers)

@@ -37,7 +37,7 @@ LATER = (
 
 
 def main() -> None:
-    from .tracer import PathTracer
+    from .tracer import FOR_DETECTOR, PathTracer
 
     parser = argparse.ArgumentParser(prog="python -m scripts.path_traced", description=__doc__)
     parser.add_argument("out", type=Path, help="new or empty folder")
@@ -82,7 +82,8 @@ def main() -> None:
         "plates": [asdict(plate.session) for plate in plates],
         "lamps": [asdict(lamps[plate.session.seed]) for plate in plates],
     }
-    write_plates(asked.out, plates, plan, meta, rng, PathTracer(lamps))
+    quality = FOR_DETECTOR if asked.for_detector else None
+    write_plates(asked.out, plates, plan, meta, rng, PathTracer(lamps, quality))
 
 
 def _plate(

@@ -44,6 +44,10 @@ class Quality:
     depth: int = 16
 
 
+FOR_DETECTOR = Quality(still=12, body=8, tip=16)
+"""A third of the rays: what is left of their noise drowns in a camera's."""
+
+
 class PathTracer:
     """Renders one session's frames; call it where ``simulation.render_jpeg`` is called.
 
