@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import difflib
 import ipaddress
 import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal
 
 from platformdirs import user_data_path
 from pydantic import (
@@ -21,7 +20,7 @@ from pydantic import (
 )
 
 from ..errors import ConfigurationError
-from .settings_file import read_settings_file
+from .settings_file import explain, merge, nest, read_settings_file
 
 DEFAULT_PORT = 7645
 LEAST_TOKEN = 16
@@ -289,15 +288,15 @@ class SidecarConfig(Section):
         environ = os.environ if environ is None else environ
         for variable, place in ENVIRONMENT.items():
             if environ.get(variable):
-                _merge(values, _nest(place, environ[variable]))
-        _merge(values, {name: value for name, value in overrides.items() if value is not None})
+                merge(values, nest(place, environ[variable]))
+        merge(values, {name: value for name, value in overrides.items() if value is not None})
         host = str(values.get("host") or "127.0.0.1")
         if find_token is not None and not values.get("token") and not is_loopback(host):
             values["token"] = find_token(Path(values.get("data") or default_data()))
         try:
             return cls.model_validate(values)
         except ValidationError as error:
-            raise ConfigurationError(_explain(error)) from None
+            raise ConfigurationError(explain(error, cls)) from None
 
 
 def default_data() -> Path:
@@ -313,43 +312,3 @@ def is_loopback(host: str) -> bool:
         return ipaddress.ip_address(host.strip("[]")).is_loopback
     except ValueError:
         return False
-
-
-def _nest(place: tuple[str, ...], value: Any) -> dict[str, Any]:
-    for name in reversed(place):
-        value = {name: value}
-    return dict(value)
-
-
-def _merge(into: dict[str, Any], new: Mapping[str, Any]) -> None:
-    for name, value in new.items():
-        if isinstance(value, Mapping) and isinstance(into.get(name), dict):
-            _merge(into[name], value)
-        else:
-            into[name] = dict(value) if isinstance(value, Mapping) else value
-
-
-def _explain(error: ValidationError) -> str:
-    lines = []
-    for problem in error.errors(include_url=False, include_input=False):
-        place = ".".join(str(part) for part in problem["loc"])
-        text = problem["msg"].removeprefix("Value error, ")
-        if problem["type"] == "extra_forbidden":
-            text = f"there is no such setting{_meant(problem['loc'])}"
-        elif problem["type"] == "model_type":
-            text = f"is a section of settings: [{place}] in TOML, an object in JSON"
-        lines.append(f"{place}: {text}" if place else text)
-    return "Sidecar settings: " + "; ".join(lines)
-
-
-def _meant(place: tuple[int | str, ...]) -> str:
-    """Which setting an unknown one resembles, as the end of a sentence."""
-    section: Any = SidecarConfig
-    for name in place[:-1]:
-        if isinstance(name, int):  # One of several: their type is that of the first.
-            section = get_args(section)[0]
-        else:
-            section = section.model_fields[name].annotation
-    known = list(section.model_fields)
-    close = difflib.get_close_matches(str(place[-1]), known, n=1)
-    return f"; did you mean {close[0]!r}?" if close else f"; there are {', '.join(known)}"
