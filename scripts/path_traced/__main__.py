@@ -1,13 +1,14 @@
 """Render a trajectory data set of several kinds of camera by path tracing.
 
 ``python -m scripts.path_traced OUT [--kind NAME]... [--plates 4] [--seed 1]``
-``python -m scripts.path_traced OUT --for-detector N [--rows] [--seed 1]``
+``python -m scripts.path_traced OUT --for-detector N [--rows] [--sleeves] [--seed 1]``
 
 It needs ``pip install mitsuba`` beside ``aegis-ot[sidecar]``; a plate of twelve wells
 takes a minute or two. ``meta.json`` names the kind of each plate, which
 ``aegis-ot evaluate layer2 OUT --leave-out camera`` leaves out as a whole. ``--for-detector``
 renders instead N plates of three wells, each before a camera of its own and the last without a
-tip: for ``aegis-ot train detector``; ``--rows``: of eight tips each.
+tip: for ``aegis-ot train detector``; ``--rows``: of eight tips each; ``--sleeves``: of tips whose
+upper part is a sleeve, as real ones' is.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from aegis_ot.vision.tips import tip_for
 
 from .kinds import KINDS, CameraKind, any_kind, any_row, draw_session
 from .stage import Lamps
+from .tips import Sleeve
 
 FIRST_NORMALS = 4
 """Normal wells at a plate's start: a run's calibration."""
@@ -52,13 +54,14 @@ def main() -> None:
         help="cameras, instead of plates of kinds",
     )
     parser.add_argument("--rows", action="store_true", help="of eight tips, for the detector")
+    parser.add_argument("--sleeves", action="store_true", help="on the tips, for the detector")
     asked = parser.parse_args()
     if asked.for_detector and asked.kind:
         parser.error("--for-detector draws its own cameras: leave --kind out")
-    if asked.rows and not asked.for_detector:
-        parser.error("--rows says what --for-detector N renders: name that too")
+    if (asked.rows or asked.sleeves) and not asked.for_detector:
+        parser.error("--rows and --sleeves say what --for-detector N renders: name that too")
     rng = np.random.default_rng((asked.seed, 31))
-    plates, plan, lamps, cameras = [], [], {}, {}
+    plates, plan, lamps, cameras, sleeves = [], [], {}, {}, {}
     for name in () if asked.for_detector else asked.kind or KINDS:
         for number in range(asked.plates):
             plate, light = _plate(name, KINDS[name], number, rng)
@@ -74,6 +77,8 @@ def main() -> None:
             plan.append(PlannedWell(number, str(rng.choice(tuple(DYES))), failure))
         plates.append(plate)
         lamps[plate.session.seed] = light
+        if asked.sleeves:
+            sleeves[plate.session.seed] = Sleeve.draw(rng)
     meta: dict[str, Any] = {
         "source": "rendered",
         "renderer": "path-traced (scripts/path_traced)",
@@ -81,9 +86,10 @@ def main() -> None:
         "cameras": cameras,
         "plates": [asdict(plate.session) for plate in plates],
         "lamps": [asdict(lamps[plate.session.seed]) for plate in plates],
+        "sleeves": [asdict(sleeve) for sleeve in sleeves.values()],
     }
     quality = FOR_DETECTOR if asked.for_detector else None
-    write_plates(asked.out, plates, plan, meta, rng, PathTracer(lamps, quality))
+    write_plates(asked.out, plates, plan, meta, rng, PathTracer(lamps, quality, sleeves))
 
 
 def _plate(

@@ -37,6 +37,7 @@ class CameraKind:
         lamp_place: Middle of where the lamp hangs, mm. ``lamp_size``: its half sides, mm.
         balance: White balance (B, G, R) about which plates scatter.
         dyes: Concentration, as a multiple of what ``DYES`` says.
+        view_mm: What is to be in view from side to side: both labwares.
     """
 
     size: tuple[int, int]
@@ -56,6 +57,7 @@ class CameraKind:
     lamp_size: tuple[float, float]
     balance: tuple[float, float, float] = (1.0, 1.0, 1.0)
     dyes: Range = (0.8, 2.5)
+    view_mm: float = 118.0
 
 
 KINDS: Mapping[str, CameraKind] = {
@@ -114,8 +116,8 @@ def any_row(rng: np.random.Generator) -> CameraKind:
     """As :func:`any_kind`, of eight tips in a row: seen from beside the deck, not end-on."""
     pipette = str(rng.choice(ROW_PIPETTES))
     return replace(
-        any_kind(rng), pipettes=(pipette,), azimuth_deg=(38, 95), elevation_deg=(1, 16),
-        distance_mm=(380, 650),
+        any_kind(rng), pipettes=(pipette,), azimuth_deg=(60, 98), elevation_deg=(1, 16),
+        distance_mm=(300, 650), filling=(0.24, 0.6), view_mm=70.0,
     )  # fmt: skip
 
 
@@ -137,7 +139,7 @@ def draw_session(
         look[2] + distance * float(np.sin(down)),
     )
     # Both labwares stay in view, whatever the tip's length.
-    scale = min(u(kind.filling) * kind.size[1] / length, 0.42 * kind.size[0] / 118.0)
+    scale = min(u(kind.filling) * kind.size[1] / length, 0.42 * kind.size[0] / kind.view_mm)
     level = u(kind.panel)
     wall = (level * rng.normal(1, 0.04), level, level * rng.normal(1, 0.04))
     blue, green, red = (gain * rng.normal(1.0, 0.02) for gain in kind.balance)

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 SEGMENTS = 48
 """Facets around the axis; normals are smooth."""
+FLUTED = 96
+"""The same where ribs run along it."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,11 @@ class Surface:
     colour: Floats | None = None
 
 
-def turn(profile: Sequence[tuple[float, float]], colour: Floats | None = None) -> Surface:
+def turn(
+    profile: Sequence[tuple[float, float]],
+    colour: Floats | None = None,
+    flutes: tuple[int, float, float] = (0, 0.0, 0.0),
+) -> Surface:
     """A surface of revolution about z from ``(height, radius)`` pairs.
 
     Walked along the profile, the outside lies on the right hand of one who looks with the axis
@@ -40,30 +46,46 @@ def turn(profile: Sequence[tuple[float, float]], colour: Floats | None = None) -
     Args:
         profile: Points in order, mm.
         colour: One (R, G, B) for each point of the profile, shape ``(len(profile), 3)``.
+        flutes: Ribs along the wall: how many, their depth, and the height from which up, mm.
     """
     along, normal, tint = _split_at_corners(np.asarray(profile, dtype=float), colour)
-    angle = np.linspace(0.0, 2 * np.pi, SEGMENTS, endpoint=False)
-    cos, sin = np.cos(angle), np.sin(angle)
-
-    def spin(radial: Floats, height: Floats) -> Floats:
-        return np.stack(
-            [np.outer(radial, cos), np.outer(radial, sin), np.outer(height, np.ones_like(angle))],
-            axis=-1,
-        ).reshape(-1, 3)
-
+    count, depth, above = flutes
+    segments = FLUTED if count else SEGMENTS
+    angle = np.linspace(0.0, 2 * np.pi, segments, endpoint=False)
+    wave = depth * (along[:, 0] >= above)[:, None]
+    radius = along[:, 1, None] - wave * (1 - np.cos(count * angle)) / 2
+    slope = -wave * count * np.sin(count * angle) / 2
+    # The normal of r(angle) is turned from the radius by the slope of the rib's flank.
+    lean = np.arctan2(slope, np.maximum(radius, 1e-6))
+    points = np.stack(
+        [
+            radius * np.cos(angle),
+            radius * np.sin(angle),
+            np.broadcast_to(along[:, :1], radius.shape),
+        ],
+        axis=-1,
+    )
+    normals = np.stack(
+        [
+            normal[:, 1, None] * np.cos(angle - lean),
+            normal[:, 1, None] * np.sin(angle - lean),
+            np.broadcast_to(normal[:, :1], radius.shape),
+        ],
+        axis=-1,
+    )
     faces = []
     for i in range(len(along) - 1):
         if np.allclose(along[i], along[i + 1]):
             continue
-        a = i * SEGMENTS + np.arange(SEGMENTS)
-        b = i * SEGMENTS + (np.arange(SEGMENTS) + 1) % SEGMENTS
-        c, d = b + SEGMENTS, a + SEGMENTS
+        a = i * segments + np.arange(segments)
+        b = i * segments + (np.arange(segments) + 1) % segments
+        c, d = b + segments, a + segments
         faces += [np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]
     return Surface(
-        points=spin(along[:, 1], along[:, 0]),
-        normals=spin(normal[:, 1], normal[:, 0]),
+        points=points.reshape(-1, 3),
+        normals=normals.reshape(-1, 3),
         faces=np.concatenate(faces).astype(np.uint32),
-        colour=None if tint is None else np.repeat(tint, SEGMENTS, axis=0),
+        colour=None if tint is None else np.repeat(tint, segments, axis=0),
     )
 
 

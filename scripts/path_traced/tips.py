@@ -44,6 +44,35 @@ class TipSurfaces:
 
 
 @dataclass(frozen=True)
+class Sleeve:
+    """The wider upper part of a tip, as most makers' have it: on real ones a clear step.
+
+    Attributes:
+        share: Of the tip's length.
+        step_mm: By how much its radius exceeds the wall's below it.
+        flare_mm: By how much more at the rim.
+        ribs: Along it; 0 for a smooth one.
+        rib_mm: Their depth.
+    """
+
+    share: float = 0.3
+    step_mm: float = 0.3
+    flare_mm: float = 0.5
+    ribs: int = 12
+    rib_mm: float = 0.15
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator) -> Sleeve:
+        return cls(
+            share=float(rng.uniform(0.1, 0.4)),
+            step_mm=float(rng.uniform(0.1, 0.5)),
+            flare_mm=float(rng.uniform(0.0, 0.7)),
+            ribs=int(rng.choice((0, 8, 12, 16))),
+            rib_mm=float(rng.uniform(0.05, 0.2)),
+        )
+
+
+@dataclass(frozen=True)
 class Liquid:
     """A dye at a strength: a multiple of the concentration at which it was measured."""
 
@@ -57,7 +86,11 @@ class Liquid:
 
 
 def tip_surfaces(
-    tip: TipGeometry, content: TipContent, liquid: Liquid, shaft_mm: float
+    tip: TipGeometry,
+    content: TipContent,
+    liquid: Liquid,
+    shaft_mm: float,
+    sleeve: Sleeve | None = None,
 ) -> TipSurfaces:
     """Cut a tip with its contents into surfaces, in mm above its orifice.
 
@@ -66,6 +99,7 @@ def tip_surfaces(
         content: What it holds.
         liquid: Its colour.
         shaft_mm: Length of shaft in view above the tip, mm.
+        sleeve: Its upper part; without, it has a ring there.
     """
     free = tip.free_mm if content.present else tip.length_mm
     top = tip.length_mm + shaft_mm
@@ -90,7 +124,8 @@ def tip_surfaces(
     if content.drop_ul > 0:
         size = float(np.cbrt(0.75 * content.drop_ul / np.pi))
         ends.append(ball(size, -0.92 * size))
-    return TipSurfaces((_plastic(tip),), tuple(dry), tuple(wet), tuple(ends), shaft)
+    outside = _plastic(tip) if sleeve is None else _sleeved(tip, sleeve)
+    return TipSurfaces((outside,), tuple(dry), tuple(wet), tuple(ends), shaft)
 
 
 def _plastic(tip: TipGeometry) -> Surface:
@@ -102,6 +137,23 @@ def _plastic(tip: TipGeometry) -> Surface:
     collar = [(h, float(tip.outer_radius(h)) + wide) for h in (ring + 1e-3, tip.length_mm)]
     rim = (tip.length_mm, float(tip.inner_radius(tip.length_mm)))
     return turn([(0.0, float(tip.inner_radius(0.0))), *wall, *collar, rim])
+
+
+def _sleeved(tip: TipGeometry, sleeve: Sleeve) -> Surface:
+    """Outer side with a sleeve, walked upwards."""
+    step, flare = (1 - sleeve.share) * tip.length_mm, 0.94 * tip.length_mm
+    heights = np.unique([0.0, step, *(h for h, _ in tip.profile if h < step)])
+    wall = [(float(h), float(tip.outer_radius(float(h)))) for h in heights]
+    wide = wall[-1][1] + sleeve.step_mm
+    # It holds the bore, which widens upwards, whatever its own step.
+    inner = float(tip.inner_radius(tip.length_mm))
+    neck = max(wide, inner + 0.3)
+    rim = neck + sleeve.flare_mm
+    upper = [(step + 1e-3, wide), (flare, neck), (tip.length_mm, rim), (tip.length_mm, inner)]
+    return turn(
+        [(0.0, float(tip.inner_radius(0.0))), *wall, *upper],
+        flutes=(sleeve.ribs, min(sleeve.rib_mm, 0.8 * sleeve.step_mm), step + 5e-4),
+    )
 
 
 def _bore(tip: TipGeometry, low: float, high: float, liquid: Liquid | None = None) -> Surface:

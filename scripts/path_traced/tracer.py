@@ -21,7 +21,7 @@ from aegis_ot.simulation.truth import FrameTruth, tip_truth
 
 from .lathe import Surface
 from .stage import Lamps, plastic, stage
-from .tips import GAMMA, Liquid, tip_surfaces
+from .tips import GAMMA, Liquid, Sleeve, tip_surfaces
 
 mi.set_variant("scalar_rgb")
 
@@ -30,22 +30,25 @@ Light = NDArray[np.float32]
 
 PLASTIC, LIQUID, AIR = 1.49, 1.333, 1.0
 """Refractive indices: polypropylene, water, air."""
-SOFT_PX = 4
-"""By how much what is rendered anew reaches beyond the pipette, px."""
 
 
 @dataclass(frozen=True)
 class Quality:
-    """Rays per pixel, and surfaces a ray may meet: a filled tip has eight on the way through."""
+    """Rays per pixel, and surfaces a ray may meet: a filled tip has eight on the way through.
+
+    ``soft_px``: by how much what is rendered anew reaches beyond the pipette, px.
+    """
 
     still: int = 24
     body: int = 12
     tip: int = 48
     depth: int = 16
+    soft_px: int = 4
 
 
-FOR_DETECTOR = Quality(still=12, body=8, tip=16)
-"""A third of the rays: what is left of their noise drowns in a camera's."""
+FOR_DETECTOR = Quality(still=12, body=4, tip=16, soft_px=16)
+"""Fewer rays, for what is left of their noise drowns in a camera's; and softer edges of what is
+rendered anew, so that the end of the pipette's shadow on the panel is not taken for a sign."""
 
 
 class PathTracer:
@@ -54,11 +57,16 @@ class PathTracer:
     Args:
         lamps: Light of each session, by the session's seed; the same for all if left out.
         quality: Rays per pixel.
+        sleeves: Upper parts of the tips, by the session's seed.
     """
 
     def __init__(
-        self, lamps: Mapping[int, Lamps] | None = None, quality: Quality | None = None
+        self,
+        lamps: Mapping[int, Lamps] | None = None,
+        quality: Quality | None = None,
+        sleeves: Mapping[int, Sleeve] | None = None,
     ) -> None:
+        self._sleeves = sleeves or {}
         self._lamps = lamps or {}
         self._quality = quality or Quality()
         self._still = lru_cache(maxsize=2)(self._render_still)
@@ -73,14 +81,15 @@ class PathTracer:
         light = light.copy()
         shapes, outlines, truth = self._moving(state, session, camera, jitter)
         scene = self._scene(still | shapes)
+        soft = self._quality.soft_px
         for outline, rays in outlines:
-            box = _covering(outline, session.size)
+            box = _covering(outline, session.size, soft)
             if box is None:
                 continue
             x0, y0, x1, y1 = box
             seed = int(rng.integers(2**31))
             part = self._trace(scene, session, box, rays, seed)
-            share = _inside(outline, box)
+            share = _inside(outline, box, soft)
             light[y0:y1, x0:x1] = share * part + (1 - share) * light[y0:y1, x0:x1]
         gain = frame_gain(session, rng)
         image = expose(_levels(light, session) * np.float32(gain), session, rng)
@@ -130,7 +139,7 @@ class PathTracer:
             origin = np.array(state.orifice) + channel * np.array([*state.pitch, 0.0])
             origin += jitter[0] * camera.level_right + np.array([0.0, 0.0, jitter[1]])
             placing = _placing(camera, origin, session.tip_tilt_deg)
-            shapes |= _tip_shapes(channel, state, session, placing)
+            shapes |= _tip_shapes(channel, state, session, placing, self._sleeves.get(session.seed))
             hidden = -99.0 if state.rim_z is None else state.rim_z - float(origin[2])
             plane = camera.plane((*map(float, origin),), session.tip_tilt_deg)  # type: ignore[arg-type]
             truths.append(tip_truth(channel, plane, state, content, hidden))
@@ -171,11 +180,15 @@ def _placing(camera: Pinhole, origin: Floats, tilt_deg: float) -> Floats:
 
 
 def _tip_shapes(
-    channel: int, state: SceneState, session: SessionParameters, placing: Floats
+    channel: int,
+    state: SceneState,
+    session: SessionParameters,
+    placing: Floats,
+    sleeve: Sleeve | None,
 ) -> dict[str, Any]:
     content = state.contents[channel]
     liquid = Liquid(state.dye, session.dye_strength)
-    parts = tip_surfaces(state.tip, content, liquid, session.shaft_mm)
+    parts = tip_surfaces(state.tip, content, liquid, session.shaft_mm, sleeve)
     wall = _frosted(session.frost)
     shapes: dict[str, Any] = {}
     for name, surfaces, bsdf in (
@@ -265,22 +278,22 @@ def _sensor(
     }  # fmt: skip
 
 
-def _inside(outline: Floats, box: tuple[int, int, int, int]) -> Light:
+def _inside(outline: Floats, box: tuple[int, int, int, int], soft: int) -> Light:
     """1 within the hull of an outline and soft at its edge, ``(h, w, 1)``."""
     x0, y0, x1, y1 = box
     mask = np.zeros((y1 - y0, x1 - x0), np.float32)
     hull = cv2.convexHull((outline - (x0, y0)).astype(np.float32))
     cv2.fillConvexPoly(mask, np.round(hull).astype(np.int32), 1.0)
-    mask = cv2.dilate(mask, np.ones((2 * SOFT_PX + 1,) * 2, np.uint8))
-    return np.asarray(cv2.GaussianBlur(mask, (0, 0), SOFT_PX / 2)[..., None], np.float32)
+    mask = cv2.dilate(mask, np.ones((2 * soft + 1,) * 2, np.uint8))
+    return np.asarray(cv2.GaussianBlur(mask, (0, 0), soft / 2)[..., None], np.float32)
 
 
-def _covering(pixels: Floats, size: tuple[int, int]) -> tuple[int, int, int, int] | None:
+def _covering(pixels: Floats, size: tuple[int, int], soft: int) -> tuple[int, int, int, int] | None:
     low = np.floor(pixels.min(axis=0)).astype(int)
     high = np.ceil(pixels.max(axis=0)).astype(int)
-    x0, y0 = max(int(low[0]) - 3 * SOFT_PX, 0), max(int(low[1]) - 3 * SOFT_PX, 0)
-    x1 = min(int(high[0]) + 3 * SOFT_PX, size[0])
-    y1 = min(int(high[1]) + 3 * SOFT_PX, size[1])
+    x0, y0 = max(int(low[0]) - 3 * soft, 0), max(int(low[1]) - 3 * soft, 0)
+    x1 = min(int(high[0]) + 3 * soft, size[0])
+    y1 = min(int(high[1]) + 3 * soft, size[1])
     return (x0, y0, x1, y1) if x1 - x0 > 1 and y1 - y0 > 1 else None
 
 
