@@ -49,7 +49,7 @@ class DetectorSettings:
         threads: CPU threads.
     """
 
-    rounds: int = 9
+    rounds: int = 8
     frames: int = 1400
     passes: int = 3
     frozen: int = 2
