@@ -48,6 +48,7 @@ class CallReader:
 
     def __init__(self, core: Any, pipette: Pipette, wells: WellResolver) -> None:
         self._core = core
+        self._core_type: Any = type(core)
         self._weak_core = weakref.ref(core)
         self._pipette = pipette
         self._wells = wells
@@ -63,7 +64,7 @@ class CallReader:
 
         A call with wrong arguments is left to Opentrons, which has an error for it.
         """
-        values = dict(zip(_parameters(type(self._core), name), args, strict=False))
+        values = dict(zip(_parameters(self._core_type, name), args, strict=False))
         values.update(kwargs)
         try:
             return self._operation(name, values, site)

@@ -6,7 +6,7 @@ import ast
 import functools
 from collections import defaultdict
 from collections.abc import Iterator
-from typing import TypeVar
+from typing import Any, TypeVar
 
 LOOPS: tuple[type[ast.For | ast.AsyncFor | ast.comprehension], ...] = (
     ast.For,
@@ -67,7 +67,8 @@ def name_of(function: ast.FunctionDef | ast.Lambda) -> str:
 
 def _children(node: ast.AST) -> list[ast.AST]:
     children: list[ast.AST] = []
-    for name in _speaking_fields(type(node)):
+    kind: Any = type(node)
+    for name in _speaking_fields(kind):
         value = getattr(node, name, None)
         if type(value) is list:
             children += [child for child in value if isinstance(child, ast.AST)]
