@@ -24,6 +24,9 @@ for source, row in zip(sources, plate.rows()):
 # GEN-1 fails: one tip for all sources
 p300.transfer(50, sources, destinations, new_tip="once")
 
+# GEN-1 warns: one tip for all of them, and nothing says what they are
+p300.transfer(50, deepwell.rows()[0][:3], plate.rows()[0][:3], new_tip="once")
+
 # GEN-1 fails: the tip is dropped outside the loop
 p300.pick_up_tip()
 for source, destination in zip(sources, destinations):
@@ -168,3 +171,21 @@ for sample, target, volume in zip(samples, targets, (60, 110, 190)):
 
 # GEN-3 warns: the second draw lacks 2 of 61 µL
 p300.transfer(61, samples[0], targets[:2], new_tip="always")
+
+# deck
+source_rack, dest_plate = tubes, plate
+
+# GEN-1 fails: one tip for all sources, which their labware names
+p300.transfer(50, source_rack.wells()[:3], dest_plate.wells()[:3], new_tip="once")
+
+# deck
+sample_plate = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 9)
+water = reservoir["A1"]
+
+# GEN-1 warns: a plate named for samples gets nothing but water, and may yet be empty
+p300.pick_up_tip()
+p300.aspirate(200, water)
+for well in sample_plate.rows()[0][:3]:
+    p300.dispense(20, well)
+    p300.touch_tip()
+p300.drop_tip()

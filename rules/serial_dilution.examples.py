@@ -197,6 +197,19 @@ for n, (left, right) in enumerate(zip(series, series[1:])):
         p300.mix(3, 80, right)
 p300.drop_tip()
 
+# SD-5 warns: one tip, which mixes each well before it draws from it, and the last one at the end
+p300.distribute(100, diluent, series[1:])
+p300.transfer(150, stock, series[0])
+p300.pick_up_tip()
+p300.transfer(50, series[:-1], series[1:], mix_before=(3, 80), new_tip="never")
+p300.mix(3, 80, series[-1])
+p300.drop_tip()
+
+# SD-1 fails: each well is mixed before the next draw, and nothing is drawn from the last one
+p300.distribute(100, diluent, series[1:])
+p300.transfer(150, stock, series[0])
+p300.transfer(50, series[:-1], series[1:], mix_before=(3, 80), new_tip="always")
+
 # SD-1, SD-5 passes: two series in a row, each with a probe in all its wells and a control behind it
 for start, probe in zip((0, 6), tubes.rows()[1]):
     wells = plate.rows()[1][start : start + 6]

@@ -11,16 +11,16 @@ PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 BUDGETS = {
     "preflight": 11_070,
     "preflight/checks": 2_570,
-    "preflight/database": 330,
-    "preflight/evidence": 770,
-    "preflight/judging": 985,
-    "preflight/opinion": 920,
-    "preflight/rehearsal": 1_140,
+    "preflight/database": 329,
+    "preflight/evidence": 765,
+    "preflight/judging": 969,
+    "preflight/opinion": 910,
+    "preflight/rehearsal": 1_135,
     "preflight/roles": 1_070,
-    "preflight/rules": 660,
-    "preflight/source": 760,
-    "preflight/trace": 1_610,
-    "": 66_600,
+    "preflight/rules": 659,
+    "preflight/source": 772,
+    "preflight/trace": 1_607,
+    "": 66_570,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import inspect
 import weakref
 from collections import deque
@@ -47,14 +48,10 @@ class CallReader:
 
     def __init__(self, core: Any, pipette: Pipette, wells: WellResolver) -> None:
         self._core = core
+        self._core_type: Any = type(core)
         self._weak_core = weakref.ref(core)
         self._pipette = pipette
         self._wells = wells
-        self._parameters = {
-            name: tuple(inspect.signature(getattr(core, name)).parameters)
-            for name in CORE_METHODS
-            if hasattr(core, name)
-        }
         self._move_to = core.move_to
         self._targets: deque[tuple[Operation, Any, Any]] = deque(maxlen=_RECENT)
         self._nozzles: Nozzles | None = None
@@ -67,7 +64,7 @@ class CallReader:
 
         A call with wrong arguments is left to Opentrons, which has an error for it.
         """
-        values = dict(zip(self._parameters[name], args, strict=False))
+        values = dict(zip(_parameters(self._core_type, name), args, strict=False))
         values.update(kwargs)
         try:
             return self._operation(name, values, site)
@@ -189,6 +186,12 @@ class CallReader:
         if point is None or not isinstance(getattr(point, "z", None), (int, float)):
             return None
         return round(float(point.z) - self._wells.top_of(info, target, well_core), 3)
+
+
+@functools.cache
+def _parameters(core_type: type, name: str) -> tuple[str, ...]:
+    """Names of the arguments of a core's method, after ``self``."""
+    return tuple(inspect.signature(getattr(core_type, name)).parameters)[1:]
 
 
 def _well_core_of(location: Any) -> Any:

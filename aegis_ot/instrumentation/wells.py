@@ -287,19 +287,15 @@ def _newest_inner_sections(load_name: str) -> dict[str, tuple[Any, ...]]:
 def _describe_well(well: Any, bottom: str, sections: tuple[Any, ...]) -> WellInfo:
     return WellInfo(
         max_volume=float(well.get("totalLiquidVolume", 0.0)),
-        depth=float(well.get("depth", 0.0)),
-        x=float(well.get("x", 0.0)),
-        y=float(well.get("y", 0.0)),
-        diameter=_float_or_none(well.get("diameter")),
-        x_size=_float_or_none(well.get("xDimension")),
-        y_size=_float_or_none(well.get("yDimension")),
+        depth=well.get("depth", 0.0),
+        x=well.get("x", 0.0),
+        y=well.get("y", 0.0),
+        diameter=well.get("diameter"),
+        x_size=well.get("xDimension"),
+        y_size=well.get("yDimension"),
         bottom=bottom,
         sections=sections,
     )
-
-
-def _float_or_none(value: Any) -> float | None:
-    return None if value is None else float(value)
 
 
 def _wells_under(

@@ -13,7 +13,7 @@ from .check import Check, Doubt, Result, Violation, at, place
 from .dilution_steps import NO_SERIES, is_dilution, is_mixed
 from .series import Series
 
-_MIXED = "Every step is mixed, which rinses the tip: common practice, though not exact."
+_MIXED = "Each step is mixed before the next, which rinses the tip: common practice, not exact."
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,9 @@ class SeriesTip(Check):
                 if visit.contact:
                     by_tip.setdefault(visit.tip.number, []).append(visit)
         dilutions = [step for step in series.steps if is_dilution(case, step)]
-        mixed = all(is_mixed(case, step) for step in dilutions)
+        feeding = {link.source for link in series.links}
+        goes_on = [step for step in dilutions if step.well in feeding]  # the last well is SD-1's
+        mixed = all(is_mixed(case, step) for step in goes_on or dilutions)
         for visits in by_tip.values():
             visits.sort(key=lambda visit: visit.index)
             yield from self._one_tip(series, dilutions, visits, _MIXED if mixed else "")

@@ -24,6 +24,8 @@ def plate_maps(
     keyed = levels_of_keys(names)
     by_map: dict[str, list[Evidence]] = {}
     for binding in names:
+        if not (binding.spots or binding.rows):
+            continue
         base = binding.name.split("[", 1)[0]
         if (binding.function, base) in facts.varying or binding.name == "metadata":
             continue

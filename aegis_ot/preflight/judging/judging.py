@@ -112,33 +112,22 @@ def _why_warning(violation: Violation, case: Case) -> str:
     for well in violation.rests_on:
         if roles.is_doubtful(well.ref):
             return _DOUBTFUL.format(roles.by_well[well.ref].evidence[0].citation)
-    if case.family.default and not _are_named(violation.rests_on, case):
+    wells = violation.rests_on
+    if case.family.default and not all(w.liquids or _is_named(w, roles) for w in wells):
         return "Nothing in the protocol says what these wells hold."
     return ""
 
 
-def _are_named(wells: Sequence[Well], case: Case) -> bool:
-    """Whether names, loaded liquids or arguments say what these wells are for.
+def _is_named(well: Well, roles: Roles) -> bool:
+    """Whether a name, a label or an argument says what a well is for.
 
-    Where nothing says which assay this is, they must also say what one of them holds: all that
-    ``source`` and ``dest`` tell is seen in the run too.
+    A "sample plate" that is only given water may be one for samples.
     """
-    roles = case.roles.by_well
-    unsaid = [well for well in wells if not well.liquids]
-    if not all(well.ref in roles and roles[well.ref].kind >= Kind.NAME for well in unsaid):
+    assigned = roles.by_well.get(well.ref)
+    if assigned is None or assigned.kind < Kind.NAME:
         return False
-    if not case.left_over or len(unsaid) < len(wells) or not wells:
-        return True
-    return any(
-        case.roles.says_what_it_holds(well.ref)
-        # A "sample plate" that is only given water may be one for samples.
-        and (not roles[well.ref].evidence[0].whole or _is_drawn(well))
-        for well in wells
-    )
-
-
-def _is_drawn(well: Well) -> bool:
-    return any(visit.kind is OperationKind.ASPIRATE for visit in well.visits)
+    drawn = any(visit.kind is OperationKind.ASPIRATE for visit in well.visits)
+    return drawn or not (assigned.evidence[0].whole and roles.says_what_it_holds(well.ref))
 
 
 def _report(

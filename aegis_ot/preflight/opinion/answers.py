@@ -12,7 +12,7 @@ from typing import Any
 from ...vocabulary import Finding, Severity, Site, WellRef, one_line
 from ..judging import MODEL
 from ..trace import row_column
-from .dossier import DeckItem, Dossier
+from .dossier import Dossier
 from .opinion import ANSWERED, Citation, Opinion, RoleProposal, RuleAnswer
 
 LONGEST_TEXT = 400
@@ -75,11 +75,10 @@ class _Bounds:
     """Which wells, lines and rules an answer may name."""
 
     def __init__(self, dossier: Dossier, blind: bool) -> None:
-        self._dossier = dossier
-        self._blind = blind
         self._known: dict[tuple[str, str], list[WellRef]] = {}
-        for ref in dossier.wells:
-            for name in (ref.slot, ref.label, ref.labware):
+        named = _on_deck(dossier) if blind else ((r, r.labware) for r in dossier.wells)
+        for ref, load_name in named:
+            for name in (ref.slot, ref.label, load_name):
                 self._known.setdefault((name.lower(), ref.name), []).append(ref)
         count = len(dossier.source_lines)
         self.lines = set(range(1, count + 1)) if blind else set(dossier.lines)
@@ -92,36 +91,29 @@ class _Bounds:
             labware, _, spec = place.strip().rpartition(":")
             labware = labware.strip().removeprefix("slot ").lower()
             for first, last in _WELLS.findall(spec):
-                for ref in self._range(labware, first.upper(), (last or first).upper()):
-                    found[ref] = None
+                found.update(dict.fromkeys(self._range(labware, first, last or first)))
         return found
 
     def _range(self, labware: str, first: str, last: str) -> Iterable[WellRef]:
         (row1, column1), (row2, column2) = row_column(first), row_column(last)
         rows, columns = sorted((row1, row2)), sorted((column1, column2))
-        if self._blind:
-            yield from self._on_deck(labware, rows, columns)
-            return
         for (name, well), refs in self._known.items():
             row, column = row_column(well)
             inside = rows[0] <= row <= rows[1] and columns[0] <= column <= columns[1]
             if name == labware and inside:
                 yield from refs
 
-    def _on_deck(self, labware: str, rows: list[int], columns: list[int]) -> Iterable[WellRef]:
-        for item in self._dossier.deck:
-            if labware not in (item.slot.lower(), item.label.lower(), item.load_name.lower()):
-                continue
-            for column in range(columns[0], min(columns[1], item.columns - 1) + 1):
-                for row in range(rows[0], min(rows[1], item.rows - 1) + 1):
-                    yield _ref(item, row, column)
-
 
 _WELLS = re.compile(r"\b([A-Pa-p]\d{1,2})(?:\s*[-–]\s*([A-Pa-p]\d{1,2}))?\b")
 
 
-def _ref(item: DeckItem, row: int, column: int) -> WellRef:
-    return WellRef(item.key, f"{chr(ord('A') + row)}{column + 1}", item.label, item.slot)
+def _on_deck(dossier: Dossier) -> Iterable[tuple[WellRef, str]]:
+    """Every well on the deck, column by column, with its labware's load name."""
+    for item in dossier.deck:
+        for column in range(item.columns):
+            for row in range(item.rows):
+                name = f"{chr(ord('A') + row)}{column + 1}"
+                yield WellRef(item.key, name, item.label, item.slot), item.load_name
 
 
 def _findings(

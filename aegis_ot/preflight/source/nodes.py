@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import ast
+import functools
+from collections import defaultdict
 from collections.abc import Iterator
-from typing import TypeVar
+from typing import Any, TypeVar
 
 LOOPS: tuple[type[ast.For | ast.AsyncFor | ast.comprehension], ...] = (
     ast.For,
@@ -20,6 +22,10 @@ _SILENT_FIELDS = frozenset({"ctx", "op", "ops", "kind", "type_comment", "returns
 """What holds operators and types: nearly half of all nodes, and nothing is read from them."""
 
 
+_LEAVES = frozenset({ast.Name, ast.Constant})
+"""What holds no other nodes: most of them."""
+
+
 class Nodes:
     """Every node that says something, in reading order within its kind.
 
@@ -28,12 +34,15 @@ class Nodes:
     """
 
     def __init__(self, tree: ast.AST | None = None) -> None:
-        self._placed: dict[type[ast.AST], list[_Placed]] = {}
+        self._placed: dict[type[ast.AST], list[_Placed]] = defaultdict(list)
         open_: list[_Placed] = [(tree, "<module>", ())] if tree is not None else []
         while open_:
             placed = open_.pop()
             node, function, looping = placed
-            self._placed.setdefault(type(node), []).append(placed)
+            kind = type(node)
+            self._placed[kind].append(placed)
+            if kind in _LEAVES:
+                continue
             if isinstance(node, FUNCTIONS):
                 function = name_of(node)
             elif isinstance(node, LOOPS):
@@ -58,11 +67,16 @@ def name_of(function: ast.FunctionDef | ast.Lambda) -> str:
 
 def _children(node: ast.AST) -> list[ast.AST]:
     children: list[ast.AST] = []
-    for name in node._fields:
-        if name not in _SILENT_FIELDS:
-            value = getattr(node, name, None)
-            if isinstance(value, ast.AST):
-                children.append(value)
-            elif isinstance(value, list):
-                children += [child for child in value if isinstance(child, ast.AST)]
+    kind: Any = type(node)
+    for name in _speaking_fields(kind):
+        value = getattr(node, name, None)
+        if type(value) is list:
+            children += [child for child in value if isinstance(child, ast.AST)]
+        elif isinstance(value, ast.AST):
+            children.append(value)
     return children
+
+
+@functools.cache
+def _speaking_fields(kind: type[ast.AST]) -> tuple[str, ...]:
+    return tuple(name for name in kind._fields if name not in _SILENT_FIELDS)

@@ -5,13 +5,13 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 
 from .building import build_trace
 from .chains import Transfer, chains_of, links_of
-from .geometry import Geometry
-from .model import Composition, Contact, Imbalance, Layer, Met, Tip, Visit, Well, row_column
+from .geometry import Contact, Geometry
+from .model import Composition, Layer, Met, Tip, Visit, Well
 from .pauses import Intervention, Pauses
-from .plates import Plates
+from .plates import Plates, row_column
 from .table import places, trace_table
 from .tip_racks import TipBox
-from .trace import PlaceKey, Trace
+from .trace import Imbalance, PlaceKey, Trace
 from .usage import Sides, Usage, in_trough, usage_of
 
 __all__ = [

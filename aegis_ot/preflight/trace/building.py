@@ -11,11 +11,12 @@ from collections.abc import Callable, Iterable, Mapping
 from ...instrumentation import Event, EventKind, LabwareInfo, OperationKind
 from ...vocabulary import WellRef
 from ..rehearsal import Record, Step
-from .model import CLEARANCE_MM, Contact, Imbalance, Layer, Tip, Visit, Well
+from .geometry import CLEARANCE_MM, Contact
+from .model import Layer, Tip, Visit, Well
 from .pauses import Pauses
 from .plates import Plates
 from .tip_racks import TipBox
-from .trace import Trace
+from .trace import Imbalance, Trace
 
 _MOST = 0.5
 """A mix gives back at least this share of what it drew."""
@@ -162,10 +163,10 @@ class _Builder:
 
     def _act(self, step: Step, kind: OperationKind, tip: Tip, well: Well | None) -> None:
         if kind is OperationKind.AIR_GAP:
-            tip.push(None, step.volume, {}, step.line)
+            tip.layers.append((None, step.volume, {}, step.line))
         elif kind is OperationKind.ASPIRATE:
             if well is None or step.air or self._draws_air(step, tip, well):
-                tip.push(None, step.volume, {}, step.line)
+                tip.layers.append((None, step.volume, {}, step.line))
             else:
                 self._aspirate(step, tip, well)
         elif kind is OperationKind.DISPENSE or kind is OperationKind.BLOW_OUT:
@@ -215,7 +216,7 @@ class _Builder:
             tip.unsure += max(step.volume - well.least, 0.0)
         if well.draw(step.volume) > _slack(step.volume):
             self._trace.imbalances.append(Imbalance(visit, False, step.volume, held))
-        tip.push(well, step.volume, liquid, step.line)
+        tip.layers.append((well, step.volume, liquid, step.line))
         self._last[tip] = visit
 
     def _give(self, step: Step, tip: Tip, well: Well, parts: list[Layer]) -> None:

@@ -1,4 +1,4 @@
-"""How much liquid stands below a height in a well, by the well's real shape.
+"""How much liquid stands below a height in a well, and whether a tip there meets it.
 
 The inner geometry of the labware definition, where it has one: sections, stacked from the bottom
 up (Opentrons labware schema 2 and 3). Else a cylinder or cuboid under the mouth, or a cone, or a
@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from enum import IntEnum
 from typing import Any
 
 from ...instrumentation import WellInfo
@@ -16,8 +17,22 @@ from ...instrumentation import WellInfo
 OVER_NOMINAL = 1.1
 """Brim volume by nominal volume where no geometry tells (``spec/rules.md``)."""
 
+CLEARANCE_MM = 2.0
+"""A tip end at least this far above the liquid does not touch it (``spec/rules.md``)."""
+
+UPPER_PART = 2 / 3
+"""A tip this share of a well's depth above its bottom is clear of a liquid of unknown volume."""
+
 _TAPER = 0.45
 """Width at the bottom of a round V by that at its mouth, as in PCR plates of known geometry."""
+
+
+class Contact(IntEnum):
+    """How surely a tip met a well's liquid (``spec/rules.md``, Contact)."""
+
+    CLEAR = 0
+    NEAR = 1
+    WET = 2
 
 
 class Geometry:
@@ -51,6 +66,25 @@ class Geometry:
         if volume is None:
             volume = self._known[height] = self._reckon(height)
         return volume
+
+    def is_high(self, height: float) -> bool:
+        """Whether a height above the bottom is in the upper third, where no liquid is expected."""
+        return height >= UPPER_PART * self.depth
+
+    def contact(self, height: float, least: float, volume: float, most: float) -> Contact:
+        """How surely a tip's end at ``height`` mm above the bottom meets the liquid.
+
+        Args:
+            height: mm.
+            least: µL that surely stand in the well.
+            volume: µL that are thought to.
+            most: µL that can.
+        """
+        if self.volume_below(height) <= least:
+            return Contact.WET
+        clear_of = self.volume_below(height - CLEARANCE_MM)
+        clear = volume <= clear_of and (most <= clear_of or self.is_high(height))
+        return Contact.CLEAR if clear else Contact.NEAR
 
     def _reckon(self, height: float) -> float:
         return self._scale * sum(_filled(section, height) for section in self._sections)

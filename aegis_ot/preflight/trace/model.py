@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from enum import IntEnum
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
-from .geometry import Geometry
+from .geometry import CLEARANCE_MM, Contact, Geometry
 
 Composition = Mapping["Well", float]
 """Shares of a liquid by the well each part stood in before the run; they sum to 1."""
@@ -17,21 +16,7 @@ Composition = Mapping["Well", float]
 Layer = tuple["Well | None", float, Composition, "int | None"]
 """Liquid in a tip: well it was drawn from (``None``: air), µL, what it is, source line."""
 
-CLEARANCE_MM = 2.0
-"""A tip end at least this far above the liquid does not touch it (``spec/rules.md``)."""
-
-UPPER_PART = 2 / 3
-"""A tip this share of a well's depth above its bottom is clear of a liquid of unknown volume."""
-
 EMPTY_UL = 1e-6
-
-
-class Contact(IntEnum):
-    """How surely a tip met a well's liquid (``spec/rules.md``, Contact)."""
-
-    CLEAR = 0
-    NEAR = 1
-    WET = 2
 
 
 @dataclass(eq=False, slots=True, repr=False)
@@ -175,26 +160,18 @@ class Well:
         if from_liquid is not None:
             near = from_liquid < CLEARANCE_MM
             return Contact.WET if from_liquid <= 0 else Contact.NEAR if near else Contact.CLEAR
-        geometry = self.geometry
-        if from_bottom is None or geometry is None:
+        if from_bottom is None or self.geometry is None:
             return Contact.WET
-        if geometry.volume_below(from_bottom) <= self.least:
-            return Contact.WET
-        below = geometry.volume_below(from_bottom - CLEARANCE_MM)
-        if below < self.volume:
-            return Contact.NEAR
-        if self.known or below >= self.most or from_bottom >= UPPER_PART * geometry.depth:
-            return Contact.CLEAR
-        return Contact.NEAR
+        most = self.volume if self.known else self.most
+        return self.geometry.contact(from_bottom, self.least, self.volume, most)
 
     def contact_when_empty(self, from_top: float | None, from_bottom: float | None) -> Contact:
         """The same for what is given into it while it is empty: all that the tip carries."""
         if from_top is not None and from_top >= 0:
             return Contact.CLEAR
         geometry = self.geometry
-        if geometry and from_bottom is not None and from_bottom >= UPPER_PART * geometry.depth:
-            return Contact.NEAR
-        return Contact.WET
+        high = geometry and from_bottom is not None and geometry.is_high(from_bottom)
+        return Contact.NEAR if high else Contact.WET
 
 
 @dataclass(eq=False, slots=True)
@@ -252,12 +229,6 @@ class Tip:
                 self.origins[origin] = Met(well, line, index, wet)
             else:
                 known.wet = min(known.wet, wet)
-
-    def push(
-        self, source: Well | None, volume: float, liquid: Composition, line: int | None
-    ) -> None:
-        """Draw liquid (or air, without a source)."""
-        self.layers.append((source, volume, liquid, line))
 
     def pop(self, volume: float = math.inf) -> list[Layer]:
         """Give off ``volume`` µL: what was drawn last leaves first; air is given off unlisted.
@@ -327,32 +298,3 @@ class Visit:
     def touches(self) -> bool:
         """Whether the tip met liquid that stood there before, surely or perhaps."""
         return self.contact is not Contact.CLEAR and not self.empty_before
-
-
-@dataclass(frozen=True)
-class Imbalance:
-    """A well that was filled beyond its capacity, or drawn below what it held.
-
-    Attributes:
-        visit: What did it.
-        overfilled: Which of the two.
-        volume: What it would hold, or what was drawn, µL.
-        limit: Its capacity, or what it held, µL.
-    """
-
-    visit: Visit
-    overfilled: bool
-    volume: float
-    limit: float
-
-
-def row_column(name: str) -> tuple[int, int]:
-    """``"B12"`` -> ``(1, 11)``; names that are not of this form count as the first well."""
-    letters = name.rstrip("0123456789")
-    digits = name[len(letters) :]
-    row = 0
-    for letter in letters.upper():
-        if not "A" <= letter <= "Z":
-            return (0, 0)
-        row = row * 26 + ord(letter) - ord("A") + 1
-    return (max(row - 1, 0), int(digits) - 1 if digits else 0)

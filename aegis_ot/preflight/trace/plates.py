@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from ...instrumentation import LabwareInfo, WellInfo
 from ...vocabulary import WellRef
 from .geometry import Geometry
-from .model import Well, row_column
+from .model import Well
 from .trace import PlaceKey
 
 
@@ -77,3 +77,15 @@ class Plates:
         if key not in self._geometries:
             self._geometries[key] = Geometry(info)
         return self._geometries[key]
+
+
+def row_column(name: str) -> tuple[int, int]:
+    """``"B12"`` -> ``(1, 11)``; names that are not of this form count as the first well."""
+    letters = name.rstrip("0123456789")
+    digits = name[len(letters) :]
+    row = 0
+    for letter in letters.upper():
+        if not "A" <= letter <= "Z":
+            return (0, 0)
+        row = row * 26 + ord(letter) - ord("A") + 1
+    return (max(row - 1, 0), int(digits) - 1 if digits else 0)

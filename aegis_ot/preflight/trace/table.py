@@ -17,7 +17,8 @@ from itertools import groupby
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
-from .model import Visit, row_column
+from .model import Visit
+from .plates import row_column
 from .trace import Trace
 
 _WORDS = {

@@ -7,10 +7,27 @@ from dataclasses import dataclass, field
 
 from ...instrumentation import LabwareInfo
 from ...vocabulary import WellRef
-from .model import Imbalance, Tip, Visit, Well
+from .model import Tip, Visit, Well
 
 PlaceKey = tuple[str, int, str]
 """Labware key, generation of the plate, well name."""
+
+
+@dataclass(frozen=True)
+class Imbalance:
+    """A well that was filled beyond its capacity, or drawn below what it held.
+
+    Attributes:
+        visit: What did it.
+        overfilled: Which of the two.
+        volume: What it would hold, or what was drawn, µL.
+        limit: Its capacity, or what it held, µL.
+    """
+
+    visit: Visit
+    overfilled: bool
+    volume: float
+    limit: float
 
 
 @dataclass
