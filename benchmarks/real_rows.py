@@ -1,31 +1,39 @@
 """Rows of eight tips on photographs of a real OT-2: tips found, and columns read.
 
 ``git clone https://github.com/mast13f/OT2-Computer-Vision``
-``python -m benchmarks.real_rows "OT2-Computer-Vision/Demo codes/default_project" [--weights FILE]``
+``python -m benchmarks.real_rows OT2-Computer-Vision [--weights FILE]``
 
-Ninety frames (640x480) of one camera beside one robot: a p300 with eight channels and red dye, in
-eight series of rising volumes. Which tips are missing, and which stayed empty, was read off the
-frames by eye. The volumes are not written down; those below are the ones that fit the steps of the
-columns and the tips' outer widths (``aegis_ot/vision/tips.py``), whose inner profile comes from
-the three series marked so. The other five were not used for anything.
+A p300 with eight channels before three cameras (640x480). *Labelled*: frames with a box round every
+tip, drawn by that repository's authors; in some the volume is part of the name. *Series*: ninety
+frames of one camera, red dye in rising volumes. Which tips are missing there, and which stayed
+empty, was read off the frames by eye; the volumes are those that fit the steps of the columns and
+the tips' outer widths. The inner profile of the tip (``aegis_ot/vision/tips.py``) comes from the
+three series marked so; all else was used for nothing.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import cv2
 import numpy as np
 
+from aegis_ot.training.figures import overlap
 from aegis_ot.vision.column.measure import measure_column
 from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.rows.finder import RowFinder, SeenRow
-from aegis_ot.vision.types import Image
+from aegis_ot.vision.types import Image, TipDetection
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
+SERIES_FOLDER = "Demo codes/default_project"
+LABELLED = ("Model_YoloNAS_50 epoch_Tips_n_liquid/Dataset", "Experimental/Previous Data")
+_CLOSE = "AI"
+"""How names of the labelled frames of the close camera begin."""
 FRAMES, CHANNELS, PIPETTE = 90, 8, "p300_multi_gen2"
 ROWS = "ABCDEFGH"
 
@@ -71,16 +79,107 @@ def keyframe(number: int, volume_ul: float) -> Keyframe:
     )  # fmt: skip
 
 
+Box = tuple[float, float, float, float]
+
+
+@dataclass(frozen=True)
+class Labelled:
+    """A frame with the boxes of its tips, px."""
+
+    camera: str
+    volume_ul: float | None
+    image: Image
+    tips: tuple[Box, ...]
+
+
+def labelled(root: Path) -> Iterator[Labelled]:
+    """Every labelled frame, once."""
+    seen = set()
+    for folder in LABELLED:
+        for path in sorted((root / folder).rglob("images/*.jpg")):
+            name = re.sub(r"^[0-9a-f]{8}-", "", path.stem)
+            text = path.parent.with_name("labels") / f"{path.stem}.txt"
+            if name in seen or not text.exists():
+                continue
+            seen.add(name)
+            image = read(path)
+            height, width = image.shape[:2]
+            tips = []
+            for line in text.read_text().splitlines():
+                kind, x, y, w, h = map(float, line.split())
+                if kind == 0:
+                    tips.append(((x - w / 2) * width, (y - h / 2) * height, w * width, h * height))
+            volume = re.search(r"_(\d+)ul", name)
+            camera = "close camera" if name.startswith(_CLOSE) else "white panel"
+            yield Labelled(camera, float(volume[1]) if volume else None, image, tuple(tips))
+
+
+def read(path: Path) -> Image:
+    image = cv2.imread(str(path))
+    if image is None:
+        raise SystemExit(f"{path} cannot be read as an image.")
+    return image
+
+
+def hits(tips: Sequence[TipDetection | None], boxes: Sequence[Box]) -> int:
+    """How many boxes have a tip that overlaps them by more than half."""
+    found = [(tip.x, tip.y, tip.w, tip.h) for tip in tips if tip is not None]
+    return sum(any(overlap(box, one) > 0.5 for one in found) for box in boxes)
+
+
+def judge_labelled(root: Path, detector: HeatmapDetector) -> None:
+    """Print what is found in the labelled frames."""
+    counts: Counter[tuple[str, str]] = Counter()
+    off: list[float] = []
+    for number, frame in enumerate(labelled(root)):
+        row = RowFinder(detector, keyframe(0, 100.0), "left").find(
+            frame.image, keyframe(number, 100.0)
+        )
+        shown = sum(tip is not None for tip in row.tips)
+        which = frame.camera if frame.tips else "no tips"
+        counts[which, "frames"] += 1
+        counts[which, "tips"] += len(frame.tips)
+        counts[which, "hits"] += hits(row.tips, frame.tips)
+        counts[which, "whole"] += shown == len(frame.tips) == hits(row.tips, frame.tips)
+        counts[which, "false"] += max(0, shown - len(frame.tips))
+        if frame.volume_ul:
+            off += [
+                measure_column(
+                    frame.image, tip, PIPETTE, expected_ul=frame.volume_ul, capacity_ul=300.0
+                ).volume_ul
+                / frame.volume_ul
+                - 1.0
+                for tip in row.tips
+                if tip is not None
+            ]
+    for which in sorted({which for which, _ in counts}):
+        of = {key: counts[which, key] for key in ("frames", "tips", "hits", "whole", "false")}
+        print(
+            f"  labelled, {which}: {of['whole']} of {of['frames']} frames right, "
+            f"{of['hits']} of {of['tips']} tips found, {of['false']} that are none"
+        )
+    tell("columns of known volume", off)
+
+
+def tell(what: str, errors: Sequence[float]) -> None:
+    """Print how well volumes are read."""
+    off = np.array(errors)
+    if len(off):
+        print(
+            f"  {what}: {len(off)} read, median error {np.median(off):+.1%}, "
+            f"{np.mean(np.abs(off) <= 0.05):.0%} within 5 %, {np.mean(np.abs(off) <= 0.1):.0%} "
+            "within 10 %"
+        )
+
+
 def rows(folder: Path, detector: HeatmapDetector) -> Iterator[tuple[int, Image, SeenRow]]:
-    """Each frame with what is found in it."""
+    """Each frame of the series with what is found in it."""
     paths = sorted(folder.glob("*.jpg"))
     if len(paths) != FRAMES:
         raise SystemExit(f"{folder} holds {len(paths)} frames; {FRAMES} are known. See --help.")
     finder = RowFinder(detector, keyframe(0, 100.0), "left")
     for number, path in enumerate(paths):
-        image = cv2.imread(str(path))
-        if image is None:
-            raise SystemExit(f"{path} cannot be read as an image.")
+        image = read(path)
         yield number, image, finder.find(image, keyframe(number, 100.0))
 
 
@@ -97,14 +196,11 @@ def errors(series: Series, seen: dict[int, tuple[Image, SeenRow]]) -> list[float
     return found
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(prog="python -m benchmarks.real_rows", description=__doc__)
-    parser.add_argument("folder", type=Path)
-    parser.add_argument("--weights", type=Path, help="of another detector than the shipped one")
-    asked = parser.parse_args()
+def judge_series(root: Path, detector: HeatmapDetector) -> None:
+    """Print what is found in the series."""
     seen: dict[int, tuple[Image, SeenRow]] = {}
     right = found = false = 0
-    for number, image, row in rows(asked.folder, HeatmapDetector(asked.weights)):
+    for number, image, row in rows(root / SERIES_FOLDER, detector):
         seen[number] = image, row
         there = [channel not in MISSING.get(number, ()) for channel in range(CHANNELS)]
         shown = [tip is not None for tip in row.tips]
@@ -112,18 +208,23 @@ def main() -> None:
         found += sum(a and b for a, b in zip(there, shown, strict=True))
         false += sum(b and not a for a, b in zip(there, shown, strict=True))
     gaps = sum(map(len, MISSING.values()))
-    print("real frames, an OT-2's p300 with eight channels, red dye")
-    print(f"  every tip and every gap right   {right} of {FRAMES} rows")
-    print(f"  tips found                      {found} of {FRAMES * CHANNELS - gaps}")
-    print(f"  gaps taken for a tip            {false} of {gaps}")
-    for shaped, title in ((False, "series not used"), (True, "series that gave the profile")):
-        off = np.array([e for s in SERIES if s.shaped is shaped for e in errors(s, seen)])
-        if len(off):
-            print(
-                f"  columns, {title}: {len(off)} read, median error {np.median(off):+.1%}, "
-                f"{np.mean(np.abs(off) <= 0.05):.0%} within 5 %, "
-                f"{np.mean(np.abs(off) <= 0.1):.0%} within 10 %"
-            )
+    print(
+        f"  series: {right} of {FRAMES} frames right, {found} of {FRAMES * CHANNELS - gaps} tips "
+        f"found, {false} of {gaps} gaps taken for a tip"
+    )
+    for shaped, title in ((False, "columns of the series"), (True, "those that gave the profile")):
+        tell(title, [e for s in SERIES if s.shaped is shaped for e in errors(s, seen)])
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.real_rows", description=__doc__)
+    parser.add_argument("clone", type=Path, help="of the repository named above")
+    parser.add_argument("--weights", type=Path, help="of another detector than the shipped one")
+    asked = parser.parse_args()
+    detector = HeatmapDetector(asked.weights)
+    print("real frames, an OT-2's p300 with eight channels")
+    judge_labelled(asked.clone, detector)
+    judge_series(asked.clone, detector)
 
 
 if __name__ == "__main__":

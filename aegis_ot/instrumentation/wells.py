@@ -7,15 +7,12 @@ that knows both.
 
 from __future__ import annotations
 
-import functools
-import json
 from dataclasses import dataclass, replace
 from typing import Any
 
-from opentrons_shared_data import get_shared_data_root
-
 from ..vocabulary import WellRef
-from .labware import LabwareInfo, WellInfo
+from .labware import LabwareInfo
+from .labware_definitions import describe
 
 _NOZZLE_PITCH_MM = 9.0
 _SLACK_MM = 0.6
@@ -103,12 +100,12 @@ class WellResolver:
         """What a definition says, worked out once for all labware of one kind."""
         labware_id = getattr(labware_core, "labware_id", None)
         if labware_id is None:
-            return _describe(labware_core.get_definition())
+            return describe(labware_core.get_definition())
         definition = self._engine_state.labware.get_definition(labware_id)
         if id(definition) not in self._descriptions:
             # opentrons before 8.3, on many an OT-2, has pydantic 1.
             plain = getattr(definition, "model_dump", None) or definition.dict
-            described = _describe(plain(exclude_none=True))
+            described = describe(plain(exclude_none=True))
             self._descriptions[id(definition)] = (definition, described)
         return self._descriptions[id(definition)][1]
 
@@ -223,79 +220,6 @@ class _EngineLabware:
 
     def get_user_display_name(self) -> Any:
         return self._state.labware.get_user_specified_display_name(self.labware_id)
-
-
-def _describe(definition: Any) -> LabwareInfo:
-    """What a definition says; the key, label and place of one piece of labware are left open."""
-    parameters = definition.get("parameters", {})
-    metadata = definition.get("metadata", {})
-    return LabwareInfo(
-        key="",
-        load_name=str(parameters.get("loadName", "")),
-        display_name=str(metadata.get("displayName", "")),
-        label="",
-        slot="",
-        is_tip_rack=bool(parameters.get("isTiprack", False)),
-        is_trash=metadata.get("displayCategory") == "trash"
-        or parameters.get("format") == "trash"
-        or "fixedTrash" in (parameters.get("quirks") or ()),
-        centers_channels="centerMultichannelOnWells" in (parameters.get("quirks") or ()),
-        wells=_describe_wells(definition),
-    )
-
-
-def _describe_wells(definition: Any) -> dict[str, WellInfo]:
-    bottoms = {
-        name: str(group.get("metadata", {}).get("wellBottomShape") or "")
-        for group in definition.get("groups", ())
-        for name in group.get("wells", ())
-    }
-    sections = _inner_sections(definition)
-    if not sections and definition.get("namespace") == "opentrons":
-        sections = _newest_inner_sections(str(definition["parameters"]["loadName"]))
-    return {
-        name: _describe_well(well, bottoms.get(name, ""), sections.get(name, ()))
-        for name, well in definition["wells"].items()
-    }
-
-
-def _inner_sections(definition: Any) -> dict[str, tuple[Any, ...]]:
-    """Each well's inner geometry, where the definition has one."""
-    inner = definition.get("innerLabwareGeometry") or {}
-    by_key = {
-        key: tuple(sorted(geometry.get("sections", ()), key=lambda one: one["bottomHeight"]))
-        for key, geometry in inner.items()
-    }
-    found = {
-        name: by_key.get(well.get("geometryDefinitionId"), ())
-        for name, well in definition["wells"].items()
-    }
-    return found if any(found.values()) else {}
-
-
-@functools.cache
-def _newest_inner_sections(load_name: str) -> dict[str, tuple[Any, ...]]:
-    """The same of the newest definition of this name: older ones do without."""
-    try:
-        folder = get_shared_data_root() / "labware" / "definitions" / "2" / load_name
-        newest = max(folder.glob("*.json"), key=lambda path: int(path.stem))
-        return _inner_sections(json.loads(newest.read_text(encoding="utf-8")))
-    except (OSError, ValueError):  # an Opentrons that keeps its definitions elsewhere
-        return {}
-
-
-def _describe_well(well: Any, bottom: str, sections: tuple[Any, ...]) -> WellInfo:
-    return WellInfo(
-        max_volume=float(well.get("totalLiquidVolume", 0.0)),
-        depth=well.get("depth", 0.0),
-        x=well.get("x", 0.0),
-        y=well.get("y", 0.0),
-        diameter=well.get("diameter"),
-        x_size=well.get("xDimension"),
-        y_size=well.get("yDimension"),
-        bottom=bottom,
-        sections=sections,
-    )
 
 
 def _wells_under(
