@@ -10,6 +10,7 @@ from ..tips import TipGeometry, tip_for
 from ..types import FREE, Detector, Image, RowDetector, TipDetection
 from .fit import PITCH_MM, Row, find_in_wells, find_row
 from .hiding import HIDDEN, covered
+from .orifices import find_by_orifices
 from .places import RowPlaces
 
 FirstChannel = Literal["auto", "left", "right"]
@@ -121,6 +122,9 @@ class RowFinder:
         if row is not None and abs(row.length(row.span / 2) / seed.length - 1) > _OFF_SCALE:
             better = self._row_at(image, self._detection(row, (row.span - 1) // 2))
             row = better if better is not None and len(better.heats) >= len(row.heats) else row
+        if row is None or len(row.heats) < self._count:
+            whole = self._by_orifices(image, seed)
+            row = whole if row is None or (whole and len(whole.heats) > len(row.heats)) else row
         if row is None:
             return None
         step = row.step_lengths * self._tip.length_mm / PITCH_MM
@@ -155,6 +159,19 @@ class RowFinder:
         assert isinstance(self._detector, RowDetector)
         ends = self._detector.ends(image, seed, self._reach(seed.length))
         return find_row(ends, seed.length, self._tip.length_mm, self._count)
+
+    def _by_orifices(self, image: Image, seed: TipDetection) -> Row | None:
+        """The row by its lower ends, at the scale that they themselves give."""
+        assert isinstance(self._detector, RowDetector)
+        length, found = seed.length, None
+        for _ in range(2):
+            at = replace(seed, collar=(seed.orifice[0], seed.orifice[1] - length))
+            ends = self._detector.ends(image, at, self._reach(length))
+            row = find_by_orifices(ends, length, self._tip.length_mm, self._count)
+            if row is None:
+                break
+            found, length = row, row.length((row.span - 1) / 2)
+        return found
 
     def _seen(self, row: Row, offset: int) -> SeenRow:
         """Name the tips of a row of which ``offset`` are missing to the left of the first."""

@@ -27,11 +27,11 @@ _LEAN = 0.12
 _SAME_LEAN = 0.03
 """Tips of one row lean alike, within this many tip lengths."""
 
-_LEAST_HEAT = 0.16
+LEAST_HEAT = 0.16
 """What looks less like a tip is a bare nozzle. On simulated frames (seeds 2100 to 2105 of the
 benchmark ``channels``) missing tips reached 0.12, and tips fell to 0.19."""
 
-_STRAY = 0.3
+STRAY = 0.3
 """How far from its place in the row a tip may be, steps."""
 
 _HOLES = 3
@@ -105,7 +105,7 @@ def find_row(ends: Ends, length: float, tip_mm: float, count: int) -> Row | None
     tips = _pairs(ends, length)
     widest = 1.25 * PITCH_MM / tip_mm * length
     chain = _best_chain(tips, length, widest, count)
-    return None if chain is None else _fitted(tips, chain)
+    return None if chain is None else fitted(tips, chain)
 
 
 def find_in_wells(ends: Ends, known: Row, tip_mm: float) -> Row | None:
@@ -124,7 +124,7 @@ def find_in_wells(ends: Ends, known: Row, tip_mm: float) -> Row | None:
     chain = _best_chain(tips, length, 1.5 * PITCH_MM / tip_mm * length, count)
     if chain is None or len(chain) < count:
         return None
-    row = _fitted(tips, chain, known.taper)
+    row = fitted(tips, chain, known.taper)
     # Each as long as where it hung free; in the middle of the row it is so already.
     longer = np.array([(known.ends(i)[2:] - known.ends(i)[:2]) - down for i in range(count)])
     places = {i: place + np.append([0.0, 0.0], longer[i]) for i, place in row.places.items()}
@@ -155,7 +155,7 @@ def _pairs(ends: Ends, length: float) -> Floats:
         for orifice in ends.orifices
         if _LENGTHS[0] * length <= orifice.y - collar.y <= _LENGTHS[1] * length
         and abs(orifice.x - collar.x) <= _LEAN * length
-        and _heat(collar, orifice) >= _LEAST_HEAT
+        and _heat(collar, orifice) >= LEAST_HEAT
     ]
     if not pairs:
         return np.zeros((0, 5))
@@ -208,14 +208,14 @@ def _chain(tips: Floats, first: int, second: int, length: float, count: int) -> 
 
 def _at(tips: Floats, place: Floats, step: float, length: float) -> int | None:
     """The tip whose collar is at a place."""
-    aside = np.abs(tips[:, 0] - place[0]) / (_STRAY * step)
+    aside = np.abs(tips[:, 0] - place[0]) / (STRAY * step)
     above = np.abs(tips[:, 1] - place[1]) / (_SAME_LEAN * length)
     off = np.maximum(aside, above)
     at = int(off.argmin())
     return at if off[at] <= 1 else None
 
 
-def _fitted(tips: Floats, chain: dict[int, int], taper: float | None = None) -> Row:
+def fitted(tips: Floats, chain: dict[int, int], taper: float | None = None) -> Row:
     """Least squares over both ends of all tips, those that stray counting less.
 
     ``taper``: where it is known better than from these tips.

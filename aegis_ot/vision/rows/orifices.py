@@ -1,0 +1,66 @@
+"""A row by its lower ends alone: before a pipette's dark head the collars of real tips are faint."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+
+from ..types import Ends
+from .fit import LEAST_HEAT, PITCH_MM, STRAY, Floats, Row, fitted
+
+_LONGEST = 0.6, 3.2
+"""Lengths that a row's own steps may give its tips, times the one that is expected."""
+
+_HOLE = 0.1
+"""What a longer step costs, in heat: of two ways to number the same tips the closer one holds."""
+
+
+def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Row | None:
+    """A row that is seen squarely, by its lower ends alone: collars before a dark head are faint.
+
+    Nozzles stand 9 mm apart, which gives the scale, and with it the length of the tips.
+
+    Args:
+        ends: What looks like an end of a tip, px.
+        length: Of a tip, px; may be wrong by half or by three times.
+        tip_mm: Of a tip, mm.
+        count: Tips that there should be.
+    """
+    sure = [o for o in ends.orifices if o.heat >= LEAST_HEAT]
+    tips = np.array(sorted((o.x, o.y, o.x, o.y, o.heat) for o in sure)).reshape(-1, 5)
+    best: tuple[float, dict[int, int]] = 0.0, {}
+    for first, second in combinations(range(len(tips)), 2):
+        for steps in range(1, count):
+            step = (tips[second, :2] - tips[first, :2]) / steps
+            if not _LONGEST[0] <= step[0] * tip_mm / PITCH_MM / length <= _LONGEST[1]:
+                continue
+            line = _in_line(tips, first, step, count)
+            score = sum(tips[at, 4] for at in line.values()) - _HOLE * steps
+            if score > best[0]:
+                best = score, line
+    if len(best[1]) < 2:
+        return None
+    row = fitted(tips, best[1])
+    middle = (row.span - 1) / 2
+    step_px = abs(float((row.ends(middle + 0.5) - row.ends(middle - 0.5))[0]))
+    # What is nearer is larger: (p - up) / (1 + c·i) is higher by the length at that depth.
+    up = np.array([0.0, step_px * tip_mm / PITCH_MM * (1 + middle * row.taper), 0.0, 0.0])
+    places = {i: place - up / (1 + i * row.taper) for i, place in row.places.items()}
+    return replace(row, start=row.start - up, places=places)
+
+
+def _in_line(tips: Floats, first: int, step: Floats, count: int) -> dict[int, int]:
+    """The warmest of what stands at each step from ``first``, within ``count`` places in all."""
+    numbers = np.round((tips[:, 0] - tips[first, 0]) / step[0]).astype(int)
+    off = np.abs(tips[:, :2] - tips[first, :2] - numbers[:, None] * step)
+    near = (off <= STRAY * step[0]).all(axis=1) & (np.abs(numbers) < count)
+    found: dict[int, int] = {}
+    for at in np.flatnonzero(near):
+        number = int(numbers[at])
+        if number not in found or tips[at, 4] > tips[found[number], 4]:
+            found[number] = int(at)
+    while max(found) - min(found) >= count:  # too many: the fainter end is none
+        del found[min((min(found), max(found)), key=lambda number: tips[found[number], 4])]
+    return found
