@@ -26,6 +26,7 @@ _STEPS = 0.3, 1.15
 """Steps of a row, pitches; what looks like a row of other steps is none."""
 
 _OFF_SCALE = 0.08
+_SAME_LENGTH = 0.15
 _FAINT = 0.2
 """Confidence below which not even one tip is in the frame."""
 
@@ -122,12 +123,11 @@ class RowFinder:
         if row is not None and abs(row.length(row.span / 2) / seed.length - 1) > _OFF_SCALE:
             better = self._row_at(image, self._detection(row, (row.span - 1) // 2))
             row = better if better is not None and len(better.heats) >= len(row.heats) else row
-        if row is None or len(row.heats) < self._count:
-            whole = self._by_orifices(image, seed)
-            row = whole if row is None or (whole and len(whole.heats) > len(row.heats)) else row
+        if row is None or len(row.heats) < self._count or self._pitches(row) > _STEPS[1]:
+            row = self._clearer(row, self._by_orifices(image, seed))
         if row is None:
             return None
-        step = row.step_lengths * self._tip.length_mm / PITCH_MM
+        step = self._pitches(row)
         enough = len(row.heats) == self._count or (
             len(row.heats) >= max(3, self._count / 2) and step >= _STEEP
         )
@@ -159,6 +159,25 @@ class RowFinder:
         assert isinstance(self._detector, RowDetector)
         ends = self._detector.ends(image, seed, self._reach(seed.length))
         return find_row(ends, seed.length, self._tip.length_mm, self._count)
+
+    def _pitches(self, row: Row) -> float:
+        """Steps of a row in pitches, at the scale of its tips."""
+        return row.step_lengths * self._tip.length_mm / PITCH_MM
+
+    def _clearer(self, row: Row | None, by_orifices: Row | None) -> Row | None:
+        """Of a row by both ends and one by the lower ends the better one.
+
+        The lower ends must show more tips, or the upper ones must be mistaken: steps are longer
+        than a pitch then. Seen at an angle their own scale is too small: whole rows before tell.
+        """
+        if by_orifices is None or row is None:
+            return by_orifices or row
+        known = self._places.last
+        length = by_orifices.length(by_orifices.span / 2)
+        if known is not None and abs(length / known.length(known.span / 2) - 1) > _SAME_LENGTH:
+            return row
+        more = len(by_orifices.heats) > len(row.heats)
+        return by_orifices if more or self._pitches(row) > _STEPS[1] else row
 
     def _by_orifices(self, image: Image, seed: TipDetection) -> Row | None:
         """The row by its lower ends, at the scale that they themselves give."""

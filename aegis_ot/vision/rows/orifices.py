@@ -1,4 +1,4 @@
-"""A row by its lower ends alone: before a pipette's dark head the collars of real tips are faint."""
+"""A row by its lower ends alone: before a pipette's dark head collars of real tips are faint."""
 
 from __future__ import annotations
 
