@@ -27,6 +27,7 @@ from aegis_ot.training.figures import overlap
 from aegis_ot.vision.column.measure import measure_column
 from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.rows.finder import RowFinder, SeenRow
+from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import Image, TipDetection
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
 
@@ -84,12 +85,13 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True)
 class Labelled:
-    """A frame with the boxes of its tips, px."""
+    """A frame with the boxes of its tips, and of the liquid in them, px."""
 
     camera: str
     volume_ul: float | None
     image: Image
     tips: tuple[Box, ...]
+    columns: tuple[Box, ...]
 
 
 def labelled(root: Path) -> Iterator[Labelled]:
@@ -104,14 +106,20 @@ def labelled(root: Path) -> Iterator[Labelled]:
             seen.add(name)
             image = read(path)
             height, width = image.shape[:2]
-            tips = []
+            boxes: dict[int, list[Box]] = {0: [], 1: []}
             for line in text.read_text().splitlines():
                 kind, x, y, w, h = map(float, line.split())
-                if kind == 0:
-                    tips.append(((x - w / 2) * width, (y - h / 2) * height, w * width, h * height))
+                box = ((x - w / 2) * width, (y - h / 2) * height, w * width, h * height)
+                boxes.setdefault(int(kind), []).append(box)
             volume = re.search(r"_(\d+)ul", name)
             camera = "close camera" if name.startswith(_CLOSE) else "white panel"
-            yield Labelled(camera, float(volume[1]) if volume else None, image, tuple(tips))
+            yield Labelled(
+                camera,
+                float(volume[1]) if volume else None,
+                image,
+                tuple(boxes[0]),
+                tuple(boxes[1]),
+            )
 
 
 def read(path: Path) -> Image:
@@ -127,10 +135,19 @@ def hits(tips: Sequence[TipDetection | None], boxes: Sequence[Box]) -> int:
     return sum(any(overlap(box, one) > 0.5 for one in found) for box in boxes)
 
 
+def drawn_volumes(frame: Labelled) -> Iterator[float]:
+    """Volumes of the columns that the boxes show, µL."""
+    geometry = tip_for(PIPETTE, 300.0)
+    for x, top, *_ in frame.columns:
+        _, tip_top, _, length = min(frame.tips, key=lambda tip: abs(tip[0] - x))
+        yield geometry.volume_of((tip_top + length - top) / length * geometry.length_mm)
+
+
 def judge_labelled(root: Path, detector: HeatmapDetector) -> None:
     """Print what is found in the labelled frames."""
     counts: Counter[tuple[str, str]] = Counter()
     off: list[float] = []
+    drawn: list[float] = []
     for number, frame in enumerate(labelled(root)):
         row = RowFinder(detector, keyframe(0, 100.0), "left").find(
             frame.image, keyframe(number, 100.0)
@@ -143,6 +160,7 @@ def judge_labelled(root: Path, detector: HeatmapDetector) -> None:
         counts[which, "whole"] += shown == len(frame.tips) == hits(row.tips, frame.tips)
         counts[which, "false"] += max(0, shown - len(frame.tips))
         if frame.volume_ul:
+            drawn += [volume / frame.volume_ul - 1.0 for volume in drawn_volumes(frame)]
             off += [
                 measure_column(
                     frame.image, tip, PIPETTE, expected_ul=frame.volume_ul, capacity_ul=300.0
@@ -159,6 +177,7 @@ def judge_labelled(root: Path, detector: HeatmapDetector) -> None:
             f"{of['hits']} of {of['tips']} tips found, {of['false']} that are none"
         )
     tell("columns of known volume", off)
+    tell("the same as drawn by hand", drawn)
 
 
 def tell(what: str, errors: Sequence[float]) -> None:
