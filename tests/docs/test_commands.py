@@ -25,6 +25,7 @@ WHY_NOT = {
     "Needs answers from elsewhere",
     "Needs recordings",
     "Needs data sets",
+    "Needs a clone",
     "Needs a container engine",
     "Needs the sidecar of the other terminal",
     "Runs until Ctrl-C",
@@ -34,7 +35,17 @@ WHY_NOT = {
 }
 """Why a block is not run: said above it, where the reader sees it."""
 
-ELSEWHERE = {"pip", "python3", ".", "sudo", "podman", "ollama", "export", "opentrons_simulate"}
+ELSEWHERE = {
+    "pip",
+    "git",
+    "python3",
+    ".",
+    "sudo",
+    "podman",
+    "ollama",
+    "export",
+    "opentrons_simulate",
+}
 """Programs that only blocks with a title may call."""
 
 SLOW = {
