@@ -107,7 +107,9 @@ def labelled(root: Path) -> Iterator[Labelled]:
             image = read(path)
             height, width = image.shape[:2]
             boxes: dict[int, list[Box]] = {0: [], 1: []}
-            for line in text.read_text().splitlines():
+            for line in text.read_text().split("\n"):
+                if not line.strip():
+                    continue
                 kind, x, y, w, h = map(float, line.split())
                 box = ((x - w / 2) * width, (y - h / 2) * height, w * width, h * height)
                 boxes.setdefault(int(kind), []).append(box)
@@ -138,7 +140,7 @@ def hits(tips: Sequence[TipDetection | None], boxes: Sequence[Box]) -> int:
 def drawn_volumes(frame: Labelled) -> Iterator[float]:
     """Volumes of the columns that the boxes show, µL."""
     geometry = tip_for(PIPETTE, 300.0)
-    for x, top, *_ in frame.columns:
+    for x, top, *_ in frame.columns if frame.tips else ():
         _, tip_top, _, length = min(frame.tips, key=lambda tip: abs(tip[0] - x))
         yield geometry.volume_of((tip_top + length - top) / length * geometry.length_mm)
 
@@ -168,7 +170,7 @@ def judge_labelled(root: Path, detector: HeatmapDetector) -> None:
                 / frame.volume_ul
                 - 1.0
                 for tip in row.tips
-                if tip is not None
+                if tip is not None and hits([tip], frame.tips)
             ]
     for which in sorted({which for which, _ in counts}):
         of = {key: counts[which, key] for key in ("frames", "tips", "hits", "whole", "false")}

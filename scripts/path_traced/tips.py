@@ -145,14 +145,21 @@ def _sleeved(tip: TipGeometry, sleeve: Sleeve) -> Surface:
     heights = np.unique([0.0, step, *(h for h, _ in tip.profile if h < step)])
     wall = [(float(h), float(tip.outer_radius(float(h)))) for h in heights]
     wide = wall[-1][1] + sleeve.step_mm
-    # It holds the bore, which widens upwards, whatever its own step.
+    depth = min(sleeve.rib_mm, 0.8 * sleeve.step_mm)
     inner = float(tip.inner_radius(tip.length_mm))
     neck = max(wide, inner + 0.3)
+    bends = sorted({step + 1e-3, flare, *(h for h, _ in tip.profile if step < h < flare)})
+    # The bore stays within: it may widen faster than the sleeve does.
+    upper = [
+        (h, max(float(np.interp(h, [step, flare], [wide, neck])),
+                float(tip.inner_radius(h)) + depth + 0.1))
+        for h in bends
+    ]  # fmt: skip
     rim = neck + sleeve.flare_mm
-    upper = [(step + 1e-3, wide), (flare, neck), (tip.length_mm, rim), (tip.length_mm, inner)]
+    upper += [(tip.length_mm, rim), (tip.length_mm, inner)]
     return turn(
         [(0.0, float(tip.inner_radius(0.0))), *wall, *upper],
-        flutes=(sleeve.ribs, min(sleeve.rib_mm, 0.8 * sleeve.step_mm), step + 5e-4),
+        flutes=(sleeve.ribs, depth, step + 5e-4),
     )
 
 

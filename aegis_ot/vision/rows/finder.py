@@ -170,27 +170,31 @@ class RowFinder:
         The lower ends must show more tips, or the upper ones must be mistaken: steps are longer
         than a pitch then. Seen at an angle their own scale is too small: whole rows before tell.
         """
+        known = self._places.last
+        if by_orifices is not None and known is not None:
+            length, wanted = (one.length((one.span - 1) / 2) for one in (by_orifices, known))
+            if abs(length / wanted - 1) > _SAME_LENGTH:
+                by_orifices = None
         if by_orifices is None or row is None:
             return by_orifices or row
-        known = self._places.last
-        length = by_orifices.length(by_orifices.span / 2)
-        if known is not None and abs(length / known.length(known.span / 2) - 1) > _SAME_LENGTH:
-            return row
-        more = len(by_orifices.heats) > len(row.heats)
-        return by_orifices if more or self._pitches(row) > _STEPS[1] else row
+        more = len(by_orifices.heats) - len(row.heats)
+        mistaken = self._pitches(row) > _STEPS[1]
+        return by_orifices if more > 0 or (mistaken and more == 0) else row
 
     def _by_orifices(self, image: Image, seed: TipDetection) -> Row | None:
         """The row by its lower ends, at the scale that they themselves give."""
         assert isinstance(self._detector, RowDetector)
         length, found = seed.length, None
         for _ in range(2):
-            at = replace(seed, collar=(seed.orifice[0], seed.orifice[1] - length))
+            x, y = seed.orifice[0], min(seed.orifice[1], float(image.shape[0]))
+            at = replace(seed, orifice=(x, y), collar=(x, y - length))
             ends = self._detector.ends(image, at, self._reach(length))
             row = find_by_orifices(ends, length, self._tip.length_mm, self._count)
-            if row is None:
+            if row is None or (found is not None and len(row.heats) < len(found.heats)):
                 break
             found, length = row, row.length((row.span - 1) / 2)
-        return found
+        # Four warm spots in line are no row: bare heads have shown as many.
+        return found if found is not None and 2 * len(found.heats) > self._count else None
 
     def _seen(self, row: Row, offset: int) -> SeenRow:
         """Name the tips of a row of which ``offset`` are missing to the left of the first."""

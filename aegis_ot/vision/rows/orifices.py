@@ -13,8 +13,9 @@ from .fit import LEAST_HEAT, PITCH_MM, STRAY, Floats, Row, fitted
 _LONGEST = 0.6, 3.2
 """Lengths that a row's own steps may give its tips, times the one that is expected."""
 
-_HOLE = 0.1
-"""What a longer step costs, in heat: of two ways to number the same tips the closer one holds."""
+_STEP_COST = 0.1
+"""What each step between the two tips that a line is laid through costs, in heat: fewer steps hold
+where two ways to number the same tips explain as much."""
 
 
 def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Row | None:
@@ -24,7 +25,7 @@ def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Ro
 
     Args:
         ends: What looks like an end of a tip, px.
-        length: Of a tip, px; may be wrong by half or by three times.
+        length: Of a tip, px, about: from 0.6 to 3.2 times it is tried.
         tip_mm: Of a tip, mm.
         count: Tips that there should be.
     """
@@ -37,7 +38,7 @@ def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Ro
             if not _LONGEST[0] <= step[0] * tip_mm / PITCH_MM / length <= _LONGEST[1]:
                 continue
             line = _in_line(tips, first, step, count)
-            score = sum(tips[at, 4] for at in line.values()) - _HOLE * steps
+            score = sum(tips[at, 4] for at in line.values()) - _STEP_COST * steps
             if score > best[0]:
                 best = score, line
     if len(best[1]) < 2:

@@ -43,3 +43,22 @@ def test_no_more_tips_than_nozzles() -> None:
 
 def test_one_end_is_no_row() -> None:
     assert find_by_orifices(row_of([2]), LENGTH, TIP_MM, 8) is None
+
+
+def test_nothing_warm_is_no_row() -> None:
+    assert find_by_orifices(Ends(), LENGTH, TIP_MM, 8) is None
+    cold = Ends(orifices=tuple(End(100.0 + STEP * n, 370.0, 0.05) for n in range(8)))
+    assert find_by_orifices(cold, LENGTH, TIP_MM, 8) is None
+
+
+def test_a_row_seen_from_one_side_keeps_its_taper() -> None:
+    taper = 0.01
+    ends = Ends(
+        orifices=tuple(
+            End((100.0 + STEP * n) / (1 + taper * n), 370.0 / (1 + taper * n), 0.5)
+            for n in range(8)
+        )
+    )
+    row = find_by_orifices(ends, LENGTH, TIP_MM, 8)
+    assert row is not None
+    assert row.length(7) < 0.97 * row.length(0)
