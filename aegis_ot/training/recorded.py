@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import cv2
@@ -19,7 +19,6 @@ from .rooms import draw_room
 from .transplant import transplanted
 
 Image = NDArray[np.uint8]
-_AXIS = ("collar_x", "collar_y", "orifice_x", "orifice_y")
 _KEYFRAMES = ("aspirate", "transit", "dispense", "post_dispense")
 
 
@@ -43,8 +42,8 @@ class RecordedFrame:
 def read_frames(folder: Path) -> list[RecordedFrame]:
     """All frames of a data set that has ``boxes.csv``, in its order.
 
-    The axis is that of ``axes.csv`` where the frame has a row there; else it follows from the
-    plate's camera where ``meta.json`` gives one, and is the box's vertical centre line otherwise.
+    The axis follows from the plate's camera where ``meta.json`` gives one, and is the box's
+    vertical centre line otherwise.
 
     Raises:
         DatasetError: A file is missing or a row cannot be used; every bad row is listed.
@@ -81,11 +80,6 @@ def read_frames(folder: Path) -> list[RecordedFrame]:
     if not any(box is not None for _, _, box in read):
         raise DatasetError(f"{folder.name}: boxes.csv has no tip box to learn from.")
     labels = _labels(folder, [(plate, box) for _, plate, box in read])
-    axes = _axes(folder)
-    for i, (path, _, box) in enumerate(read):
-        own = axes.get(path.relative_to(folder).as_posix())
-        if box is not None and own:
-            labels[i] = _label(own, box)
     return [
         RecordedFrame(path, f"{folder.name}/{plate}", label, box)
         for (path, plate, box), label in zip(read, labels, strict=True)
@@ -107,32 +101,6 @@ def _plates(folder: Path) -> dict[str, str]:
             if row.get(keyframe):
                 plates[row[keyframe]] = row.get("plate") or ""
     return plates
-
-
-def _axes(folder: Path) -> dict[str, list[tuple[float, ...]]]:
-    """Collars and orifices (x, y, x, y) by frame, of the optional ``axes.csv``."""
-    if not (folder / "axes.csv").exists():
-        return {}
-    axes: dict[str, list[tuple[float, ...]]] = {}
-    problems: list[str] = []
-    for line, row in enumerate(_rows(folder / "axes.csv"), start=2):
-        cells = [row.get(column) or "" for column in _AXIS]
-        try:
-            numbers = tuple(float(cell) for cell in cells)
-            axes.setdefault(row.get("frame") or "", []).append(numbers)
-        except ValueError:
-            problems.append(f"axes.csv row {line}: {', '.join(cells)!r} are not four numbers")
-    if problems:
-        raise DatasetError(f"{folder.name}:\n" + "\n".join(problems))
-    return axes
-
-
-def _label(axes: Sequence[tuple[float, ...]], box: tuple[float, float, float, float]) -> TipLabel:
-    """The tip of the box and those beside it; a tip is widest at its collar, inside its box."""
-    x, _, w, _ = box
-    radius = max(0.5, min(axes[0][0] - x, x + w - axes[0][0]))
-    first, *others = (TipLabel((a, b), (c, d), radius) for a, b, c, d in axes)
-    return replace(first, beside=tuple(others))
 
 
 def _labels(
@@ -172,9 +140,6 @@ def _cameras(folder: Path, plates: Sequence[str]) -> list[PlateCamera] | None:
 class FramePool:
     """Draws training frames from recorded ones, each as another camera might have seen it.
 
-    A data set is drawn as often as the square root of its size says: a large one teaches most,
-    and does not drown a small one.
-
     Args:
         frames: What to draw from; the images are kept in memory.
     """
@@ -196,13 +161,10 @@ class FramePool:
             for plate, members in by_plate.items()
             if len(members) >= 6 and len({self._images[i].shape for i in members}) == 1
         }
-        sets = [frame.plate.partition("/")[0] for frame in self._frames]
-        weights = np.array([1.0 / np.sqrt(sets.count(name)) for name in sets])
-        self.chances = weights / weights.sum()
 
     def draw(self, rng: np.random.Generator) -> tuple[Image, TipLabel | None, TipLabel | None]:
         """A frame, its tip, and where a tip is missing from a bare nozzle, if it is known."""
-        i = int(rng.choice(len(self._frames), p=self.chances))
+        i = int(rng.integers(len(self._frames)))
         image, label, decoy = self._images[i], self._frames[i].label, None
         room = self._rooms.get(self._frames[i].plate)
         if room is not None and rng.random() < 0.45:
@@ -215,14 +177,13 @@ class FramePool:
 
 
 def _without_tip(image: Image, label: TipLabel, room: Image) -> Image:
-    """The frame with the tip, or the whole row, replaced by the empty room behind it."""
+    """The frame with the tip replaced by the empty room behind it."""
     out = image.copy()
-    for tip in (label, *label.beside):
-        (cx, cy), (ox, oy) = tip.collar, tip.orifice
-        margin = 3 * tip.radius
-        x0, x1 = int(max(0, min(cx, ox) - margin)), int(max(cx, ox) + margin)
-        y0, y1 = int(max(0, cy)), int(oy + 2 * margin)
-        out[y0:y1, x0:x1] = room[y0:y1, x0:x1]
+    (cx, cy), (ox, oy) = label.collar, label.orifice
+    margin = 3 * label.radius
+    x0, x1 = int(max(0, min(cx, ox) - margin)), int(max(cx, ox) + margin)
+    y0, y1 = int(max(0, cy)), int(oy + 2 * margin)
+    out[y0:y1, x0:x1] = room[y0:y1, x0:x1]
     return out
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,44 +21,6 @@ def test_without_a_camera_the_axis_is_the_centre_line(dataset: Path) -> None:
     assert frames[-1].label is None
     assert frames[-1].box is None
     assert {frame.plate.split("/")[1] for frame in frames} == {"plate0", "plate1"}
-
-
-def test_an_axis_that_the_set_gives_is_the_label(dataset: Path) -> None:
-    (dataset / "axes.csv").write_text(
-        "frame,collar_x,collar_y,orifice_x,orifice_y\nframes/w0_aspirate.png,61,60,58.5,140\n"
-    )
-    first, second, *_ = read_frames(dataset)
-    assert first.label is not None
-    assert second.label is not None
-    assert (first.label.collar, first.label.orifice) == ((61.0, 60.0), (58.5, 140.0))
-    assert first.label.radius == 4.0  # the collar reaches the box's right side, 65
-    assert second.label.collar == (100.0, 60.0)
-
-
-def test_the_tips_beside_it_are_labelled_too(dataset: Path) -> None:
-    (dataset / "axes.csv").write_text(
-        "frame,collar_x,collar_y,orifice_x,orifice_y\n"
-        "frames/w0_aspirate.png,60,60,60,140\nframes/w0_aspirate.png,80,61,80,141\n"
-    )
-    label = read_frames(dataset)[0].label
-    assert label is not None
-    assert [(tip.collar, tip.orifice) for tip in label.beside] == [((80.0, 61.0), (80.0, 141.0))]
-
-
-def test_a_bad_axis_is_named(dataset: Path) -> None:
-    (dataset / "axes.csv").write_text(
-        "frame,collar_x,collar_y,orifice_x,orifice_y\nframes/w0_aspirate.png,61,,58.5,140\n"
-    )
-    with pytest.raises(DatasetError, match=r"axes\.csv row 2"):
-        read_frames(dataset)
-
-
-def test_a_small_set_is_not_drowned_by_a_large_one(dataset: Path) -> None:
-    frames = read_frames(dataset)
-    many = [replace(frame, plate=f"other/{i}") for i in range(4) for frame in frames]
-    pool, rng = FramePool(frames + many), np.random.default_rng(3)
-    drawn = rng.choice(len(frames + many), 3000, p=pool.chances)
-    assert np.mean(drawn < len(frames)) == pytest.approx(1 / 3, abs=0.03)
 
 
 def test_a_meta_file_without_cameras_is_no_obstacle(dataset: Path) -> None:
