@@ -7,8 +7,7 @@ A p300 with eight channels before three cameras (640x480). *Labelled*: frames wi
 tip, drawn by that repository's authors; in some the volume is part of the name. *Series*: ninety
 frames of one camera, red dye in rising volumes. Which tips are missing there, and which stayed
 empty, was read off the frames by eye; the volumes are those that fit the steps of the columns and
-the tips' outer widths. The inner profile of the tip (``aegis_ot/vision/tips.py``) comes from the
-three series marked so; all else was used for nothing.
+the tips' outer widths; their own inner profile of the tip was found on the three series marked so.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 659,
     "preflight/source": 772,
     "preflight/trace": 1_607,
-    "": 66_810,
+    "": 66_800,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""
