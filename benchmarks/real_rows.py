@@ -7,7 +7,7 @@ A p300 with eight channels before three cameras (640x480). *Labelled*: frames wi
 tip, drawn by that repository's authors; in some the volume is part of the name. *Series*: ninety
 frames of one camera, red dye in rising volumes. Which tips are missing there, and which stayed
 empty, was read off the frames by eye; the volumes are those that fit the steps of the columns and
-the tips' outer widths; their own inner profile of the tip was found on the three series marked so.
+the tips' outer widths.
 """
 
 from __future__ import annotations
@@ -46,18 +46,16 @@ class Series:
     count: int
     start_ul: float
     step_ul: float
-    shaped: bool = False
-    """Whether the tip's inner profile was found on it."""
 
 
 SERIES = (
     Series(0, 12, 50, 20),
     Series(12, 8, 50, 20),
-    Series(20, 12, 50, 20, shaped=True),
+    Series(20, 12, 50, 20),
     Series(32, 9, 50, 20),
     Series(42, 12, 50, 20),
-    Series(54, 12, 100, 10, shaped=True),
-    Series(66, 12, 30, 10, shaped=True),
+    Series(54, 12, 100, 10),
+    Series(66, 12, 30, 10),
     Series(78, 12, 40, 20),
 )
 MISSING = {
@@ -232,8 +230,7 @@ def judge_series(root: Path, detector: HeatmapDetector) -> None:
         f"  series: {right} of {FRAMES} frames right, {found} of {FRAMES * CHANNELS - gaps} tips "
         f"found, {false} of {gaps} gaps taken for a tip"
     )
-    for shaped, title in ((False, "columns of the series"), (True, "those that gave the profile")):
-        tell(title, [e for s in SERIES if s.shaped is shaped for e in errors(s, seen)])
+    tell("columns of the series", [e for series in SERIES for e in errors(series, seen)])
 
 
 def main() -> None:

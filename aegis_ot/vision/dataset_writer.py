@@ -73,7 +73,7 @@ class DatasetWriter:
         Args:
             sample: A missing label is written as ``normal`` only if the sample says so.
             jpegs: The frames as the camera gave them; without, frames are encoded at quality 95.
-            beside: The other tips of a row, for the detector to learn from.
+            beside: The other tips of a row; their axes are written.
 
         Raises:
             DatasetError: If the id was written before, the label is missing, or a frame is.

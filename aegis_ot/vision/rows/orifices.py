@@ -21,7 +21,8 @@ where two ways to number the same tips explain as much."""
 def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Row | None:
     """A row that is seen squarely, by its lower ends alone: collars before a dark head are faint.
 
-    Nozzles stand 9 mm apart, which gives the scale, and with it the length of the tips.
+    Nozzles stand 9 mm apart, which gives the scale, and with it the length of the tips. An end
+    counts from the heat that a whole tip needs: strays of that heat seldom stand in line.
 
     Args:
         ends: What looks like an end of a tip, px.
