@@ -16,31 +16,27 @@ from .check import Check, Doubt, Result, Violation
 from .dilution import SeriesDirection, SeriesMixed
 from .dose_order import DoseOrder
 from .filling import SeriesFilledFirst, SeriesFilledFrom
-from .never_receives import NeverReceives
 from .order import MixedAfter, ReceivedBefore, RisingOrder
-from .receiving import Receives
+from .receiving import NeverReceives, Receives
 from .series_tip import SeriesTip
 from .uniform_volume import UniformVolume
 from .volumes import VolumeBookkeeping
 
 CHECKS: dict[str, type[Check]] = {
-    check.name: check
-    for check in (
-        Carry,
-        DoseOrder,
-        Receives,
-        NeverReceives,
-        UniformVolume,
-        MixedAfter,
-        ReceivedBefore,
-        RisingOrder,
-        SeriesMixed,
-        SeriesDirection,
-        SeriesFilledFirst,
-        SeriesFilledFrom,
-        SeriesTip,
-        VolumeBookkeeping,
-    )
+    "carry": Carry,
+    "dose_order": DoseOrder,
+    "receives": Receives,
+    "never_receives": NeverReceives,
+    "uniform_volume": UniformVolume,
+    "mixed_after": MixedAfter,
+    "received_before": ReceivedBefore,
+    "rising_order": RisingOrder,
+    "series_mixed": SeriesMixed,
+    "series_direction": SeriesDirection,
+    "series_filled_first": SeriesFilledFirst,
+    "series_filled_from": SeriesFilledFrom,
+    "series_tip": SeriesTip,
+    "volume_bookkeeping": VolumeBookkeeping,
 }
 
 

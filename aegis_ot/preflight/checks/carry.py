@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
-from typing import ClassVar, Literal
+from typing import Literal
 
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
+from ..rules import role_names
 from ..trace import Contact, Met, Tip, Visit, Well
-from .case import Case, RoleSet, carried_liquids, delivered
-from .check import Check, Result, Violation, at, place, role_field
+from .case import Case, RoleSet, carried_liquids
+from .check import Check, Result, Violation, at, place
 from .unnamed import unnamed_contact
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
@@ -41,16 +42,15 @@ class Carry(Check):
         not_into: Roles whose wells are let be, although they have a role of ``into`` as well.
     """
 
-    name: ClassVar[str] = "carry"
-    carried: tuple[str, ...] = role_field()
-    into: tuple[str, ...] = role_field()
+    carried: tuple[str, ...] = role_names(required=True)
+    into: tuple[str, ...] = role_names(required=True)
     meant: bool = True
     stock: bool = False
     pooled: bool = False
     via_destination: Literal["", "only", "not"] = ""
     shared: bool = False
     unnamed: bool = False
-    not_into: tuple[str, ...] = role_field(())
+    not_into: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
         """Look at every contact of a well with a tip that had met something before."""
@@ -162,10 +162,9 @@ class Carry(Check):
         """
         well = visit.well
         if not any(
-            known is origin
-            for given in case.trace.deliveries(well)
-            if given.tip is visit.tip and given.index <= visit.index
-            for known, _, _, _ in delivered(given)
+            origin in one.liquid
+            for one in well.received
+            if one.visit.tip is visit.tip and one.visit.index <= visit.index
         ):
             return False
         drawn_for = case.destinations.get(well, {})
@@ -174,10 +173,9 @@ class Carry(Check):
             return False
         carried = frozenset(self.carried)
         return not any(
-            source is not well and _is_called(case, source, carried)
+            one.source is not well and _is_called(case, one.source, carried)
             for dest in later
-            for given in case.trace.deliveries(dest)
-            for _, _, source, _ in delivered(given)
+            for one in dest.received
         )
 
     def _violation(self, case: Case, visit: Visit, origin: Well, met: Met) -> Violation:

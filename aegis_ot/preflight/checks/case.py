@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import islice
 
+from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..roles import Roles
 from ..rules import Common, Family
-from ..trace import Met, Tip, Trace, Usage, Visit, Well
-from .same_liquid import SameLiquid
+from ..source import name_without_level, without_strength
+from ..trace import Met, Tip, Trace, Transfer, Usage, Visit, Well
 from .series import Series, find_series
 
 RoleSet = frozenset[str]
@@ -43,6 +44,8 @@ class Case:
     waste: frozenset[WellRef] = frozenset()
     unsure: frozenset[WellRef] = frozenset()
     left_over: bool = False
+    _of: dict[Well, RoleSet] = field(default_factory=dict, init=False)
+    _same: dict[tuple[Well, Well], bool] = field(default_factory=dict, init=False)
 
     @cached_property
     def by_tip(self) -> Mapping[Tip, Sequence[Visit]]:
@@ -64,13 +67,13 @@ class Case:
             found = self._of[well] = self.roles.of(well.ref)
         return found
 
-    @cached_property
-    def _of(self) -> dict[Well, RoleSet]:
-        return {}
-
     def has(self, well: Well, wanted: RoleSet) -> bool:
         """Whether a well has any of these roles."""
         return not wanted.isdisjoint(self.of(well))
+
+    def brings(self, transfer: Transfer, wanted: RoleSet) -> bool:
+        """Whether a transfer brings liquid that stood in a well of these roles before the run."""
+        return any(self.has(origin, wanted) for origin in transfer.liquid)
 
     def wells(self, wanted: RoleSet) -> list[Well]:
         """The wells with any of these roles, in order of first use."""
@@ -80,47 +83,57 @@ class Case:
         """What a well is, in words, for the middle of a sentence."""
         return self.roles.title(well.ref)
 
+    def titles(self, roles: Sequence[str], between: str = " or ") -> str:
+        """These roles in words."""
+        return between.join(self.family.roles[role].title for role in roles)
+
     def level(self, well: Well) -> float | None:
         """Concentration or dose of a well, if known."""
         return self.roles.level(well.ref)
+
+    def is_drawn_first(self, well: Well) -> bool:
+        """Whether the run draws from a well before it puts anything there: a source."""
+        used = self.usage.get(well.ref)
+        return used is not None and used.first_drawn
 
     @cached_property
     def meant(self) -> FirstOrLast:
         """For each well the liquids that measured volumes brought to it, with first index."""
         found: dict[Well, dict[Well, int]] = {}
-        for visit, _, liquid in _transfers(self.trace):
-            into = found.setdefault(visit.well, {})
-            for origin in liquid:
-                into.setdefault(origin, visit.index)
+        for one in self.trace.transfers:
+            into = found.setdefault(one.well, {})
+            for origin in one.liquid:
+                into.setdefault(origin, one.visit.index)
         return found
 
     @cached_property
     def destinations(self) -> FirstOrLast:
         """For each well the wells that it was drawn for, with the last index."""
         found: dict[Well, dict[Well, int]] = {}
-        for visit, source, _ in _transfers(self.trace):
-            found.setdefault(source, {})[visit.well] = visit.index
+        for one in self.trace.transfers:
+            found.setdefault(one.source, {})[one.well] = one.visit.index
         return found
 
     @cached_property
     def _straight(self) -> Mapping[tuple[Well, Well], Sequence[Visit]]:
         found: dict[tuple[Well, Well], list[Visit]] = {}
-        for visit, source, _ in _transfers(self.trace):
-            found.setdefault((source, visit.well), []).append(visit)
+        for one in self.trace.transfers:
+            found.setdefault((one.source, one.well), []).append(one.visit)
         return found
 
     def straight(self, source: Well, well: Well) -> Sequence[Visit]:
         """The visits that brought liquid straight from one well into another, in order."""
         return self._straight.get((source, well), ())
 
-    def sources_of(self, well: Well) -> set[Well]:
-        """All wells, itself apart, that liquid was drawn from for this one."""
-        return {
-            part[0]
-            for visit in self.trace.deliveries(well)
-            for part in visit.parts
-            if part[0] is not None and part[0] is not well
-        }
+    @cached_property
+    def stock(self) -> RoleSet:
+        """Roles that the family dilutes in a series."""
+        return frozenset(self.family.series.stock if self.family.series else ())
+
+    @cached_property
+    def diluent(self) -> RoleSet:
+        """Roles that the family dilutes a series with."""
+        return frozenset(self.family.series.diluent if self.family.series else ())
 
     @cached_property
     def series(self) -> Sequence[Series]:
@@ -132,18 +145,57 @@ class Case:
         """Wells that fill a whole series, whatever they are called."""
         return frozenset(well for series in self.series for well in series.fillers)
 
-    @cached_property
-    def same_liquid(self) -> SameLiquid:
-        """Tells whether two wells hold the same liquid, as far as roles, names and use say."""
-        return SameLiquid(self.trace, self.roles, self.common, self.destinations)
+    def same_liquid(self, one: Well, other: Well) -> bool:
+        """Whether two wells hold the same liquid, as far as roles, names, loads and use say."""
+        known = self._same.get((one, other))
+        if known is None:
+            known = self._same[one, other] = self._is_same_liquid(one, other)
+        return known
+
+    def _is_same_liquid(self, one: Well, other: Well) -> bool:
+        if one is other or one.ref == other.ref or self._is_one_source(one, other):
+            return True
+        roles = self.roles
+        if (
+            one.liquids
+            and one.liquids == other.liquids
+            and any(map(str.isdigit, without_strength(one.liquids[0])))
+            and self.level(one) == self.level(other)
+        ):
+            return True
+        if {one.ref, other.ref} <= roles.unnamed and one.liquids == other.liquids:
+            return one.ref not in roles.apart
+        mine, theirs = roles.by_well.get(one.ref), roles.by_well.get(other.ref)
+        if mine is None or theirs is None or mine.role != theirs.role:
+            return False
+        if not self.family.roles[mine.role].one_liquid:
+            return False
+        dull = self.common.undescriptive
+        return name_without_level(mine.text, dull) == name_without_level(theirs.text, dull)
+
+    def _is_one_source(self, one: Well, other: Well) -> bool:
+        """Whether one list or loop uses two wells of reservoirs as one liquid.
+
+        One statement draws from both, under one name, each for wells of its own. What is given to
+        the same wells one after the other is two liquids, and doses have a well each.
+        """
+        infos = [self.trace.labware.get(well.ref.labware) for well in (one, other)]
+        if any(info is None or not info.centers_channels for info in infos):
+            return False
+        mine, theirs = (self.roles.by_well.get(well.ref) for well in (one, other))
+        if (mine and mine.text) != (theirs and theirs.text):
+            return False
+        if mine and self.family.roles[mine.role].dosed:
+            return False
+        if one.liquids != other.liquids or self.level(one) != self.level(other):
+            return False
+        served, also = (self.destinations.get(well, {}).keys() for well in (one, other))
+        # A channel that runs dry may go half and half with the next one into one well.
+        return len(served & also) <= 1 and not _drawing_lines(one).isdisjoint(_drawing_lines(other))
 
 
-def _transfers(trace: Trace) -> Iterator[tuple[Visit, Well, Mapping[Well, float]]]:
-    """Each delivery with the well that it was drawn from, and what that liquid is."""
-    for visit in trace.visits:
-        for source, volume, liquid, _ in visit.parts:
-            if source is not None and source is not visit.well and volume > 0:
-                yield visit, source, liquid
+def _drawing_lines(well: Well) -> set[int | None]:
+    return {visit.line for visit in well.visits if visit.kind is OperationKind.ASPIRATE}
 
 
 def carried_liquids(visit: Visit, after: int = 0) -> Iterator[tuple[Well, Met]]:
@@ -154,12 +206,3 @@ def carried_liquids(visit: Visit, after: int = 0) -> Iterator[tuple[Well, Met]]:
         after: How many to pass over: the tip had met those before an earlier visit.
     """
     return islice(visit.tip.origins.items(), after, visit.carried)
-
-
-def delivered(visit: Visit) -> Iterator[tuple[Well, float, Well, int | None]]:
-    """``(origin, µL, well drawn from, line of the draw)`` of liquid brought from elsewhere."""
-    for source, volume, liquid, line in visit.parts:
-        if source is None or source is visit.well:
-            continue
-        for origin, share in liquid.items():
-            yield origin, volume * share, source, line

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from dataclasses import dataclass
+from typing import Any
 
 from ...vocabulary import Site
 from ..trace import Contact, Well
@@ -66,15 +66,6 @@ def at(line: int | None) -> str:
 class Check:
     """A predicate over trace and roles, with its parameters as fields."""
 
-    name: ClassVar[str] = ""
-
     def find(self, case: Case) -> Iterable[Result]:
         """Places where it does not hold, and places that it cannot judge."""
         raise NotImplementedError
-
-
-def role_field(default: tuple[str, ...] | None = None) -> Any:
-    """A parameter that lists roles."""
-    if default is None:
-        return field(metadata={"roles": True})
-    return field(default=default, metadata={"roles": True})

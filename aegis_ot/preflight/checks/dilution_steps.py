@@ -1,72 +1,74 @@
-"""What a dilution step is, and what fills a well of a series."""
+"""What a dilution step is, what fills a well of a series, and what all checks of series share."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 from ...instrumentation import OperationKind
-from ..trace import Composition, Transfer, Visit, Well
+from ..trace import Transfer, Visit, Well
 from .case import Case
-
-NO_SERIES = "no chain of transfers from well to well was found"
-
-
-def diluent_roles(case: Case) -> frozenset[str]:
-    """Roles that the family dilutes with."""
-    spec = case.family.series
-    return frozenset(spec.diluent) if spec else frozenset()
+from .check import Check, Doubt, Result
+from .series import Series
 
 
-def stock_roles(case: Case) -> frozenset[str]:
-    """Roles that the family dilutes."""
-    spec = case.family.series
-    return frozenset(spec.stock) if spec else frozenset()
+@dataclass(frozen=True)
+class SeriesCheck(Check):
+    """A check on each dilution series by itself."""
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Judge each series."""
+        if not case.series:
+            yield Doubt("no chain of transfers from well to well was found")
+        for series in case.series:
+            yield from self.along(case, series)
+
+    def along(self, case: Case, series: Series) -> Iterator[Result]:
+        """What is wrong with one series, or cannot be judged of it."""
+        raise NotImplementedError
 
 
 def diluent_arrivals(case: Case, well: Well) -> list[int]:
     """Index of each delivery of diluent to a well."""
-    diluent = diluent_roles(case)
     return [
-        visit.index
-        for visit in case.trace.deliveries(well)
-        if any(
-            source is not None
-            and (
-                case.has(source, diluent)
-                or source in case.fillers
-                or _is_made_diluent(case, well, source, liquid)
-            )
-            for source, _, liquid, _ in visit.parts
-        )
+        one.visit.index
+        for one in well.received
+        if case.has(one.source, case.diluent)
+        or one.source in case.fillers
+        or _is_made_diluent(case, one)
     ]
 
 
-def _is_made_diluent(case: Case, well: Well, source: Well, liquid: Composition) -> bool:
+def _is_made_diluent(case: Case, one: Transfer) -> bool:
     """Whether a source elsewhere was filled in the run with diluent, and with no stock."""
     return (
-        source.ref.labware != well.ref.labware
-        and not source.prefilled
-        and any(case.has(origin, diluent_roles(case)) for origin in liquid)
-        and not any(case.has(origin, stock_roles(case)) for origin in liquid)
+        one.source.ref.labware != one.well.ref.labware
+        and not one.source.prefilled
+        and case.brings(one, case.diluent)
+        and not case.brings(one, case.stock)
     )
 
 
-def is_dilution(case: Case, step: Transfer) -> bool:
-    """Whether a transfer is a dilution step.
+def dilutions(case: Case, series: Series) -> list[Transfer]:
+    """The steps that dilute.
 
     Undiluted stock in an empty first well is none: that well never gets diluent, or only after it
     was drawn from, when all wells are filled up for the reader.
     """
-    if not step.from_stock or case.has(step.well, diluent_roles(case)):
-        return True
-    drawn = [
-        visit.index
-        for visit in step.well.visits
-        if visit.kind is OperationKind.ASPIRATE and not visit.mixing
+    return [
+        step
+        for step in series.steps
+        if step.source in series.position
+        or case.has(step.well, case.diluent)
+        or _is_filled_before_drawn(case, step)
     ]
-    then = min((index for index in drawn if index > step.visit.index), default=None)
-    arrivals = diluent_arrivals(case, step.well)
-    return any(then is None or index < then for index in arrivals)
+
+
+def _is_filled_before_drawn(case: Case, step: Transfer) -> bool:
+    drawn = next_draw(step)
+    then = drawn.index if drawn else math.inf
+    return any(index < then for index in diluent_arrivals(case, step.well))
 
 
 def is_mixed(case: Case, step: Transfer) -> bool:

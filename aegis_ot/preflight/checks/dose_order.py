@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
+from itertools import islice
 
 from ...vocabulary import Site
+from ..rules import role_names
 from ..source import comparable, lexicon_of, name_without_level
 from ..trace import Met, Visit, Well
-from .case import Case, carried_liquids, delivered
-from .check import Check, Doubt, Result, Violation, at, place, role_field
+from .case import Case, carried_liquids
+from .check import Check, Doubt, Result, Violation, at, place
 
 
 @dataclass(frozen=True)
@@ -24,9 +25,8 @@ class DoseOrder(Check):
         wells: Roles of the wells that are dosed.
     """
 
-    name: ClassVar[str] = "dose_order"
-    liquid: tuple[str, ...] = role_field()
-    wells: tuple[str, ...] = role_field()
+    liquid: tuple[str, ...] = role_names(required=True)
+    wells: tuple[str, ...] = role_names(required=True)
 
     def find(self, case: Case) -> Iterator[Result]:
         """Follow each tip through the dosed wells."""
@@ -58,11 +58,11 @@ class DoseOrder(Check):
     def _doses(self, case: Case, liquid: frozenset[str]) -> dict[Well, dict[Well, float]]:
         """For each well the µL of each dosed liquid that it is given in the whole run."""
         doses: dict[Well, dict[Well, float]] = {}
-        for visit in case.trace.visits:
-            for origin, volume, _, _ in delivered(visit):
+        for one in case.trace.transfers:
+            for origin, share in one.liquid.items():
                 if case.has(origin, liquid):
-                    into = doses.setdefault(visit.well, {})
-                    into[origin] = into.get(origin, 0.0) + volume
+                    into = doses.setdefault(one.well, {})
+                    into[origin] = into.get(origin, 0.0) + one.volume * share
         return doses
 
     def _other(
@@ -111,11 +111,7 @@ class DoseOrder(Check):
         doses: dict[Well, dict[Well, float]],
     ) -> Violation | None:
         """The tip has touched a well that gets more of the same liquid."""
-        left = visit.met
-        for other, met in visit.tip.touched.items():
-            if left <= 0:
-                break
-            left -= 1
+        for other, met in islice(visit.tip.touched.items(), visit.met):
             there = doses.get(other, {})
             if other is visit.well or not there or case.destinations.get(other):
                 continue  # what is given on is a dilution rather than a dosed well

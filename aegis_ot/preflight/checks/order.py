@@ -5,31 +5,25 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
 
 from ...vocabulary import Site
+from ..rules import role_names
 from ..source import comparable
-from ..trace import Visit, Well
-from .case import Case, RoleSet, delivered
-from .check import Check, Doubt, Result, Violation, at, place, role_field
+from ..trace import Transfer, Visit, Well
+from .case import Case, RoleSet
+from .check import Check, Doubt, Result, Violation, at, place
 
 
-def arrivals(case: Case, well: Well, liquid: RoleSet) -> list[Visit]:
-    """Visits that brought a liquid of these roles to a well.
+def arrivals(case: Case, well: Well, liquid: RoleSet) -> list[Transfer]:
+    """What brought a liquid of these roles to a well.
 
     Not with what another well of the assay was given it in: that goes to a reader's plate, say.
     """
     return [
-        visit
-        for visit in case.trace.deliveries(well)
-        if any(
-            volume > 0
-            and (
-                case.has(source, liquid)
-                or (case.has(origin, liquid) and _is_reagent(case, source, liquid))
-            )
-            for origin, volume, source, _ in delivered(visit)
-        )
+        one
+        for one in well.received
+        if case.has(one.source, liquid)
+        or (case.brings(one, liquid) and _is_reagent(case, one.source, liquid))
     ]
 
 
@@ -42,9 +36,7 @@ def _is_reagent(case: Case, source: Well, liquid: RoleSet) -> bool:
     many get it, or nothing else is in it.
     """
     return len(case.destinations.get(source, {})) >= _MANY or all(
-        case.has(origin, liquid)
-        for visit in case.trace.deliveries(source)
-        for origin, _, _, _ in delivered(visit)
+        case.has(origin, liquid) for one in source.received for origin in one.liquid
     )
 
 
@@ -64,9 +56,8 @@ class MixedAfter(Check):
             that hold a reagent which the run makes and shares out.
     """
 
-    name: ClassVar[str] = "mixed_after"
-    liquid: tuple[str, ...] = role_field()
-    wells: tuple[str, ...] = role_field(())
+    liquid: tuple[str, ...] = role_names(required=True)
+    wells: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
         """Look for a mix after the last arrival."""
@@ -75,9 +66,10 @@ class MixedAfter(Check):
         for well, came in self._receivers(case):
             ever = case.trace.mixed_since(well, -1, math.inf)
             by_hand = by_hand and not ever and not case.destinations.get(well)
-            if not (ever and case.trace.mixed_since(well, came[-1].index, math.inf)):
-                unmixed.append((well, came[-1]))
-        what = " or ".join(case.family.roles[role].title for role in self.liquid)
+            last = came[-1].visit
+            if not (ever and case.trace.mixed_since(well, last.index, math.inf)):
+                unmixed.append((well, last))
+        what = case.titles(self.liquid)
         for well, last in unmixed:
             yield Violation(
                 f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
@@ -87,8 +79,8 @@ class MixedAfter(Check):
                 warning=_BY_HAND if by_hand else "",
             )
 
-    def _receivers(self, case: Case) -> Iterator[tuple[Well, list[Visit]]]:
-        """The wells that are judged, each with the visits that brought it the liquid."""
+    def _receivers(self, case: Case) -> Iterator[tuple[Well, list[Transfer]]]:
+        """The wells that are judged, each with what brought it the liquid."""
         liquid, wanted = frozenset(self.liquid), frozenset(self.wells)
         for well in case.trace.wells.values():
             if case.has(well, liquid) or (wanted and not case.has(well, wanted)):
@@ -112,10 +104,9 @@ class ReceivedBefore(Check):
         wells: Roles of the wells that are judged; else all that receive both.
     """
 
-    name: ClassVar[str] = "received_before"
-    first: tuple[str, ...] = role_field()
-    then: tuple[str, ...] = role_field()
-    wells: tuple[str, ...] = role_field(())
+    first: tuple[str, ...] = role_names(required=True)
+    then: tuple[str, ...] = role_names(required=True)
+    wells: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
         """Compare the arrivals of both."""
@@ -127,37 +118,33 @@ class ReceivedBefore(Check):
             begun = _begun(case, arrivals(case, well, then), then)
             if begun is None:
                 continue
-            for visit in arrivals(case, well, first):
-                if visit.index <= begun.index:
-                    continue
-                what = " or ".join(case.family.roles[role].title for role in self.then)
-                source = next(
-                    (s for o, _, s, _ in delivered(visit) if case.has(o, first)), visit.well
-                )
+            late = [one for one in arrivals(case, well, first) if one.visit.index > begun.index]
+            for one in late[:1]:
+                what = case.titles(self.then)
+                title, line = case.title(one.source), one.visit.line
                 yield Violation(
                     f"{place(well)} receives {what} {at(begun.line)}, before the "
-                    f"{case.title(source)} that is added {at(visit.line)}.",
+                    f"{title} that is added {at(line)}.",
                     (
                         Site(begun.line, well.ref, f"received {what}"),
-                        Site(visit.line, well.ref, f"received {case.title(source)} after it"),
+                        Site(line, well.ref, f"received {title} after it"),
                     ),
                     well,
-                    (begun.line, visit.line),
+                    (begun.line, line),
                 )
-                break
 
 
-def _begun(case: Case, came: Sequence[Visit], liquid: RoleSet) -> Visit | None:
+def _begun(case: Case, came: Sequence[Transfer], liquid: RoleSet) -> Visit | None:
     """When the last of several liquids of these roles first came: of two reagents one develops
     nothing without the other.
     """
-    first: dict[Well | None, Visit] = {}
-    for visit in came:
-        for origin, volume, source, _ in delivered(visit):
-            if volume > 0 and case.has(origin, liquid):
-                first.setdefault(origin, visit)
-            elif volume > 0 and case.has(source, liquid):
-                first.setdefault(source, visit)
+    first: dict[Well, Visit] = {}
+    for one in came:
+        for origin in one.liquid:
+            for holder in (origin, one.source):
+                if case.has(holder, liquid):
+                    first.setdefault(holder, one.visit)
+                    break
     return max(first.values(), key=lambda visit: visit.index, default=None)
 
 
@@ -169,46 +156,41 @@ class RisingOrder(Check):
         liquid: Roles of the liquids.
     """
 
-    name: ClassVar[str] = "rising_order"
-    liquid: tuple[str, ...] = role_field()
+    liquid: tuple[str, ...] = role_names(required=True)
 
     def find(self, case: Case) -> Iterator[Result]:
         """Follow each tip session's deliveries."""
         liquid = frozenset(self.liquid)
-        last: dict[tuple[int, int], tuple[Well, float | None, Visit]] = {}
-        doubted = False
-        done: set[tuple[int, int, int]] = set()
-        for visit in case.trace.visits:
-            for source, volume, _, draw_line in visit.parts:
-                if source is None or source is visit.well or volume <= 0:
-                    continue
-                if not case.has(source, liquid) or case.has(visit.well, liquid):
-                    continue  # where the one is diluted to make the other, nothing is dispensed
-                key = (visit.tip.number, visit.session)
-                level = case.level(source)
-                before = last.get(key)
-                if before is not None and before[0] is not source:
-                    if before[1] is None or level is None or not comparable(before[1], level):
-                        if not doubted:
-                            doubted = True
-                            yield Doubt(
-                                f"one tip dispenses {place(before[0])} and then "
-                                f"{place(source)}, and nothing says which is more concentrated",
-                                (before[0], source),
-                            )
-                    elif level < before[1] and (*key, id(source)) not in done:
-                        done.add((*key, id(source)))
-                        yield Violation(
-                            f"The tip that dispensed {case.title(before[0])} from "
-                            f"{place(before[0])} {at(before[2].line)} goes on with the less "
-                            f"concentrated one from {place(source)} into {place(visit.well)} "
-                            f"{at(visit.line)}.",
-                            (
-                                Site(before[2].line, before[0].ref, "dispensed the higher one"),
-                                Site(draw_line, source.ref, "drew the lower one"),
-                                Site(visit.line, visit.well.ref, "dispensed the lower one after"),
-                            ),
-                            visit.well,
-                            (before[2].line, visit.line),
-                        )
-                last[key] = (source, level, visit)
+        last: dict[tuple[int, int], Transfer] = {}
+        done: set[tuple[int, int, Well]] = set()
+        for one in case.trace.transfers:
+            source, visit = one.source, one.visit
+            if not case.has(source, liquid) or case.has(one.well, liquid):
+                continue  # where the one is diluted to make the other, nothing is dispensed
+            key = (visit.tip.number, visit.session)
+            before = last.get(key)
+            last[key] = one
+            if before is None or before.source is source:
+                continue
+            level, level_before = case.level(source), case.level(before.source)
+            if level_before is None or level is None or not comparable(level_before, level):
+                yield Doubt(
+                    f"one tip dispenses {place(before.source)} and then "
+                    f"{place(source)}, and nothing says which is more concentrated",
+                    (before.source, source),
+                )
+            elif level < level_before and (*key, source) not in done:
+                done.add((*key, source))
+                yield Violation(
+                    f"The tip that dispensed {case.title(before.source)} from "
+                    f"{place(before.source)} {at(before.visit.line)} goes on with the less "
+                    f"concentrated one from {place(source)} into {place(one.well)} "
+                    f"{at(visit.line)}.",
+                    (
+                        Site(before.visit.line, before.source.ref, "dispensed the higher one"),
+                        Site(one.drawn, source.ref, "drew the lower one"),
+                        Site(visit.line, one.well.ref, "dispensed the lower one after"),
+                    ),
+                    one.well,
+                    (before.visit.line, visit.line),
+                )

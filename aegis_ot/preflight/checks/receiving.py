@@ -4,41 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
 
-from ...vocabulary import Site
+from ...vocabulary import Site, WellRef
 from ..evidence import Kind
-from ..trace import Well
-from .case import Case, RoleSet, delivered
-from .check import Check, Doubt, Result, Violation, at, place, role_field
-from .received import filled, received
+from ..rules import role_names
+from ..trace import EMPTY_UL, Transfer, Usage, Well
+from .case import Case, RoleSet
+from .check import Check, Doubt, Result, Violation, at, place
+from .received import filled, is_made_of, received
 
 
-def _unknown_source(case: Case, well: Well, served: set[tuple[str, str]]) -> Well | None:
+def _unknown_source(case: Case, well: Well, served: set[WellRef]) -> Well | None:
     """A source without a role that serves this well and others that lack the liquid too.
 
     It may well hold what is missing.
     """
-    for visit in case.trace.deliveries(well):
-        for _, _, source, _ in delivered(visit):
-            if case.of(source):
-                continue
-            others = [
-                other
-                for other in case.destinations.get(source, {})
-                if (other.ref.labware, other.ref.name) not in served
-            ]
-            if len(others) > 1:
-                return source
+    for source in (one.source for one in well.received if not case.of(one.source)):
+        if sum(other.ref not in served for other in case.destinations[source]) > 1:
+            return source
     return None
 
 
 def _last_line(case: Case, well: Well) -> int | None:
     """The line that last brought something to the labware of a well that nothing ever enters."""
     lines = [
-        visit.line
-        for visit in case.trace.visits
-        if visit.well.ref.labware == well.ref.labware and visit.parts
+        one.visit.line for one in case.trace.transfers if one.well.ref.labware == well.ref.labware
     ]
     return lines[-1] if lines else None
 
@@ -51,7 +41,7 @@ def _never_received(
     Args:
         given: The line that draws the liquid for others, from where, and what it came from.
     """
-    total, line = filled(case, well)
+    total, line = filled(well)
     message = f"The {case.title(well)} {place(well)} never receives {title}" + (
         f", though it receives {total:.4g} µL {at(line)}." if total > 0 else "."
     )
@@ -77,16 +67,15 @@ class Receives(Check):
         always: Roles whose wells are judged even if the run never touches them.
     """
 
-    name: ClassVar[str] = "receives"
-    wells: tuple[str, ...] = role_field()
-    liquid: tuple[str, ...] = role_field()
-    always: tuple[str, ...] = role_field(())
+    wells: tuple[str, ...] = role_names(required=True)
+    liquid: tuple[str, ...] = role_names(required=True)
+    always: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
         """Look at each well that should receive it."""
         liquid = frozenset(self.liquid)
         served = {
-            (well.ref.labware, well.ref.name)
+            well.ref
             for well in case.trace.wells.values()
             if received(case, well, liquid)[0] > 0 or case.has(well, liquid)
         }
@@ -98,40 +87,36 @@ class Receives(Check):
         else:
             judged = list(self._judged(case))
         if not plates or not judged:
-            names = ", ".join(case.family.roles[role].title for role in self.liquid)
+            names = case.titles(self.liquid, ", ")
             yield Doubt(f"no well is seen to receive {names}; it may be added by hand")
             return
-        reported: set[tuple[str, str]] = set()
+        reported: set[WellRef] = set()
         given = [
-            (visit.line, source, origin)
-            for visit in case.trace.visits
-            for origin, _, source, _ in delivered(visit)
+            (one.visit.line, one.source, origin)
+            for one in case.trace.transfers
+            for origin in one.liquid
             if case.has(origin, liquid)
         ]
         # The best evidence for what the liquid is: a comment alone makes no error.
         given.sort(key=lambda one: case.roles.is_doubtful(one[2].ref))
-        title = " or ".join(case.family.roles[role].title for role in self.liquid)
+        title = case.titles(self.liquid)
         for well in judged:
-            place_key = (well.ref.labware, well.ref.name)
-            if place_key in served or place_key in reported:
-                continue
-            if well.ref.labware not in plates:
+            if well.ref in served | reported or well.ref.labware not in plates:
                 continue
             if reason := self._why_not_judged(case, well, served):
                 yield Doubt(reason)
                 continue
-            reported.add(place_key)
+            reported.add(well.ref)
             yield _never_received(case, well, title, given[0] if given else None)
 
-    def _why_not_judged(self, case: Case, well: Well, served: set[tuple[str, str]]) -> str:
+    def _why_not_judged(self, case: Case, well: Well, served: set[WellRef]) -> str:
         """Why nobody can say whether a well that lacks the liquid should have it, or ``""``."""
         if unknown := _unknown_source(case, well, served):
             return (
                 f"{place(well)} receives something from {place(unknown)}, and nothing says "
                 "what stands there"
             )
-        sources = case.sources_of(well)
-        if sources and all(case.has(source, frozenset(self.wells)) for source in sources):
+        if is_made_of(case, well, frozenset(self.wells)):
             return f"{place(well)} is filled from wells like it, at a later stage perhaps"
         if case.roles.is_named_by_labware(well.ref):
             return f"nothing but its plate's name says what {place(well)} is for"
@@ -144,14 +129,10 @@ class Receives(Check):
         """
         wells = frozenset(self.wells)
         return {
-            visit.well.ref.labware
-            for visit in case.trace.visits
-            for origin, volume, source, _ in delivered(visit)
-            if volume > 0
-            and (
-                case.has(source, liquid)
-                or (case.has(origin, liquid) and not case.has(source, wells))
-            )
+            one.well.ref.labware
+            for one in case.trace.transfers
+            if case.has(one.source, liquid)
+            or (case.brings(one, liquid) and not case.has(one.source, wells))
         }
 
     @staticmethod
@@ -169,10 +150,8 @@ class Receives(Check):
         for well in case.trace.wells.values():
             if not case.has(well, wanted):
                 continue
-            usage = case.usage.get(well.ref)
-            if usage is not None and usage.first_drawn:
-                continue
-            if (usage is not None and usage.received) or case.has(well, always):
+            usage = case.usage.get(well.ref, Usage())
+            if not usage.first_drawn and (usage.received or case.has(well, always)):
                 yield well
         visited = {well.ref for well in case.trace.wells.values()}
         drawn = {ref.labware for ref, usage in case.usage.items() if usage.first_drawn}
@@ -181,3 +160,67 @@ class Receives(Check):
                 continue  # among sources: a tube that this run leaves out
             if ref not in visited and not always.isdisjoint(case.roles.of(ref)):
                 yield Well(ref)
+
+
+@dataclass(frozen=True)
+class NeverReceives(Check):
+    """No measured volume of ``liquid`` is dispensed into a well of ``wells``.
+
+    Where nothing says what such a well is given, that may be ``liquid``, too, if it stands in
+    the place of that in some other wells.
+
+    Attributes:
+        wells: Roles of the wells.
+        liquid: Roles of the liquid.
+    """
+
+    wells: tuple[str, ...] = role_names(required=True)
+    liquid: tuple[str, ...] = role_names(required=True)
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Look at what each such well is given."""
+        wanted, liquid = frozenset(self.wells), frozenset(self.liquid)
+        for well in case.wells(wanted):
+            seen: set[Well] = set()
+            for one in well.received:
+                for origin, share in one.liquid.items():
+                    if origin in seen or one.volume * share <= EMPTY_UL:
+                        continue
+                    if not case.of(origin) and self._may_be(case, origin, well, liquid):
+                        seen.add(origin)
+                        yield Doubt(
+                            f"nothing says what {place(origin)} holds, which goes into the "
+                            f"{case.title(well)} {place(well)} as well"
+                        )
+                    elif case.has(origin, liquid) and not case.has(origin, wanted):
+                        seen.add(origin)
+                        yield _given(case, one, origin)
+
+    def _may_be(self, case: Case, source: Well, well: Well, liquid: RoleSet) -> bool:
+        """Whether some other wells of a plate, but not most, get a source and no ``liquid``."""
+        wanted = frozenset(self.wells)
+        others = {
+            other: origins
+            for other, origins in case.meant.items()
+            if other.ref.labware == well.ref.labware and not case.has(other, wanted)
+        }
+        served = [origins for other, origins in others.items() if source in origins]
+        in_its_place = any(not any(case.has(o, liquid) for o in origins) for origins in served)
+        return in_its_place and 2 * len(served) < len(others)
+
+
+def _given(case: Case, one: Transfer, origin: Well) -> Violation:
+    """A measured volume of a liquid in a well that must not have it."""
+    what, title = case.title(origin), case.title(one.well)
+    line = one.visit.line
+    return Violation(
+        f"{one.visit.volume:.4g} µL drawn from {what} in {place(one.source)} {at(one.drawn)} "
+        f"are dispensed into the {title} {place(one.well)} {at(line)}.",
+        (
+            Site(one.drawn, one.source.ref, f"drew {what}"),
+            Site(line, one.well.ref, f"gave it to the {title}"),
+        ),
+        one.well,
+        (line, one.drawn, what, title),
+        (origin, one.well),
+    )

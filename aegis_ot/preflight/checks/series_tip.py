@@ -4,55 +4,46 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
 
 from ...vocabulary import Site
-from ..trace import Transfer, Visit, Well
+from ..trace import Tip, Transfer, Visit, Well
 from .case import Case
-from .check import Check, Doubt, Result, Violation, at, place
-from .dilution_steps import NO_SERIES, is_dilution, is_mixed
+from .check import Doubt, Result, Violation, at, place
+from .dilution_steps import SeriesCheck, dilutions, is_mixed
 from .series import Series
 
 _MIXED = "Each step is mixed before the next, which rinses the tip: common practice, not exact."
 
 
 @dataclass(frozen=True)
-class SeriesTip(Check):
+class SeriesTip(SeriesCheck):
     """A tip that has touched a more concentrated well touches no later well of the series.
 
     The two wells of the first step that it makes are excepted.
     """
 
-    name: ClassVar[str] = "series_tip"
-
-    def find(self, case: Case) -> Iterator[Result]:
-        """Follow each tip along each series."""
-        if not case.series:
-            yield Doubt(NO_SERIES)
-        for series in case.series:
-            if not series.entered:
-                yield Doubt("nothing says which end of the series holds the stock")
-            yield from self._along(case, series)
-
-    def _along(self, case: Case, series: Series) -> Iterator[Result]:
+    def along(self, case: Case, series: Series) -> Iterator[Result]:
+        """Follow each tip along the series."""
+        if not series.entered:
+            yield Doubt("nothing says which end of the series holds the stock")
         by_tip: dict[int, list[Visit]] = {}
         for well in series.wells:
             for visit in well.visits:
                 if visit.contact:
                     by_tip.setdefault(visit.tip.number, []).append(visit)
-        dilutions = [step for step in series.steps if is_dilution(case, step)]
+        steps = dilutions(case, series)
         feeding = {link.source for link in series.links}
-        goes_on = [step for step in dilutions if step.well in feeding]  # the last well is SD-1's
-        mixed = all(is_mixed(case, step) for step in goes_on or dilutions)
+        goes_on = [step for step in steps if step.well in feeding]  # the last well is SD-1's
+        mixed = all(is_mixed(case, step) for step in goes_on or steps)
         for visits in by_tip.values():
             visits.sort(key=lambda visit: visit.index)
-            yield from self._one_tip(series, dilutions, visits, _MIXED if mixed else "")
+            yield from self._one_tip(series, steps, visits, _MIXED if mixed else "")
 
     def _one_tip(
-        self, series: Series, dilutions: list[Transfer], visits: list[Visit], warning: str
+        self, series: Series, steps: list[Transfer], visits: list[Visit], warning: str
     ) -> Iterator[Result]:
         tip = visits[0].tip
-        first = next((step for step in dilutions if _made_by(step, tip.number)), None)
+        first = next((step for step in steps if _is_made_by(step, tip)), None)
         excepted = {first.source, first.well} if first else set()
         strongest: tuple[int, Visit] | None = None
         reported: set[Well] = set()
@@ -84,8 +75,5 @@ class SeriesTip(Check):
                 strongest = (place_here, visit)
 
 
-def _made_by(step: Transfer, tip: int) -> bool:
-    return any(
-        visit.tip.number == tip and any(part[0] is step.source for part in visit.parts)
-        for visit in step.well.visits
-    )
+def _is_made_by(step: Transfer, tip: Tip) -> bool:
+    return any(one.source is step.source and one.visit.tip is tip for one in step.well.received)

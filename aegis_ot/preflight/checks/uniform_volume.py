@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 from ...vocabulary import Site
-from ..rules import AtLeast
+from ..rules import AtLeast, role_names
 from ..trace import Well
 from .case import Case, RoleSet
-from .check import Check, Result, Violation, at, place, role_field
-from .received import came_from, filled, received
+from .check import Check, Result, Violation, at, place
+from .received import came_from, filled, is_made_of, received
 
 Member = tuple[Well, float, float]
 """A well, the µL of the liquid that it received, and those that it received in all."""
@@ -34,9 +34,8 @@ class UniformVolume(Check):
         tolerance: Share of the usual volume by which a well may differ.
     """
 
-    name: ClassVar[str] = "uniform_volume"
-    wells: tuple[str, ...] = role_field()
-    liquid: tuple[str, ...] = role_field()
+    wells: tuple[str, ...] = role_names(required=True)
+    liquid: tuple[str, ...] = role_names(required=True)
     tolerance: Annotated[float, AtLeast(0)] = 0.01
 
     def find(self, case: Case) -> Iterator[Result]:
@@ -44,17 +43,13 @@ class UniformVolume(Check):
         wells, liquid = frozenset(self.wells), frozenset(self.liquid)
         groups: dict[tuple[str, ...], list[Member]] = {}
         for well in case.wells(wells):
-            usage = case.usage.get(well.ref)
-            if well.prefilled or (usage is not None and usage.first_drawn):
+            if well.prefilled or case.is_drawn_first(well):
                 continue
-            if self._is_shared_out(case, well, wells):
+            if self._is_shared_out(case, well, wells) or is_made_of(case, well, wells):
                 continue
-            sources = case.sources_of(well)
-            if sources and all(case.has(source, wells) for source in sources):
-                continue  # a product that goes on to a gel
             got, _ = received(case, well, liquid)
             if got > 0:
-                total, _ = filled(case, well)
+                total, _ = filled(well)
                 groups.setdefault(self._assay(case, well, liquid), []).append((well, got, total))
         for members in groups.values():
             yield from self._compare(case, members)
@@ -75,13 +70,13 @@ class UniformVolume(Check):
         for tube in came_from(case, well, liquid):
             assigned = case.roles.by_well.get(tube.ref)
             kind = assigned.text if assigned else ""
-            names.add(f"{kind or tube.ref.address}")
+            names.add(kind or tube.ref.address)
         return (well.ref.labware, str(well.generation), *sorted(names))
 
     def _compare(self, case: Case, members: list[Member]) -> Iterator[Result]:
         if len(members) < 2:
             return
-        title = " or ".join(case.family.roles[role].title for role in self.liquid)
+        title = case.titles(self.liquid)
         usual_got = _usual([got for _, got, _ in members])
         usual_total = _usual([total for _, _, total in members])
         # Where a good part of the wells ends elsewhere, several kinds of reactions are meant.
@@ -95,7 +90,7 @@ class UniformVolume(Check):
                 line = received(case, well, frozenset(self.liquid))[1]
             elif self._differs(total, usual_total) and few:
                 what = f"ends at {total:.4g} µL; the others end at {usual_total:.4g} µL"
-                line = filled(case, well)[1]
+                line = filled(well)[1]
             else:
                 continue
             yield Violation(

@@ -25,7 +25,7 @@ def unnamed_contact(case: Case, carriers: Set[Well], into: RoleSet) -> Doubt | N
         into: Roles of the wells that it must not be carried into.
     """
     unnamed = [well for well in case.trace.wells.values() if not case.of(well)]
-    drawn = {well for well in unnamed if _is_drawn_first(case, well)}
+    drawn = {well for well in unnamed if case.is_drawn_first(well)}
     stocks: set[Well] = set()
     if any(case.family.roles[role].side != "destination" for role in into):
         stocks = {well for well in unnamed if len(case.destinations.get(well, ())) > 1}
@@ -49,11 +49,6 @@ def unnamed_contact(case: Case, carriers: Set[Well], into: RoleSet) -> Doubt | N
                     f"{case.title(visit.well)} {place(visit.well)} {at(visit.line)}"
                 )
     return None
-
-
-def _is_drawn_first(case: Case, well: Well) -> bool:
-    used = case.usage.get(well.ref)
-    return used is not None and used.first_drawn
 
 
 def _unnamed_on_tip(case: Case, visit: Visit, drawn: Set[Well]) -> Well | None:

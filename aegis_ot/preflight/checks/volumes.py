@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
 
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
@@ -31,8 +30,6 @@ class VolumeBookkeeping(Check):
     which so much is drawn that someone must have filled them by hand. What stays below the brim,
     a draw that over-reaches only to empty a well, and one that lacks next to nothing is a warning.
     """
-
-    name: ClassVar[str] = "volume_bookkeeping"
 
     def find(self, case: Case) -> Iterator[Result]:
         """Report each kind of imbalance once in each well: the first that is sure, or the first."""
@@ -103,7 +100,7 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
         given.well
         for given in case.by_tip[visit.tip]
         if given.index > visit.index
-        if given.session == visit.session and any(part[0] is well for part in given.parts)
+        if given.session == visit.session and any(one.source is well for one in given.brought)
     }
     if all(_is_waste(case, one) for one in fed):
         return "What is drawn goes to the waste."
@@ -124,7 +121,7 @@ def _is_waste(case: Case, well: Well) -> bool:
 
 def _is_filled_again(case: Case, visit: Visit) -> bool:
     """Whether a well gets one liquid more often than most wells beside it do."""
-    for source in {part[0] for part in visit.parts if part[0] is not None}:
+    for source in {one.source for one in visit.brought}:
         others = sorted(
             len(case.straight(source, other))
             for other in case.destinations.get(source, ())
@@ -146,7 +143,7 @@ def _violation(imbalance: Imbalance, warning: str) -> Violation:
             f"{volume} are drawn from {place(well)} {at(visit.line)}, which holds {limit} then."
         )
         sites = [Site(visit.line, well.ref, f"drew {volume} of {limit}")]
-    lines = [v.line for v in well.visits if v.index < visit.index and v.parts]
+    lines = [v.line for v in well.visits if v.index < visit.index and v.brought]
     if lines and lines[-1] != visit.line:
         sites.insert(0, Site(lines[-1], well.ref, "last filled here"))
     cause = (visit.line, imbalance.overfilled)

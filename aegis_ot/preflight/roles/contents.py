@@ -22,11 +22,11 @@ def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
         for ref, assigned in roles.by_well.items()
         if specs[assigned.role].implies_contents
     }
-    for source, well, _ in trace.feedings() if found else ():
-        if well.ref in found:
-            theirs = roles.of(source.ref)
-            if not theirs or not found[well.ref].isdisjoint(theirs):
-                del found[well.ref]
+    for one in trace.transfers if found else ():
+        if one.well.ref in found:
+            theirs = roles.of(one.source.ref)
+            if not theirs or not found[one.well.ref].isdisjoint(theirs):
+                del found[one.well.ref]
     return set(found)
 
 
@@ -38,12 +38,12 @@ def settle_diluent(roles: Roles, trace: Trace) -> None:
     otherwise = frozenset(spec.diluent_else)
     filled: dict[str, set[WellRef]] = {}
     sources: dict[str, set[WellRef]] = {}
-    for source, well, _ in trace.feedings():
-        assigned = roles.by_well.get(source.ref)
-        if assigned is not None and roles.has(source.ref, otherwise):
+    for source, wells in trace.served().items():
+        assigned = roles.by_well.get(source)
+        if assigned is not None and roles.has(source, otherwise):
             text = _without_number(assigned.text)
-            filled.setdefault(text, set()).add(well.ref)
-            sources.setdefault(text, set()).add(source.ref)
+            filled.setdefault(text, set()).update(wells)
+            sources.setdefault(text, set()).add(source)
     if not filled:  # named, and never used: then something else is used in its place
         for ref, assigned in roles.by_well.items():
             if assigned.role in otherwise:
@@ -70,12 +70,13 @@ def _settle_by_use(roles: Roles, trace: Trace, diluent: str) -> None:
 
     It goes into the wells before they are linked, all but the first and perhaps a few others.
     """
-    links = [link for group in chains_of(list(links_of(trace))) for link in group]
+    links = [link for group in chains_of(links_of(trace)) for link in group]
     targets, sources = {link.well for link in links}, {link.source for link in links}
     filled: dict[WellRef, set[WellRef]] = {}
-    for source, well, visit in trace.feedings():
-        if well in targets and source not in sources | targets and visit.empty_before:
-            filled.setdefault(source.ref, set()).add(well.ref)
+    for one in trace.transfers:
+        beside = one.source not in sources | targets
+        if one.well in targets and beside and one.visit.empty_before:
+            filled.setdefault(one.source.ref, set()).add(one.well.ref)
     best = [ref for ref, wells in filled.items() if 2 * len(wells) > len(targets)]
     if len(best) == 1 and len(filled[best[0]]) >= _FEWEST_FILLED and not roles.of(best[0]):
         roles.derived.setdefault(best[0], set()).update(roles.closure(diluent))

@@ -132,29 +132,26 @@ def _derive_receiving(
         unlike = assigned is not None and assigned.role not in roles.closure(name)
         if assigned is not None and unlike and not assigned.whole:
             continue
-        if unlike and _receives_what_it_is_named_for(roles, well, trace):
+        if unlike and _receives_what_it_is_named_for(roles, well):
             continue
-        if _receives(roles, well, trace, wanted, frozenset({name})):
+        if _receives(roles, well, wanted, frozenset({name})):
             if unlike:
                 del roles.by_well[well.ref]  # calibrators stand on the "CSF plate" as well
             roles.derived.setdefault(well.ref, set()).update(roles.closure(name))
 
 
-def _receives_what_it_is_named_for(roles: Roles, well: Well, trace: Trace) -> bool:
+def _receives_what_it_is_named_for(roles: Roles, well: Well) -> bool:
     wanted = frozenset(roles.family.roles[roles.by_well[well.ref].role].receives)
-    return not wanted or _receives(roles, well, trace, wanted, frozenset())
+    return not wanted or _receives(roles, well, wanted, frozenset())
 
 
-def _receives(
-    roles: Roles, well: Well, trace: Trace, wanted: frozenset[str], made: frozenset[str]
-) -> bool:
+def _receives(roles: Roles, well: Well, wanted: frozenset[str], made: frozenset[str]) -> bool:
     """Whether a liquid of these roles comes into a well, and not from one that it made already: a
     product that goes on to a gel makes no reaction there.
     """
     return any(
         roles.has(origin.ref, wanted)
-        for visit in trace.deliveries(well)
-        for source, _, liquid, _ in visit.parts
-        if source is not None and not roles.has(source.ref, made)
-        for origin in liquid
+        for one in well.received
+        if not roles.has(one.source.ref, made)
+        for origin in one.liquid
     )

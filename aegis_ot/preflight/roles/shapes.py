@@ -25,7 +25,7 @@ def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
     """The shapes that a run shows: how clearly (1 for three wells, 2 for six) and in words."""
     fed, feeds = _ways(trace)
     found: dict[str, tuple[float, str]] = {}
-    chain = _longest(chains_of(list(links_of(trace))))
+    chain = _longest(chains_of(links_of(trace)))
     if chain >= 2:
         found["chain"] = (_clearness(chain), f"a chain of {chain} transfers from well to well")
     pooled = _pooled(fed, feeds)
@@ -51,12 +51,10 @@ def _ways(trace: Trace) -> tuple[dict[WellRef, dict[WellRef, float]], dict[WellR
     """What each well is given of which, and which wells each one feeds."""
     fed: dict[WellRef, dict[WellRef, float]] = {}
     feeds: dict[WellRef, set[WellRef]] = {}
-    for visit in trace.visits:
-        for source, volume, _, _ in visit.parts:
-            if source is not None and source is not visit.well and volume > 0:
-                given = fed.setdefault(visit.well.ref, {})
-                given[source.ref] = given.get(source.ref, 0.0) + volume
-                feeds.setdefault(source.ref, set()).add(visit.well.ref)
+    for one in trace.transfers:
+        given = fed.setdefault(one.well.ref, {})
+        given[one.source.ref] = given.get(one.source.ref, 0.0) + one.volume
+        feeds.setdefault(one.source.ref, set()).add(one.well.ref)
     return fed, feeds
 
 

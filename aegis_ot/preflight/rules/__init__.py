@@ -19,6 +19,7 @@ from .specs import (
     SeriesSpec,
     ShapeSignal,
     Signal,
+    role_names,
 )
 
 __all__ = [
@@ -42,4 +43,5 @@ __all__ = [
     "parse_json",
     "public_fields",
     "read_dataclass",
+    "role_names",
 ]

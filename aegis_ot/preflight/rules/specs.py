@@ -7,16 +7,17 @@ names checks (:mod:`aegis_ot.preflight.checks`) and their parameters; it holds n
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import MISSING, dataclass, field
 from typing import Annotated, Any, Literal
 
 from .common import SCHEMA_VERSION
 from .limits import Name, NotEmpty, Word
 
 
-def role_names() -> Any:
+def role_names(required: bool = False) -> Any:
     """A field that lists roles of the family; left out, none. What it names must exist."""
-    return field(default=(), metadata={"roles": True})
+    default = MISSING if required else ()
+    return field(default=default, metadata={"roles": True})
 
 
 @dataclass(frozen=True)
@@ -135,9 +136,9 @@ class SeriesSpec:
             the wells are mostly filled from.
     """
 
-    wells: tuple[str, ...] = field(metadata={"roles": True})
-    stock: tuple[str, ...] = field(metadata={"roles": True})
-    diluent: tuple[str, ...] = field(metadata={"roles": True})
+    wells: tuple[str, ...] = role_names(required=True)
+    stock: tuple[str, ...] = role_names(required=True)
+    diluent: tuple[str, ...] = role_names(required=True)
     diluent_else: tuple[str, ...] = role_names()
 
 

@@ -4,9 +4,9 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 """
 
 from .building import build_trace
-from .chains import Transfer, chains_of, links_of
+from .chains import chains_of, links_of
 from .geometry import Contact, Geometry
-from .model import Composition, Layer, Met, Tip, Visit, Well
+from .model import EMPTY_UL, Composition, Met, Tip, Transfer, Visit, Well
 from .pauses import Intervention, Pauses
 from .plates import Plates, row_column
 from .table import places, trace_table
@@ -15,12 +15,12 @@ from .trace import Imbalance, PlaceKey, Trace
 from .usage import Sides, Usage, in_trough, usage_of
 
 __all__ = [
+    "EMPTY_UL",
     "Composition",
     "Contact",
     "Geometry",
     "Imbalance",
     "Intervention",
-    "Layer",
     "Met",
     "Pauses",
     "PlaceKey",

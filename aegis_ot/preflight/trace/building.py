@@ -12,7 +12,7 @@ from ...instrumentation import Event, EventKind, LabwareInfo, OperationKind
 from ...vocabulary import WellRef
 from ..rehearsal import Record, Step
 from .geometry import CLEARANCE_MM, Contact
-from .model import Layer, Tip, Visit, Well
+from .model import Part, Tip, Transfer, Visit, Well
 from .pauses import Pauses
 from .plates import Plates
 from .tip_racks import TipBox
@@ -219,14 +219,17 @@ class _Builder:
         tip.layers.append((well, step.volume, liquid, step.line))
         self._last[tip] = visit
 
-    def _give(self, step: Step, tip: Tip, well: Well, parts: list[Layer]) -> None:
+    def _give(self, step: Step, tip: Tip, well: Well, parts: list[Part]) -> None:
         visit = self._visit(step, tip, well)
-        visit.parts = parts
-        for _, volume, liquid, _ in parts:
+        for source, volume, liquid, line in parts:
+            if source is not well:
+                visit.brought.append(Transfer(source, well, visit, volume, liquid, line))
             visit.volume += volume
             unsure = min(tip.unsure, volume)
             tip.unsure -= unsure
             well.add(volume, liquid, unsure)
+        well.received += visit.brought
+        self._trace.transfers += visit.brought
         if step.from_top is not None and step.from_top > _FALLS_MM:
             well.fallen += visit.volume
         if well.least > well.capacity + _slack(well.capacity) and visit.volume > 0:
@@ -247,7 +250,7 @@ class _Builder:
         drawn = self._last.get(tip)
         if drawn is None or visit.volume <= 0:
             return
-        if any(part[0] is not visit.well for part in visit.parts):
+        if visit.brought:
             del self._last[tip]
             return
         if drawn.well is not visit.well or visit.volume < drawn.volume * _MOST:

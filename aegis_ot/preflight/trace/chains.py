@@ -2,48 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
-from .model import Visit, Well
+from .model import Transfer, Well
 from .trace import Trace
 
 
-@dataclass(frozen=True)
-class Transfer:
-    """One transfer into a well of the series.
-
-    Attributes:
-        source: Well drawn from.
-        well: Well that is diluted into.
-        visit: The last delivery of this transfer.
-        drawn: Line of the draw.
-        from_stock: Whether it brings stock rather than the well before.
-    """
-
-    source: Well
-    well: Well
-    visit: Visit
-    drawn: int | None
-    from_stock: bool
-
-
-def links_of(trace: Trace) -> Iterable[Transfer]:
-    """Transfers between two wells of one labware, repeated ones joined."""
-    open_: dict[tuple[int, int], Transfer] = {}
-    for visit in trace.visits:
-        if visit.mixing:
-            continue
-        for source, volume, _, line in visit.parts:
-            if source is None or source is visit.well or volume <= 0:
-                continue
-            if (
-                source.ref.labware != visit.well.ref.labware
-                or source.generation != visit.well.generation
-            ):
-                continue
-            open_[id(source), id(visit.well)] = Transfer(source, visit.well, visit, line, False)
-    return list(open_.values())
+def links_of(trace: Trace) -> list[Transfer]:
+    """Transfers between two wells of one plate; of repeated ones the last."""
+    links: dict[tuple[Well, Well], Transfer] = {}
+    for one in trace.transfers:
+        if not one.visit.mixing and one.source.plate == one.well.plate:
+            links[one.source, one.well] = one
+    return list(links.values())
 
 
 def chains_of(links: Sequence[Transfer]) -> list[list[Transfer]]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
@@ -15,6 +16,9 @@ Composition = Mapping["Well", float]
 
 Layer = tuple["Well | None", float, Composition, "int | None"]
 """Liquid in a tip: well it was drawn from (``None``: air), µL, what it is, source line."""
+
+Part = tuple["Well", float, Composition, "int | None"]
+"""The same of liquid that leaves a tip: no air."""
 
 EMPTY_UL = 1e-6
 
@@ -35,6 +39,7 @@ class Well:
         contents: µL by the well in which that liquid stood before the run (itself included).
         liquids: Names of liquids loaded into it.
         visits: Everything tips did here, in order.
+        received: What came into it from other wells, in order.
         mixes: ``(first index, last index, line)`` of each time it was mixed.
         prefilled: Whether it held liquid before the run.
         fed: Whether the run has put liquid into it.
@@ -55,6 +60,7 @@ class Well:
     contents: dict[Well, float] = field(default_factory=dict)
     liquids: list[str] = field(default_factory=list)
     visits: list[Visit] = field(default_factory=list)
+    received: list[Transfer] = field(default_factory=list)
     mixes: list[tuple[int, int, int | None]] = field(default_factory=list)
     prefilled: bool = False
     fed: bool = False
@@ -70,6 +76,11 @@ class Well:
 
     def __repr__(self) -> str:
         return f"<{self.ref.address}{'*' * self.generation}>"
+
+    @property
+    def plate(self) -> tuple[str, int]:
+        """The physical labware that it is a well of."""
+        return self.ref.labware, self.generation
 
     @property
     def empty(self) -> bool:
@@ -230,19 +241,19 @@ class Tip:
             else:
                 known.wet = min(known.wet, wet)
 
-    def pop(self, volume: float = math.inf) -> list[Layer]:
+    def pop(self, volume: float = math.inf) -> list[Part]:
         """Give off ``volume`` µL: what was drawn last leaves first; air is given off unlisted.
 
         The volume that a protocol commands includes the air it drew.
         """
-        given: list[Layer] = []
+        given: list[Part] = []
         layers = self.layers
         while layers and volume > EMPTY_UL:
             source, held, liquid, line = layers.pop()
             out = held if held <= volume + EMPTY_UL else volume
             if held - out > EMPTY_UL:
                 layers.append((source, held - out, liquid, line))
-            if source is not None:
+            if source is not None and out > 0:
                 given.append((source, out, liquid, line))
             volume -= out
         return given
@@ -261,7 +272,7 @@ class Visit:
         line: Source line.
         lines: Source lines of the whole call stack within the protocol.
         volume: µL of liquid drawn or given, air left out.
-        parts: What was given: liquid by the well it was drawn from.
+        brought: What was given of other wells' liquid.
         contact: How surely the tip met the well's liquid, and so left there what it carries. In
             a well that was empty: how surely what it gives carries along what the tip met before.
         empty_before: Whether the well held nothing just before; then the tip took nothing along.
@@ -278,8 +289,8 @@ class Visit:
     lines: tuple[int, ...] = ()
     mixing: bool = False
     volume: float = 0.0
-    parts: Sequence[Layer] = ()
     contact: Contact = Contact.CLEAR
+    brought: list[Transfer] = field(default_factory=list)
     session: int = field(init=False)
     empty_before: bool = field(init=False)
     carried: int = field(init=False)
@@ -298,3 +309,23 @@ class Visit:
     def touches(self) -> bool:
         """Whether the tip met liquid that stood there before, surely or perhaps."""
         return self.contact is not Contact.CLEAR and not self.empty_before
+
+
+class Transfer(NamedTuple):
+    """Liquid that one delivery brought from one well into another.
+
+    Attributes:
+        source: Well that it was drawn from.
+        well: Well that it came into.
+        visit: The delivery.
+        volume: µL.
+        liquid: What it is.
+        drawn: Source line of the draw.
+    """
+
+    source: Well
+    well: Well
+    visit: Visit
+    volume: float
+    liquid: Composition
+    drawn: int | None

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Set
+from collections.abc import Mapping, Set
 from dataclasses import dataclass, field
 
 from ...instrumentation import LabwareInfo
 from ...vocabulary import WellRef
-from .model import Tip, Visit, Well
+from .model import Tip, Transfer, Visit, Well
 
 PlaceKey = tuple[str, int, str]
 """Labware key, generation of the plate, well name."""
@@ -39,6 +39,7 @@ class Trace:
         wells: Every well that was visited or filled, by place.
         tips: Every tip.
         visits: Every visit, in order.
+        transfers: Every transfer from well to well, in order.
         imbalances: Volumes that do not add up.
         shaken: Index, labware keys (``None``: any) of each time a plate was shaken.
         descriptions: What the run says of a liquid, by the liquid's name.
@@ -48,26 +49,13 @@ class Trace:
     wells: dict[PlaceKey, Well] = field(default_factory=dict)
     tips: list[Tip] = field(default_factory=list)
     visits: list[Visit] = field(default_factory=list)
+    transfers: list[Transfer] = field(default_factory=list)
     imbalances: list[Imbalance] = field(default_factory=list)
     shaken: list[tuple[int, frozenset[str] | None]] = field(default_factory=list)
     descriptions: dict[str, str] = field(default_factory=dict)
     groups: dict[WellRef, tuple[WellRef, ...]] = field(default_factory=dict)
     singles: set[WellRef] = field(default_factory=set)
     _served: dict[bool, dict[WellRef, set[WellRef]]] = field(default_factory=dict)
-
-    def deliveries(self, well: Well) -> Iterator[Visit]:
-        """Visits that brought liquid from elsewhere into ``well``."""
-        for visit in well.visits:
-            if visit.parts and any(part[0] is not well for part in visit.parts):
-                yield visit
-
-    def feedings(self) -> Iterator[tuple[Well, Well, Visit]]:
-        """Every time that liquid of one well came into another: source, destination, visit."""
-        for well in self.wells.values():
-            for visit in self.deliveries(well):
-                for source, _, _, _ in visit.parts:
-                    if source is not None and source is not well:
-                        yield source, well, visit
 
     def served(self, prefilled: bool = False) -> Mapping[WellRef, Set[WellRef]]:
         """For each well the wells that liquid drawn from it came into; asked once all is read.
@@ -77,9 +65,9 @@ class Trace:
         """
         if prefilled not in self._served:
             found = self._served[prefilled] = {}
-            for source, well, _ in self.feedings():
-                if source.prefilled or not prefilled:
-                    found.setdefault(source.ref, set()).add(well.ref)
+            for one in self.transfers:
+                if one.source.prefilled or not prefilled:
+                    found.setdefault(one.source.ref, set()).add(one.well.ref)
         return self._served[prefilled]
 
     def mixed_since(self, well: Well, index: int, before: float) -> bool:

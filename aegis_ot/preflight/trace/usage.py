@@ -44,13 +44,12 @@ def usage_of(trace: Trace) -> dict[WellRef, Usage]:
             usage.first_drawn = well.visits[0].kind is OperationKind.ASPIRATE
     served: dict[WellRef, set[WellRef]] = {}
     at_first: dict[WellRef, set[WellRef]] = {}
-    for visit in trace.visits:
-        for source, volume, _, _ in visit.parts:
-            if source is not None and source is not visit.well and volume > 0:
-                usages[visit.well.ref].received = True
-                served.setdefault(source.ref, set()).add(visit.well.ref)
-                if not usages[source.ref].received:
-                    at_first.setdefault(source.ref, set()).add(visit.well.ref)
+    for one in trace.transfers:
+        source, into = one.source.ref, one.well.ref
+        usages[into].received = True
+        served.setdefault(source, set()).add(into)
+        if not usages[source].received:
+            at_first.setdefault(source, set()).add(into)
     drains = _drains(usages, served, trace)
     for ref, wells in served.items():
         usages[ref].feeds = not wells <= drains

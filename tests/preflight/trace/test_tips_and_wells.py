@@ -196,7 +196,7 @@ def test_repeated_pipetting_in_one_well_is_mixing() -> None:
     trace = bench.trace()
     target = well(trace, "plate:A1")
     assert len(target.mixes) == 1
-    arrival = next(iter(trace.deliveries(target)))
+    arrival = target.received[0].visit
     assert trace.mixed_since(target, arrival.index, float("inf"))
 
 
@@ -298,7 +298,7 @@ def test_mixing_with_the_volume_just_given_is_mixing(cycles: int) -> None:
         bench.give("plate:A1", 50, mixing=True)
     trace = bench.trace()
     target = well(trace, "plate:A1")
-    arrival = next(iter(trace.deliveries(target)))
+    arrival = target.received[0].visit
     assert trace.mixed_since(target, arrival.index, float("inf"))
     assert target.volume == pytest.approx(150)
 
