@@ -9,7 +9,7 @@ from aegis_ot.preflight.checks import Case, Doubt, Violation, make_check
 from aegis_ot.preflight.evidence import Evidence, Kind
 from aegis_ot.preflight.roles import Roles
 from aegis_ot.preflight.roles.roles import Assignment
-from aegis_ot.preflight.trace import Trace, usage_of
+from aegis_ot.preflight.trace import Trace
 from aegis_ot.vocabulary import WellRef
 
 DATABASE = load_database()
@@ -36,7 +36,7 @@ def case_of(
             ref = WellRef(labware, name)
             evidence = Evidence(Kind.GIVEN, role, (ref,), "given", role=role)
             found.by_well[ref] = Assignment(role, (evidence,), (levels or {}).get(place))
-    return Case(trace, found, usage_of(trace), DATABASE.common)
+    return Case(trace, found, DATABASE.common)
 
 
 def broken(case: Case, rule: str) -> list[Violation]:

@@ -12,7 +12,7 @@ from ...vocabulary import WellRef
 from ..roles import Roles
 from ..rules import Common, Family
 from ..source import name_without_level, without_strength
-from ..trace import Met, Tip, Trace, Transfer, Usage, Visit, Well
+from ..trace import Met, Tip, Trace, Transfer, Visit, Well
 from .series import Series, find_series
 
 RoleSet = frozenset[str]
@@ -28,7 +28,6 @@ class Case:
     Attributes:
         trace: What happened.
         roles: What the wells are for.
-        usage: How each well is used.
         common: Words of no family.
         confident: Whether the family is more than a guess.
         waste: Wells that are called waste.
@@ -38,7 +37,6 @@ class Case:
 
     trace: Trace
     roles: Roles
-    usage: Mapping[WellRef, Usage]
     common: Common
     confident: bool = True
     waste: frozenset[WellRef] = frozenset()
@@ -93,7 +91,7 @@ class Case:
 
     def is_drawn_first(self, well: Well) -> bool:
         """Whether the run draws from a well before it puts anything there: a source."""
-        used = self.usage.get(well.ref)
+        used = self.trace.usage.get(well.ref)
         return used is not None and used.first_drawn
 
     @cached_property

@@ -81,7 +81,7 @@ class Receives(Check):
         }
         plates = self._plates(case, liquid)
         if not plates and self._stands_unused(case, liquid):
-            plates = {ref.labware for ref, used in case.usage.items() if used.received}
+            plates = {ref.labware for ref, used in case.trace.usage.items() if used.received}
             always = frozenset(self.always)
             judged = [well for well in self._judged(case) if case.has(well, always)]
         else:
@@ -150,11 +150,11 @@ class Receives(Check):
         for well in case.trace.wells.values():
             if not case.has(well, wanted):
                 continue
-            usage = case.usage.get(well.ref, Usage())
+            usage = case.trace.usage.get(well.ref, Usage())
             if not usage.first_drawn and (usage.received or case.has(well, always)):
                 yield well
         visited = {well.ref for well in case.trace.wells.values()}
-        drawn = {ref.labware for ref, usage in case.usage.items() if usage.first_drawn}
+        drawn = {ref.labware for ref, usage in case.trace.usage.items() if usage.first_drawn}
         for ref in case.roles.by_well:
             if ref.labware in drawn:
                 continue  # among sources: a tube that this run leaves out

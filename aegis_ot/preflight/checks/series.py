@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from ...vocabulary import WellRef
 from ..roles import Roles
-from ..trace import Trace, Transfer, Well, chains_of, links_of
+from ..trace import Trace, Transfer, Well, chains_of
 from .series_links import along_series, is_copying
 from .series_order import best_order, turned_to_fall
 
@@ -57,11 +57,7 @@ class _Finder:
 
     def found(self, waste: Collection[WellRef]) -> list[Series]:
         links, fillers = along_series(
-            [
-                one
-                for one in links_of(self._trace)
-                if self._is_link(one) and one.well.ref not in waste
-            ]
+            [one for one in self._trace.links if self._is_link(one) and one.well.ref not in waste]
         )
         groups = [
             group

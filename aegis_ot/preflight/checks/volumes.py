@@ -115,7 +115,7 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
 
 
 def _is_waste(case: Case, well: Well) -> bool:
-    used = case.usage.get(well.ref)
+    used = case.trace.usage.get(well.ref)
     return well.ref in case.waste or (used is not None and used.drain)
 
 

@@ -8,7 +8,7 @@ from ...vocabulary import Undecided, WellRef
 from ..checks import Case, Doubt
 from ..roles import Roles
 from ..rules import RuleSpec
-from ..trace import Sides, places
+from ..trace import places
 from .reading import Reading
 
 _MOST_SHOWN = 3
@@ -65,10 +65,9 @@ def _offered(role: str, reading: Reading, family: str) -> list[str]:
     roles = next((one for one in reading.roles if one.family.family == family), None)
     if roles is None:
         return []
-    sides = Sides(reading.usage)
     side = roles.family.roles[role].side
     used = (well.ref for well in reading.trace.wells.values() if well.visits)
-    fitting = [ref for ref in dict.fromkeys(used) if side in ("any", sides(ref)[0])]
+    fitting = [ref for ref in dict.fromkeys(used) if side in ("any", reading.trace.sides(ref)[0])]
     general = roles.closure(role) - {role}
     kin = [ref for ref in fitting if _named(roles, ref) in general]
     offered = kin or [ref for ref in fitting if ref not in roles.by_well] or fitting

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
@@ -22,7 +22,7 @@ from ..roles import (
 )
 from ..rules import Common, Database, Family, RuleSpec
 from ..source import SourceFacts, lexicon_of, read_source, tokens
-from ..trace import Pauses, Trace, Usage, build_trace, usage_of
+from ..trace import Pauses, Trace, build_trace
 from .options import Options, check_options
 
 _PLAUSIBLE = 1.0
@@ -39,7 +39,6 @@ class Reading:
         options: How to judge.
         facts: What its text says as Python.
         trace: What it does.
-        usage: How it uses each well.
         evidence: All that speaks for roles.
         families: All families, the likeliest first.
         roles: What the wells are for, in each family that applies.
@@ -52,7 +51,6 @@ class Reading:
     options: Options
     facts: SourceFacts
     trace: Trace
-    usage: Mapping[WellRef, Usage]
     evidence: tuple[Evidence, ...]
     families: tuple[Inference, ...]
     roles: tuple[Roles, ...]
@@ -94,7 +92,6 @@ class Reading:
         return Case(
             self.trace,
             roles,
-            self.usage,
             self.database.common,
             sure,
             self.waste,
@@ -138,12 +135,11 @@ def _read(
     pauses = Pauses(common.pauses)
     trace = build_trace(recording.log, recording.labware, pauses)
     evidence = [*gather(trace, recording.names, facts, options.roles, common), *more]
-    usage = usage_of(trace)
     assigned: dict[str, Roles] = {}
 
     def roles_of(family: Family) -> Roles:
         if family.family not in assigned:
-            assigned[family.family] = assign_roles(family, common, evidence, usage, trace)
+            assigned[family.family] = assign_roles(family, common, evidence, trace)
         return assigned[family.family]
 
     families = infer_families(database, facts, evidence, trace, roles_of, options.assay)
@@ -151,13 +147,12 @@ def _read(
     empty = _said_to_be_empty(evidence, common)
     prefilled = {ref for one in roles for ref in implied_contents(one, trace)} - empty
     # Read again, now that roles say which wells held liquid before the run.
-    prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
-    if prefilled & usage.keys():
+    prefilled -= {ref for ref, used in trace.usage.items() if used.first_drawn or used.prefilled}
+    if prefilled & trace.usage.keys():
         trace = build_trace(recording.log, recording.labware, pauses, prefilled.__contains__)
-        usage = usage_of(trace)
     for one in roles:
         settle_diluent(one, trace)
-        derive(one, trace, usage)
+        derive(one, trace)
     elsewhere = _implied_elsewhere(database, families, roles_of, trace)
     return Reading(
         recording=recording,
@@ -165,7 +160,6 @@ def _read(
         options=options,
         facts=facts,
         trace=trace,
-        usage=usage,
         evidence=tuple(evidence),
         families=tuple(families),
         roles=tuple(roles),

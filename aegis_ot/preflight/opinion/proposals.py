@@ -13,7 +13,6 @@ from ..evidence import Deck, Evidence, Kind
 from ..judging import Reading
 from ..roles import Roles
 from ..source import level_in, source_lines
-from ..trace import Sides
 from .opinion import Citation, RoleProposal
 
 
@@ -50,7 +49,6 @@ class _Verifier:
         self._reading = reading
         self._model = model
         self._deck = Deck(reading.trace, reading.recording.names)
-        self._sides = Sides(reading.usage)
         self._lines = source_lines(reading.recording.text)
         self._taken: dict[WellRef, str] = {}
 
@@ -118,7 +116,7 @@ class _Verifier:
 
     def _check_side(self, roles: Roles, role: str, ref: WellRef) -> None:
         spec = roles.family.roles[role]
-        side, passes_on = self._sides(ref)
+        side, passes_on = self._reading.trace.sides(ref)
         if spec.side in ("any", side) or (passes_on and spec.side == "source"):
             return
         use = {"source": "drawn from", "destination": "filled"}

@@ -7,14 +7,14 @@ unsaid: a well without evidence has no role, and rules that need one are undecid
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from ...vocabulary import WellRef
 from ..evidence import Evidence, Kind
 from ..rules import Common, Family
 from ..source import has_concentration, level_in, name_without_level
-from ..trace import Sides, Trace, Usage
+from ..trace import Trace
 from .naming import RoleNames
 from .roles import Assignment, Roles
 
@@ -32,7 +32,6 @@ def assign_roles(
     family: Family,
     common: Common,
     evidence: Sequence[Evidence],
-    usage: Mapping[WellRef, Usage],
     trace: Trace,
 ) -> Roles:
     """Give each well the role that the strongest evidence names.
@@ -41,18 +40,16 @@ def assign_roles(
         family: Whose roles and words.
         common: Words for levels.
         evidence: All evidence.
-        usage: How the run uses each well.
-        trace: For the columns that multi-channel pipettes reach.
+        trace: For how the run uses each well, and the columns that multi-channel pipettes reach.
     """
     roles = Roles(family)
     names = RoleNames(family, common)
-    sides = Sides(usage)
     candidates: dict[WellRef, list[Candidate]] = {}
     for one in evidence:
         named = names.of(one)
         placed = False
         for ref, level in zip(one.wells, _levels(one, common), strict=True):
-            role = _fitting(named, roles, sides(ref), one)
+            role = _fitting(named, roles, trace.sides(ref), one)
             if role is not None and not (family.roles[role].dosed and level == 0):
                 placed = True
                 worth = _worth(one, names)
@@ -62,10 +59,10 @@ def assign_roles(
             if one.kind is Kind.LIQUID:
                 roles.unnamed.update(one.wells)
     for ref, found in candidates.items():
-        assigned = _chosen(roles, ref, found, is_filled=sides(ref)[0] == "destination")
+        assigned = _chosen(roles, ref, found, is_filled=trace.sides(ref)[0] == "destination")
         if assigned is not None:
             roles.by_well[ref] = assigned
-    _add_dosed(roles, sides, common)
+    _add_dosed(roles, trace, common)
     _spread_over_channels(roles, trace)
     return roles
 
@@ -153,7 +150,7 @@ def _differ(roles: Roles, one: Candidate, other: Candidate) -> bool:
     return one.role not in roles.closure(other.role) and other.role not in roles.closure(one.role)
 
 
-def _add_dosed(roles: Roles, sides: Sides, common: Common) -> None:
+def _add_dosed(roles: Roles, trace: Trace, common: Common) -> None:
     """What is called by nothing but its concentration: "stauro 0.3 uM" beside "stauro 1 uM".
 
     Two supplements with a concentration each are no doses.
@@ -171,7 +168,7 @@ def _add_dosed(roles: Roles, sides: Sides, common: Common) -> None:
     for name, spec in roles.family.roles.items():
         for ref, of_what, one, dose in told if spec.dosed else ():
             several = len(series[ref.labware, of_what]) > 1
-            if several and sides(ref)[0] == spec.side and ref not in roles.by_well:
+            if several and trace.sides(ref)[0] == spec.side and ref not in roles.by_well:
                 roles.by_well[ref] = Assignment(name, (one,), dose)
 
 

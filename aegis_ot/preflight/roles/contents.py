@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...vocabulary import WellRef
-from ..trace import Trace, chains_of, links_of
+from ..trace import Trace, chains_of
 from .roles import Roles
 
 _FEWEST_FILLED = 3
@@ -70,7 +70,7 @@ def _settle_by_use(roles: Roles, trace: Trace, diluent: str) -> None:
 
     It goes into the wells before they are linked, all but the first and perhaps a few others.
     """
-    links = [link for group in chains_of(links_of(trace)) for link in group]
+    links = [link for group in chains_of(trace.links) for link in group]
     targets, sources = {link.well for link in links}, {link.source for link in links}
     filled: dict[WellRef, set[WellRef]] = {}
     for one in trace.transfers:

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 from ...vocabulary import WellRef
 from ..rules import RoleSpec
-from ..trace import Trace, Usage, Well, in_trough
+from ..trace import Trace, Well
 from .roles import Roles
 
 _FEWEST_PAIRS = 3
@@ -17,7 +15,7 @@ _SHARED = 3
 """A liquid that serves as many wells is a reagent for all rather than something of its own."""
 
 
-def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
+def derive(roles: Roles, trace: Trace) -> None:
     """Give wells the roles that follow from what they give and receive.
 
     A reaction is what template goes into; wells that only pass liquid on (a dilution plate) are
@@ -33,7 +31,7 @@ def derive(roles: Roles, trace: Trace, usage: Mapping[WellRef, Usage]) -> None:
             _derive_loaded(roles, name, spec.loaded, trace)
     for name, spec in roles.family.roles.items():
         if spec.receives:
-            _derive_receiving(roles, name, spec, trace, usage)
+            _derive_receiving(roles, name, spec, trace)
 
 
 def _unsay_by_use(roles: Roles, trace: Trace) -> None:
@@ -87,7 +85,8 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
     served = trace.served(prefilled=True)
     by_labware: dict[str, list[WellRef]] = {}
     for ref in served:
-        if ref.labware in trace.labware and not in_trough(trace, ref.labware):
+        info = trace.labware.get(ref.labware)
+        if info is not None and not info.centers_channels:
             by_labware.setdefault(ref.labware, []).append(ref)
     for key, refs in by_labware.items():
         if len(trace.labware[key].wells) < _SMALLEST_PLATE or len(refs) < _FEWEST_PAIRS:
@@ -119,14 +118,12 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
             roles.derived.setdefault(ref, set()).update(roles.closure(name))
 
 
-def _derive_receiving(
-    roles: Roles, name: str, spec: RoleSpec, trace: Trace, usage: Mapping[WellRef, Usage]
-) -> None:
+def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """Wells that receive a liquid of ``spec.receives`` and pass nothing on."""
     wanted = frozenset(spec.receives)
     for well in trace.wells.values():
-        used = usage.get(well.ref)
-        if used is None or not used.received or used.first_drawn or used.drain or used.feeds:
+        used = trace.usage[well.ref]
+        if not used.received or used.first_drawn or used.drain or used.feeds:
             continue
         assigned = roles.by_well.get(well.ref)
         unlike = assigned is not None and assigned.role not in roles.closure(name)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 
 from ...vocabulary import WellRef
-from ..trace import Trace, Transfer, chains_of, links_of
+from ..trace import Trace, Transfer, chains_of
 
 SHAPES = ("chain", "pooling", "reactions")
 """What a family's file may name: wells that feed each other in turn; one well fed by many that feed
@@ -23,9 +23,9 @@ Fed = Mapping[WellRef, Mapping[WellRef, float]]
 
 def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
     """The shapes that a run shows: how clearly (1 for three wells, 2 for six) and in words."""
-    fed, feeds = _ways(trace)
+    fed, feeds = _fed(trace), trace.served()
     found: dict[str, tuple[float, str]] = {}
-    chain = _longest(chains_of(links_of(trace)))
+    chain = _longest(chains_of(trace.links))
     if chain >= 2:
         found["chain"] = (_clearness(chain), f"a chain of {chain} transfers from well to well")
     pooled = _pooled(fed, feeds)
@@ -47,18 +47,15 @@ def _clearness(wells: int) -> float:
     return min(wells, _MANY) / _FEWEST_ALIKE
 
 
-def _ways(trace: Trace) -> tuple[dict[WellRef, dict[WellRef, float]], dict[WellRef, set[WellRef]]]:
-    """What each well is given of which, and which wells each one feeds."""
+def _fed(trace: Trace) -> Fed:
     fed: dict[WellRef, dict[WellRef, float]] = {}
-    feeds: dict[WellRef, set[WellRef]] = {}
     for one in trace.transfers:
         given = fed.setdefault(one.well.ref, {})
         given[one.source.ref] = given.get(one.source.ref, 0.0) + one.volume
-        feeds.setdefault(one.source.ref, set()).add(one.well.ref)
-    return fed, feeds
+    return fed
 
 
-def _pooled(fed: Fed, feeds: Mapping[WellRef, set[WellRef]]) -> int:
+def _pooled(fed: Fed, feeds: Mapping[WellRef, Set[WellRef]]) -> int:
     """Wells that nothing is put into, and that go into a well together with others like them."""
     pools = Counter(
         well
@@ -69,7 +66,7 @@ def _pooled(fed: Fed, feeds: Mapping[WellRef, set[WellRef]]) -> int:
     return sum(wells for wells in pools.values() if wells >= _FEWEST_POOLED)
 
 
-def _reactions(fed: Fed, feeds: Mapping[WellRef, set[WellRef]]) -> int:
+def _reactions(fed: Fed, feeds: Mapping[WellRef, Set[WellRef]]) -> int:
     """Wells that go nowhere, with as much of a common liquid as others, and something else.
 
     The something else goes into fewer wells than the common liquid does. What is brought to one

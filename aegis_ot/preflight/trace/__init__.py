@@ -4,15 +4,14 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 """
 
 from .building import build_trace
-from .chains import chains_of, links_of
+from .chains import chains_of
 from .geometry import Contact, Geometry
 from .model import EMPTY_UL, Composition, Met, Tip, Transfer, Visit, Well
 from .pauses import Intervention, Pauses
 from .plates import Plates, row_column
 from .table import places, trace_table
 from .tip_racks import TipBox
-from .trace import Imbalance, PlaceKey, Trace
-from .usage import Sides, Usage, in_trough, usage_of
+from .trace import Imbalance, PlaceKey, Trace, Usage
 
 __all__ = [
     "EMPTY_UL",
@@ -25,7 +24,6 @@ __all__ = [
     "Pauses",
     "PlaceKey",
     "Plates",
-    "Sides",
     "Tip",
     "TipBox",
     "Trace",
@@ -35,10 +33,7 @@ __all__ = [
     "Well",
     "build_trace",
     "chains_of",
-    "in_trough",
-    "links_of",
     "places",
     "row_column",
     "trace_table",
-    "usage_of",
 ]

@@ -5,16 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from .model import Transfer, Well
-from .trace import Trace
-
-
-def links_of(trace: Trace) -> list[Transfer]:
-    """Transfers between two wells of one plate; of repeated ones the last."""
-    links: dict[tuple[Well, Well], Transfer] = {}
-    for one in trace.transfers:
-        if not one.visit.mixing and one.source.plate == one.well.plate:
-            links[one.source, one.well] = one
-    return list(links.values())
 
 
 def chains_of(links: Sequence[Transfer]) -> list[list[Transfer]]:

@@ -1,11 +1,13 @@
-"""The trace: everything that one rehearsal's tips did to one rehearsal's wells."""
+"""The trace: everything that a rehearsal's tips did to its wells, and how it so uses each."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Set
+from collections import Counter
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field
+from functools import cached_property
 
-from ...instrumentation import LabwareInfo
+from ...instrumentation import LabwareInfo, OperationKind
 from ...vocabulary import WellRef
 from .model import Tip, Transfer, Visit, Well
 
@@ -28,6 +30,26 @@ class Imbalance:
     overfilled: bool
     volume: float
     limit: float
+
+
+@dataclass
+class Usage:
+    """How the run uses a well: which came first, and whether it feeds others.
+
+    What is emptied into the waste, a ``drain``, feeds nothing, and a well that is emptied first
+    and filled then is none to draw from.
+    """
+
+    first_drawn: bool = False
+    received: bool = False
+    feeds: bool = False
+    prefilled: bool = False
+    drain: bool = False
+
+    @property
+    def side(self) -> str:
+        """``source``, ``destination`` or ``""``."""
+        return "source" if self.first_drawn else "destination" if self.received else ""
 
 
 @dataclass
@@ -57,6 +79,44 @@ class Trace:
     singles: set[WellRef] = field(default_factory=set)
     _served: dict[bool, dict[WellRef, set[WellRef]]] = field(default_factory=dict)
 
+    @cached_property
+    def links(self) -> Sequence[Transfer]:
+        """Transfers between two wells of one plate; of repeated ones the last."""
+        links: dict[tuple[Well, Well], Transfer] = {}
+        for one in self.transfers:
+            if not one.visit.mixing and one.source.plate == one.well.plate:
+                links[one.source, one.well] = one
+        return list(links.values())
+
+    @cached_property
+    def usage(self) -> Mapping[WellRef, Usage]:
+        """How the run uses each well; asked once all is read."""
+        return _usage_of(self)
+
+    def sides(self, ref: WellRef) -> tuple[str, bool]:
+        """On which side of the run's transfers a well stands: ``source``, ``destination`` or
+        ``""``, and whether it passes liquid on as well.
+
+        A well that the run never uses stands where the others of its labware stand.
+        """
+        used = self.usage.get(ref, Usage())
+        side = used.side
+        if not side:
+            others = self._sides.get(ref.labware, set())
+            if len(others) == 1:
+                side = next(iter(others))
+            elif used.prefilled:
+                side = "source"
+        return side, used.feeds and used.received
+
+    @cached_property
+    def _sides(self) -> Mapping[str, Set[str]]:
+        found: dict[str, set[str]] = {}
+        for ref, used in self.usage.items():
+            if used.side:
+                found.setdefault(ref.labware, set()).add(used.side)
+        return found
+
     def served(self, prefilled: bool = False) -> Mapping[WellRef, Set[WellRef]]:
         """For each well the wells that liquid drawn from it came into; asked once all is read.
 
@@ -78,3 +138,53 @@ class Trace:
             index < at < before and (keys is None or well.ref.labware in keys)
             for at, keys in self.shaken
         )
+
+
+_FEWEST_EMPTIED = 2
+"""One well that is tested before it is filled is not emptied."""
+
+
+def _usage_of(trace: Trace) -> Mapping[WellRef, Usage]:
+    """How each well is used, generations of a plate taken together."""
+    usages: dict[WellRef, Usage] = {}
+    begun: set[WellRef] = set()
+    for well in sorted(trace.wells.values(), key=lambda well: well.generation):
+        usage = usages.setdefault(well.ref, Usage())
+        usage.prefilled = usage.prefilled or well.prefilled
+        if well.visits and well.ref not in begun:
+            # A plate that comes back from the cycler is drawn from, and was filled before.
+            begun.add(well.ref)
+            usage.first_drawn = well.visits[0].kind is OperationKind.ASPIRATE
+    at_first: dict[WellRef, set[WellRef]] = {}
+    for one in trace.transfers:
+        usages[one.well.ref].received = True
+        if not usages[one.source.ref].received:
+            at_first.setdefault(one.source.ref, set()).add(one.well.ref)
+    served, drains = trace.served(), _drains(usages, trace)
+    for ref, into in served.items():
+        usages[ref].feeds = not into <= drains
+    for ref in drains:
+        usages[ref].drain = True
+    taken = {visit.well.ref for visit in trace.visits if not visit.mixing}
+    for ref, used in usages.items():
+        # Not what is emptied into the trash, and filled then; nor what is only mixed.
+        if ref in served or used.received or ref not in taken:
+            used.first_drawn = used.first_drawn and used.feeds
+        if used.received and at_first.get(ref, set()) <= drains:
+            used.first_drawn = False  # emptied, filled again, and harvested in the end
+    return usages
+
+
+def _drains(usages: Mapping[WellRef, Usage], trace: Trace) -> set[WellRef]:
+    """Where old medium goes, and what stands over beads: what several wells are emptied into that
+    are filled again, or a trough for what several wells got in the run.
+    """
+    troughs = {key for key, info in trace.labware.items() if info.centers_channels}
+    emptied = Counter(
+        well
+        for ref, wells in trace.served().items()
+        for well in wells
+        if usages[ref].received and (usages[ref].first_drawn or well.labware in troughs)
+    )
+    drawn = {visit.well.ref for visit in trace.visits if visit.kind is OperationKind.ASPIRATE}
+    return {ref for ref, count in emptied.items() if count >= _FEWEST_EMPTIED and ref not in drawn}
