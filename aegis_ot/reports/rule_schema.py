@@ -59,7 +59,7 @@ def _schema_of(hint: Any, definitions: dict[str, Any]) -> dict[str, Any]:
     if origin is Annotated:
         schema = _schema_of(arguments[0], definitions)
         for limit in arguments[1:]:
-            schema |= limit.schema()
+            schema |= limit.schema
         return schema
     if origin is Literal:
         return {"enum": list(arguments)}

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from ...vocabulary import Site
-from ..rules import AtLeast, role_names
+from ..rules import at_least, role_names
 from ..trace import Well
 from .case import Case, RoleSet
 from .check import Check, Result, Violation, at, place
@@ -36,7 +36,7 @@ class UniformVolume(Check):
 
     wells: tuple[str, ...] = role_names(required=True)
     liquid: tuple[str, ...] = role_names(required=True)
-    tolerance: Annotated[float, AtLeast(0)] = 0.01
+    tolerance: Annotated[float, at_least(0)] = 0.01
 
     def find(self, case: Case) -> Iterator[Result]:
         """Compare each well with what most wells of its assay get."""

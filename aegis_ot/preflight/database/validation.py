@@ -1,16 +1,18 @@
-"""Holds a family against what exists: its own roles, the vocabulary of checks, readable words."""
+"""Holds families against what exists: their roles, the vocabulary of checks, each other."""
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from ...errors import RuleError
 from ..checks import make_check
-from ..rules import Family, RoleSpec, RuleSpec
+from ..rules import Family
 from ..source import tokens
-from .circles import circle_in
+
+_WORDS = ("words", "never", "differing")
 
 
 def check_family(family: Family, file: str) -> None:
@@ -23,66 +25,117 @@ def check_family(family: Family, file: str) -> None:
     Raises:
         RuleError: With file, rule or role, and field.
     """
-    for number, spoken in enumerate(family.signals):
-        place = f"{file}: signals[{number}]"
-        _check_names(family, spoken, place)
-        _check_words("words", spoken.words, place)
-    for number, shape in enumerate(family.shapes):
-        _check_names(family, shape, f"{file}: shapes[{number}]")
+    for place, part in _parts(family, file):
+        for field in dataclasses.fields(part):
+            where = f"{place}: {field.name}"
+            if field.metadata.get("roles"):
+                _check_roles(family, getattr(part, field.name), where)
+            elif field.name in _WORDS:
+                _check_words(getattr(part, field.name), where)
+    circle = _circle({name: role.parents for name, role in family.roles.items()})
+    if circle:  # what a role counts as is followed to the end
+        raise RuleError(f"{file}: roles.{circle[0]}: parents: {_told(circle)}")
+
+
+def _parts(family: Family, file: str) -> Iterator[tuple[str, Any]]:
+    """Everything in a family that may name roles, with where it stands."""
+    for number, signal in enumerate(family.signals):
+        yield f"{file}: signals[{number}]", signal
     for name, role in family.roles.items():
-        _check_role(family, role, f"{file}: roles.{name}")
-    _check_parents(family, file)
+        yield f"{file}: roles.{name}", role
     if family.series is not None:
-        _check_names(family, family.series, f"{file}: series")
+        yield f"{file}: series", family.series
     for number, together in enumerate(family.known_by):
-        for alternatives in together.roles:
-            for name in alternatives.split("|"):
-                _known(family, name, f"{file}: known_by[{number}]: roles")
+        yield f"{file}: known_by[{number}]", together
     for rule in family.rules:
-        _check_rule(family, rule, f"{file}: rule {rule.id}")
+        yield f"{file}: rule {rule.id}", rule
+        for number, check in enumerate(rule.checks):
+            place = f"{file}: rule {rule.id}: checks[{number}]"
+            yield place, make_check(check, place)
 
 
-def _check_role(family: Family, role: RoleSpec, where: str) -> None:
-    _check_names(family, role, where)
-    for field in ("words", "never", "differing"):
-        _check_words(field, getattr(role, field), where)
+def _check_roles(family: Family, names: Sequence[str], where: str) -> None:
+    for role in (role for name in names for role in name.split("|")):
+        if role not in family.roles:
+            known = ", ".join(family.roles)
+            raise RuleError(f"{where}: there is no role {role!r} in this family; known are {known}")
 
 
-def _check_parents(family: Family, file: str) -> None:
-    """What a role counts as is followed to the end, which a circle has not."""
-    circle = circle_in({name: role.parents for name, role in family.roles.items()})
-    if circle:
-        raise RuleError(
-            f"{file}: roles.{circle[0]}: parents: they go in a circle: {' -> '.join(circle)}"
-        )
-
-
-def _check_rule(family: Family, rule: RuleSpec, where: str) -> None:
-    for need in rule.needs:
-        for role in need.split("|"):
-            _known(family, role, f"{where}: needs")
-    for number, check in enumerate(rule.checks):
-        place = f"{where}: checks[{number}]"
-        _check_names(family, make_check(check, place), place)
-
-
-def _check_names(family: Family, holder: Any, where: str) -> None:
-    """Hold all fields that list roles against the roles of the family."""
-    for field in dataclasses.fields(holder):
-        if field.metadata.get("roles"):
-            for name in getattr(holder, field.name):
-                _known(family, name, f"{where}: {field.name}")
-
-
-def _known(family: Family, role: str, where: str) -> None:
-    if role not in family.roles:
-        raise RuleError(
-            f"{where}: there is no role {role!r} in this family; "
-            f"known are {', '.join(family.roles)}"
-        )
-
-
-def _check_words(field: str, words: Iterable[str], where: str) -> None:
+def _check_words(words: Sequence[str], where: str) -> None:
     for word in words:
         if not tokens(word):
-            raise RuleError(f"{where}: {field}: {word!r} holds no letter or number to look for")
+            raise RuleError(f"{where}: {word!r} holds no letter or number to look for")
+
+
+def check_together(families: Sequence[Family]) -> None:
+    """Refuse families that define one thing twice, or name a rule that none of them has.
+
+    Raises:
+        RuleError: With file, rule and field; of two that clash, with both files.
+    """
+    _refuse_doubles(families)
+    defaults = [family for family in families if family.default]
+    if len(defaults) > 1:  # what nothing speaks for is judged by one family
+        first, second = defaults[:2]
+        raise RuleError(
+            f"{second.path}: default: the family {first.family} in {first.path} is the default "
+            f"already, and {second.family} cannot be a second one"
+        )
+    _check_replaced(families)
+
+
+def _refuse_doubles(families: Sequence[Family]) -> None:
+    """Names that differ in capitals alone are one: options and waivers do not tell them apart."""
+    seen: dict[tuple[str, str], tuple[str, str]] = {}
+    for family in families:
+        rules = (("rule", rule.id) for rule in family.rules)
+        for kind, name in (("family", family.family), *rules):
+            key = (kind, name.casefold())
+            if key in seen:
+                first, path = seen[key]
+                spelled = "" if first == name else f" as {first}"
+                raise RuleError(
+                    f"{family.path}: {kind} {name} is already defined in {path}{spelled}"
+                )
+            seen[key] = (name, family.path)
+
+
+def _check_replaced(families: Sequence[Family]) -> None:
+    """Of rules that give way to each other in a circle none would report anything."""
+    files = {rule.id: Path(family.path).name for family in families for rule in family.rules}
+    rules = {rule.id: rule for family in families for rule in family.rules}
+    for name, rule in rules.items():
+        for other in rule.unless_reported:
+            if other not in rules:
+                raise RuleError(
+                    f"{files[name]}: rule {name}: unless_reported: there is no rule {other!r}; "
+                    f"known are {', '.join(sorted(rules))}"
+                )
+    circle = _circle({name: rule.unless_reported for name, rule in rules.items()})
+    if circle:
+        where = f"{files[circle[0]]}: rule {circle[0]}: unless_reported"
+        raise RuleError(f"{where}: {_told(circle)}")
+
+
+def _told(circle: Sequence[str]) -> str:
+    return f"they go in a circle: {' -> '.join(circle)}"
+
+
+def _circle(leads_to: Mapping[str, Collection[str]]) -> tuple[str, ...]:
+    """A way that ends where it begins, ``("a", "b", "a")``; empty if there is none.
+
+    Args:
+        leads_to: For each name those that it names; each of them stands there itself.
+    """
+    left = dict(leads_to)
+    while ends := [name for name, others in left.items() if left.keys().isdisjoint(others)]:
+        for name in ends:
+            del left[name]
+    if not left:
+        return ()
+    way: list[str] = []
+    name = next(iter(left))
+    while name not in way:
+        way.append(name)
+        name = next(other for other in left[name] if other in left)
+    return (*way[way.index(name) :], name)

@@ -6,9 +6,8 @@ checks that they name, in :mod:`aegis_ot.preflight.database`.
 
 from .common import READABLE, SCHEMA_VERSION, Common
 from .database import Database
-from .json_text import parse_json
-from .limits import AtLeast, Word
-from .reading import hints_of, is_required, public_fields, read_dataclass
+from .limits import at_least
+from .reading import hints_of, is_required, parse_json, public_fields, read_dataclass
 from .specs import (
     Example,
     Examples,
@@ -25,7 +24,6 @@ from .specs import (
 __all__ = [
     "READABLE",
     "SCHEMA_VERSION",
-    "AtLeast",
     "Common",
     "Database",
     "Example",
@@ -37,7 +35,7 @@ __all__ = [
     "SeriesSpec",
     "ShapeSignal",
     "Signal",
-    "Word",
+    "at_least",
     "hints_of",
     "is_required",
     "parse_json",

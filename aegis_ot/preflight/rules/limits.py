@@ -1,72 +1,52 @@
 """What a field may hold beyond its type, said where the field is declared.
 
-A field is declared as ``Annotated[float, AtLeast(0)]``; the limit then holds where a file is read
+A field is declared as ``Annotated[float, at_least(0)]``; the limit then holds where a file is read
 and stands in the published schema, so that the two cannot disagree.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any
 
 
 @dataclass(frozen=True)
-class Matching:
-    """A text of a certain form.
+class Limit:
+    """A limit of a field.
 
     Attributes:
-        pattern: A regular expression that Python and JSON Schema read alike; it is searched for.
-        meaning: What it asks for, in words: "a text that is not empty".
+        allows: Whether a value of the field's type is fine.
+        expected: What is expected instead of another: "a text that is not empty".
+        schema: The same in JSON Schema.
     """
 
-    pattern: str
-    meaning: str
-
-    def refuses(self, value: Any) -> str:
-        """What is expected instead of this text, ``""`` if it is fine."""
-        return "" if re.search(self.pattern, value) else self.meaning
-
-    def schema(self) -> dict[str, Any]:
-        """The same in JSON Schema."""
-        return {"pattern": self.pattern}
+    allows: Callable[[Any], bool]
+    expected: str
+    schema: Mapping[str, Any]
 
 
-@dataclass(frozen=True)
-class AtLeast:
+def at_least(least: float) -> Limit:
     """A number that is no smaller."""
-
-    least: float
-
-    def refuses(self, value: Any) -> str:
-        """What is expected instead of this number, ``""`` if it is fine."""
-        return "" if value >= self.least else f"a number that is at least {self.least:g}"
-
-    def schema(self) -> dict[str, Any]:
-        """The same in JSON Schema."""
-        return {"minimum": self.least}
+    told = f"a number that is at least {least:g}"
+    return Limit(lambda value: bool(value >= least), told, {"minimum": least})
 
 
-@dataclass(frozen=True)
-class NotEmpty:
-    """A list of at least one."""
+def matching(pattern: str, meaning: str) -> Limit:
+    """A text in which a pattern is found that Python and JSON Schema read alike."""
+    return Limit(lambda text: bool(re.search(pattern, text)), meaning, {"pattern": pattern})
 
-    def refuses(self, value: Any) -> str:
-        """What is expected instead of this list, ``""`` if it is fine."""
-        return "" if value else "at least one"
 
-    def schema(self) -> dict[str, Any]:
-        """The same in JSON Schema."""
-        return {"minItems": 1}
-
+NOT_EMPTY = Limit(bool, "at least one", {"minItems": 1})
 
 # Names stand between commas and brackets in options and waivers, and families name pages. In
 # Python "$" is also before a last line break, hence what follows it.
 Name = Annotated[
     str,
-    Matching(
+    matching(
         r"^[A-Za-z0-9_][A-Za-z0-9_.-]*$(?!\n)",
         "a name of letters, digits, '_', '-' and '.', without spaces",
     ),
 ]
-Word = Annotated[str, Matching(r"\S", "a word or phrase")]
+Word = Annotated[str, matching(r"\S", "a word or phrase")]

@@ -1,4 +1,4 @@
-"""Reads dataclasses from JSON with messages for people.
+"""Reads dataclasses from the JSON of rule files, with messages for people.
 
 The robot has no pydantic and no jsonschema; a rule file must still be refused with the file,
 the rule and the field that is wrong. What is refused here is refused by the published schema
@@ -13,11 +13,11 @@ import math
 import re
 import types
 import typing
+from collections import Counter
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, TypeVar
 
 from ...errors import RuleError
-from .json_text import JsonObject
 
 T = TypeVar("T")
 _HALF = re.compile("[\ud800-\udfff]")
@@ -25,6 +25,33 @@ _HALF = re.compile("[\ud800-\udfff]")
 
 _HINTS: dict[type[Any], dict[str, Any]] = {}
 _WORDS = {str: "a text", int: "a whole number", float: "a number", bool: "true or false"}
+
+
+class JsonObject(dict[str, Any]):
+    """A JSON object that knows which of its fields were written twice.
+
+    Python keeps the last value of a field and forgets the others; whoever edits the first one
+    would wonder why nothing changes. Which rule it stands in is known only where it is read.
+    """
+
+    def __init__(self, pairs: list[tuple[str, Any]]) -> None:
+        super().__init__(pairs)
+        times = Counter(name for name, _ in pairs)
+        self.doubled = [name for name in self if times[name] > 1]
+
+
+def parse_json(text: bytes) -> Any:
+    """The value of a JSON text in UTF-8, with or without the mark that Windows puts first.
+
+    Raises:
+        ValueError: With what is wrong, in words.
+    """
+    try:
+        return json.loads(text.decode("utf-8-sig"), object_pairs_hook=JsonObject)
+    except UnicodeDecodeError as error:
+        raise ValueError(f"it is not UTF-8 text ({error.reason} at byte {error.start})") from None
+    except RecursionError:
+        raise ValueError("its lists or objects are nested too deeply") from None
 
 
 def read_dataclass(cls: type[T], data: Any, where: str) -> T:
@@ -79,8 +106,8 @@ def _read(hint: Any, value: Any, where: str) -> Any:
     if origin is Annotated:
         result = _read(arguments[0], value, where)
         for limit in arguments[1:]:
-            if expected := limit.refuses(result):
-                raise RuleError(f"{where}: expected {expected}, found {_shown(value)}")
+            if not limit.allows(result):
+                raise RuleError(f"{where}: expected {limit.expected}, found {_shown(value)}")
         return result
     if origin is Literal:
         if isinstance(value, str) and value in arguments:

@@ -11,11 +11,11 @@ from dataclasses import MISSING, dataclass, field
 from typing import Annotated, Any, Literal
 
 from .common import SCHEMA_VERSION
-from .limits import Name, NotEmpty, Word
+from .limits import NOT_EMPTY, Name, Word
 
 
 def role_names(required: bool = False) -> Any:
-    """A field that lists roles of the family; left out, none. What it names must exist."""
+    """A field that lists roles of the family, ``"a|b"`` for either; what it names must exist."""
     default = MISSING if required else ()
     return field(default=default, metadata={"roles": True})
 
@@ -70,7 +70,7 @@ class RoleSignal:
         weight: The score that the family has at least then: what its words have added counts.
     """
 
-    roles: tuple[str, ...]
+    roles: tuple[str, ...] = role_names(required=True)
     weight: float = 4.0
 
 
@@ -197,8 +197,8 @@ class RuleSpec:
     name: str
     statement: str
     severity: Literal["error", "warning"]
-    needs: tuple[str, ...]
-    checks: Annotated[tuple[Mapping[str, Any], ...], NotEmpty()]
+    needs: tuple[str, ...] = field(metadata={"roles": True})
+    checks: Annotated[tuple[Mapping[str, Any], ...], NOT_EMPTY]
     rationale: str
     reference: str
     fix: str
@@ -235,7 +235,7 @@ class Family:
     description: str
     signals: tuple[Signal, ...]
     roles: Mapping[Name, RoleSpec]
-    rules: Annotated[tuple[RuleSpec, ...], NotEmpty()]
+    rules: Annotated[tuple[RuleSpec, ...], NOT_EMPTY]
     schema: int = SCHEMA_VERSION
     series: SeriesSpec | None = None
     shapes: tuple[ShapeSignal, ...] = ()
