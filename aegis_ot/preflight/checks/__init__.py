@@ -12,7 +12,7 @@ from ...errors import RuleError
 from ..rules import read_dataclass
 from .carry import Carry
 from .case import Case
-from .check import Check, Doubt, Result, Violation
+from .check import Check, Doubt, Violation
 from .dilution import SeriesDirection, SeriesMixed
 from .dose_order import DoseOrder
 from .filling import SeriesFilledFirst, SeriesFilledFrom
@@ -56,4 +56,4 @@ def make_check(data: Mapping[str, Any], where: str) -> Check:
     return read_dataclass(CHECKS[name], parameters, where)
 
 
-__all__ = ["CHECKS", "Case", "Check", "Doubt", "Result", "Violation", "make_check"]
+__all__ = ["CHECKS", "Case", "Doubt", "Violation", "make_check"]

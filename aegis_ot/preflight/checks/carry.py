@@ -11,7 +11,7 @@ from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..rules import role_names
 from ..trace import Contact, Met, Tip, Visit, Well
-from .case import Case, RoleSet, carried_liquids
+from .case import Case, carried_liquids
 from .check import Check, Result, Violation, at, place
 from .unnamed import unnamed_contact
 
@@ -173,7 +173,7 @@ class Carry(Check):
             return False
         carried = frozenset(self.carried)
         return not any(
-            one.source is not well and _is_called(case, one.source, carried)
+            one.source is not well and case.roles.is_called(one.source.ref, carried)
             for dest in later
             for one in dest.received
         )
@@ -238,12 +238,6 @@ def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
         if further:
             open_ += later
     return found
-
-
-def _is_called(case: Case, well: Well, roles: RoleSet) -> bool:
-    """Whether something says that a well has one of these roles, and not its use alone."""
-    assigned = case.roles.by_well.get(well.ref)
-    return assigned is not None and not roles.isdisjoint(case.roles.closure(assigned.role))
 
 
 def _was_fed(case: Case, met: Met) -> bool:

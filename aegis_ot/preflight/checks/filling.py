@@ -97,8 +97,8 @@ def _is_diluent_known(case: Case) -> bool:
     served = case.trace.served()
     return any(
         (ref.labware not in plates or len(served.get(ref, ())) > 1)
-        and not case.diluent.isdisjoint(case.roles.closure(assigned.role))
-        for ref, assigned in case.roles.by_well.items()
+        and case.roles.is_called(ref, case.diluent)
+        for ref in case.roles.by_well
     )
 
 

@@ -139,10 +139,8 @@ class Receives(Check):
     def _stands_unused(case: Case, liquid: RoleSet) -> bool:
         """Whether a well of its own is named for the liquid: then nobody adds it by hand."""
         return any(
-            not liquid.isdisjoint(case.roles.closure(assigned.role))
-            and assigned.kind >= Kind.NAME
-            and not assigned.whole
-            for assigned in case.roles.by_well.values()
+            case.roles.is_called(ref, liquid) and assigned.kind >= Kind.NAME and not assigned.whole
+            for ref, assigned in case.roles.by_well.items()
         )
 
     def _judged(self, case: Case) -> Iterator[Well]:

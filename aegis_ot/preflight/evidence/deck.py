@@ -24,9 +24,7 @@ class Deck:
 
     def __init__(self, trace: Trace, names: Sequence[NameBinding]) -> None:
         self.trace = trace
-        self._refs: dict[tuple[str, str], WellRef] = {}
-        for well in trace.wells.values():
-            self._refs.setdefault((well.ref.labware, well.ref.name), well.ref)
+        self._used = dict.fromkeys(well.ref for well in trace.wells.values())
         self.by_name: dict[str, set[str]] = {}
         for binding in names:
             if binding.labware and not binding.wells:
@@ -34,10 +32,7 @@ class Deck:
                     self.by_name.setdefault(name, set()).update(binding.labware)
 
     def ref(self, labware: str, name: str) -> WellRef:
-        """The reference of a well, made up where the run never used it."""
-        known = self._refs.get((labware, name))
-        if known is not None:
-            return known
+        """The reference of a well."""
         info = self.trace.labware[labware]
         return WellRef(labware, name, info.label or info.display_name, info.slot)
 
@@ -54,11 +49,11 @@ class Deck:
     def used_wells(self, labware: Iterable[str]) -> tuple[WellRef, ...]:
         """The wells of these labware that the run uses."""
         keys = set(labware)
-        return tuple(ref for (key, _), ref in self._refs.items() if key in keys)
+        return tuple(ref for ref in self._used if ref.labware in keys)
 
     def is_used(self, ref: WellRef) -> bool:
         """Whether the run uses a well."""
-        return (ref.labware, ref.name) in self._refs
+        return ref in self._used
 
     def meant(self, wells: tuple[WellRef, ...]) -> tuple[WellRef, ...]:
         """The wells of a name, without those of whole columns or rows that are not used this time.

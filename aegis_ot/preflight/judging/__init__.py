@@ -1,6 +1,6 @@
 """From a recording to a verdict: every rule judged, its findings joined, waivers applied."""
 
-from .doubts import missing_needs, spelled, unnamed_wells
+from .doubts import missing_needs, spelled
 from .judging import judge, judge_reading
 from .options import Options
 from .reading import Reading, read_recording, uncollected
@@ -24,6 +24,5 @@ __all__ = [
     "spelled",
     "unanswered",
     "uncollected",
-    "unnamed_wells",
     "verdict_of",
 ]

@@ -68,7 +68,7 @@ def _offered(role: str, reading: Reading, family: str) -> list[str]:
     side = roles.family.roles[role].side
     used = (well.ref for well in reading.trace.wells.values() if well.visits)
     fitting = [ref for ref in dict.fromkeys(used) if side in ("any", reading.trace.sides(ref)[0])]
-    general = roles.closure(role) - {role}
+    general = roles.family.closure(role) - {role}
     kin = [ref for ref in fitting if _named(roles, ref) in general]
     offered = kin or [ref for ref in fitting if ref not in roles.by_well] or fitting
     return [f'"{place}"' for place in spelled(offered)[:_MOST_SHOWN]]

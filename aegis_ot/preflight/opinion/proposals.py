@@ -125,11 +125,11 @@ class _Verifier:
 
     def _check_others(self, roles: Roles, role: str, ref: WellRef) -> None:
         assigned = roles.by_well.get(ref)
-        if assigned is not None and _differ(roles, role, assigned.role):
+        if assigned is not None and not roles.family.are_kin(role, assigned.role):
             said = assigned.evidence[0].citation
             raise Rejected(f"{ref.address} is {assigned.role} by {said}")
         taken = self._taken.get(ref)
-        if taken is not None and _differ(roles, role, taken):
+        if taken is not None and not roles.family.are_kin(role, taken):
             raise Rejected(f"{ref.address} is proposed as {taken} as well")
 
     def _levels(self, proposal: RoleProposal, count: int) -> tuple[float | None, ...]:
@@ -158,13 +158,6 @@ def _stands_in(quote: str, level: str) -> bool:
     written = re.escape(_plain(level).casefold())
     pattern = rf"(?<![a-z\d.]){written}(?!\d|\.\d)"
     return re.search(pattern, _plain(quote).casefold()) is not None
-
-
-def _differ(roles: Roles, one: str, other: str) -> bool:
-    known = roles.family.roles
-    if one not in known or other not in known:
-        return one != other
-    return one not in roles.closure(other) and other not in roles.closure(one)
 
 
 def _plain(text: str) -> str:

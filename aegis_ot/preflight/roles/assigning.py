@@ -105,7 +105,9 @@ def _fitting(
     # The vehicle control in "vehicle (mock)": of a kind and its parent, the kind; and the vehicle
     # in "PBS (vehicle)": what a medium is used as, where both are said.
     for role in fitting[:1]:
-        finer = [r for r in fitting if role in roles.closure(r) - {r} or r in specs[role].may_be]
+        finer = [
+            r for r in fitting if role in roles.family.closure(r) - {r} or r in specs[role].may_be
+        ]
         fitting = finer or fitting
     return fitting[0] if fitting else None
 
@@ -114,15 +116,17 @@ def _chosen(
     roles: Roles, ref: WellRef, found: list[Candidate], is_filled: bool
 ) -> Assignment | None:
     """What a well is for; ``None`` where weak evidence says two things that nothing settles."""
+    closure, are_kin = roles.family.closure, roles.family.are_kin
     found.sort(key=lambda candidate: candidate.worth, reverse=True)
     best = found[0]
     for other in found[1:]:
         # Weaker evidence may say more exactly what the stronger leaves open: the liquid says
         # "cells", the name says "vehicle_controls".
-        finer = best.role in roles.closure(other.role) - {other.role}
+        finer = best.role in closure(other.role) - {other.role}
         if finer and not other.evidence.whole and other.evidence.kind is not Kind.PASSING_NAME:
             best = other
-    rivals = [other for other in found if other.worth == best.worth and _differ(roles, best, other)]
+    differing = [other for other in found if not are_kin(best.role, other.role)]
+    rivals = [other for other in differing if other.worth == best.worth]
     conflict = ""
     if rivals:
         conflict = f"{best.evidence.citation} against {rivals[0].evidence.citation}"
@@ -132,22 +136,18 @@ def _chosen(
         # one says what is given to it.
         declared = [one for one in (best, *rivals) if is_filled and roles.is_declared(one.role)]
         for one in declared or (best, *rivals):
-            if declared or any(not _differ(roles, one, other) for other in agreed):
+            if declared or any(are_kin(one.role, other.role) for other in agreed):
                 best = one
                 break
         else:
             if best.evidence.kind <= Kind.PASSING_NAME:
                 return None
-    agreeing = [other for other in found if not _differ(roles, best, other)]
+    agreeing = [other for other in found if are_kin(best.role, other.role)]
     # By identity: each piece is there once, and comparing pieces of many wells is dear.
     evidence = {id(one.evidence): one.evidence for one in (best, *agreeing)}
     levels = [other.level for other in agreeing if other.level is not None]
     level = best.level if best.level is not None else next(iter(levels), None)
     return Assignment(best.role, tuple(evidence.values()), level, conflict)
-
-
-def _differ(roles: Roles, one: Candidate, other: Candidate) -> bool:
-    return one.role not in roles.closure(other.role) and other.role not in roles.closure(one.role)
 
 
 def _add_dosed(roles: Roles, trace: Trace, common: Common) -> None:

@@ -79,4 +79,4 @@ def _settle_by_use(roles: Roles, trace: Trace, diluent: str) -> None:
             filled.setdefault(one.source.ref, set()).add(one.well.ref)
     best = [ref for ref, wells in filled.items() if 2 * len(wells) > len(targets)]
     if len(best) == 1 and len(filled[best[0]]) >= _FEWEST_FILLED and not roles.of(best[0]):
-        roles.derived.setdefault(best[0], set()).update(roles.closure(diluent))
+        roles.derive(best[0], diluent)

@@ -74,7 +74,7 @@ def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> Non
             continue  # a stain, a read-out: a reagent for all
         right = [well for well in wells if roles.has(well, wanted)]
         if len(right) * 2 > len(wells) and not all(map(roles.is_doubtful, right)):
-            roles.derived.setdefault(ref, set()).update(roles.closure(name))
+            roles.derive(ref, name)
 
 
 def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
@@ -97,7 +97,7 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
         ):
             roles.apart.update(refs)
             for ref in refs:
-                roles.derived.setdefault(ref, set()).update(roles.closure(name))
+                roles.derive(ref, name)
 
 
 def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
@@ -106,7 +106,7 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
     topped_up = {well for wells in served.values() for well in wells}
     # In the order of the trace: a set's own order differs from process to process.
     for ref in [well.ref for well in trace.wells.values() if well.ref in roles.unnamed]:
-        if not roles.of(ref) <= roles.closure(name):
+        if not roles.of(ref) <= roles.family.closure(name):
             continue  # something else, or more than "destination", is said of it
         if ref not in served:
             use = "kept" if ref in topped_up else ""
@@ -115,7 +115,7 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
         else:
             use = "shared" if len(served[ref]) >= _SHARED else "single"
         if use == kind:
-            roles.derived.setdefault(ref, set()).update(roles.closure(name))
+            roles.derive(ref, name)
 
 
 def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
@@ -126,7 +126,7 @@ def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> 
         if not used.received or used.first_drawn or used.drain or used.feeds:
             continue
         assigned = roles.by_well.get(well.ref)
-        unlike = assigned is not None and assigned.role not in roles.closure(name)
+        unlike = assigned is not None and assigned.role not in roles.family.closure(name)
         if assigned is not None and unlike and not assigned.whole:
             continue
         if unlike and _receives_what_it_is_named_for(roles, well):
@@ -134,7 +134,7 @@ def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> 
         if _receives(roles, well, wanted, frozenset({name})):
             if unlike:
                 del roles.by_well[well.ref]  # calibrators stand on the "CSF plate" as well
-            roles.derived.setdefault(well.ref, set()).update(roles.closure(name))
+            roles.derive(well.ref, name)
 
 
 def _receives_what_it_is_named_for(roles: Roles, well: Well) -> bool:

@@ -94,7 +94,7 @@ class RoleNames:
         parts = [part for part in self._parts(text) if any(map(str.isalpha, part))]
         if len(parts) < 2 and evidence.is_name:
             return False
-        unlike = any(not self._is_kin(one, other) for one in named for other in named)
+        unlike = any(not self._family.are_kin(one, other) for one in named for other in named)
         told = [bool(self._names(self._lexicon.find(part))) for part in parts]
         return unlike or (evidence.whole and any(told) and not all(told))
 
@@ -107,15 +107,6 @@ class RoleNames:
             else:
                 parts[-1] += piece
         return parts
-
-    def _is_kin(self, one: str, other: str) -> bool:
-        return one in self._above(other) or other in self._above(one)
-
-    def _above(self, role: str) -> set[str]:
-        found = {role}
-        for parent in self._family.roles[role].parents:
-            found |= self._above(parent)
-        return found
 
     def _is_loose_plural(self, text: str, role: str) -> bool:
         """Whether only words name a role that for many wells stand for various liquids: a rack of

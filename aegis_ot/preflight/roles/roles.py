@@ -69,18 +69,26 @@ class Roles:
     unread: list[Evidence] = field(default_factory=list)
     apart: set[WellRef] = field(default_factory=set)
     diluent_guessed: bool = False
-    _closure: dict[str, frozenset[str]] = field(default_factory=dict)
 
     def of(self, ref: WellRef) -> frozenset[str]:
         """All roles that a well counts as, general ones included."""
         assigned = self.by_well.get(ref)
-        roles = self.closure(assigned.role) if assigned else frozenset()
+        roles = self.family.closure(assigned.role) if assigned else frozenset()
         extra = self.derived.get(ref)
         return roles | extra if extra else roles
 
     def has(self, ref: WellRef, wanted: frozenset[str]) -> bool:
         """Whether a well has any of these roles."""
         return not wanted.isdisjoint(self.of(ref))
+
+    def derive(self, ref: WellRef, role: str) -> None:
+        """Give a well a role that follows from its use, with all above it."""
+        self.derived.setdefault(ref, set()).update(self.family.closure(role))
+
+    def is_called(self, ref: WellRef, wanted: frozenset[str]) -> bool:
+        """Whether something says that a well has one of these roles, and not its use alone."""
+        assigned = self.by_well.get(ref)
+        return assigned is not None and not wanted.isdisjoint(self.family.closure(assigned.role))
 
     def is_doubtful(self, ref: WellRef) -> bool:
         """Whether nothing but written wells or a model's reading says what a well is for."""
@@ -126,16 +134,6 @@ class Roles:
                     found.setdefault(ref, set()).add(level)
         return {ref: levels.pop() for ref, levels in found.items() if len(levels) == 1}
 
-    def closure(self, role: str) -> frozenset[str]:
-        """A role and all roles above it."""
-        known = self._closure.get(role)
-        if known is None:
-            found = {role}
-            for parent in self.family.roles[role].parents:
-                found |= self.closure(parent)
-            known = self._closure[role] = frozenset(found)
-        return known
-
     def is_declared(self, role: str) -> bool:
         """Whether a role does not follow from what a well receives: a control."""
         spec = self.family.roles[role]
@@ -143,7 +141,7 @@ class Roles:
 
     def known(self, role: str) -> bool:
         """Whether any well has this role."""
-        if any(role in self.closure(a.role) for a in self.by_well.values()):
+        if any(role in self.family.closure(a.role) for a in self.by_well.values()):
             return True
         return any(role in extra for extra in self.derived.values())
 
@@ -152,5 +150,5 @@ class Roles:
         assigned, derived = self.by_well.get(ref), sorted(self.derived.get(ref, ()))
         if assigned is None:
             return self.family.roles[derived[0]].title if derived else "well"
-        finer = [role for role in derived if assigned.role in self.closure(role) - {role}]
+        finer = [role for role in derived if assigned.role in self.family.closure(role) - {role}]
         return self.family.roles[finer[0] if finer else assigned.role].title

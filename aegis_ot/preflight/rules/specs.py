@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field
+from functools import cached_property
 from typing import Annotated, Any, Literal
 
 from .common import SCHEMA_VERSION
@@ -242,3 +243,21 @@ class Family:
     known_by: tuple[RoleSignal, ...] = ()
     default: bool = False
     path: str = field(default="", compare=False, metadata={"internal": True})
+
+    def closure(self, role: str) -> frozenset[str]:
+        """A role and all roles above it."""
+        known = self._closures.get(role)
+        if known is None:
+            above = (self.closure(parent) for parent in self.roles[role].parents)
+            known = self._closures[role] = frozenset({role}).union(*above)
+        return known
+
+    @cached_property
+    def _closures(self) -> dict[str, frozenset[str]]:
+        return {}
+
+    def are_kin(self, one: str, other: str) -> bool:
+        """Whether one of two roles counts as the other."""
+        if one not in self.roles or other not in self.roles:
+            return one == other
+        return one in self.closure(other) or other in self.closure(one)

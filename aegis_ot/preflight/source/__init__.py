@@ -10,9 +10,8 @@ from .concentrations import (
     without_strength,
 )
 from .data_flow import Index
-from .facts import SourceFacts, read_source
+from .facts import SourceFacts, read_source, source_lines
 from .lexicon import Lexicon, Match, lexicon_of, tokens
-from .lines import source_lines
 
 __all__ = [
     "Concentration",

@@ -165,3 +165,10 @@ def _read_scopes(facts: SourceFacts) -> None:
 def names_in(node: ast.AST) -> set[str]:
     """Every name that stands anywhere in an expression."""
     return {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}
+
+
+def source_lines(text: str) -> list[str]:
+    """Split at ends of lines. ``str.splitlines`` would also split at form feeds and the like,
+    which Python does not count: all later findings would show a wrong line."""
+    lines = re.split(r"\r\n|\r|\n", text)
+    return lines[:-1] if lines[-1] == "" else lines

@@ -6,24 +6,21 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 from .building import build_trace
 from .chains import chains_of
 from .geometry import Contact, Geometry
-from .model import EMPTY_UL, Composition, Met, Tip, Transfer, Visit, Well
+from .model import EMPTY_UL, Met, Tip, Transfer, Visit, Well
 from .pauses import Intervention, Pauses
-from .plates import Plates, row_column
+from .plates import row_column
 from .table import places, trace_table
 from .tip_racks import TipBox
-from .trace import Imbalance, PlaceKey, Trace, Usage
+from .trace import Imbalance, Trace, Usage
 
 __all__ = [
     "EMPTY_UL",
-    "Composition",
     "Contact",
     "Geometry",
     "Imbalance",
     "Intervention",
     "Met",
     "Pauses",
-    "PlaceKey",
-    "Plates",
     "Tip",
     "TipBox",
     "Trace",

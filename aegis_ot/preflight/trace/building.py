@@ -12,7 +12,7 @@ from ...instrumentation import Event, EventKind, LabwareInfo, OperationKind
 from ...vocabulary import WellRef
 from ..rehearsal import Record, Step
 from .geometry import CLEARANCE_MM, Contact
-from .model import Part, Tip, Transfer, Visit, Well
+from .model import Layer, Tip, Transfer, Visit, Well
 from .pauses import Pauses
 from .plates import Plates
 from .tip_racks import TipBox
@@ -219,10 +219,10 @@ class _Builder:
         tip.layers.append((well, step.volume, liquid, step.line))
         self._last[tip] = visit
 
-    def _give(self, step: Step, tip: Tip, well: Well, parts: list[Part]) -> None:
+    def _give(self, step: Step, tip: Tip, well: Well, parts: list[Layer]) -> None:
         visit = self._visit(step, tip, well)
         for source, volume, liquid, line in parts:
-            if source is not well:
+            if source is not None and source is not well:
                 visit.brought.append(Transfer(source, well, visit, volume, liquid, line))
             visit.volume += volume
             unsure = min(tip.unsure, volume)
@@ -234,10 +234,8 @@ class _Builder:
             well.fallen += visit.volume
         if well.least > well.capacity + _slack(well.capacity) and visit.volume > 0:
             self._trace.imbalances.append(Imbalance(visit, True, well.least, well.capacity))
-        if visit.empty_before:
-            visit.contact = well.contact_when_empty(step.from_top, step.from_bottom)
-        else:
-            visit.contact = well.contact(step.from_top, step.from_bottom, step.from_liquid)
+        heights = (step.from_top, step.from_bottom, step.from_liquid)
+        visit.contact = well.contact(*heights, empty=visit.empty_before)
         self._touch(visit)
         self._note_mix(tip, visit)
 

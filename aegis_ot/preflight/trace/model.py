@@ -17,9 +17,6 @@ Composition = Mapping["Well", float]
 Layer = tuple["Well | None", float, Composition, "int | None"]
 """Liquid in a tip: well it was drawn from (``None``: air), µL, what it is, source line."""
 
-Part = tuple["Well", float, Composition, "int | None"]
-"""The same of liquid that leaves a tip: no air."""
-
 EMPTY_UL = 1e-6
 
 
@@ -157,7 +154,11 @@ class Well:
             self.contents[origin] = self.contents.get(origin, 0.0) + volume * share
 
     def contact(
-        self, from_top: float | None, from_bottom: float | None, from_liquid: float | None = None
+        self,
+        from_top: float | None,
+        from_bottom: float | None,
+        from_liquid: float | None = None,
+        empty: bool = False,
     ) -> Contact:
         """How surely a tip with its end at this height meets the liquid that stands here now.
 
@@ -165,24 +166,21 @@ class Well:
             from_top: Height of the tip's end over the well's top, mm; ``None`` if unknown.
             from_bottom: The same over its bottom, mm.
             from_liquid: The same over the liquid, mm, where the protocol aims by the meniscus.
+            empty: It gives into an empty well: how surely all that it carries comes along.
         """
         if from_top is not None and from_top >= 0:
             return Contact.CLEAR
+        geometry = self.geometry
+        if empty:
+            high = geometry and from_bottom is not None and geometry.is_high(from_bottom)
+            return Contact.NEAR if high else Contact.WET
         if from_liquid is not None:
             near = from_liquid < CLEARANCE_MM
             return Contact.WET if from_liquid <= 0 else Contact.NEAR if near else Contact.CLEAR
-        if from_bottom is None or self.geometry is None:
+        if from_bottom is None or geometry is None:
             return Contact.WET
         most = self.volume if self.known else self.most
-        return self.geometry.contact(from_bottom, self.least, self.volume, most)
-
-    def contact_when_empty(self, from_top: float | None, from_bottom: float | None) -> Contact:
-        """The same for what is given into it while it is empty: all that the tip carries."""
-        if from_top is not None and from_top >= 0:
-            return Contact.CLEAR
-        geometry = self.geometry
-        high = geometry and from_bottom is not None and geometry.is_high(from_bottom)
-        return Contact.NEAR if high else Contact.WET
+        return geometry.contact(from_bottom, self.least, self.volume, most)
 
 
 @dataclass(eq=False, slots=True)
@@ -241,12 +239,12 @@ class Tip:
             else:
                 known.wet = min(known.wet, wet)
 
-    def pop(self, volume: float = math.inf) -> list[Part]:
+    def pop(self, volume: float = math.inf) -> list[Layer]:
         """Give off ``volume`` µL: what was drawn last leaves first; air is given off unlisted.
 
         The volume that a protocol commands includes the air it drew.
         """
-        given: list[Part] = []
+        given: list[Layer] = []
         layers = self.layers
         while layers and volume > EMPTY_UL:
             source, held, liquid, line = layers.pop()
