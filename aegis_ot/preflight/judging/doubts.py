@@ -69,14 +69,9 @@ def _offered(role: str, reading: Reading, family: str) -> list[str]:
     used = (well.ref for well in reading.trace.wells.values() if well.visits)
     fitting = [ref for ref in dict.fromkeys(used) if side in ("any", reading.trace.sides(ref)[0])]
     general = roles.family.closure(role) - {role}
-    kin = [ref for ref in fitting if _named(roles, ref) in general]
+    kin = [r for r in fitting if r in roles.by_well and roles.by_well[r].role in general]
     offered = kin or [ref for ref in fitting if ref not in roles.by_well] or fitting
     return [f'"{place}"' for place in spelled(offered)[:_MOST_SHOWN]]
-
-
-def _named(roles: Roles, ref: WellRef) -> str:
-    assigned = roles.by_well.get(ref)
-    return assigned.role if assigned else ""
 
 
 def spelled(wells: Iterable[WellRef]) -> list[str]:

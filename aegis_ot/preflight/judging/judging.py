@@ -127,7 +127,7 @@ def _is_named(well: Well, roles: Roles) -> bool:
     if assigned is None or assigned.kind < Kind.NAME:
         return False
     drawn = any(visit.kind is OperationKind.ASPIRATE for visit in well.visits)
-    return drawn or not (assigned.evidence[0].whole and roles.says_what_it_holds(well.ref))
+    return drawn or not (assigned.evidence[0].whole and assigned.role not in roles.refined)
 
 
 def _report(
@@ -137,7 +137,7 @@ def _report(
     judged: Sequence[str],
 ) -> Report:
     recording = reading.recording
-    waivers = read_waivers(recording.text, reading.facts)
+    waivers = read_waivers(reading.facts)
     standing, waived = apply_waivers(findings_of(broken), waivers)
     known = [rule.id for rule in reading.database.rules]
     idle = (

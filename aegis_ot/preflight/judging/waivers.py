@@ -12,12 +12,13 @@ from __future__ import annotations
 
 import ast
 import difflib
+import math
 import re
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from ...vocabulary import Finding, Remark
-from ..source import SourceFacts, source_lines
+from ..source import SourceFacts
 
 _WAIVER = re.compile(
     r"aegis\s*:\s*ignore\s*(?:\[(?P<rules>[^\]]*)\])?\s*(?P<reason>.*)$", re.IGNORECASE
@@ -69,19 +70,14 @@ class Waived:
     waiver: Waiver
 
 
-def read_waivers(text: str, facts: SourceFacts) -> list[Waiver]:
-    """All waivers of a protocol.
-
-    Args:
-        text: The protocol's source.
-        facts: What it says.
-    """
+def read_waivers(facts: SourceFacts) -> list[Waiver]:
+    """All waivers of a protocol."""
     waivers: list[Waiver] = []
     places: _Places | None = None
     for line, comment in facts.comments.items():
         match = _WAIVER.search(comment)
         if match is not None:
-            places = places or _Places(text, facts)
+            places = places or _Places(facts)
             waivers.append(_waiver(line, match, places))
         elif _is_misspelt(comment):
             waivers.append(Waiver(line, (), (), "", f"is not understood: {_WRITE}"))
@@ -112,20 +108,18 @@ def _waiver(line: int, match: re.Match[str], places: _Places) -> Waiver:
 class _Places:
     """Which lines a comment speaks of."""
 
-    def __init__(self, text: str, facts: SourceFacts) -> None:
+    def __init__(self, facts: SourceFacts) -> None:
         self._facts = facts
         self._statements: list[tuple[int, int]] = []
-        self._first = 1
-        try:
-            tree = ast.parse(text)
-        except (SyntaxError, ValueError):
-            return
-        self._first = len(source_lines(text)) + 1
-        for node in tree.body:
-            if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
-                self._first = node.lineno
-                break
-        for part in ast.walk(tree):
+        self._first = next(
+            (
+                node.lineno
+                for node in facts.tree.body
+                if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant))
+            ),
+            math.inf if facts.tree.body else 1,
+        )
+        for part in ast.walk(facts.tree):
             if isinstance(part, ast.stmt):
                 body = getattr(part, "body", None)
                 last = body[0].lineno - 1 if body else part.end_lineno or part.lineno

@@ -148,7 +148,7 @@ def _without_waived(
 ) -> tuple[list[Finding], list[Waived]]:
     if not findings:
         return [], []
-    return apply_waivers(findings, read_waivers(reading.recording.text, reading.facts))
+    return apply_waivers(findings, read_waivers(reading.facts))
 
 
 def _roles(

@@ -80,8 +80,9 @@ def infer_families(
         found = _found(family, texts, database.common)
         found += _seen(family, shapes, bool(found))
         if family.known_by and found and not (_score(found) >= SURE and _defines(found)):
-            told = _shown(found) and any(one.defining for one in found)
-            named = _named_roles(roles_of(family), in_texts=told)
+            in_texts = _shown(found) and any(one.defining for one in found)
+            assigned = roles_of(family).by_well.values()
+            named = {a.role for a in assigned if in_texts or a.kind not in DOUBTFUL}
             found += _named(family, named, sum(one.worth for one in found if one.worth > 0))
         found.sort(key=lambda one: -one.worth)
         scored.append((max(_score(found), 0.0), family, found))
@@ -96,27 +97,21 @@ def infer_families(
         for score, family, found in scored
     )
     inferences = []
+    for score, family, found in scored:
+        name, reasons = family.family, tuple(one.said for one in found if one.worth > 0)[:6]
+        sure = score >= SURE and _defines(found)
+        applies = sure and (score == best or (score >= ALSO * best and _said_outright(found)))
+        if given:
+            applies = sure = name in given
+        elif family.default:
+            applies = applies and score == best and not outdone
+            sure = sure if known else _nothing_against(found)
+        confidence = 1.0 if given and applies else score / total * min(1.0, score / (2 * SURE))
+        inferences.append(Inference(name, score, round(confidence, 2), reasons, applies, sure))
     # What the run's own shape speaks against comes after another that applies.
     odd = {
         family.family for _, family, found in scored if any(f.shape and f.worth < 0 for f in found)
     }
-    for score, family, found in scored:
-        reasons = [one.said for one in found if one.worth > 0]
-        if given:
-            applies = sure = family.family in given
-        else:
-            sure = score >= SURE and _defines(found)
-            applies = (
-                sure
-                and (score == best or (score >= ALSO * best and _said_outright(found)))
-                and not (family.default and (score < best or outdone))
-            )
-            if family.default and not known:
-                sure = _nothing_against(found)
-        confidence = 1.0 if given and applies else score / total * min(1.0, score / (2 * SURE))
-        inferences.append(
-            Inference(family.family, score, round(confidence, 2), tuple(reasons[:6]), applies, sure)
-        )
     if given or any(inference.applies for inference in inferences):
         inferences.sort(key=lambda i: (not i.applies, i.family in odd, -i.score))
         return inferences
@@ -213,12 +208,6 @@ def _named(family: Family, named: set[str], said_by_words: float) -> Iterable[_F
             said = f"wells are named {', '.join(titles[:-1])} and {titles[-1]}"
             yield _Found(max(signal.weight - said_by_words, 0.0), said, LONE, True)
             return
-
-
-def _named_roles(roles: Roles, in_texts: bool = False) -> set[str]:
-    """Roles for which wells are named, by more than written wells unless ``in_texts``."""
-    assigned = roles.by_well.values()
-    return {a.role for a in assigned if in_texts or a.kind not in DOUBTFUL}
 
 
 def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> list[_Found]:

@@ -8,6 +8,7 @@ unsaid: a well without evidence has no role, and rules that need one are undecid
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from ...vocabulary import WellRef
@@ -185,4 +186,4 @@ def _spread_over_channels(roles: Roles, trace: Trace) -> None:
             other = roles.by_well.get(ref)
             weaker = other is None or (other.whole and not assigned.whole)
             if ref != first and ref not in trace.singles and weaker:
-                roles.by_well[ref] = assigned.copied()
+                roles.by_well[ref] = replace(assigned, conflict="")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from ...vocabulary import WellRef
@@ -40,10 +40,6 @@ class Assignment:
     def whole(self) -> bool:
         """Whether nothing but the name or label of a whole labware says so."""
         return all(one.whole for one in self.evidence)
-
-    def copied(self) -> Assignment:
-        """The same for a well that shares this one's part."""
-        return replace(self, conflict="")
 
 
 @dataclass
@@ -102,17 +98,9 @@ class Roles:
         assigned = self.by_well.get(ref)
         return assigned is not None and assigned.whole and not self.derived.get(ref)
 
-    def says_what_it_holds(self, ref: WellRef) -> bool:
-        """Whether a name, a label or an argument says what is in a well, and not only that
-        something comes from there or goes there: other roles refine ``source``.
-        """
-        assigned = self.by_well.get(ref)
-        if assigned is None or assigned.kind < Kind.NAME:
-            return False
-        return assigned.kind > Kind.NAME or assigned.role not in self._refined
-
     @cached_property
-    def _refined(self) -> frozenset[str]:
+    def refined(self) -> frozenset[str]:
+        """Roles that only say where something comes from or goes: others are kinds of them."""
         return frozenset(p for spec in self.family.roles.values() for p in spec.parents)
 
     def level(self, ref: WellRef) -> float | None:

@@ -43,7 +43,8 @@ class SourceFacts:
         varying: Names that are loop variables, as ``(function, name)``.
         rebound: Names that loops bind anew in each turn, these among them.
         parameters: Names that are parameters of functions, as ``(function, name)``.
-        nodes: The parsed text.
+        tree: The parsed text, empty where it is none.
+        nodes: All its nodes by kind.
         flow: Which names the values of a name come from, and which labware they index.
     """
 
@@ -57,7 +58,11 @@ class SourceFacts:
     varying: set[tuple[str, str]] = field(default_factory=set)
     rebound: set[tuple[str, str]] = field(default_factory=set)
     parameters: set[tuple[str, str]] = field(default_factory=set)
-    nodes: Nodes = field(default_factory=Nodes, repr=False)
+    tree: ast.Module = field(default_factory=lambda: ast.Module([], []), repr=False)
+
+    @cached_property
+    def nodes(self) -> Nodes:
+        return Nodes(self.tree)
 
     @cached_property
     def flow(self) -> Flow:
@@ -81,7 +86,7 @@ def read_source(text: str) -> SourceFacts:
     facts = SourceFacts()
     _read_comments(text, facts)
     try:
-        facts.nodes = Nodes(ast.parse(text))
+        facts.tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError):
         return facts
     _read_strings(facts)

@@ -33,9 +33,9 @@ class Nodes:
     looks only at its own kinds.
     """
 
-    def __init__(self, tree: ast.AST | None = None) -> None:
+    def __init__(self, tree: ast.AST) -> None:
         self._placed: dict[type[ast.AST], list[_Placed]] = defaultdict(list)
-        open_: list[_Placed] = [(tree, "<module>", ())] if tree is not None else []
+        open_: list[_Placed] = [(tree, "<module>", ())]
         while open_:
             placed = open_.pop()
             node, function, looping = placed

@@ -47,4 +47,4 @@ def test_several_kinds_come_one_after_the_other() -> None:
 
 
 def test_no_tree_holds_no_nodes() -> None:
-    assert list(Nodes().of(ast.Name)) == []
+    assert list(Nodes(ast.parse("")).of(ast.Name)) == []
