@@ -7,5 +7,6 @@ from .deck import Deck
 from .evidence import DOUBTFUL, Evidence, Kind
 from .gathering import gather
 from .labels import unknown_places
+from .well_names import wells_in
 
-__all__ = ["DOUBTFUL", "Deck", "Evidence", "Kind", "gather", "unknown_places"]
+__all__ = ["DOUBTFUL", "Deck", "Evidence", "Kind", "gather", "unknown_places", "wells_in"]

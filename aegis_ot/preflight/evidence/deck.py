@@ -103,7 +103,7 @@ class Deck:
         return tuple(
             self.ref(key, name)
             for key in self.called(labware)
-            for name in wells_in(spec, self.trace.labware[key])
+            for name in wells_in(spec, self.trace.labware[key].wells)
         )
 
 

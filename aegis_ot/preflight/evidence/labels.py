@@ -64,7 +64,7 @@ def unknown_places(
                 on_deck = ", ".join(f"'{info.label or info.slot}'" for info in deck.plates())
                 yield f"{told}no labware is called '{labware}'; there are {on_deck}."
                 continue
-            left = [not_wells_in(spec, deck.trace.labware[key]) for key in found]
+            left = [not_wells_in(spec, deck.trace.labware[key].wells) for key in found]
             if all(left):
                 yield f"{told}'{left[0]}' is no well of that labware."
 

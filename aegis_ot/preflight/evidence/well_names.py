@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
-from ...instrumentation import LabwareInfo
 from ..trace import row_column
 
 WELL = r"[A-P](?:1\d|2[0-4]|0?[1-9])(?!\d)"
@@ -26,22 +25,22 @@ _SPAN = re.compile(rf"(\d+|[A-P])(?:{_TO}(\d+|[A-P]))?")
 _SPLIT = re.compile(_AND)
 
 
-def wells_in(text: str, info: LabwareInfo) -> list[str]:
+def wells_in(text: str, wells: Collection[str]) -> list[str]:
     """Names of the wells of this labware that a list of places stands for; ``"*"`` is all.
 
     Args:
         text: ``"A1, B2-B4"``, ``"columns 1-3"``, ``"row H"``, ``"*"`` or nothing.
-        info: The labware.
+        wells: Names of all its wells.
     """
     if text.strip() in ("", "*"):
-        return list(info.wells)
+        return list(wells)
     found: dict[str, None] = {}
     for match in _PLACE.finditer(text):
-        found.update(dict.fromkeys(_meant(match, info)))
+        found.update(dict.fromkeys(_meant(match, wells)))
     return list(found)
 
 
-def not_wells_in(text: str, info: LabwareInfo) -> str:
+def not_wells_in(text: str, wells: Collection[str]) -> str:
     """What of a list of places is no well of this labware: ``"Z99"``; empty if all is."""
     if text.strip() in ("", "*"):
         return ""
@@ -50,12 +49,12 @@ def not_wells_in(text: str, info: LabwareInfo) -> str:
         return text.strip()
     for match in _PLACE.finditer(text):
         ends = [plain_name(name) for name in (match["first"], match["last"]) if name]
-        if not _meant(match, info) or any(name not in info.wells for name in ends):
+        if not _meant(match, wells) or any(name not in wells for name in ends):
             return match[0].strip()
     return ""
 
 
-def _meant(match: re.Match[str], info: LabwareInfo) -> list[str]:
+def _meant(match: re.Match[str], wells: Collection[str]) -> list[str]:
     if match["first"]:
         first = plain_name(match["first"])
         last = plain_name(match["last"] or match["first"])
@@ -63,13 +62,13 @@ def _meant(match: re.Match[str], info: LabwareInfo) -> list[str]:
         rows, columns = sorted((row, row2)), sorted((column, column2))
         return _in_order(
             name
-            for name in info.wells
+            for name in wells
             if rows[0] <= row_column(name)[0] <= rows[1]
             and columns[0] <= row_column(name)[1] <= columns[1]
         )
     axis = 1 if match["columns"] else 0
     wanted = _counted(match["columns"] or match["rows"])
-    return _in_order(name for name in info.wells if row_column(name)[axis] in wanted)
+    return _in_order(name for name in wells if row_column(name)[axis] in wanted)
 
 
 def _counted(listed: str) -> set[int]:

@@ -60,7 +60,7 @@ def _entries(
         match = pattern.match(text, at)
         if match is None:
             return None
-        names = wells_in(match[wells_at], info)
+        names = wells_in(match[wells_at], info.wells)
         if not names:
             return None
         found.append((names, match[3 - wells_at].strip(" .")))

@@ -1,6 +1,6 @@
 """From a recording to a verdict: every rule judged, its findings joined, waivers applied."""
 
-from .doubts import missing_needs, spelled
+from .doubts import missing_needs, pasted, spelled
 from .judging import judge, judge_reading
 from .options import Options
 from .reading import Reading, read_recording, uncollected
@@ -19,6 +19,7 @@ __all__ = [
     "judge",
     "judge_reading",
     "missing_needs",
+    "pasted",
     "read_recording",
     "read_waivers",
     "spelled",

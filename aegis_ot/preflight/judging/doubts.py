@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import json
+from collections.abc import Iterable, Mapping, Sequence
 
 from ...vocabulary import Undecided, WellRef
 from ..checks import Case, Doubt
@@ -33,9 +34,7 @@ def missing_roles(reading: Reading, rule: RuleSpec, family: str, needs: Sequence
     names = [" or ".join(roles[role].title for role in need.split("|")) for need in needs]
     reason = f"nothing says which well is the {' and which the '.join(names)}"
     first = [need.split("|")[0] for need in needs]
-    listed = {role: _offered(role, reading, family) for role in first}
-    given = ", ".join(f'"{role}": [{", ".join(wells)}]' for role, wells in listed.items())
-    return Undecided(rule.id, reason, f"@guard(roles={{{given}}})")
+    return Undecided(rule.id, reason, pasted({r: _offered(r, reading, family) for r in first}))
 
 
 def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
@@ -44,9 +43,15 @@ def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
     for well in doubt.levels_of:
         assigned = case.roles.by_well.get(well.ref)
         if assigned is not None:
-            wells.setdefault(assigned.role, {})[f'"{places([well.ref])} = ..."'] = None
-    given = ", ".join(f'"{role}": [{", ".join(listed)}]' for role, listed in wells.items())
-    return Undecided(rule.id, doubt.reason, f"@guard(roles={{{given}}})" if given else "")
+            wells.setdefault(assigned.role, {})[f"{places([well.ref])} = ..."] = None
+    return Undecided(rule.id, doubt.reason, pasted(wells))
+
+
+def pasted(roles: Mapping[str, Iterable[str]]) -> str:
+    """The decorator that gives places their roles; empty without any."""
+    # Texts and lists of texts in JSON are such as Python writes them as well.
+    given = json.dumps({role: list(wells) for role, wells in roles.items()}, ensure_ascii=False)
+    return f"@guard(roles={given})" if roles else ""
 
 
 def unnamed_wells(reading: Reading) -> tuple[WellRef, ...]:
@@ -71,7 +76,7 @@ def _offered(role: str, reading: Reading, family: str) -> list[str]:
     general = roles.family.closure(role) - {role}
     kin = [r for r in fitting if r in roles.by_well and roles.by_well[r].role in general]
     offered = kin or [ref for ref in fitting if ref not in roles.by_well] or fitting
-    return [f'"{place}"' for place in spelled(offered)[:_MOST_SHOWN]]
+    return spelled(offered)[:_MOST_SHOWN]
 
 
 def spelled(wells: Iterable[WellRef]) -> list[str]:

@@ -5,13 +5,12 @@ A schema cannot carry these bounds. What does not fit is left out, and told.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ...vocabulary import Finding, Severity, Site, WellRef, one_line
+from ..evidence import wells_in
 from ..judging import MODEL
-from ..trace import row_column
 from .dossier import Dossier
 from .opinion import ANSWERED, Citation, Opinion, RoleProposal, RuleAnswer
 
@@ -75,36 +74,25 @@ class _Bounds:
     """Which wells, lines and rules an answer may name."""
 
     def __init__(self, dossier: Dossier, blind: bool) -> None:
-        self._known: dict[tuple[str, str], list[WellRef]] = {}
+        self._known: dict[str, dict[str, list[WellRef]]] = {}
         named = _on_deck(dossier) if blind else ((r, r.labware) for r in dossier.wells)
         for ref, load_name in named:
             for name in (ref.slot, ref.label, load_name):
-                self._known.setdefault((name.lower(), ref.name), []).append(ref)
+                wells = self._known.setdefault(name.lower(), {})
+                wells.setdefault(ref.name, []).append(ref)
         count = len(dossier.source_lines)
         self.lines = set(range(1, count + 1)) if blind else set(dossier.lines)
         self.severity = {brief.id: brief.severity for brief in dossier.rules}
 
-    def wells(self, given: Iterable[str]) -> Iterable[WellRef]:
+    def wells(self, given: Iterable[str]) -> list[WellRef]:
         """The wells that are meant and exist: ``"4:H12"``, ``"4:A1-H1"``, ``"PCR plate:A1"``."""
         found: dict[WellRef, None] = {}
         for place in given:
             labware, _, spec = place.strip().rpartition(":")
-            labware = labware.strip().removeprefix("slot ").lower()
-            for first, last in _WELLS.findall(spec):
-                found.update(dict.fromkeys(self._range(labware, first, last or first)))
-        return found
-
-    def _range(self, labware: str, first: str, last: str) -> Iterable[WellRef]:
-        (row1, column1), (row2, column2) = row_column(first), row_column(last)
-        rows, columns = sorted((row1, row2)), sorted((column1, column2))
-        for (name, well), refs in self._known.items():
-            row, column = row_column(well)
-            inside = rows[0] <= row <= rows[1] and columns[0] <= column <= columns[1]
-            if name == labware and inside:
-                yield from refs
-
-
-_WELLS = re.compile(r"\b([A-Pa-p]\d{1,2})(?:\s*[-–]\s*([A-Pa-p]\d{1,2}))?\b")
+            known = self._known.get(labware.strip().removeprefix("slot ").lower(), {})
+            for name in wells_in(spec.upper(), known) if spec.strip() else ():
+                found.update(dict.fromkeys(known[name]))
+        return list(found)
 
 
 def _on_deck(dossier: Dossier) -> Iterable[tuple[WellRef, str]]:
@@ -122,38 +110,36 @@ def _findings(
     """Findings in wells and lines that exist, and what is wrong with the others."""
     findings, problems = [], []
     for one in given[:MOST_FINDINGS]:
-        finding, problem = _finding(one, bounds)
-        if finding is None:
-            problems.append(problem)
+        wells = bounds.wells(one["wells"])
+        lines = [line for line in dict.fromkeys(one["lines"]) if line in bounds.lines]
+        if _name(one["rule"]) not in (MODEL, *bounds.severity):
+            problem = "there is no such rule in force"
+        elif not wells or not lines:
+            problem = f"it names no {'line' if wells else 'well'} that the run knows"
         else:
-            findings.append(finding)
+            findings.append(_finding(one, wells, lines, bounds))
+            continue
+        problems.append(f"{_name(one['rule'])}: {_text(one['message'])} ({problem})")
     return findings, problems
 
 
-def _finding(given: Mapping[str, Any], bounds: _Bounds) -> tuple[Finding | None, str]:
+def _finding(
+    given: Mapping[str, Any], wells: Sequence[WellRef], lines: Sequence[int], bounds: _Bounds
+) -> Finding:
     rule = _name(given["rule"])
-    said = f"{rule}: {_text(given['message'])}"
-    if rule != MODEL and rule not in bounds.severity:
-        return None, f"{said} (there is no such rule in force)"
-    wells = list(bounds.wells(given["wells"]))
-    lines = [line for line in dict.fromkeys(given["lines"]) if line in bounds.lines]
-    if not wells or not lines:
-        missing = "well" if not wells else "line"
-        return None, f"{said} (it names no {missing} that the run knows)"
     # One well stands beside each line, so that both ends can be shown; the rest follow.
     sites = [Site(lines[min(number, len(lines) - 1)], ref) for number, ref in enumerate(wells)] + [
         Site(line) for line in lines[len(wells) :]
     ]
-    severity = bounds.severity.get(rule, Severity.WARNING)
     return Finding(
         rule,
-        severity,
+        bounds.severity.get(rule, Severity.WARNING),
         _text(given["message"]),
         tuple(sites),
         why=_text(given.get("why")),
         fix=_text(given.get("fix")),
         source="model",
-    ), ""
+    )
 
 
 def _proposal(given: Mapping[str, Any]) -> RoleProposal:

@@ -9,7 +9,6 @@ in a protocol that talks a model round can change what the checks found.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
@@ -19,9 +18,9 @@ from ..judging import (
     Reading,
     Report,
     RoleEvidence,
-    Waived,
     apply_waivers,
     judge_reading,
+    pasted,
     read_waivers,
     spelled,
     verdict_of,
@@ -68,7 +67,7 @@ def merge(report: Report, opinion: Opinion, dossier: Dossier, reading: Reading) 
             candidates.append(replace(finding, severity=severity))
     notes += [f"{opinion.model}, role of {text}." for text in rejected]
     notes += [f"{opinion.model}, left out: {text}" for text in opinion.left_out]
-    standing, waived = _without_waived(reading, candidates)
+    standing, waived = apply_waivers(candidates, read_waivers(reading.facts))
     findings = sorted(
         (*report.findings, *standing), key=lambda f: (min(f.lines, default=0), f.rule)
     )
@@ -115,6 +114,10 @@ def _questions(
     """What stays open, with the model's reading; and the roles to paste, if they are right."""
     found = {finding.rule for finding in standing}
     answers = {answer.rule: answer for answer in opinion.answers}
+    wells: dict[str, list[WellRef]] = {}
+    for one in accepted:
+        wells.setdefault(one.role, []).extend(one.wells)
+    given = pasted({role: spelled(refs) for role, refs in wells.items()})
     for question in report.undecided:
         if question.rule in found:
             continue
@@ -127,28 +130,8 @@ def _questions(
             reason += f": {answer.reason}" if answer.reason else ""
         if second is not None and question.rule in second.judged:
             reason += "; with the roles that it reads, the check finds nothing"
-            paste = _pasted(accepted) or paste
+            paste = given or paste
         yield replace(question, reason=reason, paste=paste)
-
-
-def _pasted(accepted: Sequence[Evidence]) -> str:
-    """The model's roles as a guard takes them."""
-    wells: dict[str, list[WellRef]] = {}
-    for one in accepted:
-        wells.setdefault(one.role, []).extend(one.wells)
-    listed = ", ".join(
-        f'"{role}": {json.dumps(spelled(refs))}'  # a list of texts, as Python writes it as well
-        for role, refs in wells.items()
-    )
-    return f"@guard(roles={{{listed}}})" if listed else ""
-
-
-def _without_waived(
-    reading: Reading, findings: Sequence[Finding]
-) -> tuple[list[Finding], list[Waived]]:
-    if not findings:
-        return [], []
-    return apply_waivers(findings, read_waivers(reading.facts))
 
 
 def _roles(

@@ -30,8 +30,8 @@ INFO = next(i for i in read("pass").trace.labware.values() if len(i.wells) == 96
     ],
 )
 def test_places_are_read(text: str, wells: list[str]) -> None:
-    assert wells_in(text, INFO) == wells
+    assert wells_in(text, INFO.wells) == wells
 
 
 def test_a_star_is_all_wells() -> None:
-    assert len(wells_in("*", INFO)) == 96
+    assert len(wells_in("*", INFO.wells)) == 96
