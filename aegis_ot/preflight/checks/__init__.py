@@ -13,12 +13,11 @@ from ..rules import read_dataclass
 from .carry import Carry
 from .case import Case
 from .check import Check, Doubt, Violation
-from .dilution import SeriesDirection, SeriesMixed
+from .dilution import SeriesDirection, SeriesMixed, SeriesTip
 from .dose_order import DoseOrder
 from .filling import SeriesFilledFirst, SeriesFilledFrom
 from .order import MixedAfter, ReceivedBefore, RisingOrder
 from .receiving import NeverReceives, Receives
-from .series_tip import SeriesTip
 from .uniform_volume import UniformVolume
 from .volumes import VolumeBookkeeping
 

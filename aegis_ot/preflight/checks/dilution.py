@@ -1,19 +1,99 @@
-"""Checks on the steps of a dilution series: each is mixed, and they run one way."""
+"""What a dilution step is, and the checks on steps: each is mixed, one way, by a fresh tip."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from ...instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import Transfer, Well
+from ..trace import Tip, Transfer, Visit, Well
 from .case import Case
-from .check import Doubt, Result, Violation, at, place
-from .dilution_steps import SeriesCheck, dilutions, is_mixed, next_draw
+from .check import Check, Doubt, Result, Violation, at, place
 from .series import Series
 from .series_links import branching
 
 _BY_HAND = "None of the wells in which this series ends is mixed; that may be done by hand."
+_MIXED = "Each step is mixed before the next, which rinses the tip: common practice, not exact."
+
+
+@dataclass(frozen=True)
+class SeriesCheck(Check):
+    """A check on each dilution series by itself."""
+
+    def find(self, case: Case) -> Iterator[Result]:
+        """Judge each series."""
+        if not case.series:
+            yield Doubt("no chain of transfers from well to well was found")
+        for series in case.series:
+            yield from self.along(case, series)
+
+    def along(self, case: Case, series: Series) -> Iterator[Result]:
+        """What is wrong with one series, or cannot be judged of it."""
+        raise NotImplementedError
+
+
+def diluent_arrivals(case: Case, well: Well) -> list[int]:
+    """Index of each delivery of diluent to a well."""
+    return [
+        one.visit.index
+        for one in well.received
+        if case.has(one.source, case.diluent)
+        or one.source in case.fillers
+        or _is_made_diluent(case, one)
+    ]
+
+
+def _is_made_diluent(case: Case, one: Transfer) -> bool:
+    """Whether a source elsewhere was filled in the run with diluent, and with no stock."""
+    return (
+        one.source.ref.labware != one.well.ref.labware
+        and not one.source.prefilled
+        and case.brings(one, case.diluent)
+        and not case.brings(one, case.stock)
+    )
+
+
+def dilutions(case: Case, series: Series) -> list[Transfer]:
+    """The steps that dilute.
+
+    Undiluted stock in an empty first well is none: that well never gets diluent, or only after it
+    was drawn from, when all wells are filled up for the reader.
+    """
+    return [
+        step
+        for step in series.steps
+        if step.source in series.position
+        or case.has(step.well, case.diluent)
+        or _is_filled_before_drawn(case, step)
+    ]
+
+
+def _is_filled_before_drawn(case: Case, step: Transfer) -> bool:
+    drawn = next_draw(step)
+    then = drawn.index if drawn else math.inf
+    return any(index < then for index in diluent_arrivals(case, step.well))
+
+
+def is_mixed(case: Case, step: Transfer) -> bool:
+    """Whether a step's well is mixed before liquid is carried on from there."""
+    drawn = next_draw(step)
+    return case.trace.mixed_since(step.well, step.visit.index, drawn.index if drawn else math.inf)
+
+
+def next_draw(step: Transfer) -> Visit | None:
+    """The first draw from a step's well after it, mixing apart."""
+    return next(
+        (
+            visit
+            for visit in step.well.visits
+            if visit.index > step.visit.index
+            and visit.kind is OperationKind.ASPIRATE
+            and not visit.mixing
+        ),
+        None,
+    )
 
 
 @dataclass(frozen=True)
@@ -84,3 +164,62 @@ class SeriesDirection(SeriesCheck):
                 step.well,
                 (step.visit.line, jump < 0),
             )
+
+
+@dataclass(frozen=True)
+class SeriesTip(SeriesCheck):
+    """A tip that has touched a more concentrated well touches no later well of the series.
+
+    The two wells of the first step that it makes are excepted.
+    """
+
+    def along(self, case: Case, series: Series) -> Iterator[Result]:
+        """Follow each tip along the series."""
+        if not series.entered:
+            yield Doubt("nothing says which end of the series holds the stock")
+        steps = dilutions(case, series)
+        feeding = {link.source for link in series.links}
+        goes_on = [step for step in steps if step.well in feeding]  # the last well is SD-1's
+        mixed = all(is_mixed(case, step) for step in goes_on or steps)
+        for tip, visits in case.by_tip.items():
+            here = [visit for visit in visits if visit.contact and visit.well in series.position]
+            yield from _one_tip(series, steps, tip, here, _MIXED if mixed else "")
+
+
+def _one_tip(
+    series: Series, steps: Sequence[Transfer], tip: Tip, visits: Sequence[Visit], warning: str
+) -> Iterator[Result]:
+    first = next((step for step in steps if _is_made_by(step, tip)), None)
+    excepted = {first.source, first.well} if first else set()
+    strongest: tuple[int, Visit] | None = None
+    reported: set[Well] = set()
+    for visit in visits:
+        place_here = series.position[visit.well]
+        if (
+            strongest is not None
+            and strongest[0] < place_here
+            and visit.well not in excepted
+            and visit.well not in reported
+        ):
+            reported.add(visit.well)
+            before = strongest[1]
+            yield Violation(
+                f"The tip that touched the more concentrated {place(before.well)} "
+                f"{at(before.line)} entered {place(visit.well)} {at(visit.line)}.",
+                (
+                    Site(before.line, before.well.ref, "touched the more concentrated well"),
+                    Site(visit.line, visit.well.ref, "entered a later well"),
+                ),
+                visit.well,
+                ("series tip",),
+                contact=min(before.contact, visit.contact),
+                warning=warning,
+            )
+        entered = series.entered.get(visit.well)
+        holds_stock = entered is not None and entered <= visit.index
+        if visit.touches and holds_stock and (strongest is None or place_here < strongest[0]):
+            strongest = (place_here, visit)
+
+
+def _is_made_by(step: Transfer, tip: Tip) -> bool:
+    return any(one.source is step.source and one.visit.tip is tip for one in step.well.received)

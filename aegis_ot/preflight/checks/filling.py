@@ -9,7 +9,7 @@ from ...vocabulary import Site
 from ..trace import Transfer, Well
 from .case import Case
 from .check import Doubt, Result, Violation, at, place
-from .dilution_steps import SeriesCheck, diluent_arrivals, dilutions
+from .dilution import SeriesCheck, diluent_arrivals, dilutions
 from .series import Series
 from .series_links import first_of
 

@@ -10,8 +10,7 @@ from typing import Any
 
 from ...errors import RuleError
 from ..rules import READABLE, SCHEMA_VERSION, Common, Database, Family, parse_json, read_dataclass
-from .dropped import refuse_dropped
-from .validation import check_family, check_together
+from .validation import check_family, check_together, refuse_dropped
 
 
 def shipped_rules() -> Path:

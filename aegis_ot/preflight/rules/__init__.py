@@ -4,11 +4,12 @@ Nothing here knows what a protocol is. The files themselves are loaded, and held
 checks that they name, in :mod:`aegis_ot.preflight.database`.
 """
 
-from .common import READABLE, SCHEMA_VERSION, Common
-from .database import Database
+from .database import Common, Database
 from .limits import at_least
 from .reading import hints_of, is_required, parse_json, public_fields, read_dataclass
 from .specs import (
+    READABLE,
+    SCHEMA_VERSION,
     Example,
     Examples,
     Family,

@@ -11,8 +11,11 @@ from dataclasses import MISSING, dataclass, field
 from functools import cached_property
 from typing import Annotated, Any, Literal
 
-from .common import SCHEMA_VERSION
 from .limits import NOT_EMPTY, Name, Word
+
+SCHEMA_VERSION = 2
+READABLE = (1, SCHEMA_VERSION)
+"""Schema 1 without the fields that are gone is schema 2."""
 
 
 def role_names(required: bool = False) -> Any:
