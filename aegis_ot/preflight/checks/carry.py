@@ -144,7 +144,7 @@ class Carry(Check):
     def _rinses_before(self, case: Case, visit: Visit) -> int:
         """How often a shared liquid was drawn into the tip and given to the waste just before."""
         rinses = 0
-        visits = case.by_tip[visit.tip]
+        visits = visit.tip.visits
         for other in reversed(visits[: visits.index(visit)]):
             if other.kind is OperationKind.ASPIRATE:
                 if not self._is_one_liquid(case, other.well):

@@ -12,7 +12,7 @@ from ...vocabulary import WellRef
 from ..roles import Roles
 from ..rules import Common, Family
 from ..source import name_without_level, without_strength
-from ..trace import Met, Tip, Trace, Transfer, Visit, Well
+from ..trace import Met, Trace, Transfer, Visit, Well
 from .series import Series, find_series
 
 RoleSet = frozenset[str]
@@ -44,14 +44,6 @@ class Case:
     left_over: bool = False
     _of: dict[Well, RoleSet] = field(default_factory=dict, init=False)
     _same: dict[tuple[Well, Well], bool] = field(default_factory=dict, init=False)
-
-    @cached_property
-    def by_tip(self) -> Mapping[Tip, Sequence[Visit]]:
-        """What each tip did, in order."""
-        found: dict[Tip, list[Visit]] = {}
-        for visit in self.trace.visits:
-            found.setdefault(visit.tip, []).append(visit)
-        return found
 
     @property
     def family(self) -> Family:
@@ -112,16 +104,10 @@ class Case:
             found.setdefault(one.source, {})[one.well] = one.visit.index
         return found
 
-    @cached_property
-    def _straight(self) -> Mapping[tuple[Well, Well], Sequence[Visit]]:
-        found: dict[tuple[Well, Well], list[Visit]] = {}
-        for one in self.trace.transfers:
-            found.setdefault((one.source, one.well), []).append(one.visit)
-        return found
-
-    def straight(self, source: Well, well: Well) -> Sequence[Visit]:
+    @staticmethod
+    def straight(source: Well, well: Well) -> list[Visit]:
         """The visits that brought liquid straight from one well into another, in order."""
-        return self._straight.get((source, well), ())
+        return [one.visit for one in well.received if one.source is source]
 
     @cached_property
     def stock(self) -> RoleSet:

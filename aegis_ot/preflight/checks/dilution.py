@@ -181,8 +181,8 @@ class SeriesTip(SeriesCheck):
         feeding = {link.source for link in series.links}
         goes_on = [step for step in steps if step.well in feeding]  # the last well is SD-1's
         mixed = all(is_mixed(case, step) for step in goes_on or steps)
-        for tip, visits in case.by_tip.items():
-            here = [visit for visit in visits if visit.contact and visit.well in series.position]
+        for tip in case.trace.tips:
+            here = [v for v in tip.visits if v.contact and v.well in series.position]
             yield from _one_tip(series, steps, tip, here, _MIXED if mixed else "")
 
 

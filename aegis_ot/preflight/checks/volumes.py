@@ -98,7 +98,7 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
         return "It is drawn to mix, not to be delivered."
     fed = {
         given.well
-        for given in case.by_tip[visit.tip]
+        for given in visit.tip.visits
         if given.index > visit.index
         if given.session == visit.session and any(one.source is well for one in given.brought)
     }

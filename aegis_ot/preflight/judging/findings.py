@@ -13,22 +13,21 @@ from ..rules import RuleSpec
 class Broken(NamedTuple):
     """A rule and the places where it is broken.
 
-    ``severity`` is the highest that its findings have; ``strict``: all of them are errors.
+    ``severity`` is the highest that its findings have.
     """
 
     rule: RuleSpec
     severity: Severity
     violations: list[Violation]
-    strict: bool = False
 
 
-def findings_of(broken: Sequence[Broken]) -> list[Finding]:
-    """The findings on one protocol, in the order of its lines."""
-    findings = [finding for one in without_replaced(broken) for finding in _joined(one)]
+def findings_of(broken: Sequence[Broken], strict: bool) -> list[Finding]:
+    """The findings on one protocol, in the order of its lines; ``strict``: all are errors."""
+    findings = [finding for one in without_replaced(broken) for finding in _joined(one, strict)]
     return sorted(findings, key=lambda finding: (min(finding.lines, default=0), finding.rule))
 
 
-def _joined(broken: Broken) -> Iterable[Finding]:
+def _joined(broken: Broken, strict: bool) -> Iterable[Finding]:
     """One finding per cause, with all the wells that it spoils."""
     rule = broken.rule
     groups: dict[tuple[object, ...], list[Violation]] = {}
@@ -44,7 +43,7 @@ def _joined(broken: Broken) -> Iterable[Finding]:
         if first.warning:
             message = f"{message} {first.warning}"
             severity = Severity.WARNING
-        if broken.strict:
+        if strict:
             severity = Severity.ERROR
         sites: dict[Site, None] = dict.fromkeys(first.sites)
         for violation in group[1:]:

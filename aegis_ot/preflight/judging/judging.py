@@ -52,7 +52,7 @@ def judge_reading(reading: Reading) -> Report:
                 undecided.append(missing_roles(reading, rule, family, missing))
                 continue
             violations, doubt = _judge_rule(rule, case, bool(options.assay))
-            broken.append(Broken(rule, Severity(severity), violations, options.strict))
+            broken.append(Broken(rule, Severity(severity), violations))
             if doubt:
                 undecided.append(undecided_by(doubt, rule, case))
         open_ = {question.rule for question in undecided}
@@ -138,7 +138,7 @@ def _report(
 ) -> Report:
     recording = reading.recording
     waivers = read_waivers(reading.facts)
-    standing, waived = apply_waivers(findings_of(broken), waivers)
+    standing, waived = apply_waivers(findings_of(broken, reading.options.strict), waivers)
     known = [rule.id for rule in reading.database.rules]
     idle = (
         [] if reading.trace.visits else [Remark("It moves no liquid: there is nothing to judge.")]

@@ -2,8 +2,7 @@
 
 from .assay import Inference, infer_families
 from .assigning import assign_roles
-from .contents import implied_contents, settle_diluent
-from .deriving import derive
+from .deriving import derive, implied_contents, settle_diluent
 from .roles import Assignment, Roles
 
 __all__ = [

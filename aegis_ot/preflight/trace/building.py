@@ -182,8 +182,9 @@ class _Builder:
             self._touch(visit)
 
     def _visit(self, step: Step, tip: Tip, well: Well) -> Visit:
-        visit = Visit(step.kind, tip, well, self._index, step.line, step.lines, step.mixing)
+        visit = Visit(step.kind, tip, well, self._index, step.line, step.mixing)
         well.visits.append(visit)
+        tip.visits.append(visit)
         self._trace.visits.append(visit)
         return visit
 

@@ -207,6 +207,7 @@ class Tip:
         layers: Liquid and air in it, drawn last stands last.
         origins: Each liquid it has met, with the first contact, in that order.
         touched: Each well it has touched, with the first contact, in that order.
+        visits: Everything it did, in order.
         unsure: µL of its liquid that may be air: drawn from a well beyond what that held.
     """
 
@@ -215,6 +216,7 @@ class Tip:
     layers: list[Layer] = field(default_factory=list)
     origins: dict[Well, Met] = field(default_factory=dict)
     touched: dict[Well, Met] = field(default_factory=dict)
+    visits: list[Visit] = field(default_factory=list)
     unsure: float = 0.0
 
     def touch(
@@ -268,7 +270,6 @@ class Visit:
         well: The well.
         index: Position in the run; channels that act together share it.
         line: Source line.
-        lines: Source lines of the whole call stack within the protocol.
         volume: µL of liquid drawn or given, air left out.
         brought: What was given of other wells' liquid.
         contact: How surely the tip met the well's liquid, and so left there what it carries. In
@@ -284,7 +285,6 @@ class Visit:
     well: Well
     index: int
     line: int | None = None
-    lines: tuple[int, ...] = ()
     mixing: bool = False
     volume: float = 0.0
     contact: Contact = Contact.CLEAR

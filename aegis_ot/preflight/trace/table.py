@@ -11,9 +11,10 @@ its marks likewise; ``touch`` the wall.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
+from typing import TypeVar
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
@@ -71,6 +72,9 @@ class _Session:
         return (self.again, frozenset((row.word, row.line) for row in self.rows))
 
 
+_Told = TypeVar("_Told", _Row, _Session)
+
+
 def trace_table(trace: Trace, limit: int = 6000) -> tuple[str, ...]:
     """The lines of the table.
 
@@ -88,10 +92,12 @@ def trace_table(trace: Trace, limit: int = 6000) -> tuple[str, ...]:
 def _foldings(sessions: Sequence[_Session]) -> Iterator[list[str]]:
     """The table in ever fewer words."""
     for wells in (places, _in_short):
-        yield [
-            _told(sessions[start : start + period * count], period, count, wells)
-            for start, period, count in _cycles([s.signature for s in sessions])
-        ]
+        lines = []
+        for count, block in _repeated(sessions):
+            told = [_told(same, wells) for same in block]
+            many = f"{count} times in turn [{' | '.join(told)}]"
+            lines.append(told[0] if len(told) == 1 else many)
+        yield lines
     alike: dict[Hashable, list[_Session]] = {}
     for session in sessions:
         alike.setdefault(session.shape, []).append(session)
@@ -136,25 +142,16 @@ def _append(rows: list[_Row], visits: list[Visit]) -> None:
     rows.append(_Row(word, first.volume, first.line, wells))
 
 
-def _told(block: Sequence[_Session], period: int, count: int, wells: Told) -> str:
-    first = block[:period]
-    if count == 1:
-        return "; ".join(f"{_tips([s])}: {_rows(s.rows, wells)}" for s in first)
-    parts = []
-    for place, session in enumerate(first):
-        same = block[place::period]
-        rows = [_row([s.rows[number] for s in same], wells) for number in range(len(session.rows))]
-        parts.append(f"{_tips(same)}: " + "; ".join(rows))
-    return parts[0] if period == 1 else f"{count} times in turn [" + " | ".join(parts) + "]"
-
-
-def _rows(rows: Sequence[_Row], wells: Told) -> str:
-    parts = []
-    for start, period, count in _cycles([row.signature for row in rows]):
-        block = rows[start : start + period * count]
-        inner = "; ".join(_row(block[place::period], wells) for place in range(period))
-        parts.append(inner if count == 1 else f"{count}x ({inner})")
-    return "; ".join(parts)
+def _told(same: Sequence[_Session], wells: Told) -> str:
+    """Sessions that a loop repeats in one line."""
+    if len(same) > 1:
+        rows = [_row(alike, wells) for alike in zip(*(s.rows for s in same), strict=True)]
+    else:
+        rows = []
+        for count, block in _repeated(same[0].rows):
+            inner = "; ".join(_row(alike, wells) for alike in block)
+            rows.append(inner if count == 1 else f"{count}x ({inner})")
+    return f"{_tips(same)}: {'; '.join(rows)}"
 
 
 def _row(same: Sequence[_Row], wells: Told) -> str:
@@ -204,12 +201,13 @@ def _tips(sessions: Sequence[_Session]) -> str:
     )
 
 
-def _cycles(signatures: Sequence[Hashable]) -> Iterable[tuple[int, int, int]]:
-    """Cuts a sequence into repeated blocks: (start, length of the block, how often)."""
+def _repeated(items: Sequence[_Told]) -> Iterator[tuple[int, list[Sequence[_Told]]]]:
+    """Cuts a sequence into repeated blocks: how often, and what stands at each place of one."""
+    signatures = [item.signature for item in items]
     at = 0
-    while at < len(signatures):
+    while at < len(items):
         best = (1, 1)
-        for period in range(1, min(_LONGEST_CYCLE, (len(signatures) - at) // 2) + 1):
+        for period in range(1, min(_LONGEST_CYCLE, (len(items) - at) // 2) + 1):
             count = 1
             while (
                 signatures[at + count * period : at + (count + 1) * period]
@@ -218,8 +216,10 @@ def _cycles(signatures: Sequence[Hashable]) -> Iterable[tuple[int, int, int]]:
                 count += 1
             if count > 1 and period * count > best[0] * best[1]:
                 best = (period, count)
-        yield at, *best
-        at += best[0] * best[1]
+        period, count = best
+        end = at + period * count
+        yield count, [items[at + place : end : period] for place in range(period)]
+        at = end
 
 
 def _in_short(wells: Sequence[WellRef]) -> str:
