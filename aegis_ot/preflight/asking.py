@@ -11,6 +11,7 @@ from __future__ import annotations
 import http.client
 import json
 import time
+from contextlib import closing
 from dataclasses import replace
 from typing import Any
 
@@ -63,24 +64,19 @@ def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: fl
         dossier: What to ask about.
         timeout_s: Longest wait, s.
     """
-    client: HttpClient | None = None
     try:
-        client = HttpClient(address, token)
-        return _exchange(client, dossier, timeout_s)
+        with closing(HttpClient(address, token)) as client:
+            return _exchange(client, dossier, timeout_s)
     except TimeoutError:
-        detail = f"the sidecar has not answered in {timeout_s:g} s."
-        return Opinion("timeout", _WHO, detail)
+        state, detail = "timeout", f"the sidecar has not answered in {timeout_s:g} s."
     except (OSError, http.client.HTTPException) as error:
+        state = "unavailable"
         detail = f"the sidecar cannot be reached ({type(error).__name__})."
-        return Opinion("unavailable", _WHO, detail)
     except _Refused as error:
-        return Opinion(error.state, _WHO, str(error))
+        state, detail = error.state, str(error)
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
-        detail = f"the sidecar's answer makes no sense ({error})."
-        return Opinion("invalid", _WHO, detail)
-    finally:
-        if client is not None:
-            client.close()
+        state, detail = "invalid", f"the sidecar's answer makes no sense ({error})."
+    return Opinion(state, _WHO, detail)
 
 
 def _exchange(client: HttpClient, dossier: Dossier, timeout_s: float) -> Opinion:

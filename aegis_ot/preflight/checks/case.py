@@ -154,8 +154,12 @@ class Case:
             return False
         if not self.family.roles[mine.role].one_liquid:
             return False
-        dull = self.common.undescriptive
-        return name_without_level(mine.text, dull) == name_without_level(theirs.text, dull)
+        return self.compound(one) == self.compound(other)
+
+    def compound(self, well: Well) -> tuple[str, ...]:
+        """What a liquid's name says besides its dose: ``("cisplatin",)``, ``("b",)``."""
+        assigned = self.roles.by_well.get(well.ref)
+        return name_without_level(assigned.text, self.common.undescriptive) if assigned else ()
 
     def _is_one_source(self, one: Well, other: Well) -> bool:
         """Whether one list or loop uses two wells of reservoirs as one liquid.

@@ -8,7 +8,7 @@ from itertools import islice
 
 from ...vocabulary import Site
 from ..rules import role_names
-from ..source import comparable, lexicon_of, name_without_level
+from ..source import comparable, lexicon_of
 from ..trace import Met, Visit, Well
 from .case import Case, carried_liquids
 from .check import Check, Doubt, Result, Violation, at, place
@@ -70,7 +70,7 @@ class DoseOrder(Check):
     ) -> Result | None:
         """The tip carries a liquid that this well never gets."""
         mine = case.level(origin)
-        alike = [other for other in here if _compound(case, origin) == _compound(case, other)]
+        alike = [other for other in here if case.compound(origin) == case.compound(other)]
         own = [case.level(other) for other in alike or here]
         what = f"{case.title(origin)} from {place(origin)}"
         if mine is not None and any(one is not None and not comparable(mine, one) for one in own):
@@ -143,12 +143,6 @@ class DoseOrder(Check):
         )
 
 
-def _compound(case: Case, well: Well) -> tuple[str, ...]:
-    """What the name of a dosed liquid says besides its dose: ``("cisplatin",)``, ``("b",)``."""
-    assigned = case.roles.by_well.get(well.ref)
-    return name_without_level(assigned.text, case.common.undescriptive) if assigned else ()
-
-
 def _in_one_list(case: Case, one: Well, other: Well) -> bool:
     """Whether two wells have their role from one name, and may be doses of one compound."""
     mine, theirs = case.roles.by_well.get(one.ref), case.roles.by_well.get(other.ref)
@@ -158,5 +152,5 @@ def _in_one_list(case: Case, one: Well, other: Well) -> bool:
         return True
     kinds = lexicon_of({"distinct": case.common.distinct, "dosed": case.common.dose_words})
     said = {match.topic for match in kinds.find(mine.text)}
-    same = _compound(case, one) == _compound(case, other)
+    same = case.compound(one) == case.compound(other)
     return same and ("dosed" in said or "distinct" not in said)

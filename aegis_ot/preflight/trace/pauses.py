@@ -91,8 +91,7 @@ class Pauses:
         return Intervention(frozenset(meant), tips, shaken)
 
     def _topics(self, text: str) -> set[str]:
-        lexicon = lexicon_of({topic: tuple(words) for topic, words in self.words.items()})
-        return {match.topic for match in lexicon.find(text)}
+        return {match.topic for match in lexicon_of(self.words).find(text)}
 
 
 def _may_be(info: LabwareInfo, things: frozenset[str]) -> bool:
