@@ -54,9 +54,7 @@ class Carry(Check):
 
     def find(self, case: Case) -> Iterator[Result]:
         """Look at every contact of a well with a tip that had met something before."""
-        carried, into = frozenset(self.carried), frozenset(self.into)
-        not_into = frozenset(self.not_into)
-        carriers = set(case.wells(carried))
+        carriers = set(case.wells(self.carried))
         if self.unnamed:
             carriers.update(well for well in case.destinations if not case.of(well))
         once = not (self.stock or self.pooled)  # later visits are judged as the first
@@ -66,7 +64,7 @@ class Carry(Check):
             if not visit.contact or not visit.carried:
                 continue
             well = visit.well
-            if not case.has(well, into) or (not_into and case.has(well, not_into)):
+            if not case.has(well, self.into) or case.has(well, self.not_into):
                 continue
             if self.shared and not is_shared(case, well):
                 continue
@@ -87,7 +85,7 @@ class Carry(Check):
                 elif not once:
                     let_be.setdefault(key, []).append((origin, met))
             judged[key] = visit.carried
-        doubt = unnamed_contact(case, carriers, into)
+        doubt = unnamed_contact(case, carriers, self.into)
         if doubt is not None:
             yield doubt
 
@@ -171,9 +169,8 @@ class Carry(Check):
         later = [dest for dest, index in drawn_for.items() if index > visit.index]
         if drawn_for and not later:
             return False
-        carried = frozenset(self.carried)
         return not any(
-            one.source is not well and case.roles.is_called(one.source.ref, carried)
+            one.source is not well and case.roles.is_called(one.source.ref, self.carried)
             for dest in later
             for one in dest.received
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import islice
@@ -15,7 +15,8 @@ from ..source import name_without_level, without_strength
 from ..trace import Met, Trace, Transfer, Visit, Well
 from .series import Series, find_series
 
-RoleSet = frozenset[str]
+RoleSet = Collection[str]
+"""Names of roles."""
 
 FirstOrLast = Mapping[Well, Mapping[Well, int]]
 """For each well other wells, each with an index of the run."""
@@ -42,7 +43,7 @@ class Case:
     waste: frozenset[WellRef] = frozenset()
     unsure: frozenset[WellRef] = frozenset()
     left_over: bool = False
-    _of: dict[Well, RoleSet] = field(default_factory=dict, init=False)
+    _of: dict[Well, frozenset[str]] = field(default_factory=dict, init=False)
     _same: dict[tuple[Well, Well], bool] = field(default_factory=dict, init=False)
 
     @property
@@ -50,7 +51,7 @@ class Case:
         """The family whose rules are judged."""
         return self.roles.family
 
-    def of(self, well: Well) -> RoleSet:
+    def of(self, well: Well) -> frozenset[str]:
         """All roles of a well."""
         found = self._of.get(well)
         if found is None:
@@ -59,7 +60,7 @@ class Case:
 
     def has(self, well: Well, wanted: RoleSet) -> bool:
         """Whether a well has any of these roles."""
-        return not wanted.isdisjoint(self.of(well))
+        return not self.of(well).isdisjoint(wanted)
 
     def brings(self, transfer: Transfer, wanted: RoleSet) -> bool:
         """Whether a transfer brings liquid that stood in a well of these roles before the run."""
@@ -109,15 +110,15 @@ class Case:
         """The visits that brought liquid straight from one well into another, in order."""
         return [one.visit for one in well.received if one.source is source]
 
-    @cached_property
+    @property
     def stock(self) -> RoleSet:
         """Roles that the family dilutes in a series."""
-        return frozenset(self.family.series.stock if self.family.series else ())
+        return self.family.series_roles.stock
 
-    @cached_property
+    @property
     def diluent(self) -> RoleSet:
         """Roles that the family dilutes a series with."""
-        return frozenset(self.family.series.diluent if self.family.series else ())
+        return self.family.series_roles.diluent
 
     @cached_property
     def series(self) -> Sequence[Series]:

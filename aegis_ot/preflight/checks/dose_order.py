@@ -30,18 +30,17 @@ class DoseOrder(Check):
 
     def find(self, case: Case) -> Iterator[Result]:
         """Follow each tip through the dosed wells."""
-        liquid, wanted = frozenset(self.liquid), frozenset(self.wells)
-        doses = self._doses(case, liquid)
+        doses = self._doses(case)
         seen: set[tuple[int, int]] = set()
         for visit in case.trace.visits:
-            if not visit.contact or not visit.carried or not case.has(visit.well, wanted):
+            if not visit.contact or not visit.carried or not case.has(visit.well, self.wells):
                 continue
             here = doses.get(visit.well, {})
             key = (visit.tip.number, id(visit.well))
             if key in seen:
                 continue
             for origin, met in carried_liquids(visit):
-                if origin is visit.well or not case.has(origin, liquid):
+                if origin is visit.well or not case.has(origin, self.liquid):
                     continue
                 if not any(case.same_liquid(origin, other) for other in here):
                     result = self._other(case, visit, origin, met, here)
@@ -55,12 +54,12 @@ class DoseOrder(Check):
                     seen.add(key)
                     yield worse
 
-    def _doses(self, case: Case, liquid: frozenset[str]) -> dict[Well, dict[Well, float]]:
+    def _doses(self, case: Case) -> dict[Well, dict[Well, float]]:
         """For each well the µL of each dosed liquid that it is given in the whole run."""
         doses: dict[Well, dict[Well, float]] = {}
         for one in case.trace.transfers:
             for origin, share in one.liquid.items():
-                if case.has(origin, liquid):
+                if case.has(origin, self.liquid):
                     into = doses.setdefault(one.well, {})
                     into[origin] = into.get(origin, 0.0) + one.volume * share
         return doses

@@ -59,8 +59,6 @@ class SeriesFilledFrom(SeriesCheck):
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
         """Look at the source of each filling."""
-        spec = case.family.series
-        buffers = frozenset(spec.diluent_else if spec else ())
         done: set[Well] = set()
         for step in series.steps:
             wrong = wrong_fill(case, series, step)
@@ -77,7 +75,7 @@ class SeriesFilledFrom(SeriesCheck):
             if case.has(source, case.stock) and _is_in_all(case, series, source):
                 yield Doubt(f"all wells are given {place(source)}; it may be what dilutes")
                 continue
-            is_buffer = case.has(source, buffers)
+            is_buffer = case.has(source, case.family.series_roles.diluent_else)
             yield Violation(
                 f"{place(step.well)} is filled from the {case.title(source)} "
                 f"{place(source)}, {at(wrong.drawn)}, where its diluent should come.",

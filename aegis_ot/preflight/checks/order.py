@@ -81,7 +81,7 @@ class MixedAfter(Check):
 
     def _receivers(self, case: Case) -> Iterator[tuple[Well, list[Transfer]]]:
         """The wells that are judged, each with what brought it the liquid."""
-        liquid, wanted = frozenset(self.liquid), frozenset(self.wells)
+        liquid, wanted = self.liquid, self.wells
         for well in case.trace.wells.values():
             if case.has(well, liquid) or (wanted and not case.has(well, wanted)):
                 continue
@@ -110,15 +110,15 @@ class ReceivedBefore(Check):
 
     def find(self, case: Case) -> Iterator[Result]:
         """Compare the arrivals of both."""
-        first, then = frozenset(self.first), frozenset(self.then)
-        wanted = frozenset(self.wells)
         for well in case.trace.wells.values():
-            if wanted and not case.has(well, wanted):
+            if self.wells and not case.has(well, self.wells):
                 continue
-            begun = _begun(case, arrivals(case, well, then), then)
+            begun = _begun(case, arrivals(case, well, self.then), self.then)
             if begun is None:
                 continue
-            late = [one for one in arrivals(case, well, first) if one.visit.index > begun.index]
+            late = [
+                one for one in arrivals(case, well, self.first) if one.visit.index > begun.index
+            ]
             for one in late[:1]:
                 what = case.titles(self.then)
                 title, line = case.title(one.source), one.visit.line
@@ -160,12 +160,11 @@ class RisingOrder(Check):
 
     def find(self, case: Case) -> Iterator[Result]:
         """Follow each tip session's deliveries."""
-        liquid = frozenset(self.liquid)
         last: dict[tuple[int, int], Transfer] = {}
         done: set[tuple[int, int, Well]] = set()
         for one in case.trace.transfers:
             source, visit = one.source, one.visit
-            if not case.has(source, liquid) or case.has(one.well, liquid):
+            if not case.has(source, self.liquid) or case.has(one.well, self.liquid):
                 continue  # where the one is diluted to make the other, nothing is dispensed
             key = (visit.tip.number, visit.session)
             before = last.get(key)

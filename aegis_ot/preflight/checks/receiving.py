@@ -73,7 +73,7 @@ class Receives(Check):
 
     def find(self, case: Case) -> Iterator[Result]:
         """Look at each well that should receive it."""
-        liquid = frozenset(self.liquid)
+        liquid = self.liquid
         served = {
             well.ref
             for well in case.trace.wells.values()
@@ -82,8 +82,7 @@ class Receives(Check):
         plates = self._plates(case, liquid)
         if not plates and self._stands_unused(case, liquid):
             plates = {ref.labware for ref, used in case.trace.usage.items() if used.received}
-            always = frozenset(self.always)
-            judged = [well for well in self._judged(case) if case.has(well, always)]
+            judged = [well for well in self._judged(case) if case.has(well, self.always)]
         else:
             judged = list(self._judged(case))
         if not plates or not judged:
@@ -116,7 +115,7 @@ class Receives(Check):
                 f"{place(well)} receives something from {place(unknown)}, and nothing says "
                 "what stands there"
             )
-        if is_made_of(case, well, frozenset(self.wells)):
+        if is_made_of(case, well, self.wells):
             return f"{place(well)} is filled from wells like it, at a later stage perhaps"
         if case.roles.is_named_by_labware(well.ref):
             return f"nothing but its plate's name says what {place(well)} is for"
@@ -127,12 +126,11 @@ class Receives(Check):
 
         A well that is given what stood in such a well before, liquid and all, is another stage.
         """
-        wells = frozenset(self.wells)
         return {
             one.well.ref.labware
             for one in case.trace.transfers
             if case.has(one.source, liquid)
-            or (case.brings(one, liquid) and not case.has(one.source, wells))
+            or (case.brings(one, liquid) and not case.has(one.source, self.wells))
         }
 
     @staticmethod
@@ -144,19 +142,18 @@ class Receives(Check):
         )
 
     def _judged(self, case: Case) -> Iterator[Well]:
-        wanted, always = frozenset(self.wells), frozenset(self.always)
         for well in case.trace.wells.values():
-            if not case.has(well, wanted):
+            if not case.has(well, self.wells):
                 continue
             usage = case.trace.usage.get(well.ref, Usage())
-            if not usage.first_drawn and (usage.received or case.has(well, always)):
+            if not usage.first_drawn and (usage.received or case.has(well, self.always)):
                 yield well
         visited = {well.ref for well in case.trace.wells.values()}
         drawn = {ref.labware for ref, usage in case.trace.usage.items() if usage.first_drawn}
         for ref in case.roles.by_well:
             if ref.labware in drawn:
                 continue  # among sources: a tube that this run leaves out
-            if ref not in visited and not always.isdisjoint(case.roles.of(ref)):
+            if ref not in visited and case.roles.has(ref, self.always):
                 yield Well(ref)
 
 
@@ -177,33 +174,31 @@ class NeverReceives(Check):
 
     def find(self, case: Case) -> Iterator[Result]:
         """Look at what each such well is given."""
-        wanted, liquid = frozenset(self.wells), frozenset(self.liquid)
-        for well in case.wells(wanted):
+        for well in case.wells(self.wells):
             seen: set[Well] = set()
             for one in well.received:
                 for origin, share in one.liquid.items():
                     if origin in seen or one.volume * share <= EMPTY_UL:
                         continue
-                    if not case.of(origin) and self._may_be(case, origin, well, liquid):
+                    if not case.of(origin) and self._may_be(case, origin, well):
                         seen.add(origin)
                         yield Doubt(
                             f"nothing says what {place(origin)} holds, which goes into the "
                             f"{case.title(well)} {place(well)} as well"
                         )
-                    elif case.has(origin, liquid) and not case.has(origin, wanted):
+                    elif case.has(origin, self.liquid) and not case.has(origin, self.wells):
                         seen.add(origin)
                         yield _given(case, one, origin)
 
-    def _may_be(self, case: Case, source: Well, well: Well, liquid: RoleSet) -> bool:
+    def _may_be(self, case: Case, source: Well, well: Well) -> bool:
         """Whether some other wells of a plate, but not most, get a source and no ``liquid``."""
-        wanted = frozenset(self.wells)
         others = {
             other: origins
             for other, origins in case.meant.items()
-            if other.ref.labware == well.ref.labware and not case.has(other, wanted)
+            if other.ref.labware == well.ref.labware and not case.has(other, self.wells)
         }
         served = [origins for other, origins in others.items() if source in origins]
-        in_its_place = any(not any(case.has(o, liquid) for o in origins) for origins in served)
+        in_its_place = any(not any(case.has(o, self.liquid) for o in origins) for origins in served)
         return in_its_place and 2 * len(served) < len(others)
 
 

@@ -48,11 +48,10 @@ def find_series(trace: Trace, roles: Roles, waste: Collection[WellRef]) -> list[
 
 class _Finder:
     def __init__(self, trace: Trace, roles: Roles) -> None:
-        spec = roles.family.series
+        spec = roles.family.series_roles
         self._trace = trace
         self._roles = roles
-        self._stock = frozenset(spec.stock if spec else ())
-        self._diluent = frozenset(spec.diluent if spec else ())
+        self._stock, self._diluent = spec.stock, spec.diluent
 
     def found(self, waste: Collection[WellRef]) -> list[Series]:
         links, fillers = along_series(
@@ -75,7 +74,7 @@ class _Finder:
             series.append(self._series(group, members, shared, fillers))
         return series
 
-    def _has(self, well: Well, wanted: frozenset[str]) -> bool:
+    def _has(self, well: Well, wanted: Collection[str]) -> bool:
         return self._roles.has(well.ref, wanted)
 
     def _is_link(self, one: Transfer) -> bool:
@@ -86,7 +85,7 @@ class _Finder:
 
     def _is_made(self, well: Well) -> bool:
         """Whether a well named as a stock was filled in the run: a standard, the undiluted head."""
-        made_of = self._diluent | self._stock
+        made_of = (*self._diluent, *self._stock)
         return not well.prefilled and any(
             self._has(one.source, made_of) or one.source.ref.labware == well.ref.labware
             for one in well.received
@@ -162,7 +161,7 @@ class _Finder:
         Wells of another series (``taken``) in that row are none of this one's.
         """
         lines = [{well.order[axis] for well in linked} for axis in (0, 1)]
-        filling = self._diluent | self._stock
+        filling = (*self._diluent, *self._stock)
         return linked + [
             well
             for well in self._trace.wells.values()

@@ -9,7 +9,7 @@ from typing import Annotated
 from ...vocabulary import Site
 from ..rules import at_least, role_names
 from ..trace import Well
-from .case import Case, RoleSet
+from .case import Case
 from .check import Check, Result, Violation, at, place
 from .received import came_from, filled, is_made_of, received
 
@@ -40,34 +40,32 @@ class UniformVolume(Check):
 
     def find(self, case: Case) -> Iterator[Result]:
         """Compare each well with what most wells of its assay get."""
-        wells, liquid = frozenset(self.wells), frozenset(self.liquid)
         groups: dict[tuple[str, ...], list[Member]] = {}
-        for well in case.wells(wells):
+        for well in case.wells(self.wells):
             if well.prefilled or case.is_drawn_first(well):
                 continue
-            if self._is_shared_out(case, well, wells) or is_made_of(case, well, wells):
+            if self._is_shared_out(case, well) or is_made_of(case, well, self.wells):
                 continue
-            got, _ = received(case, well, liquid)
+            got, _ = received(case, well, self.liquid)
             if got > 0:
                 total, _ = filled(well)
-                groups.setdefault(self._assay(case, well, liquid), []).append((well, got, total))
+                groups.setdefault(self._assay(case, well), []).append((well, got, total))
         for members in groups.values():
             yield from self._compare(case, members)
 
-    @staticmethod
-    def _is_shared_out(case: Case, well: Well, wells: RoleSet) -> bool:
+    def _is_shared_out(self, case: Case, well: Well) -> bool:
         """Whether it got more on purpose: other such wells beside it are filled from it."""
         return any(
-            other is not well and other.ref.labware == well.ref.labware and case.has(other, wells)
+            other.ref.labware == well.ref.labware and case.has(other, self.wells)
             for other in case.destinations.get(well, {})
         )
 
     def _differs(self, volume: float, usual: float) -> bool:
         return abs(volume - usual) > max(self.tolerance * usual, 0.01)
 
-    def _assay(self, case: Case, well: Well, liquid: RoleSet) -> tuple[str, ...]:
+    def _assay(self, case: Case, well: Well) -> tuple[str, ...]:
         names = set()
-        for tube in came_from(case, well, liquid):
+        for tube in came_from(case, well, self.liquid):
             assigned = case.roles.by_well.get(tube.ref)
             kind = assigned.text if assigned else ""
             names.add(kind or tube.ref.address)
@@ -87,7 +85,7 @@ class UniformVolume(Check):
         for well, got, total in members:
             if self._differs(got, usual_got):
                 what = f"receives {got:.4g} µL of {title}; the others receive {usual_got:.4g} µL"
-                line = received(case, well, frozenset(self.liquid))[1]
+                line = received(case, well, self.liquid)[1]
             elif self._differs(total, usual_total) and few:
                 what = f"ends at {total:.4g} µL; the others end at {usual_total:.4g} µL"
                 line = filled(well)[1]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from ...vocabulary import WellRef
 from ..rules import RoleSpec
 from ..trace import Trace, Well, chains_of
@@ -70,13 +72,12 @@ def _is_control(roles: Roles, ref: WellRef) -> bool:
 
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """A source without a name that mostly goes into named wells of ``spec.feeds``."""
-    wanted = frozenset(spec.feeds)
     for ref, wells in trace.served(prefilled=True).items():
         if roles.of(ref):
             continue
         if any(_is_control(roles, well) for well in wells):
             continue  # a stain, a read-out: a reagent for all
-        right = [well for well in wells if roles.has(well, wanted)]
+        right = [well for well in wells if roles.has(well, spec.feeds)]
         if len(right) * 2 > len(wells) and not all(map(roles.is_doubtful, right)):
             roles.derive(ref, name)
 
@@ -124,7 +125,6 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
 
 def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """Wells that receive a liquid of ``spec.receives`` and pass nothing on."""
-    wanted = frozenset(spec.receives)
     for well in trace.wells.values():
         used = trace.usage[well.ref]
         if not used.received or used.first_drawn or used.drain or used.feeds:
@@ -135,18 +135,18 @@ def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> 
             continue
         if unlike and _receives_what_it_is_named_for(roles, well):
             continue
-        if _receives(roles, well, wanted, frozenset({name})):
+        if _receives(roles, well, spec.receives, (name,)):
             if unlike:
                 del roles.by_well[well.ref]  # calibrators stand on the "CSF plate" as well
             roles.derive(well.ref, name)
 
 
 def _receives_what_it_is_named_for(roles: Roles, well: Well) -> bool:
-    wanted = frozenset(roles.family.roles[roles.by_well[well.ref].role].receives)
-    return not wanted or _receives(roles, well, wanted, frozenset())
+    wanted = roles.family.roles[roles.by_well[well.ref].role].receives
+    return not wanted or _receives(roles, well, wanted, ())
 
 
-def _receives(roles: Roles, well: Well, wanted: frozenset[str], made: frozenset[str]) -> bool:
+def _receives(roles: Roles, well: Well, wanted: Collection[str], made: Collection[str]) -> bool:
     """Whether a liquid of these roles comes into a well, and not from one that it made already: a
     product that goes on to a gel makes no reaction there.
     """
@@ -165,35 +165,34 @@ def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
     """
     specs = roles.family.roles
     found = {
-        ref: frozenset(specs[assigned.role].filled_by)
+        ref: specs[assigned.role].filled_by
         for ref, assigned in roles.by_well.items()
         if specs[assigned.role].implies_contents
     }
     for one in trace.transfers if found else ():
         if one.well.ref in found:
             theirs = roles.of(one.source.ref)
-            if not theirs or not found[one.well.ref].isdisjoint(theirs):
+            if not theirs or not theirs.isdisjoint(found[one.well.ref]):
                 del found[one.well.ref]
     return set(found)
 
 
 def settle_diluent(roles: Roles, trace: Trace) -> None:
     """Where nothing is called the diluent, find it among the buffers, or by its use."""
-    spec = roles.family.series
-    if spec is None or not spec.diluent or any(roles.known(role) for role in spec.diluent):
+    spec = roles.family.series_roles
+    if not spec.diluent or any(roles.known(role) for role in spec.diluent):
         return
-    otherwise = frozenset(spec.diluent_else)
     filled: dict[str, set[WellRef]] = {}
     sources: dict[str, set[WellRef]] = {}
     for source, wells in trace.served().items():
         assigned = roles.by_well.get(source)
-        if assigned is not None and roles.has(source, otherwise):
+        if assigned is not None and roles.has(source, spec.diluent_else):
             text = _without_number(assigned.text)
             filled.setdefault(text, set()).update(wells)
             sources.setdefault(text, set()).add(source)
     if not filled:  # named, and never used: then something else is used in its place
         for ref, assigned in roles.by_well.items():
-            if assigned.role in otherwise:
+            if assigned.role in spec.diluent_else:
                 sources.setdefault(_without_number(assigned.text), set()).add(ref)
         filled = {text: set() for text in sources} if len(sources) == 1 else {}
     if not filled:

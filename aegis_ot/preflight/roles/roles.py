@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -73,18 +74,18 @@ class Roles:
         extra = self.derived.get(ref)
         return roles | extra if extra else roles
 
-    def has(self, ref: WellRef, wanted: frozenset[str]) -> bool:
+    def has(self, ref: WellRef, wanted: Collection[str]) -> bool:
         """Whether a well has any of these roles."""
-        return not wanted.isdisjoint(self.of(ref))
+        return not self.of(ref).isdisjoint(wanted)
 
     def derive(self, ref: WellRef, role: str) -> None:
         """Give a well a role that follows from its use, with all above it."""
         self.derived.setdefault(ref, set()).update(self.family.closure(role))
 
-    def is_called(self, ref: WellRef, wanted: frozenset[str]) -> bool:
+    def is_called(self, ref: WellRef, wanted: Collection[str]) -> bool:
         """Whether something says that a well has one of these roles, and not its use alone."""
         assigned = self.by_well.get(ref)
-        return assigned is not None and not wanted.isdisjoint(self.family.closure(assigned.role))
+        return assigned is not None and not self.family.closure(assigned.role).isdisjoint(wanted)
 
     def is_doubtful(self, ref: WellRef) -> bool:
         """Whether nothing but written wells or a model's reading says what a well is for."""

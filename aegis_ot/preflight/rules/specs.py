@@ -247,6 +247,11 @@ class Family:
     default: bool = False
     path: str = field(default="", compare=False, metadata={"internal": True})
 
+    @property
+    def series_roles(self) -> SeriesSpec:
+        """Which roles make a dilution series; none where it has no such series."""
+        return self.series or SeriesSpec((), (), ())
+
     def closure(self, role: str) -> frozenset[str]:
         """A role and all roles above it."""
         known = self._closures.get(role)
