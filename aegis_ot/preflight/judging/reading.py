@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ...vocabulary import WellRef
 from ..checks import Case
 from ..evidence import Evidence, gather
 from ..rehearsal import Recording
 from ..roles import (
-    Inference,
     Roles,
     assign_roles,
     derive,
@@ -20,24 +19,26 @@ from ..roles import (
     infer_families,
     settle_diluent,
 )
-from ..rules import Common, Database, Family, RuleSpec
+from ..rules import Database, Family, RuleSpec
 from ..source import SourceFacts, lexicon_of, read_source, tokens
-from ..trace import Pauses, Trace, build_trace
+from ..trace import Pauses, build_trace
 from .options import Options, check_options
 
 _PLAUSIBLE = 1.0
 """From this score on a family that is not judged may still say what wells held."""
 
 
-@dataclass(frozen=True)
 class Reading:
     """What a protocol is taken for; made once, then judged, shown to a model, judged again.
 
-    Attributes:
+    Args:
         recording: The rehearsal.
         database: The rules.
         options: How to judge.
         facts: What its text says as Python.
+        more: Evidence beside what is gathered, a model's.
+
+    Attributes:
         trace: What it does.
         evidence: All that speaks for roles.
         families: All families, the likeliest first.
@@ -46,16 +47,41 @@ class Reading:
         unsure: Wells that may have held liquid before the run, as names go.
     """
 
-    recording: Recording
-    database: Database
-    options: Options
-    facts: SourceFacts
-    trace: Trace
-    evidence: tuple[Evidence, ...]
-    families: tuple[Inference, ...]
-    roles: tuple[Roles, ...]
-    waste: frozenset[WellRef]
-    unsure: frozenset[WellRef]
+    def __init__(
+        self,
+        recording: Recording,
+        database: Database,
+        options: Options,
+        facts: SourceFacts,
+        more: Sequence[Evidence] = (),
+    ) -> None:
+        self.recording, self.database = recording, database
+        self.options, self.facts = options, facts
+        common = database.common
+        pauses = Pauses(common.pauses)
+        self.trace = build_trace(recording.log, recording.labware, pauses)
+        gathered = gather(self.trace, recording.names, facts, options.roles, common)
+        self.evidence = (*gathered, *more)
+        self._assigned: dict[str, Roles] = {}
+        found = infer_families(
+            database, facts, self.evidence, self.trace, self._roles_of, options.assay
+        )
+        self.families = tuple(found)
+        applying = [database.family(one.family) for one in found if one.applies]
+        self.roles = tuple(map(self._roles_of, applying))
+        empty = self._said_to_be_empty()
+        prefilled = {ref for one in self.roles for ref in implied_contents(one, self.trace)} - empty
+        # Read again, now that roles say which wells held liquid before the run.
+        usage = self.trace.usage
+        prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
+        if prefilled & usage.keys():
+            log, labware = recording.log, recording.labware
+            self.trace = build_trace(log, labware, pauses, prefilled.__contains__)
+        for one in self.roles:
+            settle_diluent(one, self.trace)
+            derive(one, self.trace)
+        self.waste = self._called(common.waste)
+        self.unsure = (self._called(common.prefilled) | self._implied_elsewhere()) - empty
 
     @property
     def family_known(self) -> bool:
@@ -86,17 +112,50 @@ class Reading:
             assay: The family that it is taken for; as before if empty.
         """
         options = replace(self.options, assay=tuple(assay)) if assay else self.options
-        return _read(self.recording, self.database, options, self.facts, more)
+        return Reading(self.recording, self.database, options, self.facts, more)
 
     def _case(self, roles: Roles, sure: bool, left_over: bool = False) -> Case:
-        return Case(
-            self.trace,
-            roles,
-            self.database.common,
-            sure,
-            self.waste,
-            self.unsure,
-            left_over,
+        common, waste, unsure = self.database.common, self.waste, self.unsure
+        return Case(self.trace, roles, common, sure, waste, unsure, left_over)
+
+    def _roles_of(self, family: Family) -> Roles:
+        if family.family not in self._assigned:
+            roles = assign_roles(family, self.database.common, self.evidence, self.trace)
+            self._assigned[family.family] = roles
+        return self._assigned[family.family]
+
+    def _called(self, words: Sequence[str]) -> frozenset[WellRef]:
+        """Wells whose names, labels or liquids have one of these words."""
+        lexicon = lexicon_of({"called": words})
+        return frozenset(ref for e in self.evidence if lexicon.find(e.text) for ref in e.wells)
+
+    def _said_to_be_empty(self) -> frozenset[WellRef]:
+        """Wells called no more than empty: ``empty_tubes``, not those of an "empty vector"."""
+        common = self.database.common
+        empty, nouns = set(common.empty), {word for noun in common.noise for word in tokens(noun)}
+        return frozenset(
+            ref
+            for one in self.evidence
+            if not one.whole
+            if empty & (words := set(tokens(one.text))) and words <= empty | nouns
+            for ref in one.wells
+        )
+
+    def _implied_elsewhere(self) -> frozenset[WellRef]:
+        """Wells that held liquid before the run in the eyes of a family that is not judged.
+
+        Too little to accuse anyone, enough not to.
+        """
+        trace = self.trace
+        if not any(i.visit.well.declared is None and not i.overfilled for i in trace.imbalances):
+            return frozenset()
+        return frozenset(
+            ref
+            for inference in self.families
+            if not inference.applies and inference.score >= _PLAUSIBLE
+            for ref in implied_contents(
+                self._roles_of(self.database.family(inference.family)), trace
+            )
         )
 
 
@@ -121,86 +180,4 @@ def read_recording(recording: Recording, database: Database, options: Options) -
     """
     check_options(options, database)
     with uncollected():
-        return _read(recording, database, options, read_source(recording.text), ())
-
-
-def _read(
-    recording: Recording,
-    database: Database,
-    options: Options,
-    facts: SourceFacts,
-    more: Sequence[Evidence],
-) -> Reading:
-    common = database.common
-    pauses = Pauses(common.pauses)
-    trace = build_trace(recording.log, recording.labware, pauses)
-    evidence = [*gather(trace, recording.names, facts, options.roles, common), *more]
-    assigned: dict[str, Roles] = {}
-
-    def roles_of(family: Family) -> Roles:
-        if family.family not in assigned:
-            assigned[family.family] = assign_roles(family, common, evidence, trace)
-        return assigned[family.family]
-
-    families = infer_families(database, facts, evidence, trace, roles_of, options.assay)
-    roles = [roles_of(database.family(found.family)) for found in families if found.applies]
-    empty = _said_to_be_empty(evidence, common)
-    prefilled = {ref for one in roles for ref in implied_contents(one, trace)} - empty
-    # Read again, now that roles say which wells held liquid before the run.
-    prefilled -= {ref for ref, used in trace.usage.items() if used.first_drawn or used.prefilled}
-    if prefilled & trace.usage.keys():
-        trace = build_trace(recording.log, recording.labware, pauses, prefilled.__contains__)
-    for one in roles:
-        settle_diluent(one, trace)
-        derive(one, trace)
-    elsewhere = _implied_elsewhere(database, families, roles_of, trace)
-    return Reading(
-        recording=recording,
-        database=database,
-        options=options,
-        facts=facts,
-        trace=trace,
-        evidence=tuple(evidence),
-        families=tuple(families),
-        roles=tuple(roles),
-        waste=_called(evidence, common.waste),
-        unsure=(_called(evidence, common.prefilled) | elsewhere) - empty,
-    )
-
-
-def _implied_elsewhere(
-    database: Database,
-    families: Iterable[Inference],
-    roles_of: Callable[[Family], Roles],
-    trace: Trace,
-) -> frozenset[WellRef]:
-    """Wells that held liquid before the run in the eyes of a family that is not judged.
-
-    Too little to accuse anyone, enough not to.
-    """
-    if not any(i.visit.well.declared is None and not i.overfilled for i in trace.imbalances):
-        return frozenset()
-    return frozenset(
-        ref
-        for inference in families
-        if not inference.applies and inference.score >= _PLAUSIBLE
-        for ref in implied_contents(roles_of(database.family(inference.family)), trace)
-    )
-
-
-def _called(evidence: Iterable[Evidence], words: Sequence[str]) -> frozenset[WellRef]:
-    """Wells whose names, labels or liquids have one of these words."""
-    lexicon = lexicon_of({"called": tuple(words)})
-    return frozenset(ref for one in evidence if lexicon.find(one.text) for ref in one.wells)
-
-
-def _said_to_be_empty(evidence: Iterable[Evidence], common: Common) -> frozenset[WellRef]:
-    """Wells called no more than empty: ``empty_tubes``, not those of an "empty vector"."""
-    empty, nouns = set(common.empty), {token for noun in common.noise for token in tokens(noun)}
-    return frozenset(
-        ref
-        for one in evidence
-        if not one.whole
-        if empty & (words := set(tokens(one.text))) and words <= empty | nouns
-        for ref in one.wells
-    )
+        return Reading(recording, database, options, read_source(recording.text))
