@@ -5,11 +5,11 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 
 from .building import build_trace
 from .geometry import Contact, Geometry
-from .model import EMPTY_UL, Met, Tip, Transfer, Visit, Well
+from .model import EMPTY_UL, Transfer, Visit, Well
 from .pauses import Intervention, Pauses
 from .plates import row_column
 from .table import places, trace_table
-from .tip_racks import TipBox
+from .tips import Met, Tip, TipBox
 from .trace import Imbalance, Trace, Usage, chains_of
 
 __all__ = [

@@ -12,10 +12,10 @@ from ...instrumentation import Event, EventKind, LabwareInfo, OperationKind
 from ...vocabulary import WellRef
 from ..rehearsal import Record, Step
 from .geometry import CLEARANCE_MM, Contact
-from .model import Layer, Tip, Transfer, Visit, Well
+from .model import Layer, Transfer, Visit, Well
 from .pauses import Pauses
 from .plates import Plates
-from .tip_racks import TipBox
+from .tips import Tip, TipBox
 from .trace import Imbalance, Trace
 
 _MOST = 0.5

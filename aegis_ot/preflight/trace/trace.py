@@ -9,7 +9,8 @@ from functools import cached_property
 
 from ...instrumentation import LabwareInfo, OperationKind
 from ...vocabulary import WellRef
-from .model import Tip, Transfer, Visit, Well
+from .model import Transfer, Visit, Well
+from .tips import Tip
 
 PlaceKey = tuple[str, int, str]
 """Labware key, generation of the plate, well name."""

@@ -1,11 +1,90 @@
-"""Which tip is on which nozzle: new from the rack, or one that was returned to it."""
+"""Tips: what each has met and holds, and which one is on which nozzle."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
+from dataclasses import dataclass, field
 
 from ...vocabulary import WellRef
-from .model import Tip
+from .geometry import Contact
+from .model import EMPTY_UL, Layer, Visit, Well
+
+
+@dataclass(eq=False, slots=True)
+class Met:
+    """First contact of a tip with one liquid or one well; ``wet``: index of the first wet one."""
+
+    well: Well
+    line: int | None
+    index: int
+    wet: float
+
+    def contact(self, index: float = math.inf) -> Contact:
+        """How surely the tip had met it by this index."""
+        return Contact.WET if self.wet <= index else Contact.NEAR
+
+
+@dataclass(eq=False, slots=True)
+class Tip:
+    """One tip from its first pick-up on; a returned tip goes on with the same history.
+
+    Attributes:
+        number: Counts the tips of a run.
+        session: Counts this tip's pick-ups.
+        layers: Liquid and air in it, drawn last stands last.
+        origins: Each liquid it has met, with the first contact, in that order.
+        touched: Each well it has touched, with the first contact, in that order.
+        visits: Everything it did, in order.
+        unsure: µL of its liquid that may be air: drawn from a well beyond what that held.
+    """
+
+    number: int
+    session: int = 0
+    layers: list[Layer] = field(default_factory=list)
+    origins: dict[Well, Met] = field(default_factory=dict)
+    touched: dict[Well, Met] = field(default_factory=dict)
+    visits: list[Visit] = field(default_factory=list)
+    unsure: float = 0.0
+
+    def touch(
+        self, well: Well, line: int | None, index: int, contact: Contact = Contact.WET
+    ) -> None:
+        """The tip's outside met ``well``: it now carries all that the well holds."""
+        wet = index if contact is Contact.WET else math.inf
+        met = self.touched.get(well)
+        if met is None:
+            met = self.touched[well] = Met(well, line, index, wet)
+        elif (
+            met.contact() >= contact
+            and len(well.contents) <= 1
+            and next(iter(well.contents), None) in self.origins
+        ):
+            return
+        met.wet = min(met.wet, wet)
+        for origin in well.contents:
+            known = self.origins.get(origin)
+            if known is None:
+                self.origins[origin] = Met(well, line, index, wet)
+            else:
+                known.wet = min(known.wet, wet)
+
+    def pop(self, volume: float = math.inf) -> list[Layer]:
+        """Give off ``volume`` µL: what was drawn last leaves first; air is given off unlisted.
+
+        The volume that a protocol commands includes the air it drew.
+        """
+        given: list[Layer] = []
+        layers = self.layers
+        while layers and volume > EMPTY_UL:
+            source, held, liquid, line = layers.pop()
+            out = held if held <= volume + EMPTY_UL else volume
+            if held - out > EMPTY_UL:
+                layers.append((source, held - out, liquid, line))
+            if source is not None and out > 0:
+                given.append((source, out, liquid, line))
+            volume -= out
+        return given
 
 
 class TipBox:
