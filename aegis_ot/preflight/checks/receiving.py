@@ -36,11 +36,7 @@ def _last_line(case: Case, well: Well) -> int | None:
 def _never_received(
     case: Case, well: Well, title: str, given: tuple[int | None, Well, Well] | None
 ) -> Violation:
-    """A well without the liquid of this title.
-
-    Args:
-        given: The line that draws the liquid for others, from where, and what it came from.
-    """
+    """A well without a liquid that others are ``given``: at which line, whence, what it was."""
     total, line = filled(well)
     message = f"The {case.title(well)} {place(well)} never receives {title}" + (
         f", though it receives {total:.4g} µL {at(line)}." if total > 0 else "."

@@ -160,11 +160,7 @@ def _told(circle: Sequence[str]) -> str:
 
 
 def _circle(leads_to: Mapping[str, Collection[str]]) -> tuple[str, ...]:
-    """A way that ends where it begins, ``("a", "b", "a")``; empty if there is none.
-
-    Args:
-        leads_to: For each name those that it names; each of them stands there itself.
-    """
+    """A way that ends where it begins, ``("a", "b", "a")``, through names that name others."""
     left = dict(leads_to)
     while ends := [name for name, others in left.items() if left.keys().isdisjoint(others)]:
         for name in ends:

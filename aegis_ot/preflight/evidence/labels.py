@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
 from ...vocabulary import WellRef
-from ..source import level_in, tokens
+from ..source import level_of, tokens
 from .deck import Deck, parts_of_place
 from .evidence import Evidence, Kind, shortened
 from .well_names import WELL, not_wells_in
@@ -35,18 +34,9 @@ def given_roles(
         for place in map(str, listed):
             here = deck.at(place)
             wells += here
-            levels += [_level_of(place, words)] * len(here)
+            levels += [level_of(parts_of_place(place)[2], words)] * len(here)
         citation = f"given to the guard as {role}"
         yield Evidence(Kind.GIVEN, role, tuple(wells), citation, role=role, levels=tuple(levels))
-
-
-def _level_of(place: str, words: Mapping[str, float]) -> float | None:
-    level = parts_of_place(place)[2]
-    try:
-        number = float(level)
-    except ValueError:
-        return level_in(level, words)
-    return number if math.isfinite(number) else None
 
 
 def unknown_places(
@@ -58,7 +48,7 @@ def unknown_places(
             labware, spec, level = parts_of_place(place)
             found = deck.called(labware)
             told = f"The role {role} is given for '{place}', but "
-            if level and _level_of(place, words) is None:
+            if level and level_of(level, words) is None:
                 yield f"{told}'{level}' is no concentration or dose, as 2, '2 mg/mL' or '50 nM' is."
             if not found:
                 on_deck = ", ".join(f"'{info.label or info.slot}'" for info in deck.plates())

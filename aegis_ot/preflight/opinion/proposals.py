@@ -12,7 +12,7 @@ from ...vocabulary import WellRef
 from ..evidence import Deck, Evidence, Kind
 from ..judging import Reading
 from ..roles import Roles
-from ..source import level_in, source_lines
+from ..source import level_of, source_lines
 from .opinion import Citation, RoleProposal
 
 
@@ -142,9 +142,7 @@ class _Verifier:
         words = self._reading.database.common.levels
         levels = []
         for text in told:
-            level = level_in(text, words)
-            if level is None and text.strip().isdecimal():
-                level = float(text)  # a single digit, which in a name would only count
+            level = level_of(text, words)
             if level is None:
                 raise Rejected(f"{text!r} is no concentration or dose")
             if not any(_stands_in(said.quote, text) for said in proposal.citations):

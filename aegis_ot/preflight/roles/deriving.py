@@ -1,4 +1,4 @@
-"""What follows from the liquid's ways for the roles of wells, and from roles for their contents."""
+"""What follows from the liquid's ways for roles, and from roles for the contents of wells."""
 
 from __future__ import annotations
 

@@ -7,34 +7,22 @@ known to be.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 
 from .lexicon import lexicon_of, tokens
 
-_UNITS: dict[str, float] = {
-    "pm": 1e-12,
-    "nm": 1e-9,
-    "um": 1e-6,
-    "mm": 1e-3,
-    "m": 1.0,
-    "g/l": 1.0,
-    "mg/l": 1e-3,
-    "ug/l": 1e-6,
-    "ng/l": 1e-9,
-    "pg/ml": 1e-9,
-    "ng/ml": 1e-6,
-    "ug/ml": 1e-3,
-    "mg/ml": 1.0,
-    "pg/ul": 1e-6,
-    "ng/ul": 1e-3,
-    "ug/ul": 1.0,
-    "mg/ul": 1e3,
-    "u/ul": 1e3,
-    "u/ml": 1.0,
-    "iu/ml": 1.0,
-    "%": 1.0,
-    "x": 1.0,
+_MOLAR = {"pm": -12, "nm": -9, "um": -6, "mm": -3, "m": 0}
+_AMOUNTS = {"pg": -12, "ng": -9, "ug": -6, "mg": -3, "g": 0, "u": -3, "iu": -3}
+_VOLUMES = {"ul": -6, "ml": -3, "l": 0}
+_UNITS = {
+    **{unit: 10.0**power for unit, power in _MOLAR.items()},
+    **{
+        f"{amount}/{volume}": 10.0 ** (power - below)
+        for amount, power in _AMOUNTS.items()
+        for volume, below in _VOLUMES.items()
+    },
 }
 """Molar units in M, mass units in g/l, activities in U/ml."""
 
@@ -84,6 +72,15 @@ def level_in(text: str, words: Mapping[str, float], plain_numbers: bool = True) 
         return said.pop()
     numbers = set(_LONG_NUMBER.findall(plain.replace("_", " "))) if plain_numbers else set()
     return float(numbers.pop()) if len(numbers) == 1 else None
+
+
+def level_of(text: str, words: Mapping[str, float]) -> float | None:
+    """The level that a text gives which is nothing else: a number however short, or as above."""
+    try:
+        number = float(text)
+    except ValueError:
+        return level_in(text, words)
+    return number if 0 <= number < math.inf else None
 
 
 def has_concentration(text: str) -> bool:
