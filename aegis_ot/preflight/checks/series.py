@@ -7,7 +7,7 @@ order), running away from the well in which the stock stands.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence, Set
 from dataclasses import dataclass
 
 from ...vocabulary import WellRef
@@ -30,6 +30,7 @@ class Series:
         directed: Whether the most concentrated end is known.
         entered: Index at which each well first held stock (-1: before the run).
         fillers: Wells that all of its wells are filled from, whatever they are called.
+        in_all: What every well of its chain is given, while another liquid is diluted along it.
     """
 
     wells: Sequence[Well]
@@ -39,6 +40,7 @@ class Series:
     directed: bool
     entered: Mapping[Well, int]
     fillers: frozenset[Well]
+    in_all: frozenset[Well]
 
 
 def find_series(trace: Trace, roles: Roles, waste: Collection[WellRef]) -> list[Series]:
@@ -65,14 +67,10 @@ class _Finder:
         linked = {well for group in groups for well in _wells_of(group)}
         in_all = [self._in_all(group) for group in groups]
         anywhere = frozenset().union(*in_all)
-        series = []
-        for group, here in zip(groups, in_all, strict=True):
-            own = _wells_of(group)
-            members = self._with_neighbours(own, linked, anywhere)
-            # Beside the chain, what all wells of another chain are given is no stock either.
-            shared = {well: here if well in own else anywhere for well in members}
-            series.append(self._series(group, members, shared, fillers))
-        return series
+        return [
+            self._series(group, linked, here, anywhere, fillers)
+            for group, here in zip(groups, in_all, strict=True)
+        ]
 
     def _has(self, well: Well, wanted: Collection[str]) -> bool:
         return self._roles.has(well.ref, wanted)
@@ -94,11 +92,13 @@ class _Finder:
     def _series(
         self,
         links: Sequence[Transfer],
-        members: Sequence[Well],
-        shared: Mapping[Well, frozenset[Well]],
+        taken: Set[Well],
+        in_all: frozenset[Well],
+        in_all_of_any: frozenset[Well],
         fillers: frozenset[Well],
     ) -> Series:
-        linked = set(_wells_of(links))
+        linked = dict.fromkeys(_wells_of(links))
+        members = self._with_neighbours(list(linked), taken, in_all_of_any)
         feeding = {link.source for link in links}
         steps: list[Transfer] = []
         entries: list[Well] = []
@@ -108,8 +108,10 @@ class _Finder:
                 entries.append(well)
                 entered[well] = -1
             last: dict[Well, Transfer] = {}
+            # Beside the chain, what all wells of another chain are given is no stock either.
+            shared = in_all if well in linked else in_all_of_any
             for one in well.received:
-                if one.source not in shared[well] and self._brings_stock(one, members, linked):
+                if one.source not in shared and self._brings_stock(one, members, linked):
                     last[one.source] = one
                     entered.setdefault(well, one.visit.index)
             entries += [well] * len(last)
@@ -121,9 +123,11 @@ class _Finder:
                 entered.setdefault(link.well, link.visit.index)
         all_steps = sorted([*steps, *links], key=lambda s: s.visit.index)
         position = {well: number for number, well in enumerate(order)}
-        return Series(order, position, all_steps, links, directed, entered, fillers)
+        return Series(order, position, all_steps, links, directed, entered, fillers, in_all)
 
-    def _brings_stock(self, one: Transfer, members: Sequence[Well], linked: set[Well]) -> bool:
+    def _brings_stock(
+        self, one: Transfer, members: Sequence[Well], linked: Collection[Well]
+    ) -> bool:
         """Whether a transfer into a series brings stock from outside."""
         if one.source in members or self._has(one.source, self._diluent):
             return False
@@ -154,7 +158,7 @@ class _Finder:
         return in_all if any(origins - in_all for origins in given) else frozenset()
 
     def _with_neighbours(
-        self, linked: list[Well], taken: Collection[Well], in_all: Collection[Well]
+        self, linked: list[Well], taken: Set[Well], in_all: Set[Well]
     ) -> list[Well]:
         """Add wells of the same row or column that were given stock or diluent, but no link.
 
