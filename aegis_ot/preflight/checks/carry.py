@@ -106,26 +106,21 @@ class Carry(Check):
             )
             if filled != (self.via_destination == "only"):
                 return True
-        brought = case.meant.get(well, {})
         if self.stock:
             if met.well is well:
                 return True  # it was in the stock already
             if _serves_its_well_alone(case, well, origin):
                 return True
-            first = brought.get(origin)
-            return first is not None and (
+            return origin in case.meant.get(well, {}) and (
                 _on_purpose(case, well, origin, visit) or self._made_of(case, visit, origin)
             )
-        if self.meant and (
-            origin in brought or any(case.same_liquid(origin, other) for other in brought)
-        ):
+        if self.meant and case.is_given(well, origin):
             return True
         if self.pooled:
             # Water and then sample, drawn for one well, spoils no sample for its other uses.
             clean = self._is_one_liquid(case, origin)
             held = [
-                dest is origin
-                or any(case.same_liquid(origin, other) for other in case.meant.get(dest, {}))
+                dest is origin or case.is_given(dest, origin)
                 for dest in _made_after(case, well, visit.index, further=clean)
                 # What is washed is kept; what is drawn off to the waste is not.
                 if visit.kind is OperationKind.ASPIRATE or dest.ref not in case.waste
@@ -216,11 +211,7 @@ class Carry(Check):
         ends = [dest for dest in made if not _made_after(case, dest, visit.index, further=False)]
         brought = case.meant.get(met.well, {}).items()
         stood = {origin, *(liquid for liquid, first in brought if first < visit.index)}
-        told = all(
-            any(case.same_liquid(one, other) for other in case.meant.get(dest, {}))
-            for dest in ends
-            for one in stood
-        )
+        told = all(case.is_given(dest, one) for dest in ends for one in stood)
         return _IN_ALL if ends and told else ""
 
 

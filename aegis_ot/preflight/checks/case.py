@@ -97,6 +97,11 @@ class Case:
                 into.setdefault(origin, one.visit.index)
         return found
 
+    def is_given(self, well: Well, liquid: Well) -> bool:
+        """Whether a measured volume of the same liquid is brought to a well in the whole run."""
+        meant = self.meant.get(well, {})
+        return liquid in meant or any(self.same_liquid(liquid, other) for other in meant)
+
     @cached_property
     def destinations(self) -> FirstOrLast:
         """For each well the wells that it was drawn for, with the last index."""
