@@ -97,12 +97,9 @@ def is_required(field: dataclasses.Field[Any]) -> bool:
 
 
 def _read(hint: Any, value: Any, where: str) -> Any:
-    if hint is str and isinstance(value, str):  # first: most values are
-        if _HALF.search(value):
-            raise RuleError(f"{where}: expected a text, found half of a character in {value!r}")
-        return value
-    origin = typing.get_origin(hint)
-    arguments = typing.get_args(hint)
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if origin is None:
+        return value if hint is Any else _read_plain(hint, value, where)
     if origin is Annotated:
         result = _read(arguments[0], value, where)
         for limit in arguments[1:]:
@@ -124,23 +121,26 @@ def _read(hint: Any, value: Any, where: str) -> Any:
             _read(arguments[0], item, _item_place(where, item, number))
             for number, item in enumerate(value)
         )
-    if origin is not None and issubclass(origin, Mapping):
-        _require_object(value, where)
-        return {
-            _read(arguments[0], key, where): _read(arguments[1], item, f"{where}.{key}")
-            for key, item in value.items()
-        }
-    if hint is Any:
-        return value
-    if dataclasses.is_dataclass(hint) and isinstance(hint, type):
+    assert issubclass(origin, Mapping)
+    _require_object(value, where)
+    return {
+        _read(arguments[0], key, where): _read(arguments[1], item, f"{where}.{key}")
+        for key, item in value.items()
+    }
+
+
+def _read_plain(hint: type[Any], value: Any, where: str) -> Any:
+    if dataclasses.is_dataclass(hint):
         return read_dataclass(hint, value, where)
-    if hint is float and isinstance(value, int | float) and not isinstance(value, bool):
+    if isinstance(value, bool) and hint is not bool:
+        raise RuleError(f"{where}: expected {_WORDS[hint]}, found true or false")
+    if hint is float and isinstance(value, int | float):
         return _number(value, where)
-    if isinstance(hint, type) and isinstance(value, hint):
-        if hint is int and isinstance(value, bool):
-            raise RuleError(f"{where}: expected a whole number, found true or false")
-        return value
-    raise RuleError(f"{where}: expected {_WORDS.get(hint, str(hint))}, found {_kind(value)}")
+    if not isinstance(value, hint):
+        raise RuleError(f"{where}: expected {_WORDS[hint]}, found {_kind(value)}")
+    if hint is str and _HALF.search(value):
+        raise RuleError(f"{where}: expected a text, found half of a character in {value!r}")
+    return value
 
 
 def _require_object(value: Any, where: str) -> None:
