@@ -97,9 +97,11 @@ def is_required(field: dataclasses.Field[Any]) -> bool:
 
 
 def _read(hint: Any, value: Any, where: str) -> Any:
+    if hint is str or hint in (int, float, bool):  # first: most values are texts
+        return _read_plain(hint, value, where)
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
     if origin is None:
-        return value if hint is Any else _read_plain(hint, value, where)
+        return value if hint is Any else read_dataclass(hint, value, where)
     if origin is Annotated:
         result = _read(arguments[0], value, where)
         for limit in arguments[1:]:
@@ -130,8 +132,6 @@ def _read(hint: Any, value: Any, where: str) -> Any:
 
 
 def _read_plain(hint: type[Any], value: Any, where: str) -> Any:
-    if dataclasses.is_dataclass(hint):
-        return read_dataclass(hint, value, where)
     if isinstance(value, bool) and hint is not bool:
         raise RuleError(f"{where}: expected {_WORDS[hint]}, found true or false")
     if hint is float and isinstance(value, int | float):
