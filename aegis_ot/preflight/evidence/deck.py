@@ -24,7 +24,9 @@ class Deck:
 
     def __init__(self, trace: Trace, names: Sequence[NameBinding]) -> None:
         self.trace = trace
-        self._used = dict.fromkeys(well.ref for well in trace.wells.values())
+        self._used: dict[WellRef, WellRef] = {}
+        for well in trace.wells.values():
+            self._used.setdefault(well.ref, well.ref)
         self.by_name: dict[str, set[str]] = {}
         for binding in names:
             if binding.labware and not binding.wells:
@@ -32,9 +34,10 @@ class Deck:
                     self.by_name.setdefault(name, set()).update(binding.labware)
 
     def ref(self, labware: str, name: str) -> WellRef:
-        """The reference of a well."""
+        """The reference of a well: as the run first met it, and as it was loaded otherwise."""
         info = self.trace.labware[labware]
-        return WellRef(labware, name, info.label or info.display_name, info.slot)
+        loaded = WellRef(labware, name, info.label or info.display_name, info.slot)
+        return self._used.get(loaded, loaded)
 
     def refs(self, labware: Iterable[str], names: Iterable[str]) -> tuple[WellRef, ...]:
         """The wells of these names in those of these labware that have them."""

@@ -62,19 +62,17 @@ def check_options(options: Options, database: Database) -> None:
     for name in options.assay:
         database.family(name)
     rules = {rule.id for rule in database.rules}
-    for rule_id in (*options.select, *options.ignore, *options.severity):
-        if rule_id not in rules:
-            raise ConfigurationError(
-                f"there is no rule {rule_id!r}; known are {', '.join(sorted(rules))}"
-            )
+    roles = {role for family in database.families for role in family.roles}
+    for what, names, known in (
+        ("rule", (*options.select, *options.ignore, *options.severity), rules),
+        ("role", options.roles, roles),
+    ):
+        for name in names:
+            if name not in known:
+                told = f"there is no {what} {name!r}; known are {', '.join(sorted(known))}"
+                raise ConfigurationError(told)
     for rule_id, severity in options.severity.items():
         if severity not in ("error", "warning", "off"):
             raise ConfigurationError(
                 f"severity of {rule_id}: expected error, warning or off, found {severity!r}"
-            )
-    known = {role for family in database.families for role in family.roles}
-    for role in options.roles:
-        if role not in known:
-            raise ConfigurationError(
-                f"there is no role {role!r}; known are {', '.join(sorted(known))}"
             )
