@@ -9,18 +9,18 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 11_070,
-    "preflight/checks": 2_570,
-    "preflight/database": 329,
-    "preflight/evidence": 765,
-    "preflight/judging": 969,
-    "preflight/opinion": 910,
+    "preflight": 10_464,
+    "preflight/checks": 2_218,
+    "preflight/database": 274,
+    "preflight/evidence": 753,
+    "preflight/judging": 930,
+    "preflight/opinion": 868,
     "preflight/rehearsal": 1_135,
-    "preflight/roles": 1_070,
-    "preflight/rules": 659,
-    "preflight/source": 772,
-    "preflight/trace": 1_607,
-    "": 66_800,
+    "preflight/roles": 1_013,
+    "preflight/rules": 651,
+    "preflight/source": 770,
+    "preflight/trace": 1_569,
+    "": 66_194,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""
