@@ -72,7 +72,7 @@ class SeriesFilledFrom(SeriesCheck):
             if not case.of(source) and not _stands_in_for_diluent(case, series, wrong):
                 yield Doubt(f"nothing says what {place(source)} holds")
                 continue
-            if case.has(source, case.stock) and source in series.in_all:
+            if case.has(source, case.stock) and _is_in_all(case, series, source):
                 yield Doubt(f"all wells are given {place(source)}; it may be what dilutes")
                 continue
             is_buffer = case.has(source, case.family.series_roles.diluent_else)
@@ -110,6 +110,17 @@ def _stands_in_for_diluent(case: Case, series: Series, wrong: Transfer) -> bool:
         if case.has(other, case.diluent)
     ]
     return any(abs(given - volume) <= 0.05 * volume for volume in volumes)
+
+
+def _is_in_all(case: Case, series: Series, source: Well) -> bool:
+    """Whether all wells of a chain are given this, and its head another liquid that it dilutes."""
+    linked = {well for link in series.links for well in (link.source, link.well)}
+    heads = linked - {link.well for link in series.links}
+    return linked <= case.destinations.get(source, {}).keys() and any(
+        one.source not in linked and one.source is not source
+        for head in heads
+        for one in head.received
+    )
 
 
 def _anyone_filled(case: Case) -> bool:

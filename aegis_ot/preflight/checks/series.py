@@ -30,7 +30,6 @@ class Series:
         directed: Whether the most concentrated end is known.
         entered: Index at which each well first held stock (-1: before the run).
         fillers: Wells that all of its wells are filled from, whatever they are called.
-        in_all: What every well of its chain is given, while another liquid is diluted along it.
     """
 
     wells: Sequence[Well]
@@ -40,7 +39,6 @@ class Series:
     directed: bool
     entered: Mapping[Well, int]
     fillers: frozenset[Well]
-    in_all: frozenset[Well]
 
 
 def find_series(trace: Trace, roles: Roles, waste: Collection[WellRef]) -> list[Series]:
@@ -123,7 +121,7 @@ class _Finder:
                 entered.setdefault(link.well, link.visit.index)
         all_steps = sorted([*steps, *links], key=lambda s: s.visit.index)
         position = {well: number for number, well in enumerate(order)}
-        return Series(order, position, all_steps, links, directed, entered, fillers, in_all)
+        return Series(order, position, all_steps, links, directed, entered, fillers)
 
     def _brings_stock(
         self, one: Transfer, members: Sequence[Well], linked: Collection[Well]
