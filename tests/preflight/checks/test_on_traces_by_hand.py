@@ -412,3 +412,12 @@ def test_a_supernatant_is_drawn_with_room_to_spare() -> None:
     bench.drop()
     (found,) = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
     assert "waste" in found.warning
+
+
+def test_what_was_last_filled_is_told_by_a_filling_and_no_mix() -> None:
+    bench = Bench()
+    transfer(bench, "source:A1", "plate:A1", volume=50)
+    transfer(bench, "plate:A1", "plate:A1", volume=30)
+    transfer(bench, "plate:A1", "plate:B1", volume=60)
+    (found,) = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
+    assert [site.line for site in found.sites] == [3, 10]
