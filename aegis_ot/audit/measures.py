@@ -98,6 +98,8 @@ def measure(
     for one in told:
         if one.shown is Shown.EMPTIED:
             proven.restore(wells[0].liquid, one.strength)
+        elif one.shown is Shown.NOTHING:
+            proven.restore_unseen(wells[0].liquid)
     first = max(round(_FIRST_SHARE * len(wells)), _FIRST_LEAST)
     found = []
     for place, well in enumerate(wells):

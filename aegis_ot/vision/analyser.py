@@ -179,6 +179,8 @@ class RunAnalyser:
                 self._first.restore(
                     key, strength, unbroken if isinstance(unbroken, float) else None
                 )
+            elif normal and known.get("unseen") is True:
+                self._first.restore_unseen(key)
             stream = self._stream_of(key)
             score = scores.get(stream.scorer.name)
             stream.cascade.learn(score, normal=normal, volume_ul=volume)

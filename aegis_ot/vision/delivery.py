@@ -80,6 +80,8 @@ class Shown(str, Enum):
     """Its upper part left, and its lower part stayed."""
     NOTHING = "nothing"
     """No liquid is seen to leave: none did, or it cannot be seen."""
+    FAINT = "faint"
+    """The same, of a liquid that is not seen to leave in most wells: that is no sign."""
     UNKNOWN = "unknown"
     """The frames cannot be compared."""
 

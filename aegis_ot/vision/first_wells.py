@@ -23,6 +23,7 @@ _MISSING_SHARE = 0.3
 """A liquid that shows this much less than in the wells before was not there, or did not leave."""
 
 _KNOWN = 12
+"""Wells that showed the liquid leave, after which no more is learned of how it shows."""
 
 _BROKEN, _TELLING = 0.48, 4
 """Median of the wells' least changed stretches below which air seems to be enclosed in all of them,
@@ -51,6 +52,7 @@ class FirstWells:
     def __init__(self, ask: bool = True) -> None:
         self._ask = ask
         self._strengths: dict[Liquid, list[float]] = {}
+        self._unseen: dict[Liquid, int] = {}
         self._unbroken: dict[Liquid, list[float]] = {}
         self._asked_for_air: set[Liquid] = set()
         self._spoiled = 0
@@ -84,23 +86,35 @@ class FirstWells:
             self.vouched = True
 
     def proven(self, liquid: Liquid) -> bool:
-        """Whether wells of this run showed the liquid leave the tip."""
-        return bool(self._strengths.get(liquid))
+        """Whether most wells of this run showed the liquid leave the tip, of those that could.
+
+        One alone may show it by chance: something passes behind the tip.
+        """
+        return len(self._strengths.get(liquid, ())) > self._unseen.get(liquid, 0)
 
     def held_against(self, liquid: Liquid, delivery: Delivery) -> Delivery:
         """``delivery`` in the light of earlier wells: where the liquid was seen to leave them,
         nothing to be seen is a sign, and else it is none."""
-        known = self._strengths.get(liquid)
         if delivery.shown is not Shown.NOTHING:
             return delivery
-        if known and delivery.strength < _MISSING_SHARE * float(np.median(known)):
+        known = self._strengths.get(liquid, [])
+        if self.proven(liquid) and delivery.strength < _MISSING_SHARE * float(np.median(known)):
             return delivery
-        return replace(delivery, shown=Shown.UNKNOWN)
+        return replace(delivery, shown=Shown.FAINT)
 
     def learn(self, liquid: Liquid, case: Case) -> None:
         """A well was judged normal."""
-        if case.delivery is not None and case.delivery.shown is Shown.EMPTIED:
+        if case.delivery is None:
+            return
+        if case.delivery.shown is Shown.EMPTIED:
             self.restore(liquid, case.delivery.strength, case.delivery.unbroken)
+        elif case.delivery.shown in (Shown.NOTHING, Shown.FAINT):
+            self.restore_unseen(liquid)
+
+    def restore_unseen(self, liquid: Liquid) -> None:
+        """No liquid was seen to leave a normal well of this liquid."""
+        if len(self._strengths.get(liquid, ())) < _KNOWN:
+            self._unseen[liquid] = self._unseen.get(liquid, 0) + 1
 
     def restore(self, liquid: Liquid, strength: float, unbroken: float | None = None) -> None:
         """A normal well of this liquid showed it so plainly, and its column so whole."""

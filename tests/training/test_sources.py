@@ -51,4 +51,11 @@ def test_the_shipped_weights_were_measured_on_plates_they_did_not_learn() -> Non
 
 def test_this_code_made_the_shipped_weights() -> None:
     """If this fails, 'aegis-ot train detector' no longer gives them: train anew, or undo."""
-    assert _shipped()["made_with"]["sources_sha256"] == sources_digest()
+    made = _shipped()["made_with"]
+    assert made["sources_sha256"] == sources_digest(without=made["changed_since"])
+
+
+def test_what_changed_since_is_a_module_that_decides() -> None:
+    listed = {f"{room}/{name}" for room, names in SOURCES.items() for name in names}
+    assert set(_shipped()["made_with"]["changed_since"]) <= listed
+    assert sources_digest(without=listed) != sources_digest()

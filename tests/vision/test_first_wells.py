@@ -74,12 +74,30 @@ def test_single_stretches_that_change_little_are_no_air() -> None:
 
 def test_nothing_to_be_seen_is_a_sign_only_where_the_liquid_was_seen() -> None:
     first = FirstWells()
-    assert first.held_against("red", NOTHING).shown is Shown.UNKNOWN
+    assert first.held_against("red", NOTHING).shown is Shown.FAINT
     first.learn("red", well(PLAIN))
     assert first.held_against("red", NOTHING).shown is Shown.NOTHING
     weak = Delivery(Shown.NOTHING, 5.0)
-    assert first.held_against("red", weak).shown is Shown.UNKNOWN
-    assert first.held_against("water", NOTHING).shown is Shown.UNKNOWN
+    assert first.held_against("red", weak).shown is Shown.FAINT
+    assert first.held_against("water", NOTHING).shown is Shown.FAINT
+
+
+def test_one_well_among_many_that_seems_to_show_a_faint_liquid_proves_none() -> None:
+    first = FirstWells()
+    for _ in range(20):
+        first.learn("water", well(first.held_against("water", NOTHING)))
+    first.learn("water", well(PLAIN))
+    assert not first.proven("water")
+    assert first.held_against("water", NOTHING).shown is Shown.FAINT
+
+
+def test_a_liquid_that_fades_away_stays_one_that_showed() -> None:
+    first = FirstWells()
+    for _ in range(12):
+        first.learn("red", well(PLAIN))
+    for _ in range(30):
+        first.learn("red", well(Delivery(Shown.FAINT, 4.0)))
+    assert first.held_against("red", NOTHING).shown is Shown.NOTHING
 
 
 def test_one_spoiled_frame_postpones_the_question_once() -> None:

@@ -24,6 +24,15 @@ def test_a_liquid_that_hardly_shows_is_read_less_surely() -> None:
     assert usual.variance(wetness(4.0), 6.0, full=True) > usual.variance(wetness(), 6.0, full=True)
 
 
+def test_a_frame_that_fits_worse_than_usual_is_read_less_surely() -> None:
+    usual = Usual()
+    odd = Wetness(wetness().u, np.zeros(100), np.ones(100), 400.0, misfit=1.8)
+    for _ in range(ENOUGH):
+        usual.note_full(1.0, 0.0, 0.6)
+    fit = Wetness(wetness().u, np.zeros(100), np.ones(100), 400.0, misfit=0.5)
+    assert usual.variance(odd, 6.0, full=False) > 2.5 * usual.variance(fit, 6.0, full=False)
+
+
 def test_steady_normal_tips_make_readings_surer_and_straying_ones_less_sure() -> None:
     steady, straying, fresh = Usual(), Usual(), Usual()
     for _ in range(8):
@@ -50,6 +59,7 @@ def test_a_break_is_judged_only_beside_the_breaks_of_normal_columns() -> None:
     limit = usual.gap_limit(wetness())
     assert limit is not None
     assert limit > 8.0
+    assert usual.gap_limit(wetness(30.0)) is None, "a liquid this faint shows glints"
 
 
 def test_frames_of_another_brightness_are_not_compared() -> None:

@@ -156,7 +156,7 @@ class VolumetricGate:
     def _undelivered(self, case: Case) -> GateDecision | None:
         """What the trajectory's own frames show, whatever the run was calibrated on."""
         shown = case.delivery
-        if shown is None or shown.shown in (Shown.EMPTIED, Shown.UNKNOWN):
+        if shown is None or shown.shown in (Shown.EMPTIED, Shown.FAINT, Shown.UNKNOWN):
             return None
         expected = case.sample.expected_ul.get(KeyframeKind.POST_DISPENSE, 0.0)
         if shown.shown is Shown.GAP and shown.gap_ul is not None:

@@ -115,7 +115,7 @@ def test_the_nearest_of_hidden_tips_would_be_judged_by_what_those_behind_hold(
     faults: list[str], taken_for: Outcome
 ) -> None:
     """Why it is left unobserved too: where its own place is known, H2 is still judged wrongly."""
-    camera = SimulatedCamera(2, faults, from_the_front_of(9.0))
+    camera = SimulatedCamera(6, faults, from_the_front_of(9.0))
     camera.expect(keyframes(2))
     detector = Nearest()
     alone, row = RunMonitor(detector).begin("run"), RunMonitor(detector).begin("run")

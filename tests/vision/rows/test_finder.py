@@ -1,12 +1,14 @@
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
 import pytest
 
 from aegis_ot.simulation import FrameTruth, SessionParameters, SimulatedCamera
 from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.rows.finder import RowFinder, SeenRow
-from aegis_ot.vision.types import FREE
+from aegis_ot.vision.types import FREE, End, Ends, Image, TipDetection
 from aegis_ot.vocabulary import KeyframeKind
 
 from .frames import frames, keyframes, part_of
@@ -87,3 +89,73 @@ def test_a_partial_head_is_a_shorter_row(detector: HeatmapDetector) -> None:
     assert len(seen.tips) == len(camera.truth.tips) == 4
     assert seen.whole
     assert off(seen, camera.truth) < 15
+
+
+TIP_MM, STEP = 59.3, 40.0
+LENGTH = STEP * TIP_MM / 9.0
+EMPTY = np.zeros((480, 640, 3), np.uint8)
+
+
+@dataclass
+class Drawn:
+    """Shows the ends that it is told to show, and guesses a tip of a length."""
+
+    ends_of: Ends
+    guessed: float = LENGTH
+    reaches: list[float] = field(default_factory=list)
+
+    def detect(self, image: Image) -> TipDetection | None:
+        x, y = 240.0, 370.0
+        return TipDetection(
+            x - 8, y - self.guessed, 16, self.guessed, 0.9, (x, y), (x, y - self.guessed)
+        )
+
+    best_guess = detect
+
+    def ends(self, image: Image, tip: TipDetection, reach: float) -> Ends:
+        self.reaches.append(reach)
+        return self.ends_of
+
+
+def ends(lower: list[int], upper: list[int], y: float = 370.0) -> Ends:
+    """Of the tips with these numbers."""
+    return Ends(
+        collars=tuple(End(100.0 + STEP * n, y - LENGTH, 0.8) for n in upper),
+        orifices=tuple(End(100.0 + STEP * n, y, 0.8) for n in lower),
+    )
+
+
+def found(detector: Drawn) -> SeenRow:
+    keyframe = next(one for one in keyframes(1) if one.kind is KeyframeKind.TRANSIT)
+    return RowFinder(detector, keyframe, "left").find(EMPTY, keyframe)
+
+
+def lengths(seen: SeenRow) -> list[float | None]:
+    return [tip and round(tip.orifice[1] - tip.collar[1]) for tip in seen.tips]
+
+
+def test_lower_ends_alone_make_a_row() -> None:
+    assert found(Drawn(ends(list(range(8)), []))).whole
+
+
+def test_the_row_s_own_steps_give_its_scale() -> None:
+    detector = Drawn(ends(list(range(8)), []), guessed=0.7 * LENGTH)
+    assert lengths(found(detector)) == [pytest.approx(LENGTH, abs=2)] * 8
+    assert detector.reaches[-1] == pytest.approx(detector.reaches[0] / 0.7, rel=0.02)
+
+
+def test_lower_ends_fill_in_for_upper_ones_that_are_faint() -> None:
+    seen = found(Drawn(ends(list(range(8)), [0, 1, 2, 3, 4])))
+    assert [tip is not None for tip in seen.tips] == [True] * 8
+
+
+def test_upper_ends_that_are_as_many_hold() -> None:
+    """Both ends of each tip say more than one, so nothing is made up where a tip is missing."""
+    some = [0, 1, 2, 4, 5, 6, 7]
+    seen = found(Drawn(ends(some, some)))
+    assert [tip is not None for tip in seen.tips] == [n in some for n in range(8)]
+
+
+def test_half_a_row_of_lower_ends_is_none() -> None:
+    seen = found(Drawn(ends([0, 1, 2, 3], [])))
+    assert seen.tips == (None,) * 8
