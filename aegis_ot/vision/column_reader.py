@@ -260,8 +260,8 @@ class MeasuredColumns:
         bore = seen.bore_px(upper, lower)
         fullest = max(1.0 - self._scale.place(seen.tip, self._fullest), _SHORTEST)
         height = (1.0 - upper) / fullest if lower >= end else None
-        variance = max(wet.misfit, 1.0) / weight
-        variance += self._usual.variance(wet, bore, full=not too_much, height=height)
+        usual = self._usual.variance(wet, bore, full=not too_much, height=height)
+        variance = (1.0 / weight + usual) * self._usual.strain(wet)
         towards = share - 0.5 if too_much else 0.5 - share
         return towards / variance >= _EVIDENCE
 

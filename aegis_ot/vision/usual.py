@@ -44,9 +44,10 @@ _GAP_FAINT = 25.0
 """A break counts from this strength, from this multiple of the strongest that this run's normal
 columns showed, and while they are few from more."""
 
-_GAP_PLAIN = 64.0
-"""Power of a liquid from which breaks are told. In fainter ones (water, a p20's dye) none of 55 was
-on simulated frames of development seeds, and glints were taken for some; dyes have 79 at least."""
+_PLAIN = 64.0
+"""Power of a liquid that shows plainly. In fainter ones (water, a p20's dye) none of 55 breaks was
+told on simulated frames of development seeds, and glints were taken for some: none is looked for.
+Dyes in larger tips have 79 at least."""
 
 _MISFIT_LEAST = 3.0
 _MISFIT_FACTOR = 3.0
@@ -110,14 +111,16 @@ class Usual:
         prior += (_AXIS_PX / max(bore_px, 0.5)) ** 2
         known = self._wet if full else self._left(height)
         total = _PRIOR_WEIGHT * prior + float(np.sum(np.square(known)))
-        usual = max(total / (_PRIOR_WEIGHT + len(known)), _LEAST_SD**2)
-        return usual * self._strain(wet)
+        return max(total / (_PRIOR_WEIGHT + len(known)), _LEAST_SD**2)
 
-    def _strain(self, wet: Wetness) -> float:
+    def strain(self, wet: Wetness) -> float:
         """How much worse than usual a frame's rows fit any tip, empty or filled, at least 1.
 
-        A tip that was laid a few px beside its place strays by more than the run's others did.
+        A tip that was laid a few px beside its place strays by more than the run's others did. A
+        plain liquid is seen all the same, and what is left of it looks like no row of the run.
         """
+        if wet.power >= _PLAIN:
+            return 1.0
         usual = float(np.median(self._misfits)) if len(self._misfits) >= ENOUGH else 1.0
         return max(wet.misfit / max(usual, 1e-3), 1.0)
 
@@ -130,7 +133,7 @@ class Usual:
     def gap_limit(self, wet: Wetness) -> float | None:
         """Strength from which a break is none of the usual ones; ``None``: none can be told."""
         known = self._gaps
-        if len(known) < ENOUGH or wet.power < _GAP_PLAIN:
+        if len(known) < ENOUGH or wet.power < _PLAIN:
             return None
         limit = max(_GAP_LEAST, _GAP_FACTOR * max(known) + 1.0)
         # A liquid that shows faintly is full of what looks like gaps.

@@ -190,6 +190,16 @@ def test_garbled_history_does_not_stop_a_run(run) -> None:
     assert RunMonitor(Told()).begin("run", history) is not None
 
 
+def test_what_wells_showed_of_a_liquid_is_known_after_a_restart(run) -> None:
+    verdict, liquid = run[0][0], ("left p300_single", 300.0, "water")
+    known = {"stream": list(liquid), "scores": {}, "normal": True, "volume_ul": 100.0}
+    unseen, shown = {**known, "unseen": True}, {**known, "strength": 5.0}
+    for wells, proven in (([shown], True), ([unseen, unseen, shown], False)):
+        history = [(verdict, {"calibration": well}) for well in wells]
+        analyser = RunMonitor(Told()).begin("run", history)
+        assert analyser._first.proven(liquid) is proven
+
+
 def every(fault: str, wells: int) -> list[str]:
     return [f"{fault}@#{number}" for number in range(1, wells + 1)]
 

@@ -24,13 +24,16 @@ def test_a_liquid_that_hardly_shows_is_read_less_surely() -> None:
     assert usual.variance(wetness(4.0), 6.0, full=True) > usual.variance(wetness(), 6.0, full=True)
 
 
-def test_a_frame_that_fits_worse_than_usual_is_read_less_surely() -> None:
+def test_a_frame_that_fits_worse_than_usual_strains_a_faint_liquid_alone() -> None:
     usual = Usual()
-    odd = Wetness(wetness().u, np.zeros(100), np.ones(100), 400.0, misfit=1.8)
     for _ in range(ENOUGH):
         usual.note_full(1.0, 0.0, 0.6)
-    fit = Wetness(wetness().u, np.zeros(100), np.ones(100), 400.0, misfit=0.5)
-    assert usual.variance(odd, 6.0, full=False) > 2.5 * usual.variance(fit, 6.0, full=False)
+    faint, plain, fit = (
+        Wetness(wetness().u, np.zeros(100), np.ones(100), power, misfit=misfit)
+        for power, misfit in ((30.0, 1.8), (400.0, 1.8), (30.0, 0.5))
+    )
+    assert usual.strain(faint) == 3.0
+    assert usual.strain(plain) == usual.strain(fit) == 1.0
 
 
 def test_steady_normal_tips_make_readings_surer_and_straying_ones_less_sure() -> None:
