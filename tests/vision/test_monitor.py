@@ -196,7 +196,8 @@ def test_what_wells_showed_of_a_liquid_is_known_after_a_restart(run) -> None:
     unseen, shown = {**known, "unseen": True}, {**known, "strength": 5.0}
     for wells, proven in (([shown], True), ([unseen, unseen, shown], False)):
         history = [(verdict, {"calibration": well}) for well in wells]
-        analyser = RunMonitor(Told()).begin("run", history)
+        analyser = RunMonitor(Told()).begin("run")
+        analyser.recall(history)
         assert analyser._first.proven(liquid) is proven
 
 
