@@ -24,7 +24,8 @@ def make_store(
 ) -> Path:
     """One run with a well for each of ``faults`` (``""``: none), judged as a sidecar does."""
     rng = np.random.default_rng(7)
-    plate = SimulatedPlate("plate00", SessionParameters.webcam(7), "p300", VOLUME)
+    tip = "flex_1channel_200" if pipette.startswith("flex") else "p300"
+    plate = SimulatedPlate("plate00", SessionParameters.webcam(7), tip, VOLUME)
     store = Store(folder)
     store.register(RunStart(run=run, protocol="wells.py", simulated=True, started=time.time()))
     analyser = make_analyser().begin(run)
