@@ -13,7 +13,8 @@ absolute volumes are calibrated in every run.
 That of the OT-2's 200 and 300 µL tips is measured, on public photographs of an eight-channel p300
 with red dye (github.com/mast13f/OT2-Computer-Vision, three series of twelve volumes). Their volumes
 are not written down; steps of 10 and 20 µL from 30, 50 and 100 µL are the ones whose inner radii
-agree with the outer ones in the pictures. Columns of four other series are read within 3 µL so.
+agree with the outer ones in the pictures. Columns of the five other series are read 3 % too low so,
+at the median (``python -m benchmarks.real_rows``).
 """
 
 from __future__ import annotations
