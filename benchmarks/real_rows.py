@@ -7,7 +7,8 @@ A p300 with eight channels before three cameras (640x480). *Labelled*: frames wi
 tip, drawn by that repository's authors; in some the volume is part of the name. *Series*: ninety
 frames of one camera, red dye in rising volumes. Which tips are missing there, and which stayed
 empty, was read off the frames by eye; the volumes are those that fit the steps of the columns and
-the tips' outer widths.
+the tips' outer widths. On the series marked so the inside of the tip (``aegis_ot/vision/tips.py``)
+was measured; all else was used for nothing.
 """
 
 from __future__ import annotations

@@ -96,10 +96,7 @@ def measure(
     usual = float(np.median([one.strength for one in told])) if told else 0.0
     proven = FirstWells(ask=False)
     for one in told:
-        if one.shown is Shown.EMPTIED:
-            proven.restore(wells[0].liquid, one.strength)
-        elif one.shown is Shown.NOTHING:
-            proven.restore_unseen(wells[0].liquid)
+        proven.note(wells[0].liquid, one)
     first = max(round(_FIRST_SHARE * len(wells)), _FIRST_LEAST)
     found = []
     for place, well in enumerate(wells):

@@ -97,6 +97,7 @@ def train(
             "torch": torch.__version__,
             "numpy": np.__version__,
             "opencv": cv2.__version__,
+            "changed_since": [],
         },
     }
     _write(path, description)

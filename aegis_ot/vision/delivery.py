@@ -109,6 +109,11 @@ class Delivery:
     gap_ul: float | None = None
     unbroken: float | None = None
 
+    @property
+    def unseen(self) -> bool:
+        """Whether the frames can be compared, and no liquid is seen to leave."""
+        return self.shown in (Shown.NOTHING, Shown.FAINT)
+
 
 def delivery_of(
     looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]

@@ -52,8 +52,7 @@ def evidence_of(
             "normal": decision.outcome is Outcome.PASS,
             "strength": None if emptied is None else emptied.strength,
             "unbroken": None if emptied is None else emptied.unbroken,
-            "unseen": case.delivery is not None
-            and case.delivery.shown in (Shown.NOTHING, Shown.FAINT),
+            "unseen": case.delivery is not None and case.delivery.unseen,
             "left": None if left is None else asdict(left),
         },
     }

@@ -104,11 +104,14 @@ class FirstWells:
 
     def learn(self, liquid: Liquid, case: Case) -> None:
         """A well was judged normal."""
-        if case.delivery is None:
-            return
-        if case.delivery.shown is Shown.EMPTIED:
-            self.restore(liquid, case.delivery.strength, case.delivery.unbroken)
-        elif case.delivery.shown in (Shown.NOTHING, Shown.FAINT):
+        if case.delivery is not None:
+            self.note(liquid, case.delivery)
+
+    def note(self, liquid: Liquid, delivery: Delivery) -> None:
+        """A normal well of this liquid showed so much of its delivery."""
+        if delivery.shown is Shown.EMPTIED:
+            self.restore(liquid, delivery.strength, delivery.unbroken)
+        elif delivery.unseen:
             self.restore_unseen(liquid)
 
     def restore_unseen(self, liquid: Liquid) -> None:

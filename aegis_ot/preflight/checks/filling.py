@@ -11,7 +11,7 @@ from .case import Case
 from .check import Doubt, Result, Violation, at, place
 from .dilution import SeriesCheck, diluent_arrivals, dilutions
 from .series import Series
-from .series_links import first_of
+from .series_links import first_of, wells_of
 
 _GUESSED = "Several buffers are used, and none of them is called the diluent."
 
@@ -114,7 +114,7 @@ def _stands_in_for_diluent(case: Case, series: Series, wrong: Transfer) -> bool:
 
 def _is_in_all(case: Case, series: Series, source: Well) -> bool:
     """Whether all wells of a chain are given this, and its head another liquid that it dilutes."""
-    linked = {well for link in series.links for well in (link.source, link.well)}
+    linked = set(wells_of(series.links))
     heads = linked - {link.well for link in series.links}
     return linked <= case.destinations.get(source, {}).keys() and any(
         one.source not in linked and one.source is not source

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from ...vocabulary import WellRef
 from ..roles import Roles
 from ..trace import Trace, Transfer, Well, chains_of
-from .series_links import along_series, is_copying
+from .series_links import along_series, is_copying, wells_of
 
 _SHORTEST = 2
 
@@ -62,7 +62,7 @@ class _Finder:
             for group in chains_of(links)
             if len({(s.source, s.well) for s in group}) >= _SHORTEST and not is_copying(group)
         ]
-        linked = {well for group in groups for well in _wells_of(group)}
+        linked = {well for group in groups for well in wells_of(group)}
         in_all = [self._in_all(group) for group in groups]
         anywhere = frozenset().union(*in_all)
         return [
@@ -95,7 +95,7 @@ class _Finder:
         in_all_of_any: frozenset[Well],
         fillers: frozenset[Well],
     ) -> Series:
-        linked = dict.fromkeys(_wells_of(links))
+        linked = dict.fromkeys(wells_of(links))
         members = self._with_neighbours(list(linked), taken, in_all_of_any)
         feeding = {link.source for link in links}
         steps: list[Transfer] = []
@@ -141,7 +141,7 @@ class _Finder:
         """What every well of a chain is given, by itself or in a mix, while another liquid is
         diluted along it: a component of all reactions (a dye, a label), and neither stock nor step.
         """
-        linked = _wells_of(links)
+        linked = wells_of(links)
         given: list[set[Well]] = []
         for well in linked:
             origins = {
@@ -176,10 +176,6 @@ class _Finder:
         ]
 
 
-def _wells_of(links: Sequence[Transfer]) -> list[Well]:
-    return list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
-
-
 def _best_order(members: Sequence[Well], links: Sequence[Transfer]) -> list[Well]:
     """Row by row, column by column or as the chain was made: what makes most links neighbours."""
 
@@ -191,8 +187,7 @@ def _best_order(members: Sequence[Well], links: Sequence[Transfer]) -> list[Well
     if any(len({well.order[axis] for well in members}) == 1 for axis in (0, 1)):
         return by_row
     by_column = sorted(members, key=lambda well: well.order[::-1])
-    made = (well for link in links for well in (link.source, link.well))
-    as_made = list(dict.fromkeys((*made, *members)))
+    as_made = list(dict.fromkeys((*wells_of(links), *members)))
     return max((by_column, by_row, as_made), key=neighbours)
 
 
@@ -213,7 +208,7 @@ def _turned_to_fall(
     """
     if entries:
         # Where stock stands in the diluent's place too, only the well that no other feeds tells.
-        linked = {well for link in links for well in (link.source, link.well)}
+        linked = set(wells_of(links))
         fed_within = {link.well for link in links}
         unfed = [well for well in entries if well not in fed_within]
         heads = [well for well in unfed if well in linked]

@@ -14,6 +14,11 @@ _SAME = 0.05
 """Volumes and shares that differ by no more of the larger one are the same."""
 
 
+def wells_of(links: Iterable[Transfer]) -> list[Well]:
+    """The wells that links join, each once, in order of the links."""
+    return list(dict.fromkeys(well for link in links for well in (link.source, link.well)))
+
+
 def along_series(links: Sequence[Transfer]) -> tuple[list[Transfer], frozenset[Well]]:
     """The links that may be steps of a series, and the wells of a plate that fill the others."""
     feeds = _by_source(links)
