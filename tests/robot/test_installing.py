@@ -129,7 +129,16 @@ def test_a_pip_that_cannot_write(there: Robot, install: Install, pip: str, said:
     assert said in done.err
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """A shell's background job ignores the interrupt, and Python with it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 @pytest.mark.slow
+@pytest.mark.usefixtures("interruptible")
 def test_interrupted_half_way_it_can_be_done_again(there: Robot, install: Install) -> None:
     pip = 'touch "$HOME/tmp/half-way"; exec sleep 5'
     there.says("python3", PIP_SAYS.format(pip=pip, version=__version__))
