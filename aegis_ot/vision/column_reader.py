@@ -112,7 +112,7 @@ class MeasuredColumns:
         drawn = expected.get(KeyframeKind.TRANSIT, 0.0)
         for kind in FREE:
             seen = looks.get(kind)
-            if isinstance(seen, Look) and self._usual.comparable(seen.light):
+            if isinstance(seen, Look):
                 most = drawn if kind is KeyframeKind.POST_DISPENSE else 0.0
                 reading = self._reading(seen, expected.get(kind, 0.0), most)
                 if reading is not None:
@@ -203,7 +203,7 @@ class MeasuredColumns:
     def _reading(self, seen: Look, expected_ul: float, most_ul: float) -> ColumnReading | None:
         """Read one frame; ``most_ul``: no more than that can be in the tip, 0 if not known."""
         wet = self._wetness(seen)
-        if wet is None:
+        if wet is None or not self._usual.readable(wet, seen.light):
             return None
         if not self._usual.fits(wet):
             return None if expected_ul > 0 else _FIRST_VAGUE

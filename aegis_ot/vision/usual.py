@@ -49,6 +49,11 @@ _PLAIN = 64.0
 told on simulated frames of development seeds, and glints were taken for some: none is looked for.
 Dyes in larger tips have 79 at least."""
 
+_IN_ANY_LIGHT = 16.0
+"""Power of a liquid that is seen in a frame 1.6 to 3 times brighter or darker than the run's too:
+on simulated frames of development seeds 704 of 830 wells with liquid left in the tip were read so,
+and of 279 normal ones none was misread; in fainter liquids 25 of 136, and 1 of 48."""
+
 _MISFIT_LEAST = 3.0
 _MISFIT_FACTOR = 3.0
 _MISFIT_SHARE = 0.1
@@ -147,6 +152,10 @@ class Usual:
     def comparable(self, light: float) -> bool:
         """Whether a frame is about as bright as the run's others."""
         return len(self._lights) < ENOUGH or alike(light, float(np.median(self._lights)))
+
+    def readable(self, wet: Wetness, light: float) -> bool:
+        """Whether a frame of this brightness can be read."""
+        return wet.power >= _IN_ANY_LIGHT or self.comparable(light)
 
 
 def alike(light: float, other: float) -> bool:

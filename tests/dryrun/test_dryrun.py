@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from aegis_ot.dryrun import UNATTENDED, DryRunSettings, dry_run
@@ -123,7 +125,9 @@ def test_a_fault_in_a_well_that_gets_nothing_is_refused():
         dry_run(SCRIPT, DryRunSettings(faults=("partial:50@9:H9",)), make_analyser())
 
 
-def test_a_run_is_kept_where_that_is_asked_for(tmp_path):
+def test_a_run_is_kept_where_that_is_asked_for(tmp_path, monkeypatch):
+    # The run is named after the time, and the simulated frames depend on its name.
+    monkeypatch.setattr(time, "strftime", lambda *_: "-20261126-185213")
     settings = DryRunSettings(faults=("no_dispense@1:A2",), on_fail="stop", data=tmp_path)
     result = dry_run(SCRIPT, settings, make_analyser())
     store = Store(tmp_path, alone=True)

@@ -79,7 +79,9 @@ def judge_run(
     tip: str = "",
     operator: bool = False,
     probed: Mapping[int, bool] | None = None,
+    lights: Mapping[int, float] | None = None,
 ) -> list:
+    """``lights``: how much brighter a well's frame after the dispense is, by number from 1."""
     parameters = SessionParameters.webcam(seed)
     plan, rng, detector = FaultPlan(faults), np.random.default_rng(seed), Told()
     analyser = RunMonitor(detector).begin("run", history)
@@ -91,7 +93,10 @@ def judge_run(
             parameters, keyframe.kind, tip_for(keyframe.pipette, keyframe.capacity_ul), contents,
             dye_for(keyframe.reagent), destination=keyframe.destinations[0].name,
         )  # fmt: skip
-        jpeg, truth = render_jpeg(state, parameters, rng)
+        light = (lights or {}).get(keyframe.trajectory + 1, 0.0)
+        emptied = keyframe.kind is KeyframeKind.POST_DISPENSE
+        session = replace(parameters, overexposed_chance=1.0, overexposed_gain=light)
+        jpeg, truth = render_jpeg(state, session if light and emptied else parameters, rng)
         tip = truth.tip
         detector.found = (
             None if tip.box is None else TipDetection(*tip.box, 0.99, tip.orifice, tip.collar)
@@ -141,6 +146,15 @@ def test_planted_faults_are_caught_and_confirmed_by_the_gate(run, number, failur
     assert verdict.gate is Gate.VOLUMETRIC
     assert verdict.failure in failures
     assert verdict.reason
+
+
+@pytest.mark.parametrize("light", [0.45, 2.2])
+def test_a_dye_left_in_the_tip_is_seen_in_a_frame_of_another_brightness(light) -> None:
+    judged = judge_run(10, ("no_dispense@#9",), lights={8: light, 9: light})
+    assert [verdict.outcome for verdict, _ in judged[6:]] == [
+        *(Outcome.PASS, Outcome.PASS, Outcome.FAIL, Outcome.PASS)
+    ]
+    assert judged[8][0].measured_ul == pytest.approx(VOLUMES[0], rel=0.1)
 
 
 def test_the_verdict_names_the_volumes(run) -> None:

@@ -76,6 +76,15 @@ def test_frames_of_another_brightness_are_not_compared() -> None:
     assert alike(100.0, 110.0)
 
 
+def test_a_plain_liquid_is_read_in_any_light() -> None:
+    usual = Usual()
+    for _ in range(ENOUGH):
+        usual.note_light(100.0)
+    assert usual.readable(wetness(100.0), 250.0)
+    assert not usual.readable(wetness(5.0), 250.0)
+    assert usual.readable(wetness(5.0), 110.0)
+
+
 def test_a_frame_that_looks_like_no_tip_of_this_run_is_not_read() -> None:
     usual = Usual()
     odd = Wetness(wetness().u, np.zeros(100), np.ones(100), 30.0, misfit=6.0)
