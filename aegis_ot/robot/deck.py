@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 from ..errors import RobotError, RobotRefused, RobotUnreachable
 from ..instrumentation import Pipette
 from ..vocabulary import WellRef
+from ..vocabulary.pipette_names import channels_of
 from .client import RobotClient
 from .following import PATIENCE_S
 from .nozzles import Layout, under
@@ -137,13 +138,6 @@ def patiently(ask: Callable[[], T], patience_s: float = PATIENCE_S) -> T:
             if time.monotonic() > until:
                 raise
             time.sleep(_AGAIN_S)
-
-
-def channels_of(name: str) -> int:
-    """Of a pipette, from its Opentrons name."""
-    if "96" in name:
-        return 96
-    return 8 if "multi" in name or "8channel" in name else 1
 
 
 def largest_volume(name: str) -> float:

@@ -18,6 +18,7 @@ from ..vision.dataset_writer import DatasetWriter
 from ..vision.tips import TipGeometry, tip_for
 from ..vision.types import TipDetection, TrajectorySample
 from ..vocabulary import KeyframeKind
+from ..vocabulary.pipette_names import channels_of
 from .dyes import DYES
 from .exposure import decode
 from .plans import PlannedWell, contents_of, normal_plan, paper_plan
@@ -166,7 +167,7 @@ def render_trajectory(
         render: Draws the frames.
     """
     session, volume, tip = plate.session, plate.volume_ul, tip_for(plate.pipette)
-    channels = 8 if "multi" in plate.pipette or "8channel" in plate.pipette else 1
+    channels = channels_of(plate.pipette)
     states, kept = contents_of(well.failure, volume, rng, session.film)
     drops = rng.random() < session.drop_chance and well.failure != "no_tip"
     column = 1 + int(rng.integers(12))

@@ -10,6 +10,7 @@ import numpy as np
 from ..vision.tips import TIPS, TipGeometry, tip_for
 from ..vision.types import Image
 from ..vocabulary import KeyframeKind
+from ..vocabulary.pipette_names import channels_of
 from .dyes import DYES, Dye
 from .exposure import decode
 from .plans import FAILURES, contents_of
@@ -49,7 +50,7 @@ def random_frames(
     rng = np.random.default_rng((seed, 21))
     while True:
         pipette = pipettes[int(rng.integers(len(pipettes)))]
-        channels = 8 if "multi" in pipette or "8channel" in pipette else 1
+        channels = channels_of(pipette)
         if measured and rng.random() < measured:
             views = (SessionParameters.webcam, SessionParameters.webcam, SessionParameters.bench)
             fixed = views[int(rng.integers(3))] if channels == 1 else SessionParameters.corner

@@ -6,6 +6,7 @@ import hashlib
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
+from itertools import islice
 from pathlib import Path
 
 import cv2
@@ -16,10 +17,11 @@ from .._version import __version__
 from ..errors import ConfigurationError, DatasetError
 from ..vision.detection.heatmap import FORMAT, HeatmapDetector
 from .figures import choose_threshold, measure, read_images
-from .fitting import DetectorSettings, fit
+from .fitting import DetectorSettings, fit, mixed_frames
+from .frame_pool import FramePool
 from .network import TipNetwork
-from .recorded import FramePool, RecordedFrame, read_frames
-from .scenes import draw_frame
+from .photometry import shows
+from .recorded import RecordedFrame, read_frames
 from .simulated import SimulatedFrames
 from .sources import sources_digest
 
@@ -76,7 +78,8 @@ def train(
     path, held = _output(out), set(hold_out)
     by_set = _read(datasets, held)
     learnt = [f for frames in by_set.values() for f in frames if _plate(f) not in held]
-    network, digest = fit(FramePool(learnt) if learnt else None, seed, chosen, progress)
+    pool = FramePool(learnt) if learnt else None
+    network, digest = fit(pool, seed, chosen, progress)
     export(network, path)
     description = {
         "format": FORMAT,
@@ -102,7 +105,7 @@ def train(
     }
     _write(path, description)
     if chosen.threshold is None:
-        description["threshold"] = _threshold(HeatmapDetector(path), chosen, seed)
+        description["threshold"] = _threshold(HeatmapDetector(path), chosen, seed, pool)
         _write(path, description)
     if held:
         detector = HeatmapDetector(path)
@@ -147,16 +150,19 @@ def _read(datasets: Sequence[str | Path], held: set[str]) -> dict[str, list[Reco
     return by_set
 
 
-def _threshold(detector: HeatmapDetector, settings: DetectorSettings, seed: int) -> float:
-    """Chosen on frames like those of training, of other seeds; never on held-out plates."""
+def _threshold(
+    detector: HeatmapDetector, settings: DetectorSettings, seed: int, pool: FramePool | None
+) -> float:
+    """Chosen on frames like those of training, seen by other cameras; never on held-out plates."""
     rng = np.random.default_rng((seed, 1))
     simulated = SimulatedFrames(seed + 1_000_003)
     tips: list[float] = []
     empties: list[float] = []
-    for number in range(settings.threshold_frames):
-        image, label, _ = simulated.draw(rng) if number % 2 else draw_frame(rng)
-        guess = detector.best_guess(image)
-        (empties if label is None else tips).append(guess.confidence if guess else 0.0)
+    frames = mixed_frames(settings, pool, simulated, rng)
+    for image, label, decoy in islice(frames, settings.threshold_frames):
+        if shows(image, label or decoy):
+            guess = detector.best_guess(image)
+            (empties if label is None else tips).append(guess.confidence if guess else 0.0)
     return choose_threshold(tips, empties)
 
 

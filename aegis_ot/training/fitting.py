@@ -13,10 +13,11 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from .examples import Example, close_up_example, overview_example, targets
+from .axes import TipLabel
+from .examples import Example, Image, close_up_example, overview_example, targets
+from .frame_pool import FramePool
 from .network import TipNetwork
 from .photometry import shows
-from .recorded import FramePool
 from .scenes import draw_frame
 from .simulated import SimulatedFrames
 
@@ -42,24 +43,24 @@ class DetectorSettings:
         close_ups: Close-ups cut from each frame.
         batch: Overviews in a batch (close-ups: twice as many).
         learning_rate: Highest rate; it rises for a tenth of the training, then falls as a cosine.
-        threshold: Least confidence of a detection; chosen on fresh drawn and simulated frames
-            if not given.
+        threshold: Least confidence of a detection; chosen on fresh frames of the same mixture if
+            not given.
         threshold_frames: Frames that it is chosen on.
         threads: CPU threads.
     """
 
-    rounds: int = 7
-    frames: int = 1200
+    rounds: int = 10
+    frames: int = 1400
     passes: int = 3
     frozen: int = 2
-    drawn_share: float = 0.3
-    simulated_share: float = 0.35
+    drawn_share: float = 0.12
+    simulated_share: float = 0.33
     close_ups: int = 2
     batch: int = 16
     learning_rate: float = 4e-3
     threshold: float | None = None
     threshold_frames: int = 600
-    threads: int = 1
+    threads: int = 2
 
 
 def fit(
@@ -118,18 +119,28 @@ def training_frames(
     rng: np.random.Generator,
 ) -> Iterator[tuple[Example, list[Example]]]:
     """Overviews and close-ups of frame after frame, without end."""
-    while True:
-        pick = rng.random() - settings.simulated_share
-        if pick < 0:
-            image, label, decoy = simulated.draw(rng)
-        elif pool is None or pick < settings.drawn_share:
-            image, label, decoy = draw_frame(rng)
-        else:
-            image, label, decoy = pool.draw(rng)
+    for image, label, decoy in mixed_frames(settings, pool, simulated, rng):
         if not shows(image, label or decoy):  # overexposed: nothing is left to see
             label = decoy = None
         close = [close_up_example(rng, image, label, decoy) for _ in range(settings.close_ups)]
         yield overview_example(image, label), close
+
+
+def mixed_frames(
+    settings: DetectorSettings,
+    pool: FramePool | None,
+    simulated: SimulatedFrames,
+    rng: np.random.Generator,
+) -> Iterator[tuple[Image, TipLabel | None, TipLabel | None]]:
+    """Frames of all sources in their shares, each with its tip and where one is missing."""
+    while True:
+        pick = rng.random() - settings.simulated_share
+        if pick < 0:
+            yield simulated.draw(rng)
+        elif pool is None or pick < settings.drawn_share:
+            yield draw_frame(rng)
+        else:
+            yield pool.draw(rng)
 
 
 def _collect(
@@ -228,6 +239,8 @@ def _loss(out: Tensor, maps: Tensor, weights: Tensor) -> Tensor:
     hit = (wanted == 1).float()
     gain = hit * (1 - heat) ** 2 * torch.log(heat)
     gain = gain + (1 - hit) * (1 - wanted) ** 4 * heat**2 * torch.log(1 - heat)
+    # Where the lower end is decides what is read in a tip.
+    gain = gain * torch.tensor([1.0, 1.5])[None, :, None, None]
     focal = -gain.sum() / max(1.0, float(hit.sum()) + 0.5 * len(out))
     share = weights / weights.sum().clamp(min=1.0)
     error = (out[:, 2:] - maps[:, 2:]).abs()

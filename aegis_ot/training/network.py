@@ -39,7 +39,7 @@ class TipNetwork(nn.Module):  # type: ignore[misc]
     ``(n, 7, height / 4, width / 4)``, heat before (training) or after (export) the sigmoid.
     """
 
-    def __init__(self, widths: tuple[int, int, int, int] = (16, 32, 64, 96)) -> None:
+    def __init__(self, widths: tuple[int, int, int, int] = (16, 32, 96, 160)) -> None:
         super().__init__()
         a, b, c, d = widths
         self.stem = _conv(3, a, 3, 2)

@@ -6,8 +6,8 @@ import numpy as np
 
 from ..simulation import FrameTruth, TipTruth, random_frames
 from .axes import TipLabel
+from .frame_pool import other_camera
 from .photometry import photograph
-from .recorded import other_camera
 from .strokes import Image
 
 _MOST_HIDDEN = 0.4  # share of the tip behind labware from which a frame teaches nothing

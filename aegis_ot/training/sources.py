@@ -8,14 +8,15 @@ from pathlib import Path
 
 SOURCES = {
     "training": (
-        *("axes", "examples", "fitting", "network", "photometry", "pipettes", "recorded", "rooms"),
-        *("scenes", "simulated", "strokes", "transplant"),
+        *("axes", "examples", "fitting", "frame_pool", "network", "photometry", "pipettes"),
+        *("recorded", "rooms", "scenes", "simulated", "strokes", "transplant"),
     ),
     "simulation": (
         *("backdrop", "dyes", "exposure", "optics", "plans", "random_frames", "reflections"),
         *("render", "scene", "session", "shading", "truth"),
     ),
     "vision": ("detection/decode", "detection/views", "tips"),
+    "vocabulary": ("pipette_names",),
 }
 """Modules, by room: what makes the frames, cuts and paints the examples, and fits the network."""
 

@@ -42,7 +42,8 @@ def transplanted(
     cover = _hanging(solid, label).astype(np.float32)
     if label is not None:
         inside = np.zeros(solid.shape, np.uint8)
-        cv2.fillPoly(inside, [np.round(_outline(label)).astype(np.int32)], 1)
+        for tip in (label, *label.beside):
+            cv2.fillPoly(inside, [np.round(_outline(tip)).astype(np.int32)], 1)
         cover = np.where(inside > 0, rng.uniform(0.15, 0.7) + 0 * cover, cover)
     cover = cv2.GaussianBlur(cover, (0, 0), 0.7)[..., None]
     clear = other * (1 - cover)

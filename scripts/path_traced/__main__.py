@@ -8,8 +8,7 @@ takes a minute or two. ``meta.json`` names the kind of each plate, which
 ``aegis-ot evaluate layer2 OUT --leave-out camera`` leaves out as a whole. ``--for-detector``
 renders instead N plates of three wells, each before a camera of its own and the last without a
 tip: for ``aegis-ot train detector``; ``--sleeves``: of tips whose upper part is a sleeve, as real
-ones' is. ``--rows``: of eight tips each, whose axes stand in ``axes.csv``. The training does not
-read that file yet, and would take the seven beside the labelled one for none: keep them from it.
+ones' is. ``--rows``: of eight tips each, whose axes stand in ``axes.csv``.
 """
 
 from __future__ import annotations

@@ -5,11 +5,10 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from aegis_ot.errors import DatasetError
-from aegis_ot.training.recorded import FramePool, read_frames
+from aegis_ot.training.recorded import read_frames
 
 
 def test_without_a_camera_the_axis_is_the_centre_line(dataset: Path) -> None:
@@ -21,6 +20,54 @@ def test_without_a_camera_the_axis_is_the_centre_line(dataset: Path) -> None:
     assert frames[-1].label is None
     assert frames[-1].box is None
     assert {frame.plate.split("/")[1] for frame in frames} == {"plate0", "plate1"}
+
+
+def test_an_axis_that_the_set_gives_is_the_label(dataset: Path) -> None:
+    (dataset / "axes.csv").write_text(
+        "frame,collar_x,collar_y,orifice_x,orifice_y\nframes/w0_aspirate.png,61,60,58.5,140\n"
+    )
+    first, second, *_ = read_frames(dataset)
+    assert first.label is not None
+    assert second.label is not None
+    assert (first.label.collar, first.label.orifice) == ((61.0, 60.0), (58.5, 140.0))
+    assert first.label.radius == 4.0  # the collar reaches the box's right side, 65
+    assert second.label.collar == (100.0, 60.0)
+
+
+def test_the_tips_beside_it_are_labelled_too(dataset: Path) -> None:
+    (dataset / "axes.csv").write_text(
+        "frame,collar_x,collar_y,orifice_x,orifice_y\n"
+        "frames/w0_aspirate.png,60,60,60,140\nframes/w0_aspirate.png,80,61,80,141\n"
+    )
+    label = read_frames(dataset)[0].label
+    assert label is not None
+    assert [(tip.collar, tip.orifice) for tip in label.beside] == [((80.0, 61.0), (80.0, 141.0))]
+
+
+def test_the_tip_of_the_box_comes_first_whatever_the_order(dataset: Path) -> None:
+    (dataset / "axes.csv").write_text(
+        "frame,collar_x,collar_y,orifice_x,orifice_y\n"
+        "frames/w0_aspirate.png,80,61,80,141\nframes/w0_aspirate.png, 60,60,60,140\n"
+    )
+    label = read_frames(dataset)[0].label
+    assert label is not None
+    assert label.collar == (60.0, 60.0)
+    assert [tip.collar for tip in label.beside] == [(80.0, 61.0)]
+
+
+@pytest.mark.parametrize(
+    ("row", "said"),
+    [
+        ("frames/w0_aspirate.png,61,,58.5,140", "'61, , 58.5, 140' are not four numbers"),
+        ("frames/w0_aspirate.png,61,nan,58.5,140", "'61, nan, 58.5, 140' are not four numbers"),
+        ("frames/w9.png,61,60,58.5,140", "column frame: 'frames/w9.png' is not in boxes.csv"),
+    ],
+)
+def test_a_bad_axis_is_named(dataset: Path, row: str, said: str) -> None:
+    (dataset / "axes.csv").write_text(f"frame,collar_x,collar_y,orifice_x,orifice_y\n{row}\n")
+    with pytest.raises(DatasetError) as caught:
+        read_frames(dataset)
+    assert f"axes.csv row 2{',' if 'column' in said else ':'} {said}" in str(caught.value)
 
 
 def test_a_meta_file_without_cameras_is_no_obstacle(dataset: Path) -> None:
@@ -46,36 +93,3 @@ def test_a_set_without_boxes_cannot_teach(dataset: Path) -> None:
     (dataset / "boxes.csv").unlink()
     with pytest.raises(DatasetError, match=r"boxes\.csv"):
         read_frames(dataset)
-
-
-def test_an_unreadable_image_is_named(dataset: Path) -> None:
-    (dataset / "frames" / "w0_transit.png").write_bytes(b"no image")
-    with pytest.raises(DatasetError, match=r"w0_transit\.png"):
-        FramePool(read_frames(dataset))
-
-
-def test_drawn_frames_keep_the_tip_under_its_label(dataset: Path) -> None:
-    frames = [frame for frame in read_frames(dataset) if frame.label is not None]
-    pool, rng = FramePool(frames), np.random.default_rng(0)
-    brighter = 0
-    labelled = 0
-    for _ in range(40):
-        image, label, decoy = pool.draw(rng)
-        assert label is None or decoy is None
-        if label is None:
-            continue
-        labelled += 1
-        x = int((label.collar[0] + label.orifice[0]) / 2)
-        y = int((label.collar[1] + label.orifice[1]) / 2)
-        aside = int(4 * label.radius)
-        row = image[y].astype(float).mean(axis=-1)
-        beside = row[[max(0, x - aside), min(len(row) - 1, x + aside)]].mean()
-        brighter += row[x] > beside + 20
-    assert labelled > 15
-    assert brighter >= 0.8 * labelled
-
-
-def test_the_same_state_draws_the_same_frame(dataset: Path) -> None:
-    pool = FramePool(read_frames(dataset))
-    first, second = (pool.draw(np.random.default_rng(5)) for _ in range(2))
-    assert (first[0] == second[0]).all()

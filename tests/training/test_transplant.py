@@ -42,6 +42,15 @@ def test_the_new_room_shines_through_the_tip(frame: np.ndarray, room: np.ndarray
     assert dark[110:120, 93].mean() > dark[110:120, 88].mean() + 40
 
 
+def test_every_tip_of_a_row_veils_the_new_room(frame: np.ndarray, room: np.ndarray) -> None:
+    frame[:, 40:61] = frame[:, 90:111]  # another one beside it
+    beside = TipLabel((50.0, 80.0), (50.0, 180.0), 8.0)
+    row = TipLabel(LABEL.collar, LABEL.orifice, LABEL.radius, (beside,))
+    shown = transplanted(np.random.default_rng(0), frame, room, np.full_like(room, 180), row)
+    for x in (50, 100):
+        assert 60 < shown[110:120, x - 2 : x + 3].mean() < 170
+
+
 def test_a_frame_without_a_tip_keeps_its_bare_nozzle(room: np.ndarray) -> None:
     image = room.copy()
     image[:80, 95:106] = 200

