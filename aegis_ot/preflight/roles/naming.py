@@ -56,11 +56,13 @@ class RoleNames:
         key = text.rpartition("[")[2] if text.endswith("]") else ""
         if key and self._names(self._lexicon.find(key)) and self._head(key):
             text = key  # `tubes["water"]` is water, whatever the dict is called
+        # `REAGENTS["control RNA"]` is one of various ones, and no reagent of this family.
+        various = text != key and any(map(str.isalpha, key))
         named = list(dict.fromkeys(self._head(text, evidence.is_name)))
         if self._speaks_of_several(evidence, text, named):
             return []
         several = evidence.text.rstrip("]'\"").endswith("s") and len(evidence.wells) >= _SEVERAL
-        if several or (evidence.whole and len(evidence.wells) > 1):
+        if various or several or (evidence.whole and len(evidence.wells) > 1):
             named = [role for role in named if not self._is_loose_plural(text, role)]
         return named
 

@@ -57,6 +57,18 @@ def test_a_name_that_joins_several_things_says_of_no_well_which() -> None:
     assert roles_by_well(reading) == {}
 
 
+def test_what_a_map_of_reagents_calls_otherwise_is_no_reagent() -> None:
+    head = """REAGENTS = {"Standard": "A1", "Control RNA": "A2", "working reagent": "A3"}"""
+    body = """
+        for name, place in REAGENTS.items():
+            p20.transfer(2, tubes[place], plate["A1"])
+        """
+    roles = roles_by_well(read(body, head, assay="bradford"))
+    assert roles["2:A1"] == "standard"
+    assert "2:A2" not in roles
+    assert roles["2:A3"] == "dye"
+
+
 def test_names_that_contradict_each_other_are_told() -> None:
     reading = read(
         """
