@@ -20,7 +20,7 @@ def test_a_small_set_is_not_drowned_by_a_large_one(dataset: Path) -> None:
     many = [replace(frame, plate=f"other/{i}") for i in range(4) for frame in frames]
     pool, rng = FramePool(frames + many), np.random.default_rng(3)
     drawn = rng.choice(len(frames + many), 3000, p=pool.chances)
-    assert np.mean(drawn < len(frames)) == pytest.approx(1 / 3, abs=0.03)
+    assert np.mean(drawn < len(frames)) == pytest.approx(1 / (1 + 4**0.25), abs=0.03)
 
 
 def test_an_unreadable_image_is_named(dataset: Path) -> None:

@@ -25,6 +25,10 @@ _STEEP = 0.65
 _STEPS = 0.3, 1.15
 """Steps of a row, pitches; what looks like a row of other steps is none."""
 
+_WHOLE_STEP = 0.93
+"""A row without taper is seen squarely, and its steps are a pitch each: if they look shorter than
+this, pitches, its tips are taken for longer ones."""
+
 _OFF_SCALE = 0.08
 _SAME_LENGTH = 0.15
 _FAINT = 0.2
@@ -123,7 +127,7 @@ class RowFinder:
         if row is not None and abs(row.length(row.span / 2) / seed.length - 1) > _OFF_SCALE:
             better = self._row_at(image, self._detection(row, (row.span - 1) // 2))
             row = better if better is not None and len(better.heats) >= len(row.heats) else row
-        if row is None or len(row.heats) < self._count or self._pitches(row) > _STEPS[1]:
+        if row is None or len(row.heats) < self._count or not self._to_scale(row):
             row = self._clearer(row, self._by_orifices(image, seed))
         if row is None:
             return None
@@ -160,6 +164,11 @@ class RowFinder:
         ends = self._detector.ends(image, seed, self._reach(seed.length))
         return find_row(ends, seed.length, self._tip.length_mm, self._count)
 
+    def _to_scale(self, row: Row) -> bool:
+        """Whether the steps of a row are a pitch each, or shorter because it is seen at an angle."""
+        pitches, taper = self._pitches(row), abs(row.taper) * (self._count - 1)
+        return pitches <= _STEPS[1] and (taper >= _TAPERED or pitches >= _WHOLE_STEP)
+
     def _pitches(self, row: Row) -> float:
         """Steps of a row in pitches, at the scale of its tips."""
         return row.step_lengths * self._tip.length_mm / PITCH_MM
@@ -178,7 +187,7 @@ class RowFinder:
         if by_orifices is None or row is None:
             return by_orifices or row
         more = len(by_orifices.heats) - len(row.heats)
-        mistaken = self._pitches(row) > _STEPS[1]
+        mistaken = not self._to_scale(row)
         return by_orifices if more > 0 or (mistaken and more == 0) else row
 
     def _by_orifices(self, image: Image, seed: TipDetection) -> Row | None:

@@ -7,6 +7,7 @@ hang at the same height, and those farther away look smaller and closer together
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -33,6 +34,9 @@ benchmark ``channels``) missing tips reached 0.12, and tips fell to 0.19."""
 
 STRAY = 0.3
 """How far from its place in the row a tip may be, steps."""
+
+_SEEN = 0.5
+"""Heat of the upper one of two lower ends, as a share of the lower one's, from which it is seen."""
 
 _HOLES = 3
 """Most tips beside each other that may be missing within a row."""
@@ -165,13 +169,24 @@ def _pairs(ends: Ends, length: float) -> Floats:
     # One that leans a whole step fits all tips but one: upright wins where both fit alike.
     scores = (near * heats).sum(axis=1) * (1 - np.abs(leans) / length)
     lean = leans[int(scores.argmax())]
-    best: dict[End, tuple[float, End]] = {}
+    below: dict[End, list[End]] = {}
     for collar, orifice in pairs:
-        off = abs(orifice.x - collar.x - lean)
-        if off <= 2 * _SAME_LEAN * length and off < best.get(collar, (np.inf, orifice))[0]:
-            best[collar] = off, orifice
-    rows = [(c.x, c.y, o.x, o.y, _heat(c, o)) for c, (_, o) in best.items()]
+        if abs(orifice.x - collar.x - lean) <= 2 * _SAME_LEAN * length:
+            below.setdefault(collar, []).append(orifice)
+    seen = {collar: uppermost(orifices) for collar, orifices in below.items()}
+    rows = [(c.x, c.y, o.x, o.y, _heat(c, o)) for c, o in seen.items()]
     return np.array(sorted(rows))
+
+
+def uppermost(orifices: Sequence[End]) -> End:
+    """Of lower ends below one another the one that is seen.
+
+    The network has learned from tips of many makes: below the end that it sees it may put another,
+    warmer one, where that of a longer make would be.
+    """
+    warmest = max(orifice.heat for orifice in orifices)
+    seen = (orifice for orifice in orifices if orifice.heat >= _SEEN * warmest)
+    return min(seen, key=lambda orifice: orifice.y)
 
 
 def _heat(collar: End, orifice: End) -> float:

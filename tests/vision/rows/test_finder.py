@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
@@ -154,6 +154,16 @@ def test_upper_ends_that_are_as_many_hold() -> None:
     some = [0, 1, 2, 4, 5, 6, 7]
     seen = found(Drawn(ends(some, some)))
     assert [tip is not None for tip in seen.tips] == [n in some for n in range(8)]
+
+
+@pytest.mark.parametrize(("longer", "length"), [(1.15, LENGTH), (1.04, 1.04 * LENGTH)])
+def test_upper_ends_that_do_not_fit_the_nozzles_distance_are_mistaken(
+    longer: float, length: float
+) -> None:
+    both = ends(list(range(8)), list(range(8)))
+    upper = tuple(replace(end, y=370.0 - longer * LENGTH) for end in both.collars)
+    seen = found(Drawn(replace(both, collars=upper), guessed=longer * LENGTH))
+    assert lengths(seen) == [pytest.approx(length, abs=3)] * 8
 
 
 def test_half_a_row_of_lower_ends_is_none() -> None:

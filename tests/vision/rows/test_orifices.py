@@ -41,6 +41,16 @@ def test_no_more_tips_than_nozzles() -> None:
     assert row.ends(0)[2] == pytest.approx(100.0, abs=3)
 
 
+@pytest.mark.parametrize(
+    ("seen", "y"), [(range(8), 370.0), (range(1, 6), 370.0), (range(3), 400.0)]
+)
+def test_of_two_rows_of_ends_the_upper_one_is_seen(seen: range, y: float) -> None:
+    lower = [End(100.0 + STEP * n, 400.0, 0.8) for n in range(8)]
+    row = find_by_orifices(row_of(list(seen), *lower), LENGTH, TIP_MM, 8)
+    assert row is not None
+    assert [row.ends(n)[3] for n in row.heats] == pytest.approx([y] * len(row.heats), abs=3)
+
+
 def test_one_end_is_no_row() -> None:
     assert find_by_orifices(row_of([2]), LENGTH, TIP_MM, 8) is None
 
