@@ -125,8 +125,8 @@ def test_fit_writes_a_model_that_can_be_verified(aegis: Command, drawn: Path) ->
     assert aegis("fit", drawn, "--out", "lab.model", "--scorer", "pca").code == 0
     shown = aegis("world-model", "lab.model")
     assert shown.code == 0
-    assert "set (synthetic): 4 normal wells, 1 without a tip left out" in shown.out
-    assert "Few: 4 normal wells" in shown.out
+    assert "set (synthetic): 5 normal wells" in shown.out
+    assert "Few: 5 normal wells" in shown.out
     Path("lab.model").write_bytes(Path("lab.model").read_bytes()[:-40])
     broken = aegis("world-model", "lab.model")
     assert broken.code == 2
