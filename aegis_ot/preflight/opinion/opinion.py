@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...vocabulary import Finding, Undecided
@@ -79,3 +80,11 @@ class Opinion:
 def no_answer(opinion: Opinion) -> Undecided:
     """What a report says of a model that was asked in vain."""
     return Undecided(MODEL, f"{opinion.model} gave no answer ({opinion.state}): {opinion.detail}")
+
+
+def is_known(finding: Finding, others: Sequence[Finding]) -> bool:
+    """Whether one of the others is of the same rule, and of some of the same wells."""
+    return any(
+        other.rule == finding.rule and not set(other.wells).isdisjoint(finding.wells)
+        for other in others
+    )
