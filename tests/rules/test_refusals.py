@@ -123,7 +123,7 @@ def test_it_is_refused_by_the_published_schema_as_well(
                 d["rules"][0].update(unless_reported=["ELISA-2"]),
                 d["rules"][1].update(unless_reported=["PCR-2", "ELISA-1"]),
             ],
-            "rule ELISA-1: unless_reported: they go in a circle: ELISA-1 -> ELISA-2 -> ELISA-1",
+            "rule ELISA-2: unless_reported: they go in a circle: ELISA-2 -> ELISA-1 -> ELISA-2",
         ),
         (rule(checks=[{"check": [[]]}]), "rule ELISA-1: checks[0]: check: there is no check with"),
     ],

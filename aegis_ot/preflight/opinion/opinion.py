@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from ...vocabulary import Finding, Undecided
 from ..judging import MODEL
 
-ANSWERED = "answered"
-
 
 @dataclass(frozen=True)
 class Citation:
@@ -74,7 +72,7 @@ class Opinion:
     @property
     def answered(self) -> bool:
         """Whether the model gave an answer."""
-        return self.state == ANSWERED
+        return self.state == "answered"
 
 
 def no_answer(opinion: Opinion) -> Undecided:
