@@ -13,7 +13,7 @@ from ..roles import Roles
 from ..rules import Common, Family
 from ..source import name_without_level, without_strength
 from ..trace import Met, Trace, Transfer, Visit, Well
-from .series import Series, find_series
+from .series import Series, SeriesFinder
 
 RoleSet = Collection[str]
 """Names of roles."""
@@ -128,7 +128,7 @@ class Case:
     @cached_property
     def series(self) -> Sequence[Series]:
         """The dilution series of the protocol."""
-        return find_series(self.trace, self.roles, self.waste)
+        return SeriesFinder(self.trace, self.roles).found(self.waste)
 
     @cached_property
     def fillers(self) -> frozenset[Well]:

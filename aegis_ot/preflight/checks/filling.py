@@ -92,7 +92,7 @@ class SeriesFilledFrom(SeriesCheck):
 def _is_diluent_known(case: Case) -> bool:
     """Whether some reservoir, or some well of a plate that serves several, is the diluent's."""
     plates = {well.ref.labware for series in case.series for well in series.wells}
-    served = case.trace.served()
+    served = case.trace.served
     return any(
         (ref.labware not in plates or len(served.get(ref, ())) > 1)
         and case.roles.is_called(ref, case.diluent)

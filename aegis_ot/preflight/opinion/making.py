@@ -78,7 +78,7 @@ def check_with_dossier(
 def _deck(trace: Trace) -> tuple[DeckItem, ...]:
     items = []
     for info in trace.labware.values():
-        if info.is_tip_rack or info.is_trash or not info.wells:
+        if not info.holds_liquid:
             continue
         places_ = [row_column(name) for name in info.wells]
         rows, columns = max(p[0] for p in places_) + 1, max(p[1] for p in places_) + 1

@@ -88,11 +88,7 @@ class _Verifier:
         """
         found: dict[WellRef, None] = {}
         for place in proposal.wells:
-            labware, _, spec = place.rpartition(":")
-            labware = labware.strip()
-            if labware.lower().startswith("slot "):
-                labware = labware[len("slot ") :]
-            named = self._deck.at(f"{labware}:{spec}") if spec.strip() else ()
+            named = self._deck.at(place) if place.rpartition(":")[2].strip() else ()
             if not named:
                 raise Rejected(f"there is no well {place!r} on the deck")
             found.update(dict.fromkeys(named))

@@ -23,7 +23,7 @@ Fed = Mapping[WellRef, Mapping[WellRef, float]]
 
 def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
     """The shapes that a run shows: how clearly (1 for three wells, 2 for six) and in words."""
-    fed, feeds = _fed(trace), trace.served()
+    fed, feeds = _fed(trace), trace.served
     found: dict[str, tuple[float, str]] = {}
     chain = _longest(chains_of(trace.links))
     if chain >= 2:
