@@ -10,7 +10,7 @@ from itertools import islice
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..roles import Roles
-from ..rules import Common, Family
+from ..rules import Common, Family, SeriesSpec
 from ..source import name_without_level, without_strength
 from ..trace import Met, Trace, Transfer, Visit, Well
 from .series import Series, SeriesFinder
@@ -116,14 +116,9 @@ class Case:
         return [one.visit for one in well.received if one.source is source]
 
     @property
-    def stock(self) -> RoleSet:
-        """Roles that the family dilutes in a series."""
-        return self.family.series_roles.stock
-
-    @property
-    def diluent(self) -> RoleSet:
-        """Roles that the family dilutes a series with."""
-        return self.family.series_roles.diluent
+    def series_roles(self) -> SeriesSpec:
+        """Roles of what the family dilutes in a series, and with what."""
+        return self.family.series_roles
 
     @cached_property
     def series(self) -> Sequence[Series]:
