@@ -11,7 +11,7 @@ from ..rules import at_least, role_names
 from ..trace import Well
 from .case import Case
 from .check import Check, Result, Violation, at, place
-from .received import came_from, filled, is_made_of, received
+from .receiving import came_from, filled, is_made_of, received
 
 Member = tuple[Well, float, float]
 """A well, the µL of the liquid that it received, and those that it received in all."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Sequence
 
-from ...instrumentation import Event
 from ...vocabulary import Severity, WellRef
 from ..database import load_database, shipped_rules
 from ..judging import (
@@ -88,13 +87,9 @@ def _deck(trace: Trace) -> tuple[DeckItem, ...]:
 
 
 def _lines(recording: Recording) -> tuple[int, ...]:
-    found: set[int] = set()
-    for heard in recording.log:
-        if heard.line is not None:
-            found.add(heard.line)
-        if not isinstance(heard, Event):
-            found.update(heard.lines)
-    return tuple(sorted(found))
+    log = recording.log
+    lines = {one for heard in log for one in (heard.line, *getattr(heard, "lines", ()))}
+    return tuple(sorted(line for line in lines if line is not None))
 
 
 def _roles(report: Report) -> tuple[RoleLine, ...]:
