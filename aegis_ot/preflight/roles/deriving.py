@@ -88,13 +88,9 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
     A liquid that stands in several wells (a strip of master mix) serves several wells each.
     """
     served = trace.stocks
-    by_labware: dict[str, list[WellRef]] = {}
-    for ref in served:
-        info = trace.labware.get(ref.labware)
-        if info is not None and not info.centers_channels:
-            by_labware.setdefault(ref.labware, []).append(ref)
-    for key, refs in by_labware.items():
-        if len(trace.labware[key].wells) < _SMALLEST_PLATE or len(refs) < _FEWEST_PAIRS:
+    for key, info in trace.labware.items():
+        refs = [ref for ref in served if ref.labware == key]
+        if info.centers_channels or len(info.wells) < _SMALLEST_PLATE or len(refs) < _FEWEST_PAIRS:
             continue
         into = {well for ref in refs for well in served[ref]}
         if all(len(served[ref]) == 1 and not roles.of(ref) for ref in refs) and (
