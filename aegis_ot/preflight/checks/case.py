@@ -84,8 +84,7 @@ class Case:
 
     def is_drawn_first(self, well: Well) -> bool:
         """Whether the run draws from a well before it puts anything there: a source."""
-        used = self.trace.usage.get(well.ref)
-        return used is not None and used.first_drawn
+        return self.trace.usage[well.ref].first_drawn
 
     @cached_property
     def meant(self) -> FirstOrLast:
@@ -160,7 +159,8 @@ class Case:
     def compound(self, well: Well) -> tuple[str, ...]:
         """What a liquid's name says besides its dose: ``("cisplatin",)``, ``("b",)``."""
         assigned = self.roles.by_well.get(well.ref)
-        return name_without_level(assigned.text, self.common.undescriptive) if assigned else ()
+        words = (*self.common.noise, *self.common.levels)
+        return name_without_level(assigned.text, words) if assigned else ()
 
     def _is_one_source(self, one: Well, other: Well) -> bool:
         """Whether one list or loop uses two wells of reservoirs as one liquid.

@@ -133,7 +133,7 @@ def _rules(reading: Reading, report: Report) -> Iterable[RuleBrief]:
                 continue
             judged = rule.scope == "all" or family.family in applying
             decided = judged and rule.id not in open_rules
-            text = "" if family.path.startswith(shipped) else rule_text(rule)
+            text = "" if family.path.startswith(shipped) else _own_rule(rule)
             yield RuleBrief(rule.id, Severity(severity), decided, text)
 
 
@@ -149,6 +149,12 @@ def _wanted(reading: Reading, report: Report) -> Iterable[str]:
 def rule_text(rule: RuleSpec) -> str:
     """One rule in a line: what must hold."""
     return f"{rule.id} {rule.name} ({rule.severity}): {rule.statement}"
+
+
+def _own_rule(rule: RuleSpec) -> str:
+    """A laboratory's own rule, with all that its file tells a model."""
+    look_for = f"Look for: {'; '.join(rule.indicators)}." if rule.indicators else ""
+    return " ".join(filter(None, (rule_text(rule), rule.prompt, look_for)))
 
 
 def _shortened(text: str) -> str:

@@ -1,4 +1,8 @@
-"""The shapes of the liquid's ways through a run, whatever the wells are called."""
+"""The shapes of the liquid's ways through a run, whatever the wells are called.
+
+Wells that feed each other in turn (``chain``); one well fed by many that feed nothing else
+(``pooling``); wells given as much each of a common liquid, and one of their own (``reactions``).
+"""
 
 from __future__ import annotations
 
@@ -7,10 +11,6 @@ from collections.abc import Mapping, Set
 
 from ...vocabulary import WellRef
 from ..trace import Trace, chains_of
-
-SHAPES = ("chain", "pooling", "reactions")
-"""What a family's file may name: wells that feed each other in turn; one well fed by many that feed
-nothing else; wells given as much each of a common liquid, and one of their own."""
 
 _FEWEST_POOLED = 4
 _FEWEST_ALIKE = 3

@@ -45,11 +45,6 @@ class Common:
     dose_words: tuple[str, ...] = ()
     schema: int = SCHEMA_VERSION
 
-    @property
-    def undescriptive(self) -> tuple[str, ...]:
-        """Words of a name that say neither what a compound is nor how much of it there is."""
-        return (*self.noise, *self.levels)
-
 
 @dataclass(frozen=True)
 class Database:

@@ -108,7 +108,8 @@ class _Builder:
         if said.shaken:
             self._trace.shaken.append((self._index, None))
         if said.tips:
-            self._box.replace_all_racks()
+            for key in self._trace.labware:
+                self._box.replace_rack(key)
         for key in said.replaced:
             self._replace(key)
         if said.volumes_unsure:
