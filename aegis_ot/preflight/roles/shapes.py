@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Mapping, Set
 
 from ...vocabulary import WellRef
+from ..rules import Shape
 from ..trace import Trace, chains_of
 
 _FEWEST_POOLED = 4
@@ -21,10 +22,10 @@ Fed = Mapping[WellRef, Mapping[WellRef, float]]
 """For each well the µL that it is given of each well drawn from."""
 
 
-def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
+def shapes_of(trace: Trace) -> dict[Shape, tuple[float, str]]:
     """The shapes that a run shows: how clearly (1 for three wells, 2 for six) and in words."""
     fed, feeds = _fed(trace), trace.served
-    found: dict[str, tuple[float, str]] = {}
+    found: dict[Shape, tuple[float, str]] = {}
     chains = (len({(s.source, s.well) for s in group}) for group in chains_of(trace.links))
     chain = max(chains, default=0)
     if chain >= 2:
