@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ...vocabulary import WellRef
+from ...vocabulary import WellRef, one_line
 from ..evidence import Deck, Evidence, Kind
 from ..judging import Reading
 from ..roles import Roles
@@ -156,4 +156,4 @@ def _stands_in(quote: str, level: str) -> bool:
 
 def _plain(text: str) -> str:
     """As the request shows it, but for blanks."""
-    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    return one_line(text, len(text))
