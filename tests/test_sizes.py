@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 646,
     "preflight/source": 743,
     "preflight/trace": 1_562,
-    "": 66_004,
+    "": 66_008,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from ...instrumentation import (
@@ -34,9 +34,9 @@ class Recorder:
         """Nothing yet: an operation that raises never happened."""
 
     def after(self, operation: Operation) -> None:
-        """Keep one operation, without what it was called with: that would keep the core alive."""
+        """Keep one operation."""
         if operation.kind is not OperationKind.MOVE:
-            self.log.append(replace(operation, arguments={}))
+            self.log.append(operation.detached())
 
     def event(self, event: Event) -> None:
         """Keep one event."""
