@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ..dryrun import read_script
-from ..instrumentation import OperationKind
-from ..preflight.rehearsal import Script, Step, record
+from ..instrumentation import Operation, OperationKind
+from ..preflight.rehearsal import Script, record
 
 _SECONDS = {
     OperationKind.PICK_UP_TIP: 6.0,
@@ -115,7 +115,7 @@ def read_job(
     script = read_script(path, labware, parameters)
     deck = _Deck()
     recording = record(script, timeout_s=timeout_s, look=deck.look)
-    moving = sum(_seconds(step) for step in recording.log if isinstance(step, Step))
+    moving = sum(_seconds(step) for step in recording.log if isinstance(step, Operation))
     names = {info.load_name for info in recording.labware.values() if not info.is_trash}
     needs = Needs(deck.robot_type, deck.pipettes, tuple(deck.modules), frozenset(names))
     return Job(path.name, script, needs, moving + deck.waits_s, tuple(faults))
@@ -132,7 +132,7 @@ def numbered(jobs: Sequence[Job]) -> list[Job]:
     return found
 
 
-def _seconds(step: Step) -> float:
+def _seconds(step: Operation) -> float:
     stroke = step.kind in (OperationKind.ASPIRATE, OperationKind.DISPENSE)
     return _SECONDS.get(step.kind, 0.0) + (_STROKE_S if stroke else 0.0)
 

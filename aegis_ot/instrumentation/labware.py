@@ -60,3 +60,8 @@ class LabwareInfo:
     is_trash: bool
     centers_channels: bool = False
     wells: Mapping[str, WellInfo] = field(default_factory=dict)
+
+    @property
+    def holds_liquid(self) -> bool:
+        """Whether liquid may stand in its wells, other than waste."""
+        return bool(self.wells) and not (self.is_tip_rack or self.is_trash)

@@ -9,7 +9,7 @@ The core of an ``InstrumentContext`` is where every path meets, at every apiLeve
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Any, Protocol
 
@@ -103,6 +103,10 @@ class Operation:
     """Name of the core's method that was called."""
     arguments: Mapping[str, Any] = field(default_factory=dict, repr=False, compare=False)
     """What it was called with, by name: enough to do the same again."""
+
+    def detached(self) -> Operation:
+        """The same without its core, to be kept after the run or sent to another process."""
+        return replace(self, core=_no_core, arguments={})
 
     @property
     def well(self) -> WellRef | None:

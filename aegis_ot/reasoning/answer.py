@@ -1,8 +1,8 @@
 """The form in which a model answers about a protocol.
 
 Equal for all protocols, so that it stands in the cached prefix; which rules, wells and lines
-exist is checked afterwards (:mod:`aegis_ot.preflight.opinion`). Every member is
-required and nothing else allowed: what the strict modes of the services ask for.
+exist is checked afterwards (:mod:`.read_answer`). Every member is required and nothing else
+allowed: what the strict modes of the services ask for.
 """
 
 from __future__ import annotations

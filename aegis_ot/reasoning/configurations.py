@@ -18,10 +18,11 @@ from enum import Enum
 
 from ..preflight import Database, Report
 from ..preflight.judging import MODEL, Reading, verdict_of
-from ..preflight.opinion import Dossier, Opinion, merge, no_answer, read_opinion
+from ..preflight.opinion import Dossier, Opinion, merge, no_answer
 from ..vocabulary import Severity, Undecided, VerdictWord
 from .backend import Backend, Reply, Request, State, Usage
 from .layer1_prompt import blind_request, hybrid_request, llm_only_request
+from .read_answer import read_opinion
 
 
 class Configuration(str, Enum):

@@ -66,14 +66,15 @@ class Carry(Check):
             well = visit.well
             if not case.has(well, self.into) or case.has(well, self.not_into):
                 continue
-            if self.shared and not is_shared(case, well):
+            drawn_for = case.destinations.get(well, {})
+            if self.shared and len(drawn_for) < 2:
                 continue
             if well.ref in case.waste and (
                 visit.kind is not OperationKind.ASPIRATE
-                or all(dest.ref in case.waste for dest in case.destinations.get(well, ()))
+                or all(dest.ref in case.waste for dest in drawn_for)
             ):
                 continue  # it is meant for all
-            if self.stock and not case.destinations.get(well):
+            if self.stock and not drawn_for:
                 continue  # tips are rinsed in it; nothing is made of it
             key = (visit.tip, well)
             again = let_be.pop(key, [])
@@ -258,8 +259,3 @@ def _on_purpose(case: Case, stock: Well, origin: Well, visit: Visit) -> bool:
         for other in stock.visits
         if other.index < earlier[0].index
     )
-
-
-def is_shared(case: Case, well: Well) -> bool:
-    """Whether a source serves more than one destination."""
-    return len(case.destinations.get(well, {})) > 1

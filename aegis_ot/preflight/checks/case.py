@@ -10,10 +10,10 @@ from itertools import islice
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..roles import Roles
-from ..rules import Common, Family
+from ..rules import Common, Family, SeriesSpec
 from ..source import name_without_level, without_strength
 from ..trace import Met, Trace, Transfer, Visit, Well
-from .series import Series, find_series
+from .series import Series, SeriesFinder
 
 RoleSet = Collection[str]
 """Names of roles."""
@@ -84,8 +84,7 @@ class Case:
 
     def is_drawn_first(self, well: Well) -> bool:
         """Whether the run draws from a well before it puts anything there: a source."""
-        used = self.trace.usage.get(well.ref)
-        return used is not None and used.first_drawn
+        return self.trace.usage[well.ref].first_drawn
 
     @cached_property
     def meant(self) -> FirstOrLast:
@@ -116,19 +115,14 @@ class Case:
         return [one.visit for one in well.received if one.source is source]
 
     @property
-    def stock(self) -> RoleSet:
-        """Roles that the family dilutes in a series."""
-        return self.family.series_roles.stock
-
-    @property
-    def diluent(self) -> RoleSet:
-        """Roles that the family dilutes a series with."""
-        return self.family.series_roles.diluent
+    def series_roles(self) -> SeriesSpec:
+        """Roles of what the family dilutes in a series, and with what."""
+        return self.family.series_roles
 
     @cached_property
     def series(self) -> Sequence[Series]:
         """The dilution series of the protocol."""
-        return find_series(self.trace, self.roles, self.waste)
+        return SeriesFinder(self.trace, self.roles).found(self.waste)
 
     @cached_property
     def fillers(self) -> frozenset[Well]:
@@ -165,7 +159,8 @@ class Case:
     def compound(self, well: Well) -> tuple[str, ...]:
         """What a liquid's name says besides its dose: ``("cisplatin",)``, ``("b",)``."""
         assigned = self.roles.by_well.get(well.ref)
-        return name_without_level(assigned.text, self.common.undescriptive) if assigned else ()
+        words = (*self.common.noise, *self.common.levels)
+        return name_without_level(assigned.text, words) if assigned else ()
 
     def _is_one_source(self, one: Well, other: Well) -> bool:
         """Whether one list or loop uses two wells of reservoirs as one liquid.

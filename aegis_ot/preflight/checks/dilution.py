@@ -39,7 +39,7 @@ def diluent_arrivals(case: Case, well: Well) -> list[int]:
     return [
         one.visit.index
         for one in well.received
-        if case.has(one.source, case.diluent)
+        if case.has(one.source, case.series_roles.diluent)
         or one.source in case.fillers
         or _is_made_diluent(case, one)
     ]
@@ -50,8 +50,8 @@ def _is_made_diluent(case: Case, one: Transfer) -> bool:
     return (
         one.source.ref.labware != one.well.ref.labware
         and not one.source.prefilled
-        and case.brings(one, case.diluent)
-        and not case.brings(one, case.stock)
+        and case.brings(one, case.series_roles.diluent)
+        and not case.brings(one, case.series_roles.stock)
     )
 
 
@@ -65,7 +65,7 @@ def dilutions(case: Case, series: Series) -> list[Transfer]:
         step
         for step in series.steps
         if step.source in series.position
-        or case.has(step.well, case.diluent)
+        or case.has(step.well, case.series_roles.diluent)
         or _is_filled_before_drawn(case, step)
     ]
 

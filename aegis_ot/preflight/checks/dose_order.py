@@ -117,7 +117,7 @@ class DoseOrder(Check):
             if set(there) != set(here):
                 continue
             first = min(case.meant[other].get(origin, met.index + 1) for origin in there)
-            if first > met.index and not self._touched_later(visit, other, first):
+            if first > met.index:
                 continue
             if any(volume > here[origin] * 1.01 for origin, volume in there.items()):
                 return Violation(
@@ -133,13 +133,6 @@ class DoseOrder(Check):
                     contact=min(met.contact(visit.index), visit.contact),
                 )
         return None
-
-    @staticmethod
-    def _touched_later(visit: Visit, other: Well, first: int) -> bool:
-        return any(
-            v.tip is visit.tip and v.touches and first <= v.index < visit.index
-            for v in other.visits
-        )
 
 
 def _in_one_list(case: Case, one: Well, other: Well) -> bool:

@@ -33,7 +33,7 @@ class SeriesFilledFirst(SeriesCheck):
                 continue
             if not fills and wrong_fill(case, series, step) is not None:
                 continue
-            if not fills and (not _anyone_filled(case) or _filled_by_hand(case, series)):
+            if not fills and _filled_by_hand(case, series):
                 yield Doubt("no diluent is seen to be added; it may be there already")
                 return
             sites = [
@@ -66,16 +66,16 @@ class SeriesFilledFrom(SeriesCheck):
                 continue
             done.add(step.well)
             source = wrong.source
-            if not case.has(source, case.stock) and not _is_diluent_known(case):
+            if not case.has(source, case.series_roles.stock) and not _is_diluent_known(case):
                 yield Doubt("nothing says which reservoir holds the diluent")
                 return
-            if not case.of(source) and not _stands_in_for_diluent(case, series, wrong):
+            if not case.of(source):
                 yield Doubt(f"nothing says what {place(source)} holds")
                 continue
-            if case.has(source, case.stock) and _is_in_all(case, series, source):
+            if case.has(source, case.series_roles.stock) and _is_in_all(case, series, source):
                 yield Doubt(f"all wells are given {place(source)}; it may be what dilutes")
                 continue
-            is_buffer = case.has(source, case.family.series_roles.diluent_else)
+            is_buffer = case.has(source, case.series_roles.diluent_else)
             yield Violation(
                 f"{place(step.well)} is filled from the {case.title(source)} "
                 f"{place(source)}, {at(wrong.drawn)}, where its diluent should come.",
@@ -92,24 +92,12 @@ class SeriesFilledFrom(SeriesCheck):
 def _is_diluent_known(case: Case) -> bool:
     """Whether some reservoir, or some well of a plate that serves several, is the diluent's."""
     plates = {well.ref.labware for series in case.series for well in series.wells}
-    served = case.trace.served()
+    served = case.trace.served
     return any(
         (ref.labware not in plates or len(served.get(ref, ())) > 1)
-        and case.roles.is_called(ref, case.diluent)
+        and case.roles.is_called(ref, case.series_roles.diluent)
         for ref in case.roles.by_well
     )
-
-
-def _stands_in_for_diluent(case: Case, series: Series, wrong: Transfer) -> bool:
-    """Whether a well gets as much of this as another one of its series gets of the diluent."""
-    given = sum(visit.volume for visit in case.straight(wrong.source, wrong.well))
-    volumes = [
-        sum(visit.volume for visit in case.straight(other, well))
-        for well in series.wells
-        for other in {one.source for one in well.received}
-        if case.has(other, case.diluent)
-    ]
-    return any(abs(given - volume) <= 0.05 * volume for volume in volumes)
 
 
 def _is_in_all(case: Case, series: Series, source: Well) -> bool:
@@ -123,12 +111,12 @@ def _is_in_all(case: Case, series: Series, source: Well) -> bool:
     )
 
 
-def _anyone_filled(case: Case) -> bool:
-    return any(diluent_arrivals(case, well) for series in case.series for well in series.wells)
-
-
 def _filled_by_hand(case: Case, series: Series) -> bool:
-    """Whether most wells of a chain get no diluent, and are drawn from as if they held some."""
+    """Whether the run fills no series, or most wells of a chain get no diluent, and are drawn from
+    as if they held some.
+    """
+    if not any(diluent_arrivals(case, well) for one in case.series for well in one.wells):
+        return True
     reached = {link.well for link in series.links}
     unfilled = {well for well in reached if not diluent_arrivals(case, well)}
     beyond = {one.visit.well for one in case.trace.imbalances if not one.overfilled}
@@ -146,7 +134,9 @@ def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
     if drawn and any(index < min(drawn) for index in diluent_arrivals(case, well)):
         return False
     first = well.received[0].visit
-    return first.empty_before and any(case.has(one.source, case.stock) for one in first.brought)
+    return first.empty_before and any(
+        case.has(one.source, case.series_roles.stock) for one in first.brought
+    )
 
 
 def wrong_fill(case: Case, series: Series, step: Transfer) -> Transfer | None:

@@ -41,12 +41,9 @@ class Series:
     fillers: frozenset[Well]
 
 
-def find_series(trace: Trace, roles: Roles, waste: Collection[WellRef]) -> list[Series]:
-    """All series with at least two transfers between their wells."""
-    return _Finder(trace, roles).found(waste)
+class SeriesFinder:
+    """Finds the series of a run, in the eyes of one family."""
 
-
-class _Finder:
     def __init__(self, trace: Trace, roles: Roles) -> None:
         spec = roles.family.series_roles
         self._trace = trace
@@ -54,6 +51,7 @@ class _Finder:
         self._stock, self._diluent = spec.stock, spec.diluent
 
     def found(self, waste: Collection[WellRef]) -> list[Series]:
+        """All series with at least two transfers between their wells."""
         links, fillers = along_series(
             [one for one in self._trace.links if self._is_link(one) and one.well.ref not in waste]
         )
@@ -134,7 +132,7 @@ class _Finder:
         # Unnamed, but it goes into one well only, and that one feeds the others.
         if self._roles.of(one.source.ref) or one.well not in linked:
             return False
-        served = self._trace.served()[one.source.ref]
+        served = self._trace.served[one.source.ref]
         return served.isdisjoint(well.ref for well in members if well is not one.well)
 
     def _in_all(self, links: Sequence[Transfer]) -> frozenset[Well]:

@@ -46,7 +46,11 @@ def is_copying(links: Sequence[Transfer]) -> bool:
 
 def branching(links: Iterable[Transfer]) -> set[Well]:
     """Wells that are diluted by different factors into others: no line, but a tree."""
-    return {well for well, given in _by_source(links).items() if _factors(given) > 1}
+    return {
+        well
+        for well, given in _by_source(links).items()
+        if any(map(_differ, zip(*map(_brought, given), strict=True)))
+    }
 
 
 def first_of(link: Transfer) -> Visit:
@@ -70,13 +74,8 @@ def _fills(well: Well, given: Sequence[Transfer], links: Sequence[Transfer]) -> 
     return len(filled - fed_else) <= 1 and all(first_of(link).empty_before for link in given)
 
 
-def _factors(links: Sequence[Transfer]) -> int:
-    """How many dilution factors, or transferred volumes, these links have."""
-    return max(map(_distinct, zip(*map(_brought, links), strict=True)))
-
-
-def _distinct(values: Iterable[float]) -> int:
-    return 1 + sum(b - a > _SAME * b for a, b in pairwise(sorted(values)))
+def _differ(values: Iterable[float]) -> bool:
+    return any(b - a > _SAME * b for a, b in pairwise(sorted(values)))
 
 
 def _brought(link: Transfer) -> tuple[float, float]:

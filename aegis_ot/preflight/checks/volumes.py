@@ -102,7 +102,7 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
         if given.index > visit.index
         if given.session == visit.session and any(one.source is well for one in given.brought)
     }
-    if all(_is_waste(case, one) for one in fed):
+    if all(one.ref in case.waste or case.trace.usage[one.ref].drain for one in fed):
         return "What is drawn goes to the waste."
     last = all(v.index <= visit.index for v in well.visits if v.kind is OperationKind.ASPIRATE)
     if (
@@ -112,11 +112,6 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
     ):
         return "It is drawn to empty the well."
     return ""
-
-
-def _is_waste(case: Case, well: Well) -> bool:
-    used = case.trace.usage.get(well.ref)
-    return well.ref in case.waste or (used is not None and used.drain)
 
 
 def _is_filled_again(case: Case, visit: Visit) -> bool:

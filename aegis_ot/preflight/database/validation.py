@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import Any
 
@@ -161,15 +162,8 @@ def _told(circle: Sequence[str]) -> str:
 
 def _circle(leads_to: Mapping[str, Collection[str]]) -> tuple[str, ...]:
     """A way that ends where it begins, ``("a", "b", "a")``, through names that name others."""
-    left = dict(leads_to)
-    while ends := [name for name, others in left.items() if left.keys().isdisjoint(others)]:
-        for name in ends:
-            del left[name]
-    if not left:
-        return ()
-    way: list[str] = []
-    name = next(iter(left))
-    while name not in way:
-        way.append(name)
-        name = next(other for other in left[name] if other in left)
-    return (*way[way.index(name) :], name)
+    try:
+        TopologicalSorter(leads_to).prepare()
+    except CycleError as error:
+        return tuple(reversed(error.args[1]))
+    return ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 
 from ...instrumentation import LabwareInfo, NameBinding
@@ -84,15 +85,11 @@ class Deck:
 
     def plates(self) -> list[LabwareInfo]:
         """Labware that holds liquid."""
-        return [
-            info
-            for info in self.trace.labware.values()
-            if not info.is_tip_rack and not info.is_trash and info.wells
-        ]
+        return [info for info in self.trace.labware.values() if info.holds_liquid]
 
     def called(self, words: str) -> list[str]:
-        """Keys of labware by slot, label, load name or the name of a variable."""
-        wanted = tokens(words)
+        """Keys of labware by slot (``"4"``, ``"slot 4"``), label, load name or variable."""
+        wanted = tokens(re.sub(r"^\s*slot\s+", "", words, flags=re.IGNORECASE))
         found = [
             info.key
             for info in self.plates()

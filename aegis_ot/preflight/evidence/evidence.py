@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
-from ...vocabulary import WellRef
+from ...vocabulary import WellRef, one_line
 
 
 class Kind(IntEnum):
@@ -63,5 +63,4 @@ class Evidence:
 
 def shortened(text: str) -> str:
     """A text that may be quoted in a citation."""
-    text = " ".join(text.split())
-    return text if len(text) <= 60 else text[:57] + "..."
+    return one_line(text, 60)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from ...vocabulary import Finding, Severity, Site, WellRef
+from ...vocabulary import Finding, Severity, WellRef
 from ..checks import Violation
 from ..rules import RuleSpec
 
@@ -39,16 +39,12 @@ def _joined(broken: Broken, strict: bool) -> Iterable[Finding]:
         message = first.message
         if len(wells) > 1:
             message = f"{message} Likewise {_listed(wells)}."
-        severity = broken.severity
-        if first.warning:
-            message = f"{message} {first.warning}"
-            severity = Severity.WARNING
+        severity = Severity.WARNING if first.warning else broken.severity
         if strict:
             severity = Severity.ERROR
-        sites: dict[Site, None] = dict.fromkeys(first.sites)
-        for violation in group[1:]:
-            sites.update(dict.fromkeys(violation.sites))
-        yield Finding(rule.id, severity, message, tuple(sites), why=rule.rationale, fix=rule.fix)
+        sites = tuple(dict.fromkeys(site for one in group for site in one.sites))
+        told = f"{message} {first.warning}".rstrip()
+        yield Finding(rule.id, severity, told, sites, why=rule.rationale, fix=rule.fix)
 
 
 _MOST_SHOWN = 6

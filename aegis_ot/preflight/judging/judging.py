@@ -6,14 +6,14 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from ...instrumentation import OperationKind
-from ...vocabulary import Remark, Severity, Undecided
+from ...vocabulary import Remark, Severity, Undecided, WellRef
 from ..checks import Case, Doubt, Violation, make_check
 from ..evidence import Deck, Kind, unknown_places
 from ..rehearsal import Recording
 from ..roles import Roles
 from ..rules import Database, RuleSpec
 from ..source import source_lines
-from ..trace import Contact, Well
+from ..trace import Contact, Well, places
 from .doubts import missing_needs, missing_roles, undecided_by, unnamed_wells
 from .findings import Broken, findings_of
 from .options import Options
@@ -174,14 +174,13 @@ def _misplaced(reading: Reading) -> Iterable[Remark]:
 
 def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:
     """Evidence that conflicts, once for all the wells that it concerns."""
-    wells: dict[str, dict[str, None]] = {}
+    wells: dict[str, dict[WellRef, None]] = {}
     for roles in all_roles:
         for conflict, refs in roles.conflicts.items():
-            wells.setdefault(conflict, {}).update(dict.fromkeys(ref.address for ref in refs))
-    for conflict, addresses in wells.items():
-        shown = list(addresses)[:8]
-        more = f" and {len(addresses) - 8} more" if len(addresses) > 8 else ""
-        yield Remark(f"What {', '.join(shown)}{more} is for is said in two ways: {conflict}.")
+            wells.setdefault(conflict, {}).update(dict.fromkeys(refs))
+    for conflict, found in wells.items():
+        told = f"What {places(list(found))} is for is said in two ways: {conflict}."
+        yield Remark(told)
 
 
 def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:

@@ -20,12 +20,9 @@ from ..roles import (
     settle_diluent,
 )
 from ..rules import Database, Family, RuleSpec
-from ..source import SourceFacts, lexicon_of, read_source, tokens
+from ..source import SourceFacts, lexicon_of, read_source
 from ..trace import Pauses, build_trace
 from .options import Options, check_options
-
-_PLAUSIBLE = 1.0
-"""From this score on a family that is not judged may still say what wells held."""
 
 
 class Reading:
@@ -69,8 +66,7 @@ class Reading:
         self.families = tuple(found)
         applying = [database.family(one.family) for one in found if one.applies]
         self.roles = tuple(map(self._roles_of, applying))
-        empty = self._said_to_be_empty()
-        prefilled = {ref for one in self.roles for ref in implied_contents(one, self.trace)} - empty
+        prefilled = {ref for one in self.roles for ref in implied_contents(one, self.trace)}
         # Read again, now that roles say which wells held liquid before the run.
         usage = self.trace.usage
         prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
@@ -81,7 +77,7 @@ class Reading:
             settle_diluent(one, self.trace)
             derive(one, self.trace)
         self.waste = self._called(common.waste)
-        self.unsure = (self._called(common.prefilled) | self._implied_elsewhere()) - empty
+        self.unsure = self._called(common.prefilled)
 
     @property
     def family_known(self) -> bool:
@@ -128,35 +124,6 @@ class Reading:
         """Wells whose names, labels or liquids have one of these words."""
         lexicon = lexicon_of({"called": words})
         return frozenset(ref for e in self.evidence if lexicon.find(e.text) for ref in e.wells)
-
-    def _said_to_be_empty(self) -> frozenset[WellRef]:
-        """Wells called no more than empty: ``empty_tubes``, not those of an "empty vector"."""
-        common = self.database.common
-        empty, nouns = set(common.empty), {word for noun in common.noise for word in tokens(noun)}
-        return frozenset(
-            ref
-            for one in self.evidence
-            if not one.whole
-            if empty & (words := set(tokens(one.text))) and words <= empty | nouns
-            for ref in one.wells
-        )
-
-    def _implied_elsewhere(self) -> frozenset[WellRef]:
-        """Wells that held liquid before the run in the eyes of a family that is not judged.
-
-        Too little to accuse anyone, enough not to.
-        """
-        trace = self.trace
-        if not any(i.visit.well.declared is None and not i.overfilled for i in trace.imbalances):
-            return frozenset()
-        return frozenset(
-            ref
-            for inference in self.families
-            if not inference.applies and inference.score >= _PLAUSIBLE
-            for ref in implied_contents(
-                self._roles_of(self.database.family(inference.family)), trace
-            )
-        )
 
 
 @contextmanager

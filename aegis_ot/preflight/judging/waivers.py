@@ -12,9 +12,8 @@ from __future__ import annotations
 
 import ast
 import difflib
-import math
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...vocabulary import Finding, Remark
@@ -73,12 +72,12 @@ class Waived:
 def read_waivers(facts: SourceFacts) -> list[Waiver]:
     """All waivers of a protocol."""
     waivers: list[Waiver] = []
-    places: _Places | None = None
+    statements: dict[int, tuple[int, ...]] = {}
     for line, comment in facts.comments.items():
         match = _WAIVER.search(comment)
         if match is not None:
-            places = places or _Places(facts)
-            waivers.append(_waiver(line, match, places))
+            statements = statements or _statements(facts)
+            waivers.append(_waiver(line, match, _covered(line, facts, statements)))
         elif _is_misspelt(comment):
             waivers.append(Waiver(line, (), (), "", f"is not understood: {_WRITE}"))
     return waivers
@@ -93,7 +92,7 @@ def _is_misspelt(comment: str) -> bool:
     return bool(match["rule"] or (match["colon"] and alike))
 
 
-def _waiver(line: int, match: re.Match[str], places: _Places) -> Waiver:
+def _waiver(line: int, match: re.Match[str], covered: tuple[int, ...]) -> Waiver:
     listed = (rule.strip().upper() for rule in (match["rules"] or "").split(","))
     rules = tuple(dict.fromkeys(rule for rule in listed if rule))
     reason = match["reason"].strip(" :-–—")
@@ -102,48 +101,34 @@ def _waiver(line: int, match: re.Match[str], places: _Places) -> Waiver:
         problem = f"names no rule: {_WRITE}"
     elif not re.search(r"\w", reason):
         problem = f"gives no reason for waiving {', '.join(rules)}, so it waives nothing"
-    return Waiver(line, places.covered(line), rules, reason, problem)
+    return Waiver(line, covered, rules, reason, problem)
 
 
-class _Places:
-    """Which lines a comment speaks of."""
+def _statements(facts: SourceFacts) -> dict[int, tuple[int, ...]]:
+    """By line, the lines of the innermost statement there; of a compound one, of its head."""
+    found: dict[int, tuple[int, ...]] = {}
+    for part in ast.walk(facts.tree):  # from the outermost to the innermost
+        if isinstance(part, ast.stmt):
+            body = getattr(part, "body", None)
+            last = body[0].lineno - 1 if body else part.end_lineno or part.lineno
+            lines = tuple(range(part.lineno, max(last, part.lineno) + 1))
+            found.update(dict.fromkeys(lines, lines))
+    return found
 
-    def __init__(self, facts: SourceFacts) -> None:
-        self._facts = facts
-        self._statements: list[tuple[int, int]] = []
-        self._first = next(
-            (
-                node.lineno
-                for node in facts.tree.body
-                if not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant))
-            ),
-            math.inf if facts.tree.body else 1,
-        )
-        for part in ast.walk(facts.tree):
-            if isinstance(part, ast.stmt):
-                body = getattr(part, "body", None)
-                last = body[0].lineno - 1 if body else part.end_lineno or part.lineno
-                self._statements.append((part.lineno, max(last, part.lineno)))
 
-    def covered(self, line: int) -> tuple[int, ...]:
-        """The lines of the statement at ``line`` or below it; empty: the whole file."""
-        if line not in self._facts.own_line:
-            return self._statement(line)
-        if line < self._first:
-            return ()
-        below = line + 1
-        while below in self._facts.own_line:
-            below += 1
-        return (line, *self._statement(below))
-
-    def _statement(self, line: int) -> tuple[int, ...]:
-        """A simple statement's lines, or those of a compound one's head."""
-        around = [(last - first, first, last) for first, last in self._statements]
-        holding = [span for span in around if span[1] <= line <= span[2]]
-        if not holding:
-            return (line,)
-        _, first, last = min(holding)
-        return tuple(range(first, last + 1))
+def _covered(
+    line: int, facts: SourceFacts, statements: Mapping[int, tuple[int, ...]]
+) -> tuple[int, ...]:
+    """The lines of the statement at ``line`` or below it; empty: the whole file."""
+    if line not in facts.own_line:
+        return statements.get(line, (line,))
+    texts = {first for first, _ in facts.docstrings}
+    if all(node.lineno > line or node.lineno in texts for node in facts.tree.body):
+        return ()  # before the first statement
+    below = line + 1
+    while below in facts.own_line:
+        below += 1
+    return (line, *statements.get(below, (below,)))
 
 
 def apply_waivers(

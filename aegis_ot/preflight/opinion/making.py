@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Sequence
 
-from ...instrumentation import Event
 from ...vocabulary import Severity, WellRef
 from ..database import load_database, shipped_rules
 from ..judging import (
@@ -78,7 +77,7 @@ def check_with_dossier(
 def _deck(trace: Trace) -> tuple[DeckItem, ...]:
     items = []
     for info in trace.labware.values():
-        if info.is_tip_rack or info.is_trash or not info.wells:
+        if not info.holds_liquid:
             continue
         places_ = [row_column(name) for name in info.wells]
         rows, columns = max(p[0] for p in places_) + 1, max(p[1] for p in places_) + 1
@@ -88,13 +87,9 @@ def _deck(trace: Trace) -> tuple[DeckItem, ...]:
 
 
 def _lines(recording: Recording) -> tuple[int, ...]:
-    found: set[int] = set()
-    for heard in recording.log:
-        if heard.line is not None:
-            found.add(heard.line)
-        if not isinstance(heard, Event):
-            found.update(heard.lines)
-    return tuple(sorted(found))
+    log = recording.log
+    lines = {one for heard in log for one in (heard.line, *getattr(heard, "lines", ()))}
+    return tuple(sorted(line for line in lines if line is not None))
 
 
 def _roles(report: Report) -> tuple[RoleLine, ...]:
@@ -138,7 +133,7 @@ def _rules(reading: Reading, report: Report) -> Iterable[RuleBrief]:
                 continue
             judged = rule.scope == "all" or family.family in applying
             decided = judged and rule.id not in open_rules
-            text = "" if family.path.startswith(shipped) else rule_text(rule)
+            text = "" if family.path.startswith(shipped) else _own_rule(rule)
             yield RuleBrief(rule.id, Severity(severity), decided, text)
 
 
@@ -154,6 +149,12 @@ def _wanted(reading: Reading, report: Report) -> Iterable[str]:
 def rule_text(rule: RuleSpec) -> str:
     """One rule in a line: what must hold."""
     return f"{rule.id} {rule.name} ({rule.severity}): {rule.statement}"
+
+
+def _own_rule(rule: RuleSpec) -> str:
+    """A laboratory's own rule, with all that its file tells a model."""
+    look_for = f"Look for: {'; '.join(rule.indicators)}." if rule.indicators else ""
+    return " ".join(filter(None, (rule_text(rule), rule.prompt, look_for)))
 
 
 def _shortened(text: str) -> str:

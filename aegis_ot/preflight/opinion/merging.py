@@ -25,9 +25,8 @@ from ..judging import (
     spelled,
     verdict_of,
 )
-from .answers import is_known
 from .dossier import Dossier
-from .opinion import Opinion, no_answer
+from .opinion import Opinion, is_known, no_answer
 from .proposals import verify_proposals
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...vocabulary import Finding, Undecided
 from ..judging import MODEL
-
-ANSWERED = "answered"
 
 
 @dataclass(frozen=True)
@@ -73,9 +72,17 @@ class Opinion:
     @property
     def answered(self) -> bool:
         """Whether the model gave an answer."""
-        return self.state == ANSWERED
+        return self.state == "answered"
 
 
 def no_answer(opinion: Opinion) -> Undecided:
     """What a report says of a model that was asked in vain."""
     return Undecided(MODEL, f"{opinion.model} gave no answer ({opinion.state}): {opinion.detail}")
+
+
+def is_known(finding: Finding, others: Sequence[Finding]) -> bool:
+    """Whether one of the others is of the same rule, and of some of the same wells."""
+    return any(
+        other.rule == finding.rule and not set(other.wells).isdisjoint(finding.wells)
+        for other in others
+    )

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ...vocabulary import WellRef
+from ...vocabulary import WellRef, one_line
 from ..evidence import Deck, Evidence, Kind
 from ..judging import Reading
 from ..roles import Roles
@@ -88,11 +88,7 @@ class _Verifier:
         """
         found: dict[WellRef, None] = {}
         for place in proposal.wells:
-            labware, _, spec = place.rpartition(":")
-            labware = labware.strip()
-            if labware.lower().startswith("slot "):
-                labware = labware[len("slot ") :]
-            named = self._deck.at(f"{labware}:{spec}") if spec.strip() else ()
+            named = self._deck.at(place) if place.rpartition(":")[2].strip() else ()
             if not named:
                 raise Rejected(f"there is no well {place!r} on the deck")
             found.update(dict.fromkeys(named))
@@ -160,4 +156,4 @@ def _stands_in(quote: str, level: str) -> bool:
 
 def _plain(text: str) -> str:
     """As the request shows it, but for blanks."""
-    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    return one_line(text, len(text))

@@ -6,7 +6,7 @@ Door: :func:`record` runs a :class:`Script`, with further listeners if there are
 from .interruption import interrupted_after, second_clock
 from .loading import load
 from .parameters import Parameter, declared_parameters, plain_values, undeclared
-from .recording import Record, Recorder, Recording, Step
+from .recording import Record, Recorder, Recording
 from .refusals import in_words, line_of
 from .rehearsing import is_rehearsing, play, record
 from .script import Script, find_home, find_script
@@ -17,7 +17,6 @@ __all__ = [
     "Recorder",
     "Recording",
     "Script",
-    "Step",
     "declared_parameters",
     "find_home",
     "find_script",

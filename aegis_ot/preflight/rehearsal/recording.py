@@ -1,14 +1,10 @@
-"""A rehearsal on record: all that the judgement of a protocol starts from.
-
-An :class:`Operation` carries the instrument core it came from; a recorder must not keep that
-alive, so each operation is copied into a :class:`Step`.
-"""
+"""A rehearsal on record: all that the judgement of a protocol starts from."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple, TypeAlias
+from typing import TypeAlias
 
 from ...instrumentation import (
     Event,
@@ -18,36 +14,15 @@ from ...instrumentation import (
     Operation,
     OperationKind,
 )
-from ...vocabulary import WellRef
 
-
-class Step(NamedTuple):
-    """One recorded operation: the fields of :class:`Operation` that the trace needs."""
-
-    kind: OperationKind
-    pipette: str
-    nozzles: tuple[str, ...]
-    wells: tuple[WellRef | None, ...]
-    disposal: bool
-    volume: float
-    air: bool
-    from_top: float | None
-    from_bottom: float | None
-    from_liquid: float | None
-    line: int | None
-    lines: tuple[int, ...]
-    call: str
-    mixing: bool
-
-
-Record: TypeAlias = "Step | Event"
+Record: TypeAlias = "Operation | Event"
 
 
 class Recorder:
     """A listener that keeps the whole run, in order.
 
     Attributes:
-        log: Steps and events as they happened.
+        log: Operations and events as they happened.
         labware: What is known of each labware, by key.
     """
 
@@ -60,26 +35,8 @@ class Recorder:
 
     def after(self, operation: Operation) -> None:
         """Keep one operation."""
-        if operation.kind is OperationKind.MOVE:
-            return
-        self.log.append(
-            Step(
-                operation.kind,
-                operation.pipette.key,
-                operation.nozzles,
-                operation.wells,
-                operation.disposal,
-                operation.volume,
-                operation.is_air,
-                operation.from_top,
-                operation.from_bottom,
-                operation.from_liquid,
-                operation.line,
-                operation.lines,
-                operation.call,
-                operation.mixing,
-            )
-        )
+        if operation.kind is not OperationKind.MOVE:
+            self.log.append(operation.detached())
 
     def event(self, event: Event) -> None:
         """Keep one event."""
@@ -95,7 +52,7 @@ class Recording:
     Attributes:
         file: Name of the protocol file.
         text: Its source.
-        log: Steps and events, from a :class:`Recorder`.
+        log: Operations and events, from a :class:`Recorder`.
         labware: Facts of each labware, by key.
         names: Names that held wells.
         parameters: The numbers and texts that its runtime parameters had.

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ..evidence import DOUBTFUL, Evidence, Kind
-from ..rules import Common, Database, Family
+from ..rules import Common, Database, Family, Shape
 from ..source import SourceFacts, lexicon_of, tokens
 from ..trace import Trace
 from .roles import Roles
@@ -188,7 +188,7 @@ def _nothing_against(found: Sequence[_Found]) -> bool:
 
 
 def _seen(
-    family: Family, shapes: Mapping[str, tuple[float, str]], spoken: bool
+    family: Family, shapes: Mapping[Shape, tuple[float, str]], spoken: bool
 ) -> Iterable[_Found]:
     """What the shapes of the run say of a family; most of them only beside words."""
     for signal in family.shapes:

@@ -48,12 +48,16 @@ def assign_roles(
     candidates: dict[WellRef, list[Candidate]] = {}
     for one in evidence:
         named = names.of(one)
+        worth = _worth(one, names)
+        fitting: dict[tuple[str, bool], str | None] = {}
         placed = False
-        for ref, level in zip(one.wells, _levels(one, common), strict=True):
-            role = _fitting(named, roles, trace.sides(ref), one)
+        for ref, level in zip(one.wells, _levels(one, common), strict=True) if named else ():
+            sides = trace.sides(ref)
+            if sides not in fitting:
+                fitting[sides] = _fitting(named, roles, sides, one)
+            role = fitting[sides]
             if role is not None and not (family.roles[role].dosed and level == 0):
                 placed = True
-                worth = _worth(one, names)
                 candidates.setdefault(ref, []).append(Candidate(worth, role, one, level))
         if not placed:
             roles.unread.append(one)
@@ -90,7 +94,7 @@ def _fitting(
 ) -> str | None:
     """The first named role whose side agrees with how the run uses the well."""
     if evidence.kind is Kind.GIVEN:
-        return named[0] if named else None
+        return named[0]
     specs = roles.family.roles
     side, passes_on = sides
     fitting = [role for role in named if specs[role].side in ("any", side)]

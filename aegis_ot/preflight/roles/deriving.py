@@ -47,7 +47,7 @@ def _unsay_by_use(roles: Roles, trace: Trace) -> None:
     does a stain, which goes into all wells.
     """
     specs = roles.family.roles
-    served = trace.served(prefilled=True)
+    served = trace.stocks
     named = {
         ref
         for ref, assigned in roles.by_well.items()
@@ -72,7 +72,7 @@ def _is_control(roles: Roles, ref: WellRef) -> bool:
 
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """A source without a name that mostly goes into named wells of ``spec.feeds``."""
-    for ref, wells in trace.served(prefilled=True).items():
+    for ref, wells in trace.stocks.items():
         if roles.of(ref):
             continue
         if any(_is_control(roles, well) for well in wells):
@@ -87,14 +87,10 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
 
     A liquid that stands in several wells (a strip of master mix) serves several wells each.
     """
-    served = trace.served(prefilled=True)
-    by_labware: dict[str, list[WellRef]] = {}
-    for ref in served:
-        info = trace.labware.get(ref.labware)
-        if info is not None and not info.centers_channels:
-            by_labware.setdefault(ref.labware, []).append(ref)
-    for key, refs in by_labware.items():
-        if len(trace.labware[key].wells) < _SMALLEST_PLATE or len(refs) < _FEWEST_PAIRS:
+    served = trace.stocks
+    for key, info in trace.labware.items():
+        refs = [ref for ref in served if ref.labware == key]
+        if info.centers_channels or len(info.wells) < _SMALLEST_PLATE or len(refs) < _FEWEST_PAIRS:
             continue
         into = {well for ref in refs for well in served[ref]}
         if all(len(served[ref]) == 1 and not roles.of(ref) for ref in refs) and (
@@ -107,7 +103,7 @@ def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:
 
 def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
     """A loaded liquid has a use even if its name is none of the known words."""
-    served = trace.served()
+    served = trace.served
     topped_up = {well for wells in served.values() for well in wells}
     # In the order of the trace: a set's own order differs from process to process.
     for ref in [well.ref for well in trace.wells.values() if well.ref in roles.unnamed]:
@@ -184,7 +180,7 @@ def settle_diluent(roles: Roles, trace: Trace) -> None:
         return
     filled: dict[str, set[WellRef]] = {}
     sources: dict[str, set[WellRef]] = {}
-    for source, wells in trace.served().items():
+    for source, wells in trace.served.items():
         assigned = roles.by_well.get(source)
         if assigned is not None and roles.has(source, spec.diluent_else):
             text = _without_number(assigned.text)

@@ -54,7 +54,7 @@ class RoleNames:
             own = " ".join(word for word in tokens(field) if word not in tokens(record))
             text = field if self._lexicon.find(own) else record
         key = text.rpartition("[")[2] if text.endswith("]") else ""
-        if key and self._names(self._lexicon.find(key)) and self._head(key):
+        if key and self._head(key):
             text = key  # `tubes["water"]` is water, whatever the dict is called
         # `REAGENTS["control RNA"]` is one of various ones, and no reagent of this family.
         various = text != key and any(map(str.isalpha, key))

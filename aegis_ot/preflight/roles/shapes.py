@@ -1,16 +1,17 @@
-"""The shapes of the liquid's ways through a run, whatever the wells are called."""
+"""The shapes of the liquid's ways through a run, whatever the wells are called.
+
+Wells that feed each other in turn (``chain``); one well fed by many that feed nothing else
+(``pooling``); wells given as much each of a common liquid, and one of their own (``reactions``).
+"""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Mapping, Set
 
 from ...vocabulary import WellRef
-from ..trace import Trace, Transfer, chains_of
-
-SHAPES = ("chain", "pooling", "reactions")
-"""What a family's file may name: wells that feed each other in turn; one well fed by many that feed
-nothing else; wells given as much each of a common liquid, and one of their own."""
+from ..rules import Shape
+from ..trace import Trace, chains_of
 
 _FEWEST_POOLED = 4
 _FEWEST_ALIKE = 3
@@ -21,11 +22,12 @@ Fed = Mapping[WellRef, Mapping[WellRef, float]]
 """For each well the µL that it is given of each well drawn from."""
 
 
-def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
+def shapes_of(trace: Trace) -> dict[Shape, tuple[float, str]]:
     """The shapes that a run shows: how clearly (1 for three wells, 2 for six) and in words."""
-    fed, feeds = _fed(trace), trace.served()
-    found: dict[str, tuple[float, str]] = {}
-    chain = _longest(chains_of(trace.links))
+    fed, feeds = _fed(trace), trace.served
+    found: dict[Shape, tuple[float, str]] = {}
+    chains = (len({(s.source, s.well) for s in group}) for group in chains_of(trace.links))
+    chain = max(chains, default=0)
     if chain >= 2:
         found["chain"] = (_clearness(chain), f"a chain of {chain} transfers from well to well")
     pooled = _pooled(fed, feeds)
@@ -36,11 +38,6 @@ def shapes_of(trace: Trace) -> dict[str, tuple[float, str]]:
         said = f"{reactions} wells are given as much each of a common liquid and one of their own"
         found["reactions"] = (_clearness(reactions), said)
     return found
-
-
-def _longest(chains: Iterable[Sequence[Transfer]]) -> int:
-    """Number of transfers in the longest chain of wells that each feed the next."""
-    return max((len({(s.source, s.well) for s in group}) for group in chains), default=0)
 
 
 def _clearness(wells: int) -> float:

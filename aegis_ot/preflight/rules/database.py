@@ -17,7 +17,6 @@ class Common:
         pauses: What a pause's message says may have been done, see ``trace.pauses``.
         prefilled: Names of wells that held liquid before the run.
         waste: Names of wells that are waste.
-        empty: Words for wells that are empty at first.
         levels: Words for concentrations, with their value: ``blank`` is 0.
         amounts: Words for concentrations or doses: ``conc``.
         aliases: Abbreviations and what they stand for, word by word.
@@ -34,7 +33,6 @@ class Common:
     pauses: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     prefilled: tuple[str, ...] = ()
     waste: tuple[str, ...] = ()
-    empty: tuple[str, ...] = ()
     levels: Mapping[str, float] = field(default_factory=dict)
     amounts: tuple[str, ...] = ()
     aliases: Mapping[str, str] = field(default_factory=dict)
@@ -46,11 +44,6 @@ class Common:
     distinct: tuple[str, ...] = ()
     dose_words: tuple[str, ...] = ()
     schema: int = SCHEMA_VERSION
-
-    @property
-    def undescriptive(self) -> tuple[str, ...]:
-        """Words of a name that say neither what a compound is nor how much of it there is."""
-        return (*self.noise, *self.levels)
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import islice
@@ -116,8 +115,11 @@ def _read_strings(facts: SourceFacts) -> None:
     others = (n for n in facts.nodes.of(ast.Constant) if _is_text(n) and id(n) not in documents)
     facts.strings += [(node.lineno, str(node.value)) for node in islice(others, _MOST_TEXTS)]
     for assignment in facts.nodes.of(ast.Assign):
-        if _is_metadata(assignment):
-            facts.metadata.update(_texts_of(assignment.value))
+        named = {target.id for target in assignment.targets if isinstance(target, ast.Name)}
+        if "metadata" in named and isinstance(assignment.value, ast.Dict):
+            for key, value in zip(assignment.value.keys, assignment.value.values, strict=True):
+                if _is_text(key) and _is_text(value):
+                    facts.metadata[str(key.value)] = str(value.value)
 
 
 def _read_names(facts: SourceFacts) -> None:
@@ -133,25 +135,8 @@ def _read_names(facts: SourceFacts) -> None:
     facts.names |= {node.name for node in facts.nodes.of(ast.ClassDef)}
 
 
-def _is_text(node: ast.AST) -> TypeGuard[ast.Constant]:
+def _is_text(node: ast.AST | None) -> TypeGuard[ast.Constant]:
     return isinstance(node, ast.Constant) and isinstance(node.value, str)
-
-
-def _is_metadata(node: ast.Assign) -> bool:
-    return any(isinstance(target, ast.Name) and target.id == "metadata" for target in node.targets)
-
-
-def _texts_of(value: ast.expr) -> Mapping[str, str]:
-    if not isinstance(value, ast.Dict):
-        return {}
-    return {
-        key.value: item.value
-        for key, item in zip(value.keys, value.values, strict=True)
-        if isinstance(key, ast.Constant)
-        and isinstance(key.value, str)
-        and isinstance(item, ast.Constant)
-        and isinstance(item.value, str)
-    }
 
 
 def _read_scopes(facts: SourceFacts) -> None:
@@ -161,15 +146,11 @@ def _read_scopes(facts: SourceFacts) -> None:
         for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs):
             facts.parameters.add((name_of(function), argument.arg))
     for loop, inside, _ in facts.nodes.placed(*LOOPS):
-        facts.varying |= {(inside, name) for name in names_in(loop.target)}
+        targets = (node for node in ast.walk(loop.target) if isinstance(node, ast.Name))
+        facts.varying |= {(inside, target.id) for target in targets}
     for name, _, looping in facts.nodes.placed(ast.Name):
         if looping and isinstance(name.ctx, ast.Store):
             facts.rebound |= {(outer, name.id) for outer in looping}
-
-
-def names_in(node: ast.AST) -> set[str]:
-    """Every name that stands anywhere in an expression."""
-    return {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}
 
 
 def source_lines(text: str) -> list[str]:

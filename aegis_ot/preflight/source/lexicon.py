@@ -11,7 +11,7 @@ from __future__ import annotations
 import functools
 import re
 import unicodedata
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 _PIECES = re.compile(r"#|[A-Z]{2,}s(?![a-z])|[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+(?:\.\d+)?|[^\W\d_]+")
@@ -66,9 +66,6 @@ def _same(here: tuple[str, ...], parts: tuple[str, ...]) -> bool:
 
 _MOST_TEXTS = 4096
 
-_LONGEST = 500
-"""Brackets further on are those of data."""
-
 
 class Lexicon:
     """Phrases by topic, ready to be searched for; ``#`` in a phrase stands for any number.
@@ -101,9 +98,7 @@ class Lexicon:
         if found is None:
             if len(self._cache) > _MOST_TEXTS:  # it outlives a protocol
                 self._cache.clear()
-            brackets = (at for at, mark in enumerate(text[:_LONGEST]) if mark == "(")
-            begun = {len(self.words(text[:at])) for at in brackets}
-            found = self._cache[text] = tuple(self._search(self.words(text), begun))
+            found = self._cache[text] = tuple(self._search(self.words(text)))
         return found
 
     def words(self, text: str) -> tuple[str, ...]:
@@ -121,8 +116,7 @@ class Lexicon:
         aliases = self._aliases
         return tuple(aliases.get(word, word) for word in words) if aliases else words
 
-    def _search(self, words: tuple[str, ...], begun: Collection[int]) -> list[Match]:
-        """No phrase goes into a bracket, of which ``begun`` are the first words: "NTC (water)"."""
+    def _search(self, words: tuple[str, ...]) -> list[Match]:
         found: list[Match] = []
         at = 0
         while at < len(words):
@@ -130,8 +124,6 @@ class Lexicon:
             for parts, topic, phrase in self._by_first.get(words[at], ()):
                 if len(parts) < length:
                     break
-                if any(at < bracket < at + len(parts) for bracket in begun):
-                    continue
                 here = words[at : at + len(parts)]
                 if here == parts or ("#" in parts and _same(here, parts)):
                     length = len(parts)

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
-from ...instrumentation import Event, EventKind, LabwareInfo, OperationKind
+from ...instrumentation import Event, EventKind, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
-from ..rehearsal import Record, Step
+from ..rehearsal import Record
 from .geometry import CLEARANCE_MM, Contact
 from .model import Layer, Transfer, Visit, Well
 from .pauses import Pauses
@@ -34,7 +34,7 @@ def build_trace(
     """Read a recorded run.
 
     Args:
-        log: Steps and events, in order.
+        log: Operations and events, in order.
         labware: Facts of each labware, by key.
         pauses: Reads pauses: was a plate replaced, shaken, refilled?
         prefilled: Whether a well's role implies that it held liquid before the run.
@@ -108,7 +108,8 @@ class _Builder:
         if said.shaken:
             self._trace.shaken.append((self._index, None))
         if said.tips:
-            self._box.replace_all_racks()
+            for key in self._trace.labware:
+                self._box.replace_rack(key)
         for key in said.replaced:
             self._replace(key)
         if said.volumes_unsure:
@@ -123,49 +124,49 @@ class _Builder:
 
     # -- steps
 
-    def _step(self, step: Step) -> None:
+    def _step(self, step: Operation) -> None:
         kind = step.kind
         if kind is OperationKind.PICK_UP_TIP:
-            self._box.pick_up(step.pipette, step.nozzles, step.wells)
+            self._box.pick_up(step.pipette.key, step.nozzles, step.wells)
         elif kind is OperationKind.DROP_TIP:
             homes = (None,) * len(step.nozzles) if step.disposal else step.wells
-            self._box.drop(step.pipette, step.nozzles, homes)
+            self._box.drop(step.pipette.key, step.nozzles, homes)
         elif not self._repeats(step):
             self._note_group(step)
             for nozzle, ref in zip(step.nozzles, step.wells, strict=False):
-                tip = self._box.on(step.pipette, nozzle)
+                tip = self._box.on(step.pipette.key, nozzle)
                 if tip is None:
                     continue  # a multi-channel pipette that took up fewer tips
                 well = None if ref is None or step.disposal else self._plates.well(ref)
                 self._act(step, kind, tip, well)
 
-    def _repeats(self, step: Step) -> bool:
+    def _repeats(self, step: Operation) -> bool:
         """Whether a step only repeats a mixing cycle that is noted already.
 
         A further cycle of the same volume in the same wells leaves tips and wells as they are.
         """
         key = (step.wells, step.volume, step.line) if step.mixing else None
-        cycle, kinds = self._cycle.get(step.pipette, (None, set()))
+        cycle, kinds = self._cycle.get(step.pipette.key, (None, set()))
         if key is None or key != cycle:
-            self._cycle[step.pipette] = (key, {step.kind})
+            self._cycle[step.pipette.key] = (key, {step.kind})
             return False
         if step.kind in kinds and len(kinds) > 1:
             return True
         kinds.add(step.kind)
         return False
 
-    def _note_group(self, step: Step) -> None:
+    def _note_group(self, step: Operation) -> None:
         refs = tuple(ref for ref in step.wells if ref)
         if len(step.wells) == 1:
             self._trace.singles.update(refs)
         elif step.wells and step.wells[0] is not None and len(set(refs)) > 1:
             self._trace.groups.setdefault(refs[0], refs)
 
-    def _act(self, step: Step, kind: OperationKind, tip: Tip, well: Well | None) -> None:
+    def _act(self, step: Operation, kind: OperationKind, tip: Tip, well: Well | None) -> None:
         if kind is OperationKind.AIR_GAP:
             tip.layers.append((None, step.volume, {}, step.line))
         elif kind is OperationKind.ASPIRATE:
-            if well is None or step.air or self._draws_air(step, tip, well):
+            if well is None or step.is_air or self._draws_air(step, tip, well):
                 tip.layers.append((None, step.volume, {}, step.line))
             else:
                 self._aspirate(step, tip, well)
@@ -181,7 +182,7 @@ class _Builder:
             visit.contact = min(contact, Contact.NEAR) if step.from_liquid is None else contact
             self._touch(visit)
 
-    def _visit(self, step: Step, tip: Tip, well: Well) -> Visit:
+    def _visit(self, step: Operation, tip: Tip, well: Well) -> Visit:
         visit = Visit(step.kind, tip, well, self._index, step.line, step.mixing)
         well.visits.append(visit)
         tip.visits.append(visit)
@@ -192,7 +193,7 @@ class _Builder:
         if visit.touches:
             visit.tip.touch(visit.well, visit.line, visit.index, visit.contact)
 
-    def _draws_air(self, step: Step, tip: Tip, well: Well) -> bool:
+    def _draws_air(self, step: Operation, tip: Tip, well: Well) -> bool:
         """Whether a tip that drew from a well draws on from above the liquid: an air gap."""
         drawn, height = self._heights.get(tip, (None, 0.0))
         return (
@@ -203,7 +204,7 @@ class _Builder:
             and well.contact(step.from_top, step.from_bottom) is Contact.CLEAR
         )
 
-    def _aspirate(self, step: Step, tip: Tip, well: Well) -> None:
+    def _aspirate(self, step: Operation, tip: Tip, well: Well) -> None:
         if well.empty and not well.fed and not well.prefilled and well.declared is None:
             well.fill_before_run(None)  # first drawn from: it must have held something
         visit = self._visit(step, tip, well)
@@ -220,7 +221,7 @@ class _Builder:
         tip.layers.append((well, step.volume, liquid, step.line))
         self._last[tip] = visit
 
-    def _give(self, step: Step, tip: Tip, well: Well, parts: list[Layer]) -> None:
+    def _give(self, step: Operation, tip: Tip, well: Well, parts: list[Layer]) -> None:
         visit = self._visit(step, tip, well)
         for source, volume, liquid, line in parts:
             if source is not None and source is not well:

@@ -96,11 +96,9 @@ class Pauses:
 
 def _may_be(info: LabwareInfo, things: frozenset[str]) -> bool:
     """Whether somebody who says "the plate" or "the reservoir" may have taken this."""
-    if info.is_tip_rack or info.is_trash:
-        return False
     if info.centers_channels:
-        return "trough" in things
-    return "plate" in things and len(info.wells) >= _FEWEST_WELLS
+        return "trough" in things and info.holds_liquid
+    return "plate" in things and info.holds_liquid and len(info.wells) >= _FEWEST_WELLS
 
 
 def _named(text: str, labware: Mapping[str, LabwareInfo], slots: Mapping[str, str]) -> set[str]:

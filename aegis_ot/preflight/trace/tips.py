@@ -149,11 +149,6 @@ class TipBox:
         """The empty places of a rack hold new tips; returned ones stay what they are."""
         self._taken = {home for home in self._taken if home.labware != labware}
 
-    def replace_all_racks(self) -> None:
-        """Someone put fresh racks everywhere."""
-        self._returned.clear()
-        self._taken.clear()
-
     def _new(self) -> Tip:
         tip = Tip(len(self.tips))
         self.tips.append(tip)

@@ -78,7 +78,6 @@ class Trace:
     descriptions: dict[str, str] = field(default_factory=dict)
     groups: dict[WellRef, tuple[WellRef, ...]] = field(default_factory=dict)
     singles: set[WellRef] = field(default_factory=set)
-    _served: dict[bool, dict[WellRef, set[WellRef]]] = field(default_factory=dict)
 
     @cached_property
     def links(self) -> Sequence[Transfer]:
@@ -118,18 +117,18 @@ class Trace:
                 found.setdefault(ref.labware, set()).add(used.side)
         return found
 
-    def served(self, prefilled: bool = False) -> Mapping[WellRef, Set[WellRef]]:
-        """For each well the wells that liquid drawn from it came into; asked once all is read.
+    @cached_property
+    def served(self) -> Mapping[WellRef, Set[WellRef]]:
+        """For each well the wells that liquid drawn from it came into; asked once all is read."""
+        found: dict[WellRef, set[WellRef]] = {}
+        for one in self.transfers:
+            found.setdefault(one.source.ref, set()).add(one.well.ref)
+        return found
 
-        Args:
-            prefilled: Only of wells that held liquid before the run.
-        """
-        if prefilled not in self._served:
-            found = self._served[prefilled] = {}
-            for one in self.transfers:
-                if one.source.prefilled or not prefilled:
-                    found.setdefault(one.source.ref, set()).add(one.well.ref)
-        return self._served[prefilled]
+    @property
+    def stocks(self) -> Mapping[WellRef, Set[WellRef]]:
+        """Likewise of those wells alone that held liquid before the run."""
+        return {ref: into for ref, into in self.served.items() if self.usage[ref].prefilled}
 
     def mixed_since(self, well: Well, index: int, before: float) -> bool:
         """Whether ``well`` was mixed or shaken after ``index`` and before ``before``."""
@@ -161,7 +160,7 @@ def _usage_of(trace: Trace) -> Mapping[WellRef, Usage]:
         usages[one.well.ref].received = True
         if not usages[one.source.ref].received:
             at_first.setdefault(one.source.ref, set()).add(one.well.ref)
-    served, drains = trace.served(), _drains(usages, trace)
+    served, drains = trace.served, _drains(usages, trace)
     for ref, into in served.items():
         usages[ref].feeds = not into <= drains
     for ref in drains:
@@ -183,7 +182,7 @@ def _drains(usages: Mapping[WellRef, Usage], trace: Trace) -> set[WellRef]:
     troughs = {key for key, info in trace.labware.items() if info.centers_channels}
     emptied = Counter(
         well
-        for ref, wells in trace.served().items()
+        for ref, wells in trace.served.items()
         for well in wells
         if usages[ref].received and (usages[ref].first_drawn or well.labware in troughs)
     )

@@ -1,6 +1,6 @@
 """Holds what a model says to what exists: the wells, lines and rules of this run.
 
-A schema cannot carry these bounds. What does not fit is left out, and told.
+A schema (:mod:`.answer`) cannot carry these bounds. What does not fit is left out, and told.
 """
 
 from __future__ import annotations
@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ...vocabulary import Finding, Severity, Site, WellRef, one_line
-from ..evidence import wells_in
-from ..judging import MODEL
-from .dossier import Dossier
-from .opinion import ANSWERED, Citation, Opinion, RoleProposal, RuleAnswer
+from ..preflight.evidence import wells_in
+from ..preflight.judging import MODEL
+from ..preflight.opinion import Citation, Dossier, Opinion, RoleProposal, RuleAnswer, is_known
+from ..vocabulary import Finding, Severity, Site, WellRef, one_line
+from .backend import State
 
 LONGEST_TEXT = 400
 LONGEST_NAME = 60
@@ -26,7 +26,7 @@ def read_opinion(
     """Hold an answer that fits the schema to what exists: wells, lines, rules.
 
     Args:
-        value: The model's answer, see ``aegis_ot.reasoning.answer``.
+        value: The model's answer, see :mod:`.answer`.
         dossier: What it was asked about.
         model: Who answered.
         blind: The model saw no trace, and no check stands beside it: any well on the deck and any
@@ -51,7 +51,7 @@ def read_opinion(
     more, problems = _findings(violated, bounds)
     findings += [one for one in more if not is_known(one, findings)]
     return Opinion(
-        ANSWERED,
+        State.ANSWERED.value,
         model,
         family=_name(value.get("family")),
         proposals=tuple(map(_proposal, list(value.get("roles", ()))[:MOST_PROPOSALS])),
@@ -59,14 +59,6 @@ def read_opinion(
         findings=tuple(findings),
         left_out=(*left_out, *problems),
         summary=_text(value.get("summary")),
-    )
-
-
-def is_known(finding: Finding, others: Sequence[Finding]) -> bool:
-    """Whether one of the others is of the same rule, and of some of the same wells."""
-    return any(
-        other.rule == finding.rule and not set(other.wells).isdisjoint(finding.wells)
-        for other in others
     )
 
 
