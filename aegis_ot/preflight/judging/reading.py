@@ -24,6 +24,9 @@ from ..source import SourceFacts, lexicon_of, read_source
 from ..trace import Pauses, build_trace
 from .options import Options, check_options
 
+_PLAUSIBLE = 1.0
+"""From this score on a family that is not judged may still say what wells held."""
+
 
 class Reading:
     """What a protocol is taken for; made once, then judged, shown to a model, judged again.
@@ -77,7 +80,7 @@ class Reading:
             settle_diluent(one, self.trace)
             derive(one, self.trace)
         self.waste = self._called(common.waste)
-        self.unsure = self._called(common.prefilled)
+        self.unsure = self._called(common.prefilled) | self._implied_elsewhere()
 
     @property
     def family_known(self) -> bool:
@@ -124,6 +127,23 @@ class Reading:
         """Wells whose names, labels or liquids have one of these words."""
         lexicon = lexicon_of({"called": words})
         return frozenset(ref for e in self.evidence if lexicon.find(e.text) for ref in e.wells)
+
+    def _implied_elsewhere(self) -> frozenset[WellRef]:
+        """Wells that held liquid before the run in the eyes of a family that is not judged.
+
+        Too little to accuse anyone, enough not to.
+        """
+        trace = self.trace
+        if not any(i.visit.well.declared is None and not i.overfilled for i in trace.imbalances):
+            return frozenset()
+        return frozenset(
+            ref
+            for inference in self.families
+            if not inference.applies and inference.score >= _PLAUSIBLE
+            for ref in implied_contents(
+                self._roles_of(self.database.family(inference.family)), trace
+            )
+        )
 
 
 @contextmanager

@@ -165,7 +165,7 @@ class RowFinder:
         return find_row(ends, seed.length, self._tip.length_mm, self._count)
 
     def _to_scale(self, row: Row) -> bool:
-        """Whether the steps of a row are a pitch each, or shorter because it is seen at an angle."""
+        """Whether steps are a pitch each, or shorter ones because the row is seen at an angle."""
         pitches, taper = self._pitches(row), abs(row.taper) * (self._count - 1)
         return pitches <= _STEPS[1] and (taper >= _TAPERED or pitches >= _WHOLE_STEP)
 
