@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ..preflight.evidence import wells_in
+from ..preflight.evidence import wells_in, without_slot
 from ..preflight.judging import MODEL
 from ..preflight.opinion import Citation, Dossier, Opinion, RoleProposal, RuleAnswer, is_known
 from ..vocabulary import Finding, Severity, Site, WellRef, one_line
@@ -81,7 +81,7 @@ class _Bounds:
         found: dict[WellRef, None] = {}
         for place in given:
             labware, _, spec = place.strip().rpartition(":")
-            known = self._known.get(labware.strip().removeprefix("slot ").lower(), {})
+            known = self._known.get(without_slot(labware).strip().lower(), {})
             for name in wells_in(spec.upper(), known) if spec.strip() else ():
                 found.update(dict.fromkeys(known[name]))
         return list(found)

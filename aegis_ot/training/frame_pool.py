@@ -26,6 +26,9 @@ class FramePool:
 
     Args:
         frames: What to draw from; the images are kept in memory.
+
+    Attributes:
+        chances: Of each frame, adding up to 1.
     """
 
     def __init__(self, frames: Sequence[RecordedFrame]) -> None:
@@ -76,14 +79,14 @@ class FramePool:
 
 
 def _moves(labels: Sequence[TipLabel | None], width: int) -> bool:
-    """Whether no column of the picture has a tip in half of the frames that show one."""
+    """Whether no column of the picture has a tip in half of these frames."""
     covered = np.zeros(width, np.int64)
     shown = [label for label in labels if label is not None]
     for label in shown:
         ends = [x for tip in (label, *label.beside) for x in (tip.collar[0], tip.orifice[0])]
         left, right = min(ends) - 3 * label.radius, max(ends) + 3 * label.radius
         covered[max(0, int(left)) : max(0, int(right))] += 1
-    return bool(covered.max() * 2 <= len(labels))
+    return bool(covered.max() * 2 < len(labels))
 
 
 def _without_tip(image: Image, label: TipLabel, room: Image) -> Image:

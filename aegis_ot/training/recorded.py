@@ -76,7 +76,8 @@ def read_frames(folder: Path) -> list[RecordedFrame]:
     if not any(box is not None for _, _, box in read):
         raise DatasetError(f"{folder.name}: boxes.csv has no tip box to learn from.")
     labels = _labels(folder, [(plate, box) for _, plate, box in read])
-    axes = _axes(folder, {path.relative_to(folder).as_posix() for path, _, _ in read})
+    shown = {path.relative_to(folder).as_posix() for path, _, box in read if box is not None}
+    axes = _axes(folder, shown)
     for i, (path, _, box) in enumerate(read):
         given = axes.get(path.relative_to(folder).as_posix())
         if box is not None and given:
@@ -116,12 +117,11 @@ def _axes(folder: Path, frames: set[str]) -> dict[str, list[TipAxis]]:
         try:
             x0, y0, x1, y1 = (float(cell) for cell in cells)
         except ValueError:
-            problems.append(f"axes.csv row {line}: {', '.join(cells)!r} are not four numbers")
-            continue
+            x0 = y0 = x1 = y1 = np.nan
         if not np.isfinite([x0, y0, x1, y1]).all():
             problems.append(f"axes.csv row {line}: {', '.join(cells)!r} are not four numbers")
         elif name not in frames:
-            problems.append(f"axes.csv row {line}, column frame: {name!r} is not in boxes.csv")
+            problems.append(f"axes.csv row {line}, column frame: {name!r} has no box in boxes.csv")
         else:
             axes.setdefault(name, []).append(((x0, y0), (x1, y1)))
     if problems:

@@ -62,7 +62,8 @@ the run's normal ones usually show and by this share of what the liquid changes,
 the tip, or something else is before it."""
 
 _EXPOSURE = 1.4
-"""A frame this many times brighter or darker than the run's others cannot be compared."""
+"""A frame this many times brighter or darker than the run's others teaches nothing, and is read
+only if the liquid shows plainly."""
 
 
 class Usual:
@@ -154,7 +155,7 @@ class Usual:
         return len(self._lights) < ENOUGH or alike(light, float(np.median(self._lights)))
 
     def readable(self, wet: Wetness, light: float) -> bool:
-        """Whether a frame of this brightness can be read."""
+        """Whether a frame of this brightness can be read; one blown out or black fits no tip."""
         return wet.power >= _IN_ANY_LIGHT or self.comparable(light)
 
 

@@ -115,7 +115,15 @@ def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-
     own = family | {
         "family": "ours",
         "default": False,
-        "rules": [rule | {"id": "LAB-7", "statement": "Never pipette on a Friday."}],
+        "rules": [
+            rule
+            | {
+                "id": "LAB-7",
+                "statement": "Never pipette on a Friday.",
+                "prompt": "Is it a Friday?",
+                "indicators": ["a weekday in the metadata"],
+            }
+        ],
     }
     (tmp_path / "ours.json").write_text(json.dumps(own))
     database_ = load_database([tmp_path])
@@ -123,4 +131,6 @@ def test_a_laboratorys_own_rules_are_told(tmp_path) -> None:  # type: ignore[no-
     # The sidecar knows the shipped rules only; the dossier carries the others.
     request = request_in("hybrid", dossier, database())
     assert request is not None
-    assert "Never pipette on a Friday." in str(request.messages[0].parts[0])
+    said = str(request.messages[0].parts[0])
+    for told in ("Never pipette on a Friday.", "Is it a Friday?", "a weekday in the metadata"):
+        assert told in said

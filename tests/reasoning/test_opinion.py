@@ -265,7 +265,7 @@ def test_rules_that_the_user_left_out_stay_out() -> None:
 
 def test_ranges_and_labels_name_wells() -> None:
     _, dossier = checked(CONTAMINATED)
-    said = finding("MODEL", ["PCR plate:A1-H12", "slot 2:A1-A3"], [13])
+    said = finding("MODEL", ["PCR plate:A1-H12", "Slot 2:A1-A3"], [13])
     opinion = read_opinion(answer(findings=[said]), dossier, "m")
     wells = {well.address for well in opinion.findings[0].wells}
     assert wells == {"4:A1", "4:H12", "2:A1", "2:A2", "2:A3"}, "only those that the run used"

@@ -109,7 +109,8 @@ def test_a_missing_tip_leaves_an_empty_room(tmp_path: Path) -> None:
     assert np.quantile(stands_out, 0.8) < 25  # the tip itself stands out by 160
 
 
-def test_where_the_pipette_hardly_moves_no_room_is_known(tmp_path: Path) -> None:
-    pool = FramePool(run_of(tmp_path, [60, 60, 70, 70] * 3))
+@pytest.mark.parametrize("places", [[60, 60, 70, 70] * 3, [60, 60, 150, 60, 190, 60, 230]])
+def test_where_the_pipette_hardly_moves_no_room_is_known(tmp_path: Path, places: list[int]) -> None:
+    pool = FramePool(run_of(tmp_path, places))
     rng = np.random.default_rng(0)
     assert all(pool.draw(rng)[1] is not None for _ in range(40))

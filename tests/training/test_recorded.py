@@ -60,7 +60,8 @@ def test_the_tip_of_the_box_comes_first_whatever_the_order(dataset: Path) -> Non
     [
         ("frames/w0_aspirate.png,61,,58.5,140", "'61, , 58.5, 140' are not four numbers"),
         ("frames/w0_aspirate.png,61,nan,58.5,140", "'61, nan, 58.5, 140' are not four numbers"),
-        ("frames/w9.png,61,60,58.5,140", "column frame: 'frames/w9.png' is not in boxes.csv"),
+        ("frames/w3_transit.png,1,2,3,4", "column frame: 'frames/w3_transit.png' has no box"),
+        ("frames/w9.png,61,60,58.5,140", "column frame: 'frames/w9.png' has no box in boxes.csv"),
     ],
 )
 def test_a_bad_axis_is_named(dataset: Path, row: str, said: str) -> None:

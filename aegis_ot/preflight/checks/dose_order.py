@@ -117,7 +117,8 @@ class DoseOrder(Check):
             if set(there) != set(here):
                 continue
             first = min(case.meant[other].get(origin, met.index + 1) for origin in there)
-            if first > met.index:
+            touched = (v.index for v in other.visits if v.tip is visit.tip and v.touches)
+            if first > met.index and not any(first <= at < visit.index for at in touched):
                 continue
             if any(volume > here[origin] * 1.01 for origin, volume in there.items()):
                 return Violation(

@@ -89,7 +89,7 @@ class Deck:
 
     def called(self, words: str) -> list[str]:
         """Keys of labware by slot (``"4"``, ``"slot 4"``), label, load name or variable."""
-        wanted = tokens(re.sub(r"^\s*slot\s+", "", words, flags=re.IGNORECASE))
+        wanted = tokens(without_slot(words))
         found = [
             info.key
             for info in self.plates()
@@ -105,6 +105,11 @@ class Deck:
             for key in self.called(labware)
             for name in wells_in(spec, self.trace.labware[key].wells)
         )
+
+
+def without_slot(words: str) -> str:
+    """``"4"`` for ``"slot 4"``; a label that only begins so stays as it is."""
+    return re.sub(r"^\s*slot\s+(\w{1,2})\s*$", r"\1", words, flags=re.IGNORECASE)
 
 
 def parts_of_place(place: str) -> tuple[str, str, str]:

@@ -92,7 +92,7 @@ class RowFinder:
             self._places.note(keyframe.position, row)
             self._orient(row)
             return self._seen(row, 0)
-        if row is not None and row.step_lengths * self._tip.length_mm / PITCH_MM >= _STEEP:
+        if row is not None and self._pitches(row) >= _STEEP:
             offset = self._places.offset(keyframe.position, row, self._count)
             if offset is not None:
                 return self._seen(row, offset)
@@ -176,8 +176,8 @@ class RowFinder:
     def _clearer(self, row: Row | None, by_orifices: Row | None) -> Row | None:
         """Of a row by both ends and one by the lower ends the better one.
 
-        The lower ends must show more tips, or the upper ones must be mistaken: steps are longer
-        than a pitch then. Seen at an angle their own scale is too small: whole rows before tell.
+        The lower ends must show more tips, or the upper ones must be mistaken: steps do not fit
+        the pitch then. Seen at an angle their own scale is too small: whole rows before tell.
         """
         known = self._places.last
         if by_orifices is not None and known is not None:

@@ -35,8 +35,12 @@ benchmark ``channels``) missing tips reached 0.12, and tips fell to 0.19."""
 STRAY = 0.3
 """How far from its place in the row a tip may be, steps."""
 
-_SEEN = 0.5
-"""Heat of the upper one of two lower ends, as a share of the lower one's, from which it is seen."""
+SEEN = 0.3
+"""Heat of the upper one of two lower ends, as a share of the warmer one's, from which it is seen.
+
+The network has learned from tips of many makes: below the end that it sees it may put another,
+warmer one, where that of a longer make would be.
+"""
 
 _HOLES = 3
 """Most tips beside each other that may be missing within a row."""
@@ -173,19 +177,15 @@ def _pairs(ends: Ends, length: float) -> Floats:
     for collar, orifice in pairs:
         if abs(orifice.x - collar.x - lean) <= 2 * _SAME_LEAN * length:
             below.setdefault(collar, []).append(orifice)
-    seen = {collar: uppermost(orifices) for collar, orifices in below.items()}
+    seen = {collar: _uppermost(orifices) for collar, orifices in below.items()}
     rows = [(c.x, c.y, o.x, o.y, _heat(c, o)) for c, o in seen.items()]
     return np.array(sorted(rows))
 
 
-def uppermost(orifices: Sequence[End]) -> End:
-    """Of lower ends below one another the one that is seen.
-
-    The network has learned from tips of many makes: below the end that it sees it may put another,
-    warmer one, where that of a longer make would be.
-    """
+def _uppermost(orifices: Sequence[End]) -> End:
+    """Of lower ends below one another the one that is seen: see :data:`SEEN`."""
     warmest = max(orifice.heat for orifice in orifices)
-    seen = (orifice for orifice in orifices if orifice.heat >= _SEEN * warmest)
+    seen = (orifice for orifice in orifices if orifice.heat >= SEEN * warmest)
     return min(seen, key=lambda orifice: orifice.y)
 
 

@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 
 from ..types import Ends
-from .fit import LEAST_HEAT, PITCH_MM, STRAY, Floats, Row, fitted
+from .fit import LEAST_HEAT, PITCH_MM, SEEN, STRAY, Floats, Row, fitted
 
 _LONGEST = 0.6, 3.2
 """Lengths that a row's own steps may give its tips, times the one that is expected."""
@@ -18,11 +18,11 @@ _STEP_COST = 0.1
 where two ways to number the same tips explain as much."""
 
 
-_ABOVE, _LEVEL = (0.04, 0.25), 0.04
-"""How far above a lower end the one that is seen may stand, and by how much those of one row may
-differ in that, tip lengths."""
-_FAINT = 0.08
-"""Least heat of an end that is seen above another."""
+_ABOVE = 0.04, 0.25
+"""How far above a lower end another one may stand that is seen instead, tip lengths."""
+
+_LEVEL = 0.04
+"""By how much the tips of one row differ in that, tip lengths."""
 
 
 def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Row | None:
@@ -51,7 +51,7 @@ def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Ro
                 best = score, line
     if len(best[1]) < 2:
         return None
-    row = _uppermost(ends, fitted(tips, best[1]), length, count)
+    row = _raised(ends, fitted(tips, best[1]), length)
     middle = (row.span - 1) / 2
     step_px = abs(float((row.ends(middle + 0.5) - row.ends(middle - 0.5))[0]))
     # What is nearer is larger: (p - up) / (1 + c·i) is higher by the length at that depth.
@@ -60,26 +60,28 @@ def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Ro
     return replace(row, start=row.start - up, places=places)
 
 
-def _uppermost(ends: Ends, row: Row, length: float, count: int) -> Row:
-    """The row of ends just above this one, where most of its tips have such an end.
-
-    The network has learned from tips of many makes: below the end that it sees it may put another,
-    warmer one, where that of a longer make would be.
-    """
-    faint = [o for o in ends.orifices if o.heat >= _FAINT]
-    tips = np.array(sorted((o.x, o.y, o.x, o.y, o.heat) for o in faint)).reshape(-1, 5)
-    above: dict[int, int] = {}
-    for number in range(row.span):
+def _raised(ends: Ends, row: Row, length: float) -> Row:
+    """The row where its ends are seen, if most of its tips have another end just above: see
+    :data:`~.fit.SEEN`."""
+    rises: list[float] = []
+    for number, heat in row.heats.items():
         x, y = row.ends(number)[2:]
         step = abs(float(row.ends(number + 1)[2] - x))
-        up = (y - tips[:, 1]) / length
-        near = (np.abs(tips[:, 0] - x) <= STRAY * step) & (up >= _ABOVE[0]) & (up <= _ABOVE[1])
-        if near.any():
-            above[number] = int(np.flatnonzero(near)[tips[near, 4].argmax()])
-    rises = {number: float(row.ends(number)[3] - tips[at, 1]) for number, at in above.items()}
-    usual = float(np.median(list(rises.values()))) if rises else 0.0
-    line = {n: at for n, at in above.items() if abs(rises[n] - usual) <= _LEVEL * length}
-    return fitted(tips, line) if 2 * len(line) > count else row
+        above = [
+            float(y - end.y)
+            for end in ends.orifices
+            if abs(end.x - x) <= STRAY * step
+            and _ABOVE[0] * length <= y - end.y <= _ABOVE[1] * length
+            and end.heat >= SEEN * heat
+        ]
+        rises += [max(above)] if above else []
+    usual = float(np.median(rises)) if rises else 0.0
+    alike = [rise for rise in rises if abs(rise - usual) <= _LEVEL * length]
+    if 2 * len(alike) <= len(row.heats):
+        return row
+    up = np.array([0.0, usual, 0.0, usual])
+    places = {number: place - up for number, place in row.places.items()}
+    return replace(row, start=row.start - up, places=places)
 
 
 def _in_line(tips: Floats, first: int, step: Floats, count: int) -> dict[int, int]:

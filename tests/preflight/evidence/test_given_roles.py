@@ -19,6 +19,7 @@ PROTOCOL = """
         tips = protocol.load_labware("opentrons_96_tiprack_20ul", 1)
         plate = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 2, "PCR plate")
         rack = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 3)
+        protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 4, "Slot of tubes")
         p20 = protocol.load_instrument("p20_single_gen2", "left", [tips])
         p20.transfer(15, rack["A1"], plate.columns()[0], new_tip="once")
         p20.transfer(5, rack.columns()[1][:3], plate.columns()[0][:3], new_tip="once")
@@ -43,7 +44,10 @@ def told(**roles: str) -> Report:
         ("PCR plate:A1-H13", "'A1-H13' is no well"),
         ("3:column 9", "'column 9' is no well"),
         ("3:A1, B9", "'B9' is no well"),
-        ("PCR plat:A1", "no labware is called 'PCR plat'; there are 'PCR plate', '3'"),
+        (
+            "PCR plat:A1",
+            "no labware is called 'PCR plat'; there are 'PCR plate', '3', 'Slot of tubes'",
+        ),
         ("5:A1", "no labware is called '5'"),
         ("A1", "no labware is called ''"),
         ("PCR plate:A1 = much", "'much' is no concentration or dose"),
@@ -60,7 +64,11 @@ def test_a_place_that_is_not_there_is_told(place: str, wrong: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "place", ["PCR plate:H12", "2:A1-H1,A3", "plate:*", "PCR plate:row H", "2:columns 1-3, A12"]
+    "place",
+    [
+        *("PCR plate:H12", "2:A1-H1,A3", "plate:*", "PCR plate:row H", "2:columns 1-3, A12"),
+        *("slot 2:H12", "Slot 2 : H12", "Slot of tubes:A1"),
+    ],
 )
 def test_a_place_that_is_there_is_taken(place: str) -> None:
     assert told(ntc=place).remarks == ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import threading
 import time
 from contextlib import contextmanager
@@ -23,6 +24,19 @@ def executed(text: str) -> dict:
     names = {"__builtins__": builtins_in_virtual_time()}
     exec(text, names)
     return names
+
+
+def test_what_was_recorded_goes_to_another_process():
+    recording = record(
+        script(
+            "tips = protocol.load_labware('opentrons_96_tiprack_20ul', 1)\n"
+            "plate = protocol.load_labware('biorad_96_wellplate_200ul_pcr', 2)\n"
+            "p20 = protocol.load_instrument('p20_single_gen2', 'left', [tips])\n"
+            "p20.transfer(5, plate['A1'], plate['A2'])"
+        )
+    )
+    assert recording.log
+    assert pickle.loads(pickle.dumps(recording)) == recording
 
 
 class TestVirtualTime:

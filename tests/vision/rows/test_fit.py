@@ -56,6 +56,16 @@ def test_a_missing_tip_leaves_a_hole() -> None:
     assert row.span == 8
 
 
+@pytest.mark.parametrize(("heat", "seen"), [(0.3, True), (0.1, False)])
+def test_of_two_lower_ends_the_upper_one_is_seen(heat: float, seen: bool) -> None:
+    ends = ends_of(list(range(8)), 0, noise=0.0, stray=False)
+    higher = tuple(End(one.x, one.y - 40.0, heat) for one in ends.orifices)
+    row = find_row(Ends(ends.collars, ends.orifices + higher), LENGTH, TIP.length_mm, 8)
+    assert row is not None
+    lower = true_ends(4, 0.0)[3]
+    assert row.ends(4)[3] == pytest.approx(lower - 40.0 if seen else lower, abs=1)
+
+
 def test_one_tip_is_no_row() -> None:
     assert find_row(ends_of([0], 0, stray=False), LENGTH, TIP.length_mm, 8) is None
     assert find_row(Ends(), LENGTH, TIP.length_mm, 8) is None

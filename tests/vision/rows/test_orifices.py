@@ -48,7 +48,16 @@ def test_of_two_rows_of_ends_the_upper_one_is_seen(seen: range, y: float) -> Non
     lower = [End(100.0 + STEP * n, 400.0, 0.8) for n in range(8)]
     row = find_by_orifices(row_of(list(seen), *lower), LENGTH, TIP_MM, 8)
     assert row is not None
-    assert [row.ends(n)[3] for n in row.heats] == pytest.approx([y] * len(row.heats), abs=3)
+    assert [row.ends(n)[3] for n in range(8)] == pytest.approx([y] * 8, abs=3)
+
+
+def test_what_is_seen_above_brings_no_missing_tip_back() -> None:
+    some = [0, 1, 2, 4, 5, 6, 7]
+    lower = [End(100.0 + STEP * n, 400.0, 0.8) for n in some]
+    bare = End(100.0 + 3 * STEP, 370.0, 0.12)
+    row = find_by_orifices(row_of(some, bare, *lower), LENGTH, TIP_MM, 8)
+    assert row is not None
+    assert sorted(row.heats) == some
 
 
 def test_one_end_is_no_row() -> None:
