@@ -9,10 +9,10 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 10_139,
-    "preflight/checks": 2_179,
+    "preflight": 10_161,
+    "preflight/checks": 2_187,
     "preflight/database": 268,
-    "preflight/evidence": 749,
+    "preflight/evidence": 763,
     "preflight/judging": 897,
     "preflight/opinion": 709,
     "preflight/rehearsal": 1_091,
@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 646,
     "preflight/source": 743,
     "preflight/trace": 1_562,
-    "": 66_194,
+    "": 66_222,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""
