@@ -30,6 +30,7 @@ from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import Image, TipDetection
 from aegis_ot.vocabulary import KeyframeKind
+from aegis_ot.vocabulary.pipette_names import channels_of
 
 UNSEEN = 70_000_001
 """First seed; trainings draw from small ones and from a million upwards."""
@@ -67,7 +68,7 @@ def placed(
     for seed in range(UNSEEN, UNSEEN + 2 * count):
         session = view(seed)
         pipette = pipettes[int(rng.integers(len(pipettes)))]
-        channels, tip = 8 if "multi" in pipette else 1, tip_for(pipette)
+        channels, tip = channels_of(pipette), tip_for(pipette)
         kind = tuple(KeyframeKind)[int(rng.integers(4))]
         fault = "no_tip" if seed % 6 == 0 else ("", "no_dispense", "partial_50")[seed % 3]
         volume = tip.nominal_ul * float(rng.uniform(0.1, 1.0))

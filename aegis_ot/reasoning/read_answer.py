@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ..preflight.evidence import wells_in, without_slot
+from ..preflight.evidence import wells_in
+from ..preflight.evidence.deck import without_slot
 from ..preflight.judging import MODEL
 from ..preflight.opinion import Citation, Dossier, Opinion, RoleProposal, RuleAnswer, is_known
 from ..vocabulary import Finding, Severity, Site, WellRef, one_line

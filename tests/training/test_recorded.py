@@ -22,10 +22,13 @@ def test_without_a_camera_the_axis_is_the_centre_line(dataset: Path) -> None:
     assert {frame.plate.split("/")[1] for frame in frames} == {"plate0", "plate1"}
 
 
+def write_axes(dataset: Path, *rows: str) -> None:
+    lines = ("frame,collar_x,collar_y,orifice_x,orifice_y", *rows, "")
+    (dataset / "axes.csv").write_text("\n".join(lines))
+
+
 def test_an_axis_that_the_set_gives_is_the_label(dataset: Path) -> None:
-    (dataset / "axes.csv").write_text(
-        "frame,collar_x,collar_y,orifice_x,orifice_y\nframes/w0_aspirate.png,61,60,58.5,140\n"
-    )
+    write_axes(dataset, "frames/w0_aspirate.png,61,60,58.5,140")
     first, second, *_ = read_frames(dataset)
     assert first.label is not None
     assert second.label is not None
@@ -35,9 +38,8 @@ def test_an_axis_that_the_set_gives_is_the_label(dataset: Path) -> None:
 
 
 def test_the_tips_beside_it_are_labelled_too(dataset: Path) -> None:
-    (dataset / "axes.csv").write_text(
-        "frame,collar_x,collar_y,orifice_x,orifice_y\n"
-        "frames/w0_aspirate.png,60,60,60,140\nframes/w0_aspirate.png,80,61,80,141\n"
+    write_axes(
+        dataset, "frames/w0_aspirate.png,60,60,60,140", "frames/w0_aspirate.png,80,61,80,141"
     )
     label = read_frames(dataset)[0].label
     assert label is not None
@@ -45,9 +47,8 @@ def test_the_tips_beside_it_are_labelled_too(dataset: Path) -> None:
 
 
 def test_the_tip_of_the_box_comes_first_whatever_the_order(dataset: Path) -> None:
-    (dataset / "axes.csv").write_text(
-        "frame,collar_x,collar_y,orifice_x,orifice_y\n"
-        "frames/w0_aspirate.png,80,61,80,141\nframes/w0_aspirate.png, 60,60,60,140\n"
+    write_axes(
+        dataset, "frames/w0_aspirate.png,80,61,80,141", "frames/w0_aspirate.png, 60,60,60,140"
     )
     label = read_frames(dataset)[0].label
     assert label is not None
@@ -65,7 +66,7 @@ def test_the_tip_of_the_box_comes_first_whatever_the_order(dataset: Path) -> Non
     ],
 )
 def test_a_bad_axis_is_named(dataset: Path, row: str, said: str) -> None:
-    (dataset / "axes.csv").write_text(f"frame,collar_x,collar_y,orifice_x,orifice_y\n{row}\n")
+    write_axes(dataset, row)
     with pytest.raises(DatasetError) as caught:
         read_frames(dataset)
     assert f"axes.csv row 2{',' if 'column' in said else ':'} {said}" in str(caught.value)

@@ -125,7 +125,7 @@ class Trace:
             found.setdefault(one.source.ref, set()).add(one.well.ref)
         return found
 
-    @property
+    @cached_property
     def stocks(self) -> Mapping[WellRef, Set[WellRef]]:
         """Likewise of those wells alone that held liquid before the run."""
         return {ref: into for ref, into in self.served.items() if self.usage[ref].prefilled}

@@ -111,10 +111,9 @@ class RowFinder:
         """Settle from the first whole row which end is the first channel."""
         if self._left is not None:
             return
-        slope = row.taper * (self._count - 1)
-        tapered = abs(slope) >= _TAPERED
+        tapered = self._is_tapered(row)
         # A column's first channel is the far one: on the left if the right end is nearer.
-        self._left = slope < 0 if self._column and tapered else True
+        self._left = row.taper < 0 if self._column and tapered else True
         self.assumed = self._column and not tapered
 
     def _row(self, image: Image) -> Row | None:
@@ -166,8 +165,11 @@ class RowFinder:
 
     def _to_scale(self, row: Row) -> bool:
         """Whether steps are a pitch each, or shorter ones because the row is seen at an angle."""
-        pitches, taper = self._pitches(row), abs(row.taper) * (self._count - 1)
-        return pitches <= _STEPS[1] and (taper >= _TAPERED or pitches >= _WHOLE_STEP)
+        pitches = self._pitches(row)
+        return pitches <= _STEPS[1] and (pitches >= _WHOLE_STEP or self._is_tapered(row))
+
+    def _is_tapered(self, row: Row) -> bool:
+        return abs(row.taper) * (self._count - 1) >= _TAPERED
 
     def _pitches(self, row: Row) -> float:
         """Steps of a row in pitches, at the scale of its tips."""

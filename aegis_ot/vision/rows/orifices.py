@@ -54,10 +54,7 @@ def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Ro
     row = _raised(ends, fitted(tips, best[1]), length)
     middle = (row.span - 1) / 2
     step_px = abs(float((row.ends(middle + 0.5) - row.ends(middle - 0.5))[0]))
-    # What is nearer is larger: (p - up) / (1 + c·i) is higher by the length at that depth.
-    up = np.array([0.0, step_px * tip_mm / PITCH_MM * (1 + middle * row.taper), 0.0, 0.0])
-    places = {i: place - up / (1 + i * row.taper) for i, place in row.places.items()}
-    return replace(row, start=row.start - up, places=places)
+    return _lifted(row, step_px * tip_mm / PITCH_MM, 0.0)
 
 
 def _raised(ends: Ends, row: Row, length: float) -> Row:
@@ -79,8 +76,16 @@ def _raised(ends: Ends, row: Row, length: float) -> Row:
     alike = [rise for rise in rises if abs(rise - usual) <= _LEVEL * length]
     if 2 * len(alike) <= len(row.heats):
         return row
-    up = np.array([0.0, usual, 0.0, usual])
-    places = {number: place - up for number, place in row.places.items()}
+    return _lifted(row, usual, usual)
+
+
+def _lifted(row: Row, collars: float, orifices: float) -> Row:
+    """The row with its collars and orifices so much higher, px in its middle.
+
+    What is nearer is larger: (p - up) / (1 + c·i) is higher by as much at that depth.
+    """
+    up = np.array([0.0, collars, 0.0, orifices]) * (1 + (row.span - 1) / 2 * row.taper)
+    places = {i: place - up / (1 + i * row.taper) for i, place in row.places.items()}
     return replace(row, start=row.start - up, places=places)
 
 
