@@ -9,7 +9,7 @@ import tempfile
 import time
 import urllib.request
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -112,7 +112,7 @@ def dry_run(
         progress.checked(report)
         if is_rejected(report) and settings.rules == "on":
             return _rejected(script.file_name, report)
-    camera = SimulatedCamera(
+    camera = _RepeatableCamera(
         settings.seed,
         settings.faults,
         _parameters(planner.keyframes, settings.seed),
@@ -186,7 +186,6 @@ def _run(
     camera: SimulatedCamera,
     progress: Progress,
 ) -> tuple[str, str, list[Operation], dict[str, Any], dict[int, bytes]]:
-    # Frames depend on the run's name: the same seed shows the same frames.
     run, token = f"dry-run-{settings.seed}", secrets.token_urlsafe(16)
     if settings.data is not None:
         run += time.strftime("-%Y%m%d-%H%M%S")
@@ -244,6 +243,13 @@ def _get(url: str, token: str) -> bytes:
     request = urllib.request.Request(url, headers={"Authorization": f"Bearer {token}"})
     with _LOOPBACK.open(request, timeout=10) as answer:
         return bytes(answer.read())
+
+
+class _RepeatableCamera(SimulatedCamera):
+    """Shows the same frames for the same seed, though a kept run is named after the time."""
+
+    def announce(self, keyframe: Keyframe) -> None:
+        super().announce(replace(keyframe, run=f"dry-run-{self.seed}"))
 
 
 class _Telling:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import time
+from dataclasses import replace
 
 import pytest
 
@@ -124,9 +124,7 @@ def test_a_fault_in_a_well_that_gets_nothing_is_refused():
         dry_run(SCRIPT, DryRunSettings(faults=("partial:50@9:H9",)), make_analyser())
 
 
-def test_a_run_is_kept_where_that_is_asked_for(tmp_path, monkeypatch):
-    # The run is named after the time, and the simulated frames depend on its name.
-    monkeypatch.setattr(time, "strftime", lambda *_: "-20261126-185213")
+def test_a_run_is_kept_where_that_is_asked_for(tmp_path):
     settings = DryRunSettings(faults=("no_dispense@1:A2",), on_fail="stop", data=tmp_path)
     result = dry_run(SCRIPT, settings, make_analyser())
     store = Store(tmp_path, alone=True)
@@ -137,6 +135,8 @@ def test_a_run_is_kept_where_that_is_asked_for(tmp_path, monkeypatch):
     assert row["layer1"]["verdict"] == result.report.verdict.value
     assert store.frame(row["run"], 0)
     store.close()
+    unkept = dry_run(SCRIPT, replace(settings, data=None), make_analyser())
+    assert [row.score for row in unkept.wells] == [row.score for row in result.wells]
 
 
 @pytest.mark.parametrize("fault", ["partial:50", "no_dispense"])
