@@ -45,8 +45,14 @@ def came_from(case: Case, well: Well, liquid: RoleSet) -> set[Well]:
 
 
 def is_made_of(case: Case, well: Well, wells: RoleSet) -> bool:
-    """Whether a well is filled from such wells alone: a later stage, a gel."""
-    return bool(well.received) and all(case.has(one.source, wells) for one in well.received)
+    """Whether a well is filled from such wells alone, or from what they were cleaned up in: a later
+    stage, a gel.
+    """
+
+    def passes_on(source: Well) -> bool:
+        return any(case.has(one, wells) for one in (source, *(r.source for r in source.received)))
+
+    return bool(well.received) and all(passes_on(one.source) for one in well.received)
 
 
 def _unknown_source(case: Case, well: Well, served: set[WellRef]) -> Well | None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import Imbalance, Visit, Well
+from ..trace import EMPTY_UL, Imbalance, Visit, Well
 from .case import Case
 from .check import Check, Doubt, Result, Violation, at, place
 
@@ -27,8 +27,9 @@ class VolumeBookkeeping(Check):
     """No well is filled beyond its capacity or drawn below what it holds.
 
     Wells of unknown volume are judged only by what the run put into them; so are plates from
-    which so much is drawn that someone must have filled them by hand. What stays below the brim,
-    a draw that over-reaches only to empty a well, and one that lacks next to nothing is a warning.
+    which so much is drawn that someone must have filled them by hand. What stays below the brim
+    (of waste: is let be), a draw that over-reaches only to empty a well, and one that lacks next to
+    nothing is a warning.
     """
 
     def find(self, case: Case) -> Iterator[Result]:
@@ -42,7 +43,7 @@ class VolumeBookkeeping(Check):
         found: dict[tuple[Well, bool], list[Imbalance]] = {}
         for one in case.trace.imbalances:
             well = one.visit.well
-            if one.overfilled and well.ref in case.waste:
+            if one.overfilled and well.ref in case.waste and one.volume <= well.brim:
                 continue
             if not one.overfilled and well.declared is None:
                 if (
@@ -60,7 +61,8 @@ class VolumeBookkeeping(Check):
             found.setdefault((well, one.overfilled), []).append(one)
         for together in found.values():
             told = [(one, _why_practice(case, one)) for one in together]
-            yield _violation(*next((one for one in told if not one[1]), told[0]))
+            first, warning = next((one for one in told if not one[1]), told[0])
+            yield _violation(first, warning, max(one.volume for one in together))
 
 
 def _all_short(case: Case) -> set[str]:
@@ -115,23 +117,38 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
 
 
 def _is_filled_again(case: Case, visit: Visit) -> bool:
-    """Whether a well gets one liquid more often than most wells beside it do."""
+    """Whether a well gets one liquid more often than most wells beside it, and keeps it."""
     for source in {one.source for one in visit.brought}:
         others = sorted(
-            len(case.straight(source, other))
+            _fillings(source, other)
             for other in case.destinations.get(source, ())
             if other is not visit.well and other.ref.labware == visit.well.ref.labware
         )
-        if others and len(case.straight(source, visit.well)) > others[len(others) // 2]:
+        if others and _fillings(source, visit.well) > others[len(others) // 2]:
             return True
     return False
 
 
-def _violation(imbalance: Imbalance, warning: str) -> Violation:
+def _fillings(source: Well, well: Well) -> int:
+    """How often a well is given a liquid at most before something is drawn from it: of a wash that
+    is drawn off none is left. A blow-out ends what a dispense began.
+    """
+    most = now = 0
+    for visit in well.visits:
+        if visit.kind is OperationKind.ASPIRATE and not visit.mixing:
+            now = 0
+        elif visit.kind is OperationKind.DISPENSE:
+            now += any(one.source is source for one in visit.brought)
+            most = max(most, now)
+    return most
+
+
+def _violation(imbalance: Imbalance, warning: str, most: float) -> Violation:
     visit, well = imbalance.visit, imbalance.visit.well
     volume, limit = f"{imbalance.volume:.4g} µL", f"{imbalance.limit:.4g} µL"
     if imbalance.overfilled:
-        message = f"{place(well)} is filled to {volume} {at(visit.line)}; it holds {limit}."
+        later = f", and to {most:.4g} µL later" if most > imbalance.volume + EMPTY_UL else ""
+        message = f"{place(well)} is filled to {volume} {at(visit.line)}{later}; it holds {limit}."
         sites = [Site(visit.line, well.ref, f"filled to {volume}")]
     else:
         message = (

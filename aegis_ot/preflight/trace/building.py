@@ -234,7 +234,9 @@ class _Builder:
         self._trace.transfers += visit.brought
         if step.from_top is not None and step.from_top > _FALLS_MM:
             well.fallen += visit.volume
-        if well.least > well.capacity + _slack(well.capacity) and visit.volume > 0:
+        # What goes back into a well of unknown volume was there before.
+        added = visit.brought or (well.known and visit.volume > 0)
+        if added and well.least > well.capacity + _slack(well.capacity):
             self._trace.imbalances.append(Imbalance(visit, True, well.least, well.capacity))
         heights = (step.from_top, step.from_bottom, step.from_liquid)
         visit.contact = well.contact(*heights, empty=visit.empty_before)

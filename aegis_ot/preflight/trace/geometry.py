@@ -15,7 +15,11 @@ from typing import Any
 from ...instrumentation import WellInfo
 
 OVER_NOMINAL = 1.1
-"""Brim volume by nominal volume where no geometry tells (``spec/rules.md``)."""
+"""Brim volume by nominal volume, at least, where no geometry tells (``spec/rules.md``)."""
+
+_OF_THE_SHAPE = 0.9
+"""What a well holds of the shape that its size and bottom give, rounded walls and all: the median
+of Opentrons' definitions with flat and round bottoms, whose inner geometry is known."""
 
 CLEARANCE_MM = 2.0
 """A tip end at least this far above the liquid does not touch it (``spec/rules.md``)."""
@@ -55,7 +59,7 @@ class Geometry:
         if info.sections:
             self.brim = max(inside, info.max_volume)
         else:
-            self.brim = (info.max_volume or inside) * OVER_NOMINAL
+            self.brim = max((info.max_volume or inside) * OVER_NOMINAL, inside * _OF_THE_SHAPE)
             if 0 < inside < info.max_volume:
                 self._scale = info.max_volume / inside  # narrower than what it is said to hold
 

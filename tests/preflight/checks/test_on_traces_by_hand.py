@@ -7,6 +7,7 @@ import itertools
 import pytest
 
 from aegis_ot.preflight.trace import Contact
+from aegis_ot.vocabulary import WellRef
 from tests.support.bench import Bench
 from tests.support.cases import broken, case_of, doubts, wells
 
@@ -103,6 +104,19 @@ def test_a_reaction_without_master_mix() -> None:
         transfer(bench, "source:C1", target)
     transfer(bench, "source:A1", "plate:A2")
     assert wells(broken(case_of(bench.trace(), "pcr", PCR), "PCR-1")) == {"plate:A2"}
+
+
+def test_what_a_reaction_was_cleaned_up_into_needs_no_master_mix() -> None:
+    bench = Bench()
+    transfer(bench, "source:C1", "plate:A1")
+    transfer(bench, "source:A1", "plate:A1")
+    transfer(bench, "plate:A1", "source:E5", 20)
+    transfer(bench, "source:E5", "source:F5", 20)
+    transfer(bench, "source:D1", "source:E5")
+    transfer(bench, "source:E5", "plate:A2")
+    case = case_of(bench.trace(), "pcr", {**PCR, "ntc": ""})
+    assert not broken(case, "PCR-1")
+    assert "plate:A2 is filled from wells like it" in doubts(case, "PCR-1")[0]
 
 
 def test_where_no_well_gets_master_mix_it_may_be_there_already() -> None:
@@ -368,15 +382,52 @@ def test_reservoir_wells_that_one_loop_draws_from_are_one_source(second: str, fo
 
 
 def test_beyond_the_brim_is_an_error_below_it_a_warning() -> None:
-    """Wells of 200 µL hold 220 µL at the brim where no geometry tells."""
+    """Wells of 200 µL that are 10 mm deep and 6 mm wide hold about 254 µL at the brim."""
     bench = Bench()
     bench.load("source:A1", 1000)
-    transfer(bench, "source:A1", "plate:A1", 210)
-    transfer(bench, "source:A1", "plate:B1", 230)
-    found = {one.well.ref.name: one.warning for one in
+    transfer(bench, "source:A1", "plate:A1", 240)
+    transfer(bench, "source:A1", "plate:B1", 260)
+    transfer(bench, "source:A1", "plate:B1", 50)
+    found = {one.well.ref.name: one for one in
              broken(case_of(bench.trace(), "generic", {}), "GEN-3")}  # fmt: skip
-    assert "brim" in found["A1"]
-    assert found["B1"] == ""
+    assert "brim (254.5 µL)" in found["A1"].warning
+    assert found["B1"].warning == ""
+    assert "is filled to 260 µL at line 7, and to 310 µL later; it holds" in found["B1"].message
+
+
+def test_what_a_mix_gives_back_to_a_stock_overfills_nothing() -> None:
+    """A definition may say less than a trough holds."""
+    bench = Bench()
+    bench.pick()
+    bench.draw("source:A1", 250, mixing=True)
+    bench.give("source:A1", 250, mixing=True)
+    assert not broken(case_of(bench.trace(), "generic", {}), "GEN-3")
+
+
+def test_neither_a_blow_out_nor_a_wash_that_was_drawn_off_fills_a_well_again() -> None:
+    bench = Bench()
+    bench.load("source:A1", 1000)
+    for target in ("A1", "B1", "C1", "D1"):
+        transfer(bench, "source:A1", f"plate:{target}", 205, HIGH)
+    bench.pick()
+    transfer(bench, "plate:D1", "source:H5", 205, HIGH, fresh=False)
+    bench.draw("source:A1", 210)
+    bench.give("plate:D1", 205, top=HIGH)
+    bench.blow_out("plate:D1")
+    found = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
+    plate = {one.well.ref.name: one.warning for one in found if one.well.ref.labware == "plate"}
+    assert plate.keys() == {"A1", "B1", "C1", "D1"}
+    assert all("brim" in warning for warning in plate.values())
+
+
+@pytest.mark.parametrize(("volume", "spills"), [(240, False), (260, True)])
+def test_waste_may_fill_its_well_to_the_brim_and_no_further(volume: float, spills: bool) -> None:
+    bench = Bench()
+    bench.load("source:A1", 1000)
+    transfer(bench, "source:A1", "plate:A1", volume, HIGH)
+    case = case_of(bench.trace(), "generic", {})
+    case.waste = frozenset({WellRef("plate", "A1")})
+    assert [one.warning for one in broken(case, "GEN-3")] == ([""] if spills else [])
 
 
 def test_filled_twice_what_its_neighbours_get_once() -> None:
