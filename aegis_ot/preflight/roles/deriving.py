@@ -37,18 +37,11 @@ def derive(roles: Roles, trace: Trace) -> None:
             _derive_receiving(roles, name, spec, trace)
 
 
-def _is_control(roles: Roles, ref: WellRef) -> bool:
-    assigned = roles.by_well.get(ref)
-    return assigned is not None and roles.is_declared(assigned.role)
-
-
 def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """A source without a name that mostly goes into named wells of ``spec.feeds``."""
     for ref, wells in trace.stocks.items():
         if roles.of(ref):
             continue
-        if any(_is_control(roles, well) for well in wells):
-            continue  # a stain, a read-out: a reagent for all
         right = [well for well in wells if roles.has(well, spec.feeds)]
         if len(right) * 2 > len(wells) and not all(map(roles.is_doubtful, right)):
             roles.derive(ref, name)
