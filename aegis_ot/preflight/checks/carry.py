@@ -101,7 +101,7 @@ class Carry(Check):
                 # A sample's tip has been in its destination too; with buffers it matters less.
                 or (
                     bool(case.of(origin))
-                    and not self._is_one_liquid(case, origin)
+                    and not case.is_one_liquid(origin)
                     and _brought_since(case, visit, origin)
                 )
             )
@@ -119,7 +119,7 @@ class Carry(Check):
             return True
         if self.pooled:
             # Water and then sample, drawn for one well, spoils no sample for its other uses.
-            clean = self._is_one_liquid(case, origin)
+            clean = case.is_one_liquid(origin)
             held = [
                 dest is origin or case.is_given(dest, origin)
                 for dest in _made_after(case, well, visit.index, further=clean)
@@ -130,18 +130,13 @@ class Carry(Check):
                 return True
         return False
 
-    @staticmethod
-    def _is_one_liquid(case: Case, well: Well) -> bool:
-        roles = case.family.roles
-        return any(roles[role].one_liquid for role in case.of(well))
-
     def _rinses_before(self, case: Case, visit: Visit) -> int:
         """How often a shared liquid was drawn into the tip and given to the waste just before."""
         rinses = 0
         visits = visit.tip.visits
         for other in reversed(visits[: visits.index(visit)]):
             if other.kind is OperationKind.ASPIRATE:
-                if not self._is_one_liquid(case, other.well):
+                if not case.is_one_liquid(other.well):
                     break
             elif other.well.ref not in case.waste:
                 break
@@ -194,7 +189,7 @@ class Carry(Check):
             contact=contact,
             warning=self._practice(case, visit, origin, met),
             # A liquid that stands in all wells may be meant to come along.
-            in_any_assay=contact is Contact.WET and not self._is_one_liquid(case, origin),
+            in_any_assay=contact is Contact.WET and not case.is_one_liquid(origin),
         )
 
     def _practice(self, case: Case, visit: Visit, origin: Well, met: Met) -> str:

@@ -62,6 +62,10 @@ class Case:
         """Whether a well has any of these roles."""
         return not self.of(well).isdisjoint(wanted)
 
+    def is_one_liquid(self, well: Well) -> bool:
+        """Whether a well holds what all wells of its role hold: water, a mix, a buffer."""
+        return any(self.family.roles[role].one_liquid for role in self.of(well))
+
     def brings(self, transfer: Transfer, wanted: RoleSet) -> bool:
         """Whether a transfer brings liquid that stood in a well of these roles before the run."""
         return any(self.has(origin, wanted) for origin in transfer.liquid)

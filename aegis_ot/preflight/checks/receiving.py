@@ -152,6 +152,9 @@ class Receives(Check):
                 f"{place(well)} receives something from {place(unknown)}, and nothing says "
                 "what stands there"
             )
+        beyond = any(one.visit.well is well and not one.overfilled for one in case.trace.imbalances)
+        if beyond and all(case.is_one_liquid(one.source) for one in well.received):
+            return f"more is drawn from {place(well)} than the run puts there: it held more before"
         if is_made_of(case, well, self.wells):
             return f"{place(well)} is filled from wells like it, at a later stage perhaps"
         if case.roles.is_named_by_labware(well.ref):

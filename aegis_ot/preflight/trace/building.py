@@ -216,7 +216,8 @@ class _Builder:
         liquid, held = well.liquid(), well.volume
         if not well.prefilled:
             tip.unsure += max(step.volume - well.least, 0.0)
-        if well.draw(step.volume) > _slack(step.volume):
+        tip.lacking += (lacking := well.draw(step.volume))
+        if lacking > _slack(step.volume):
             self._trace.imbalances.append(Imbalance(visit, False, step.volume, held))
         tip.layers.append((well, step.volume, liquid, step.line))
         self._last[tip] = visit
@@ -229,7 +230,11 @@ class _Builder:
             visit.volume += volume
             unsure = min(tip.unsure, volume)
             tip.unsure -= unsure
-            well.add(volume, liquid, unsure)
+            lacking = min(tip.lacking, volume)
+            tip.lacking -= lacking
+            if source is not well:
+                lacking = 0.0
+            well.add(volume - lacking, liquid, max(unsure - lacking, 0.0))
         well.received += visit.brought
         self._trace.transfers += visit.brought
         if step.from_top is not None and step.from_top > _FALLS_MM:

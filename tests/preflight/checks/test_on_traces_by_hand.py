@@ -119,6 +119,16 @@ def test_what_a_reaction_was_cleaned_up_into_needs_no_master_mix() -> None:
     assert "plate:A2 is filled from wells like it" in doubts(case, "PCR-1")[0]
 
 
+def test_a_reaction_that_held_more_before_may_have_held_master_mix() -> None:
+    bench = Bench()
+    transfer(bench, "source:C1", "plate:A1")
+    transfer(bench, "source:D1", "plate:A2", 100)
+    transfer(bench, "plate:A2", "source:E5", 150)
+    case = case_of(bench.trace(), "pcr", {**PCR, "ntc": ""})
+    assert not broken(case, "PCR-1")
+    assert "plate:A2 than the run puts there" in doubts(case, "PCR-1")[0]
+
+
 def test_where_no_well_gets_master_mix_it_may_be_there_already() -> None:
     bench = Bench()
     transfer(bench, "source:A1", "plate:A2")
@@ -402,6 +412,21 @@ def test_what_a_mix_gives_back_to_a_stock_overfills_nothing() -> None:
     bench.draw("source:A1", 250, mixing=True)
     bench.give("source:A1", 250, mixing=True)
     assert not broken(case_of(bench.trace(), "generic", {}), "GEN-3")
+
+
+def test_a_mix_that_draws_air_makes_no_liquid() -> None:
+    bench = Bench()
+    bench.load("source:A1", 120)
+    bench.pick()
+    bench.draw("source:A1", 150, mixing=True)
+    bench.give("source:A1", 150, mixing=True)
+    bench.drop()
+    for target in ("plate:A1", "plate:B1"):
+        transfer(bench, "source:A1", target, 70)
+    found = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
+    assert [one.message for one in found] == [
+        "70 µL are drawn from source:A1 at line 10, which holds 50 µL then."
+    ]
 
 
 def test_neither_a_blow_out_nor_a_wash_that_was_drawn_off_fills_a_well_again() -> None:
