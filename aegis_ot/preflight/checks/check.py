@@ -62,6 +62,11 @@ def at(line: int | None) -> str:
     return f"at line {line}" if line else "somewhere in the protocol"
 
 
+def microlitres(volume: float) -> str:
+    """A volume in a message: "2.5 µL", "15170 µL"."""
+    return f"{volume:.0f} µL" if volume >= 1000 else f"{volume:.4g} µL"
+
+
 @dataclass(frozen=True)
 class Check:
     """A predicate over trace and roles, with its parameters as fields."""

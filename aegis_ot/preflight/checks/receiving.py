@@ -152,14 +152,27 @@ class Receives(Check):
                 f"{place(well)} receives something from {place(unknown)}, and nothing says "
                 "what stands there"
             )
-        beyond = any(one.visit.well is well and not one.overfilled for one in case.trace.imbalances)
-        if beyond and all(case.is_one_liquid(one.source) for one in well.received):
+        if self._held_more(case, well):
             return f"more is drawn from {place(well)} than the run puts there: it held more before"
         if is_made_of(case, well, self.wells):
             return f"{place(well)} is filled from wells like it, at a later stage perhaps"
         if case.roles.is_named_by_labware(well.ref):
             return f"nothing but its plate's name says what {place(well)} is for"
         return ""
+
+    def _held_more(self, case: Case, well: Well) -> bool:
+        """Whether a well that is no control, and gets nothing of its own, is drawn from as if it
+        had held something: product in a clean-up. What is missing where a sample comes is the mix.
+        """
+        return (
+            any(
+                one.visit.well is well and not one.overfilled and not one.visit.mixing
+                for one in case.trace.imbalances
+            )
+            and not case.has(well, self.always)
+            and bool(well.received)
+            and all(case.is_one_liquid(one.source) for one in well.received)
+        )
 
     def _plates(self, case: Case, liquid: RoleSet) -> set[str]:
         """Labware where some well is given the liquid, and their replicates.

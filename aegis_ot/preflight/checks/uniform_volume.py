@@ -44,7 +44,7 @@ class UniformVolume(Check):
         for well in case.wells(self.wells):
             if well.prefilled or case.is_drawn_first(well):
                 continue
-            if is_made_of(case, well, self.wells):
+            if self._is_shared_out(case, well) or is_made_of(case, well, self.wells):
                 continue
             got, _ = received(case, well, self.liquid)
             if got > 0:
@@ -52,6 +52,13 @@ class UniformVolume(Check):
                 groups.setdefault(self._assay(case, well), []).append((well, got, total))
         for members in groups.values():
             yield from self._compare(case, members)
+
+    def _is_shared_out(self, case: Case, well: Well) -> bool:
+        """Whether it got more on purpose: other such wells beside it are filled from it."""
+        return any(
+            other.ref.labware == well.ref.labware and case.has(other, self.wells)
+            for other in case.destinations.get(well, {})
+        )
 
     def _differs(self, volume: float, usual: float) -> bool:
         return abs(volume - usual) > max(self.tolerance * usual, 0.01)

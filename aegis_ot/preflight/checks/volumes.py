@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
-from ..trace import EMPTY_UL, Imbalance, Visit, Well
+from ..trace import Imbalance, Visit, Well
 from .case import Case
-from .check import Check, Doubt, Result, Violation, at, place
+from .check import Check, Doubt, Result, Violation, at, microlitres, place
 
 _FEWEST_ALIKE = 3
 _FAR_SHORT = 2.0
@@ -27,9 +27,9 @@ class VolumeBookkeeping(Check):
     """No well is filled beyond its capacity or drawn below what it holds.
 
     Wells of unknown volume are judged only by what the run put into them; so are plates from
-    which so much is drawn that someone must have filled them by hand. What stays below the brim
-    (of waste: is let be), a draw that over-reaches only to empty a well, and one that lacks next to
-    nothing is a warning.
+    which so much is drawn that someone must have filled them by hand. What stays below the brim,
+    a draw that over-reaches only to empty a well, and one that lacks next to nothing is a warning.
+    Waste may fill its well to the brim.
     """
 
     def find(self, case: Case) -> Iterator[Result]:
@@ -53,16 +53,18 @@ class VolumeBookkeeping(Check):
                 ):
                     continue  # it may have held what nobody declared
                 if one.visit.mixing or well.ref.labware in short:
+                    drawn, held = microlitres(one.volume), microlitres(one.limit)
                     yield Doubt(
-                        f"{one.volume:.4g} µL are drawn from {place(well)} {at(one.visit.line)}, "
-                        f"and the run has put {one.limit:.4g} µL there: it may have held more"
+                        f"{drawn} are drawn from {place(well)} {at(one.visit.line)}, and the run "
+                        f"has put {held} there: it may have held more"
                     )
                     continue
             found.setdefault((well, one.overfilled), []).append(one)
         for together in found.values():
             told = [(one, _why_practice(case, one)) for one in together]
             first, warning = next((one for one in told if not one[1]), told[0])
-            yield _violation(first, warning, max(one.volume for one in together))
+            later = together[together.index(first) :]
+            yield _violation(first, warning, max(one.volume for one in later))
 
 
 def _all_short(case: Case) -> set[str]:
@@ -93,7 +95,7 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
             return "Drops that fall from so high over it may land elsewhere."
         if imbalance.volume > well.brim or _is_filled_again(case, visit):
             return ""
-        return f"It stays below the brim ({well.brim:.4g} µL)."
+        return f"It stays below the brim ({microlitres(well.brim)})."
     if 0 < imbalance.volume - imbalance.limit <= _INEXACT * imbalance.volume:
         return "What is lacking is within what filling and pipetting are exact to."
     if visit.mixing:
@@ -130,24 +132,29 @@ def _is_filled_again(case: Case, visit: Visit) -> bool:
 
 
 def _fillings(source: Well, well: Well) -> int:
-    """How often a well is given a liquid at most before something is drawn from it: of a wash that
-    is drawn off none is left. A blow-out ends what a dispense began.
+    """How often a well is given a liquid at most before most of it is drawn off: a wash is gone. A
+    blow-out ends what a dispense began.
     """
-    most = now = 0
+    most = times = 0
+    left = given = 0.0
     for visit in well.visits:
         if visit.kind is OperationKind.ASPIRATE and not visit.mixing:
-            now = 0
-        elif visit.kind is OperationKind.DISPENSE:
-            now += any(one.source is source for one in visit.brought)
-            most = max(most, now)
+            left -= visit.volume
+            if left < given / 2:
+                times, left, given = 0, 0.0, 0.0
+        elif visit.kind is OperationKind.DISPENSE and any(
+            o.source is source for o in visit.brought
+        ):
+            times, left, given = times + 1, left + visit.volume, given + visit.volume
+            most = max(most, times)
     return most
 
 
 def _violation(imbalance: Imbalance, warning: str, most: float) -> Violation:
     visit, well = imbalance.visit, imbalance.visit.well
-    volume, limit = f"{imbalance.volume:.4g} µL", f"{imbalance.limit:.4g} µL"
+    volume, limit = microlitres(imbalance.volume), microlitres(imbalance.limit)
     if imbalance.overfilled:
-        later = f", and to {most:.4g} µL later" if most > imbalance.volume + EMPTY_UL else ""
+        later = f", and to {microlitres(most)} later" if microlitres(most) != volume else ""
         message = f"{place(well)} is filled to {volume} {at(visit.line)}{later}; it holds {limit}."
         sites = [Site(visit.line, well.ref, f"filled to {volume}")]
     else:

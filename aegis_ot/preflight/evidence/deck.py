@@ -8,8 +8,11 @@ from collections.abc import Iterable, Sequence
 from ...instrumentation import LabwareInfo, NameBinding
 from ...vocabulary import WellRef
 from ..source import tokens
-from ..trace import Trace
+from ..trace import Trace, row_column
 from .well_names import plain_name, wells_in
+
+_LEFT_OUT = 2
+"""As many wells of those that a name holds may have been left out by mistake."""
 
 
 class Deck:
@@ -55,6 +58,30 @@ class Deck:
     def is_used(self, ref: WellRef) -> bool:
         """Whether the run uses a well."""
         return ref in self._used
+
+    def meant(self, wells: tuple[WellRef, ...]) -> tuple[WellRef, ...]:
+        """The wells of a name, without those of whole columns or rows that are not used this time.
+
+        A few that the run leaves out may be a mistake, and so may all of them.
+        """
+        left_out: set[WellRef] = set()
+        for key in {ref.labware for ref in wells}:
+            here = [ref for ref in wells if ref.labware == key]
+            unused = [ref for ref in here if not self.is_used(ref)]
+            used = len(here) - len(unused)
+            if used and len(unused) > max(_LEFT_OUT, used // 3) and self._are_lines(key, here):
+                left_out.update(unused)
+        return tuple(ref for ref in wells if ref not in left_out)
+
+    def _are_lines(self, labware: str, wells: Sequence[WellRef]) -> bool:
+        """Whether these are all wells of some columns, or of some rows, of a labware."""
+        names = {ref.name for ref in wells}
+        every = self.trace.labware[labware].wells
+        lines = [{row_column(name)[axis] for name in names} for axis in (0, 1)]
+        return any(
+            names == {name for name in every if row_column(name)[axis] in lines[axis]}
+            for axis in (0, 1)
+        )
 
     def plates(self) -> list[LabwareInfo]:
         """Labware that holds liquid."""

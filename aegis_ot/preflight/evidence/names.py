@@ -32,7 +32,7 @@ def named_wells(
             passing = True
         passing = passing or (binding.function, base) in facts.rebound
         line = facts.assigned.get(base.rpartition(".")[2], binding.line)
-        wells = binding.wells or deck.used_wells(binding.labware)
+        wells = deck.meant(binding.wells) or deck.used_wells(binding.labware)
         level = keyed.get(binding.name)
         text = binding.name
         levels: tuple[float | None, ...] = ()

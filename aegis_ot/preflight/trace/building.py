@@ -214,34 +214,36 @@ class _Builder:
         if step.from_bottom is not None:
             self._heights[tip] = (well, step.from_bottom)
         liquid, held = well.liquid(), well.volume
-        if not well.prefilled:
-            tip.unsure += max(step.volume - well.least, 0.0)
-        tip.lacking += (lacking := well.draw(step.volume))
-        if lacking > _slack(step.volume):
+        least = well.least
+        missing = well.draw(step.volume)
+        tip.unsure += missing if well.prefilled else max(step.volume - least, 0.0)
+        visit.air = missing if well.declared is not None else 0.0
+        if missing > _slack(step.volume):
             self._trace.imbalances.append(Imbalance(visit, False, step.volume, held))
         tip.layers.append((well, step.volume, liquid, step.line))
         self._last[tip] = visit
 
     def _give(self, step: Operation, tip: Tip, well: Well, parts: list[Layer]) -> None:
         visit = self._visit(step, tip, well)
+        drawn = self._last.get(tip)
         for source, volume, liquid, line in parts:
             if source is not None and source is not well:
                 visit.brought.append(Transfer(source, well, visit, volume, liquid, line))
             visit.volume += volume
             unsure = min(tip.unsure, volume)
             tip.unsure -= unsure
-            lacking = min(tip.lacking, volume)
-            tip.lacking -= lacking
-            if source is not well:
-                lacking = 0.0
-            well.add(volume - lacking, liquid, max(unsure - lacking, 0.0))
+            air = 0.0
+            if drawn is not None and drawn.well is source is well:
+                air = min(drawn.air, volume)  # goes back as nothing
+                drawn.air -= air
+            well.add(volume - air, liquid, max(unsure - air, 0.0))
         well.received += visit.brought
         self._trace.transfers += visit.brought
         if step.from_top is not None and step.from_top > _FALLS_MM:
             well.fallen += visit.volume
         # What goes back into a well of unknown volume was there before.
-        added = visit.brought or (well.known and visit.volume > 0)
-        if added and well.least > well.capacity + _slack(well.capacity):
+        fills = bool(visit.brought) or (well.known and visit.volume > 0)
+        if fills and well.least > well.capacity + _slack(well.capacity):
             self._trace.imbalances.append(Imbalance(visit, True, well.least, well.capacity))
         heights = (step.from_top, step.from_bottom, step.from_liquid)
         visit.contact = well.contact(*heights, empty=visit.empty_before)

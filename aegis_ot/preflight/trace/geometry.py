@@ -18,8 +18,8 @@ OVER_NOMINAL = 1.1
 """Brim volume by nominal volume, at least, where no geometry tells (``spec/rules.md``)."""
 
 _OF_THE_SHAPE = 0.9
-"""What a well holds of the shape that its size and bottom give, rounded walls and all: the median
-of Opentrons' definitions with flat and round bottoms, whose inner geometry is known."""
+"""What a well holds, about, of the shape that its size and bottom give: flat and round bottoms, by
+those of Opentrons' definitions whose inner geometry is known. V bottoms hold more."""
 
 CLEARANCE_MM = 2.0
 """A tip end at least this far above the liquid does not touch it (``spec/rules.md``)."""

@@ -153,7 +153,7 @@ class Well:
         self.most = min(self.most + volume, self.capacity)
         self.unsure += unsure
         self.fed = self.fed or volume > 0
-        for origin, share in liquid.items():
+        for origin, share in liquid.items() if volume > EMPTY_UL else ():
             self.contents[origin] = self.contents.get(origin, 0.0) + volume * share
 
     def contact(
@@ -199,6 +199,7 @@ class Visit:
         line: Source line.
         volume: µL of liquid drawn or given, air left out.
         brought: What was given of other wells' liquid.
+        air: µL of what was drawn that a declared volume left no liquid for, and not given back.
         contact: How surely the tip met the well's liquid, and so left there what it carries. In
             a well that was empty: how surely what it gives carries along what the tip met before.
         empty_before: Whether the well held nothing just before; then the tip took nothing along.
@@ -216,6 +217,7 @@ class Visit:
     volume: float = 0.0
     contact: Contact = Contact.CLEAR
     brought: list[Transfer] = field(default_factory=list)
+    air: float = 0.0
     session: int = field(init=False)
     empty_before: bool = field(init=False)
     carried: int = field(init=False)

@@ -37,7 +37,6 @@ class Tip:
         touched: Each well it has touched, with the first contact, in that order.
         visits: Everything it did, in order.
         unsure: µL of its liquid that may be air: drawn from a well beyond what that held.
-        lacking: µL of it that the well surely did not hold, and that do not come back to it.
     """
 
     number: int
@@ -47,7 +46,6 @@ class Tip:
     touched: dict[Well, Met] = field(default_factory=dict)
     visits: list[Visit] = field(default_factory=list)
     unsure: float = 0.0
-    lacking: float = 0.0
 
     def touch(
         self, well: Well, line: int | None, index: int, contact: Contact = Contact.WET

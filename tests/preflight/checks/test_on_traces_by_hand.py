@@ -129,6 +129,27 @@ def test_a_reaction_that_held_more_before_may_have_held_master_mix() -> None:
     assert "plate:A2 than the run puts there" in doubts(case, "PCR-1")[0]
 
 
+def test_a_control_that_is_drawn_from_still_needs_its_master_mix() -> None:
+    bench = Bench()
+    transfer(bench, "source:C1", "plate:A1")
+    transfer(bench, "source:D1", "plate:H1", 5)
+    transfer(bench, "plate:H1", "source:E5", 10)
+    bench.pick()
+    bench.draw("plate:H1", 10, mixing=True)
+    bench.give("plate:H1", 10, mixing=True)
+    assert wells(broken(case_of(bench.trace(), "pcr", PCR), "PCR-1")) == {"plate:H1"}
+
+
+def test_of_cleaned_up_reactions_the_one_without_master_mix_is_told() -> None:
+    bench = Bench()
+    transfer(bench, "source:C1", "plate:A1")
+    for target in ("plate:A1", "plate:A2"):
+        transfer(bench, "source:A1", target)
+        transfer(bench, target, "source:E5", 5)
+    case = case_of(bench.trace(), "pcr", {**PCR, "ntc": ""})
+    assert wells(broken(case, "PCR-1")) == {"plate:A2"}
+
+
 def test_where_no_well_gets_master_mix_it_may_be_there_already() -> None:
     bench = Bench()
     transfer(bench, "source:A1", "plate:A2")
@@ -147,6 +168,18 @@ def test_an_uneven_volume_of_master_mix() -> None:
 
 
 # -- order, mixing
+
+
+def test_a_reaction_that_is_shared_out_gets_more_of_all_on_purpose() -> None:
+    roles = {**PCR, "reaction": "plate:A1 plate:A2 plate:B1 plate:B2"}
+    bench = Bench()
+    for row, template in zip("AB", ("source:A1", "source:A2"), strict=True):
+        transfer(bench, "source:C1", f"plate:{row}1", 30)
+        transfer(bench, template, f"plate:{row}1", 10)
+        transfer(bench, f"plate:{row}1", f"plate:{row}2", 20)
+    transfer(bench, "source:C1", "plate:H1", 15)
+    transfer(bench, "source:D1", "plate:H1", 5)
+    assert not broken(case_of(bench.trace(), "pcr", roles), "PCR-6")
 
 
 def test_dye_before_protein_and_dye_never_mixed() -> None:
@@ -427,6 +460,32 @@ def test_a_mix_that_draws_air_makes_no_liquid() -> None:
     assert [one.message for one in found] == [
         "70 µL are drawn from source:A1 at line 10, which holds 50 µL then."
     ]
+
+
+def test_air_that_goes_to_the_trash_makes_no_other_well_poorer() -> None:
+    bench = Bench()
+    bench.load("source:A1", 100)
+    bench.load("source:B1", 200)
+    bench.pick()
+    bench.draw("source:A1", 150)
+    bench.give("plate:H1", 150)
+    bench.draw("source:B1", 100, mixing=True)
+    bench.give("source:B1", 100, mixing=True)
+    bench.drop()
+    transfer(bench, "source:B1", "plate:A1", 190)
+    found = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
+    assert wells(found) == {"source:A1"}
+
+
+def test_a_taste_between_two_fillings_empties_no_well() -> None:
+    bench = Bench()
+    bench.load("source:A1", 1000)
+    for target in ("A1", "B1", "C1", "D1"):
+        transfer(bench, "source:A1", f"plate:{target}", 110, HIGH)
+    transfer(bench, "plate:D1", "source:H5", 1)
+    transfer(bench, "source:A1", "plate:D1", 110, HIGH)
+    (found,) = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
+    assert (found.well.ref.name, found.warning) == ("D1", "")
 
 
 def test_neither_a_blow_out_nor_a_wash_that_was_drawn_off_fills_a_well_again() -> None:
