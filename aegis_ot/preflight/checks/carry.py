@@ -177,6 +177,7 @@ class Carry(Check):
             began = f"The tip that touched {where}, which holds {held} {origin.ref.name},"
         message = f"{began} entered the {case.title(well)} {place(well)} {at(visit.line)}."
         contact = min(met.contact(visit.index), visit.contact)
+        practice = self._practice(case, visit, origin, met)
         return Violation(
             message,
             (
@@ -184,10 +185,10 @@ class Carry(Check):
                 Site(visit.line, well.ref, f"entered the {case.title(well)}"),
             ),
             well,
-            (visit.line, met.line, what),
+            (practice,) if practice else (visit.line, met.line, what),  # a habit is told once
             (origin, well),
             contact=contact,
-            warning=self._practice(case, visit, origin, met),
+            warning=practice,
             # A liquid that stands in all wells may be meant to come along.
             in_any_assay=contact is Contact.WET and not case.is_one_liquid(origin),
         )

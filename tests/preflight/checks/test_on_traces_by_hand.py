@@ -218,6 +218,7 @@ def test_dye_that_no_well_is_mixed_behind_is_left_to_a_shaker() -> None:
     found = broken(case_of(bench.trace(), "bradford", roles), "BRD-4")
     assert wells(found) == {"plate:A1", "plate:B1"}
     assert all("by hand" in one.warning for one in found)
+    assert len({one.cause for one in found}) == 1  # a habit is told once, at however many lines
     bench.pick()
     for _ in range(3):
         bench.draw("plate:A1", 50, mixing=True)
@@ -397,6 +398,23 @@ def test_back_into_a_stock_of_which_all_is_given_the_same(second: str, practice:
     found = broken(case_of(bench.trace(), "generic", roles), "GEN-2")
     assert wells(found) == {"source:D1"}
     assert [bool(one.warning) for one in found] == [practice]
+
+
+def test_a_habit_with_several_stocks_is_told_once() -> None:
+    roles = {"source": "source:C1", "stock": "source:D1 source:E1", "destination": "plate:A1"}
+    roles["destination"] += " plate:A2 plate:B1 plate:B2"
+    bench = Bench()
+    for target in ("plate:A1", "plate:A2", "plate:B1", "plate:B2"):
+        transfer(bench, "source:C1", target, 30, HIGH)
+    for stock, targets in (("source:D1", ("A1", "A2")), ("source:E1", ("B1", "B2"))):
+        bench.pick()
+        for target in targets:
+            transfer(bench, stock, f"plate:{target}", fresh=False)
+        bench.drop()
+    found = broken(case_of(bench.trace(), "generic", roles), "GEN-2")
+    assert wells(found) == {"source:D1", "source:E1"}
+    assert all(one.warning for one in found)
+    assert len({one.cause for one in found}) == 1
 
 
 def test_pooling_is_meant() -> None:
