@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from ...vocabulary import WellRef
+from ..evidence import Kind
 from ..rules import RoleSpec
 from ..trace import Trace, Well, chains_of
-from .roles import Roles
+from .roles import Assignment, Roles
 
 _FEWEST_PAIRS = 3
 _SMALLEST_PLATE = 24
@@ -127,9 +128,7 @@ def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> 
             continue
         assigned = roles.by_well.get(well.ref)
         unlike = assigned is not None and assigned.role not in roles.family.closure(name)
-        if assigned is not None and unlike and not assigned.whole:
-            continue
-        if unlike and _receives_what_it_is_named_for(roles, well):
+        if assigned is not None and unlike and _is_settled(roles, well, assigned):
             continue
         if _receives(roles, well, spec.receives, (name,)):
             if unlike:
@@ -137,9 +136,16 @@ def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> 
             roles.derive(well.ref, name)
 
 
-def _receives_what_it_is_named_for(roles: Roles, well: Well) -> bool:
-    wanted = roles.family.roles[roles.by_well[well.ref].role].receives
-    return not wanted or _receives(roles, well, wanted, ())
+def _is_settled(roles: Roles, well: Well, assigned: Assignment) -> bool:
+    """Whether a well is what it is called, whatever it receives.
+
+    Not where a list is called for the stock that goes into its wells (``mastermix_wells``), nor
+    where only a labware's name speaks and the wells get nothing that would make them so.
+    """
+    spec = roles.family.roles[assigned.role]
+    if assigned.kind <= Kind.NAME and spec.one_liquid:
+        return not _receives(roles, well, (assigned.role,), ())
+    return not assigned.whole or not spec.receives or _receives(roles, well, spec.receives, ())
 
 
 def _receives(roles: Roles, well: Well, wanted: Collection[str], made: Collection[str]) -> bool:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import pytest
 
+from aegis_ot.preflight.evidence import Kind
+from aegis_ot.preflight.roles import derive
 from aegis_ot.preflight.trace import Contact
 from aegis_ot.vocabulary import WellRef
 from tests.support.bench import Bench
@@ -127,6 +130,21 @@ def test_a_reaction_that_held_more_before_may_have_held_master_mix() -> None:
     case = case_of(bench.trace(), "pcr", {**PCR, "ntc": ""})
     assert not broken(case, "PCR-1")
     assert "plate:A2 than the run puts there" in doubts(case, "PCR-1")[0]
+
+
+def test_wells_called_for_the_mix_that_they_get_are_reactions() -> None:
+    """``mastermix_wells``: where the mix goes, and the template."""
+    roles = {**PCR, "reaction": "", "ntc": "", "master_mix": "source:C1 plate:A1 plate:B1"}
+    bench = Bench()
+    for template, target in (("source:A1", "plate:A1"), ("source:A2", "plate:B1")):
+        transfer(bench, "source:C1", target)
+        transfer(bench, template, target)
+    case = case_of(bench.trace(), "pcr", roles)
+    for assigned in case.roles.by_well.values():
+        assigned.evidence = tuple(replace(one, kind=Kind.NAME) for one in assigned.evidence)
+    derive(case.roles, case.trace)
+    assert {well.ref.name for well in case.wells(("reaction",))} == {"A1", "B1"}
+    assert {str(well.ref) for well in case.wells(("master_mix",))} == {"source:C1"}
 
 
 def test_a_control_that_is_drawn_from_still_needs_its_master_mix() -> None:
