@@ -177,7 +177,6 @@ class Carry(Check):
             began = f"The tip that touched {where}, which holds {held} {origin.ref.name},"
         message = f"{began} entered the {case.title(well)} {place(well)} {at(visit.line)}."
         contact = min(met.contact(visit.index), visit.contact)
-        practice = self._practice(case, visit, origin, met)
         return Violation(
             message,
             (
@@ -185,10 +184,10 @@ class Carry(Check):
                 Site(visit.line, well.ref, f"entered the {case.title(well)}"),
             ),
             well,
-            (practice,) if practice else (visit.line, met.line, what),  # a habit is told once
+            (visit.line, met.line, what),
             (origin, well),
             contact=contact,
-            warning=practice,
+            warning=self._practice(case, visit, origin, met),
             # A liquid that stands in all wells may be meant to come along.
             in_any_assay=contact is Contact.WET and not case.is_one_liquid(origin),
         )

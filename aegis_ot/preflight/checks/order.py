@@ -75,7 +75,7 @@ class MixedAfter(Check):
                 f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
                 (Site(last.line, well.ref, f"received {what}, never mixed"),),
                 well,
-                (what,) if by_hand else (last.line, what),
+                (last.line, what),
                 warning=_BY_HAND if by_hand else "",
             )
 

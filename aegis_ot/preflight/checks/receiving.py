@@ -10,7 +10,7 @@ from ..evidence import Kind
 from ..rules import role_names
 from ..trace import EMPTY_UL, Transfer, Usage, Well
 from .case import Case, RoleSet
-from .check import Check, Doubt, Result, Violation, at, place
+from .check import Check, Doubt, Result, Violation, at, microlitres, place
 
 
 def received(case: Case, well: Well, liquid: RoleSet) -> tuple[float, int | None]:
@@ -80,7 +80,7 @@ def _never_received(
     """A well without a liquid that others are ``given``: at which line, whence, what it was."""
     total, line = filled(well)
     message = f"The {case.title(well)} {place(well)} never receives {title}" + (
-        f", though it receives {total:.4g} µL {at(line)}." if total > 0 else "."
+        f", though it receives {microlitres(total)} {at(line)}." if total > 0 else "."
     )
     lacking = Site(line or _last_line(case, well), well.ref, f"receives no {title}")
     if given is None:
@@ -260,7 +260,7 @@ def _given(case: Case, one: Transfer, origin: Well) -> Violation:
     what, title = case.title(origin), case.title(one.well)
     line = one.visit.line
     return Violation(
-        f"{one.visit.volume:.4g} µL drawn from {what} in {place(one.source)} {at(one.drawn)} "
+        f"{microlitres(one.visit.volume)} drawn from {what} in {place(one.source)} {at(one.drawn)} "
         f"are dispensed into the {title} {place(one.well)} {at(line)}.",
         (
             Site(one.drawn, one.source.ref, f"drew {what}"),

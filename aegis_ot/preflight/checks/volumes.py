@@ -136,16 +136,17 @@ def _fillings(source: Well, well: Well) -> int:
     blow-out ends what a dispense began.
     """
     most = times = 0
-    left = given = 0.0
-    for visit in well.visits:
-        if visit.kind is OperationKind.ASPIRATE and not visit.mixing:
+    left = given = well.declared or 0.0
+    for visit in (visit for visit in well.visits if not visit.mixing):
+        if visit.kind is OperationKind.ASPIRATE:
             left -= visit.volume
             if left < given / 2:
-                times, left, given = 0, 0.0, 0.0
-        elif visit.kind is OperationKind.DISPENSE and any(
-            o.source is source for o in visit.brought
-        ):
-            times, left, given = times + 1, left + visit.volume, given + visit.volume
+                times, left = 0, max(left, 0.0)
+                given = left
+            continue
+        left, given = left + visit.volume, given + visit.volume
+        if visit.kind is OperationKind.DISPENSE and any(o.source is source for o in visit.brought):
+            times += 1
             most = max(most, times)
     return most
 

@@ -8,7 +8,7 @@ from ...vocabulary import WellRef
 from ..evidence import Kind
 from ..rules import RoleSpec
 from ..trace import Trace, Well, chains_of
-from .roles import Assignment, Roles
+from .roles import Roles
 
 _FEWEST_PAIRS = 3
 _SMALLEST_PLATE = 24
@@ -29,6 +29,7 @@ def derive(roles: Roles, trace: Trace) -> None:
     none. A source without a name is what the wells that it feeds are named for.
     """
     _unsay_by_use(roles, trace)
+    _unsay_ends(roles, trace)
     for name, spec in roles.family.roles.items():
         if spec.feeds:
             _derive_source(roles, name, spec, trace)
@@ -64,6 +65,24 @@ def _unsay_by_use(roles: Roles, trace: Trace) -> None:
         for_all = 2 * len(into - controls) > len(fed - controls)
         if not controls.isdisjoint(into) and (alone or for_all):
             del roles.by_well[ref]
+
+
+def _unsay_ends(roles: Roles, trace: Trace) -> None:
+    """Forget a stock's name where a list is called for what goes into its wells, and so no less for
+    the one that is left out: ``mastermix_wells``.
+    """
+    ends: dict[str, list[Well]] = {}
+    for well in trace.wells.values():
+        assigned, used = roles.by_well.get(well.ref), trace.usage[well.ref]
+        if assigned is None or not used.received or used.first_drawn or used.feeds:
+            continue
+        if assigned.kind <= Kind.NAME and roles.family.roles[assigned.role].one_liquid:
+            ends.setdefault(assigned.text, []).append(well)
+    for wells in ends.values():
+        role = roles.by_well[wells[0].ref].role
+        if 2 * sum(_receives(roles, well, (role,), ()) for well in wells) > len(wells):
+            for well in wells:
+                roles.by_well.pop(well.ref, None)
 
 
 def _is_control(roles: Roles, ref: WellRef) -> bool:
@@ -128,7 +147,9 @@ def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> 
             continue
         assigned = roles.by_well.get(well.ref)
         unlike = assigned is not None and assigned.role not in roles.family.closure(name)
-        if assigned is not None and unlike and _is_settled(roles, well, assigned):
+        if assigned is not None and unlike and not assigned.whole:
+            continue
+        if unlike and _receives_what_it_is_named_for(roles, well):
             continue
         if _receives(roles, well, spec.receives, (name,)):
             if unlike:
@@ -136,16 +157,9 @@ def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> 
             roles.derive(well.ref, name)
 
 
-def _is_settled(roles: Roles, well: Well, assigned: Assignment) -> bool:
-    """Whether a well is what it is called, whatever it receives.
-
-    Not where a list is called for the stock that goes into its wells (``mastermix_wells``), nor
-    where only a labware's name speaks and the wells get nothing that would make them so.
-    """
-    spec = roles.family.roles[assigned.role]
-    if assigned.kind <= Kind.NAME and spec.one_liquid:
-        return not _receives(roles, well, (assigned.role,), ())
-    return not assigned.whole or not spec.receives or _receives(roles, well, spec.receives, ())
+def _receives_what_it_is_named_for(roles: Roles, well: Well) -> bool:
+    wanted = roles.family.roles[roles.by_well[well.ref].role].receives
+    return not wanted or _receives(roles, well, wanted, ())
 
 
 def _receives(roles: Roles, well: Well, wanted: Collection[str], made: Collection[str]) -> bool:

@@ -175,6 +175,8 @@ class _Builder:
             parts = tip.pop() if blown else tip.pop(step.volume)
             if well is not None:
                 self._give(step, tip, well, parts)
+            elif tip in self._last:
+                self._last[tip].air = 0.0  # air leaves first
         elif kind is OperationKind.TOUCH_TIP and well is not None and not well.empty:
             visit = self._visit(step, tip, well)
             contact = well.contact(step.from_top, step.from_bottom, step.from_liquid)
@@ -216,7 +218,8 @@ class _Builder:
         liquid, held = well.liquid(), well.volume
         least = well.least
         missing = well.draw(step.volume)
-        tip.unsure += missing if well.prefilled else max(step.volume - least, 0.0)
+        if well.known or not well.prefilled:
+            tip.unsure += max(step.volume - least, 0.0)
         visit.air = missing if well.declared is not None else 0.0
         if missing > _slack(step.volume):
             self._trace.imbalances.append(Imbalance(visit, False, step.volume, held))
