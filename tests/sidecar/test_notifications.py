@@ -19,7 +19,7 @@ from aegis_ot.errors import CameraError, ConfigurationError
 from aegis_ot.sidecar import SidecarConfig, create_app, running_sidecar
 from aegis_ot.sidecar.config import NotificationSettings
 from aegis_ot.sidecar.notices import Notice
-from aegis_ot.sidecar.notifications import Notifier
+from aegis_ot.sidecar.notifications import Message, Notifier
 
 from .helpers import Robot, StubAnalyser, StubCamera
 
@@ -158,6 +158,18 @@ def test_what_waits_of_one_kind_goes_into_one_message_and_no_verdict_waits(
             wells += 1 + int(more[1] if more else 0)
         assert len(titles) <= 3
         assert (wells, inbox.received.empty()) == (6, True)
+
+
+def test_one_message_for_all_that_waits_of_one_kind(inbox: Inbox) -> None:
+    inbox.gate.clear()
+    notifier = Notifier([SecretStr(inbox.url)], lambda ns: Message(f"{len(ns)} {ns[0].kind}", "-"))
+    notifier.send(Notice("run", "fail", "a well failed", "seen"))
+    assert inbox.reached.wait(20)
+    for kind in ("fail", "camera", "fail", "fail"):
+        notifier.send(Notice("run", kind, "more", "seen"))
+    inbox.gate.set()
+    assert [inbox.next()["title"] for _ in range(3)] == ["1 fail", "3 fail", "1 camera"]
+    notifier.close(20)
 
 
 def test_a_wrong_address_is_refused_at_start_and_not_shown(config: SidecarConfig) -> None:

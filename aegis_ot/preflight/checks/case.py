@@ -113,6 +113,13 @@ class Case:
             found.setdefault(one.source, {})[one.well] = one.visit.index
         return found
 
+    @cached_property
+    def fillings(self) -> Mapping[Well, Mapping[Well, int]]:
+        """For each well, how often it is given each source at most before most of what it holds is
+        drawn off: a wash is gone. A blow-out ends what a dispense began.
+        """
+        return {well: _fillings(well) for well in self.trace.wells.values()}
+
     @staticmethod
     def straight(source: Well, well: Well) -> list[Visit]:
         """The visits that brought liquid straight from one well into another, in order."""
@@ -185,6 +192,25 @@ class Case:
         served, also = (self.destinations.get(well, {}).keys() for well in (one, other))
         # A channel that runs dry may go half and half with the next one into one well.
         return len(served & also) <= 1 and not _drawing_lines(one).isdisjoint(_drawing_lines(other))
+
+
+def _fillings(well: Well) -> dict[Well, int]:
+    most: dict[Well, int] = {}
+    times: dict[Well, int] = {}
+    left = given = well.declared or 0.0
+    for visit in (visit for visit in well.visits if not visit.mixing):
+        if visit.kind is OperationKind.ASPIRATE:
+            left -= visit.volume
+            if left < given / 2:
+                times.clear()
+                left = given = max(left, 0.0)
+            continue
+        left, given = left + visit.volume, given + visit.volume
+        if visit.kind is OperationKind.DISPENSE:
+            for source in {one.source for one in visit.brought}:
+                times[source] = times.get(source, 0) + 1
+                most[source] = max(most.get(source, 0), times[source])
+    return most
 
 
 def _drawing_lines(well: Well) -> set[int | None]:

@@ -10,7 +10,7 @@ from ...vocabulary import Site
 from ..rules import at_least, role_names
 from ..trace import Well
 from .case import Case
-from .check import Check, Result, Violation, at, place
+from .check import Check, Result, Violation, at, microlitres, place
 from .receiving import came_from, filled, is_made_of, received
 
 Member = tuple[Well, float, float]
@@ -84,10 +84,11 @@ class UniformVolume(Check):
         )
         for well, got, total in members:
             if self._differs(got, usual_got):
-                what = f"receives {got:.4g} µL of {title}; the others receive {usual_got:.4g} µL"
+                what = f"receives {microlitres(got)} of {title}; the others receive "
+                what += microlitres(usual_got)
                 line = received(case, well, self.liquid)[1]
             elif self._differs(total, usual_total) and few:
-                what = f"ends at {total:.4g} µL; the others end at {usual_total:.4g} µL"
+                what = f"ends at {microlitres(total)}; the others end at {microlitres(usual_total)}"
                 line = filled(well)[1]
             else:
                 continue

@@ -120,35 +120,16 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
 
 def _is_filled_again(case: Case, visit: Visit) -> bool:
     """Whether a well gets one liquid more often than most wells beside it, and keeps it."""
+    times = case.fillings
     for source in {one.source for one in visit.brought}:
         others = sorted(
-            _fillings(source, other)
+            times[other].get(source, 0)
             for other in case.destinations.get(source, ())
             if other is not visit.well and other.ref.labware == visit.well.ref.labware
         )
-        if others and _fillings(source, visit.well) > others[len(others) // 2]:
+        if others and times[visit.well].get(source, 0) > others[len(others) // 2]:
             return True
     return False
-
-
-def _fillings(source: Well, well: Well) -> int:
-    """How often a well is given a liquid at most before most of it is drawn off: a wash is gone. A
-    blow-out ends what a dispense began.
-    """
-    most = times = 0
-    left = given = well.declared or 0.0
-    for visit in (visit for visit in well.visits if not visit.mixing):
-        if visit.kind is OperationKind.ASPIRATE:
-            left -= visit.volume
-            if left < given / 2:
-                times, left = 0, max(left, 0.0)
-                given = left
-            continue
-        left, given = left + visit.volume, given + visit.volume
-        if visit.kind is OperationKind.DISPENSE and any(o.source is source for o in visit.brought):
-            times += 1
-            most = max(most, times)
-    return most
 
 
 def _violation(imbalance: Imbalance, warning: str, most: float) -> Violation:

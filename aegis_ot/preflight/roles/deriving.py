@@ -73,8 +73,8 @@ def _unsay_ends(roles: Roles, trace: Trace) -> None:
     """
     ends: dict[str, list[Well]] = {}
     for well in trace.wells.values():
-        assigned, used = roles.by_well.get(well.ref), trace.usage[well.ref]
-        if assigned is None or not used.received or used.first_drawn or used.feeds:
+        assigned = roles.by_well.get(well.ref)
+        if assigned is None or not trace.usage[well.ref].ends:
             continue
         if assigned.kind <= Kind.NAME and roles.family.roles[assigned.role].one_liquid:
             ends.setdefault(assigned.text, []).append(well)
@@ -142,8 +142,7 @@ def _derive_loaded(roles: Roles, name: str, kind: str, trace: Trace) -> None:
 def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
     """Wells that receive a liquid of ``spec.receives`` and pass nothing on."""
     for well in trace.wells.values():
-        used = trace.usage[well.ref]
-        if not used.received or used.first_drawn or used.drain or used.feeds:
+        if not trace.usage[well.ref].ends:
             continue
         assigned = roles.by_well.get(well.ref)
         unlike = assigned is not None and assigned.role not in roles.family.closure(name)

@@ -215,8 +215,7 @@ class _Builder:
         tip.touch(well, step.line, self._index)
         if step.from_bottom is not None:
             self._heights[tip] = (well, step.from_bottom)
-        liquid, held = well.liquid(), well.volume
-        least = well.least
+        liquid, held, least = well.liquid(), well.volume, well.least
         missing = well.draw(step.volume)
         if well.known or not well.prefilled:
             tip.unsure += max(step.volume - least, 0.0)

@@ -48,6 +48,11 @@ class Usage:
     drain: bool = False
 
     @property
+    def ends(self) -> bool:
+        """Whether a well is given liquid, passes none on, and is no drain."""
+        return self.received and not (self.first_drawn or self.drain or self.feeds)
+
+    @property
     def side(self) -> str:
         """``source``, ``destination`` or ``""``."""
         return "source" if self.first_drawn else "destination" if self.received else ""
