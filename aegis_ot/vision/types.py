@@ -73,6 +73,10 @@ class Ends:
     orifices: tuple[End, ...] = ()
 
 
+Axis = tuple[tuple[float, float], tuple[float, float]]
+"""Collar and orifice of a tip, px."""
+
+
 @runtime_checkable
 class RowDetector(Protocol):
     """A detector that shows several tips beside each other."""
@@ -82,6 +86,12 @@ class RowDetector(Protocol):
 
     def ends(self, image: Image, tip: TipDetection, reach: float) -> Ends:
         """The ends of the tips that stand up to ``reach`` px beside ``tip``."""
+
+    def ends_of_length(self, image: Image, length: float) -> Ends:
+        """All in the frame that looks like an end of a tip of about ``length`` px."""
+
+    def ends_of_each(self, image: Image, axes: Sequence[Axis]) -> list[Ends]:
+        """What looks like an end in a close-up of each place where a tip may hang."""
 
 
 @dataclass(frozen=True)

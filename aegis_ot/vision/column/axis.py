@@ -40,19 +40,19 @@ def rectify(
     """
     collar = np.array(detection.collar, dtype=np.float64)
     orifice = np.array(detection.orifice, dtype=np.float64)
-    collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
+    collar, orifice, clarity = onto_outline(image, collar, orifice, shape)
     shift = _nozzle_shift(image, collar, orifice, shape, _NARROW, 4.0)
     if shift is None and detection.confidence < _SURE:
         strayed = _nozzle_shift(image, collar, orifice, shape, _WIDE, 8.0)
         if strayed is not None:
             along = orifice - collar
             collar, orifice = collar + along * strayed, orifice + along * strayed
-            collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
+            collar, orifice, clarity = onto_outline(image, collar, orifice, shape)
             shift = _nozzle_shift(image, collar, orifice, shape, _NARROW, 4.0)
     collar = collar + (orifice - collar) * (shift or 0.0)
     if length is not None:
         collar, orifice = _of_length(image, collar, orifice, shape, length)
-        collar, orifice, clarity = _onto_outline(image, collar, orifice, shape)
+        collar, orifice, clarity = onto_outline(image, collar, orifice, shape)
     orifice = orifice + (orifice - collar) * _orifice_shift(image, collar, orifice, shape)
     pixels, u, v = resample(image, collar, orifice, shape.rows, shape.half_width)
     return Strip(
@@ -81,7 +81,7 @@ def _of_length(
     return choices[best][0] + step, choices[best][1] + step
 
 
-def _onto_outline(
+def onto_outline(
     image: Image,
     collar: Point,
     orifice: Point,

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from ...errors import ModelError
-from ..types import End, Ends, Image, TipDetection
-from .decode import COLLAR, ORIFICE, Candidate, candidates, peaks
+from ..types import Axis, End, Ends, Image, TipDetection
+from .decode import COLLAR, ORIFICE, Candidate, Maps, candidates, peaks
 from .session import check_image, open_session
-from .views import CLOSE_UP_TOP, View, close_up, overview, row_view
+from .views import CLOSE_UP_TIP, CLOSE_UP_TOP, View, close_up, overview, row_view
 
 FORMAT = "aegis-ot-tip-detector/1"
 _WEIGHTS = "tip_detector.onnx"
@@ -25,6 +27,7 @@ _LEAST_HEAT = 0.05  # of an end of one of several tips
 _RIVAL = 0.4
 _AIM = 5.0  # px of the close-up by which the first aim may be off
 _STRETCH = 0.05  # and the logarithm of its scale
+_MULTIPLE = 16  # px, of which both sides of a view are multiples
 
 
 def load_weights(path: str | Path | None = None) -> tuple[bytes, dict[str, Any]]:
@@ -135,15 +138,31 @@ class HeatmapDetector:
         For a row of tips: a close-up has one tip at its middle, and the vector of a tip's end
         goes astray where others stand near; the ends themselves are found apart.
         """
-        view = row_view(image, tip.collar, tip.orifice, reach)
-        maps = self._maps([view])[0]
+        return self._ends_in([row_view(image, tip.collar, tip.orifice, reach)])[0]
 
-        def found(kind: int) -> tuple[End, ...]:
+    def ends_of_length(self, image: Image, length: float) -> Ends:
+        """All in the frame that looks like an end of a tip of about ``length`` px."""
+        return self._ends_in([_whole(image, CLOSE_UP_TIP / length)])[0]
+
+    def ends_of_each(self, image: Image, axes: Sequence[Axis]) -> list[Ends]:
+        """What looks like an end in a close-up of each place: seen as single tips are.
+
+        Args:
+            image: BGR, ``uint8``, shape ``(height, width, 3)``.
+            axes: Where a tip may hang, collar and orifice, px.
+        """
+        return self._ends_in([close_up(image, collar, orifice) for collar, orifice in axes])
+
+    def _ends_in(self, views: list[View]) -> list[Ends]:
+        def found(view: View, maps: Maps, kind: int) -> tuple[End, ...]:
             return tuple(
                 End(*view.to_frame(x, y), heat) for x, y, heat in peaks(maps, kind, _LEAST_HEAT)
             )
 
-        return Ends(found(COLLAR), found(ORIFICE))
+        return [
+            Ends(found(view, maps, COLLAR), found(view, maps, ORIFICE))
+            for view, maps in zip(views, self._maps(views), strict=True)
+        ]
 
     def _again(self, image: Image, found: Candidate, view: View) -> tuple[Candidate, View] | None:
         """A second close-up, aimed with the first one, where the first was aimed badly."""
@@ -160,6 +179,16 @@ class HeatmapDetector:
         batch = np.stack([view.image for view in views])
         maps: NDArray[np.float32] = self._session.run(None, {"image": batch})[0]
         return maps
+
+
+def _whole(image: Image, scale: float) -> View:
+    """The whole frame at a scale, padded with black on the right and below."""
+    rows, columns = image.shape[:2]
+    w, h = max(2, round(columns * scale)), max(2, round(rows * scale))
+    mode = cv2.INTER_AREA if scale < 1 else cv2.INTER_LINEAR
+    canvas = np.zeros((-(-h // _MULTIPLE) * _MULTIPLE, -(-w // _MULTIPLE) * _MULTIPLE, 3), np.uint8)
+    canvas[:h, :w] = cv2.resize(image, (w, h), interpolation=mode)
+    return View(canvas, w / columns, h / rows, 0.0, 0.0)
 
 
 def _confidence(close_up_score: float, overview_score: float) -> float:

@@ -42,6 +42,14 @@ The network has learned from tips of many makes: below the end that it sees it m
 warmer one, where that of a longer make would be.
 """
 
+_SAME_STEP = 0.01, 0.003
+"""By how much the steps of the two ends differ in x and in y, before the taper, tip lengths: where
+the camera looks up or down it sees the lower ends at another scale. It keeps a few misplaced ends
+from reading as a row seen at an angle: the tips would not get shorter."""
+
+_LEANS = 0.2
+"""How much farther than upright, or than square to their row, tips surely lean, steps."""
+
 _HOLES = 3
 """Most tips beside each other that may be missing within a row."""
 
@@ -66,6 +74,15 @@ class Row:
     taper: float
     heats: dict[int, float]
     places: dict[int, Floats]
+
+    def moved(self, by: Sequence[float]) -> Row:
+        """The row with its ends elsewhere: by so much in its middle, at every depth alike, px.
+
+        What is nearer is larger: a place ``p / (1 + c·i)`` moves by as much more.
+        """
+        step = np.asarray(by, float) * (1 + (self.span - 1) / 2 * self.taper)
+        places = {i: place + step / (1 + i * self.taper) for i, place in self.places.items()}
+        return replace(self, start=self.start + step, places=places)
 
     @property
     def span(self) -> int:
@@ -94,11 +111,35 @@ class Row:
         return float(min(abs(self.ends(number + way)[0] - here) for way in (-1, 1)))
 
     @property
+    def lean(self) -> tuple[float, float]:
+        """Orifice beside collar in the middle of the row, and where it would be if the tips hung
+        square to their row, tip lengths."""
+        middle = (self.span - 1) / 2
+        collar_x, _, orifice_x, _ = self.ends(middle)
+        step = self.ends(middle + 0.5) - self.ends(middle - 0.5)
+        slope = float(np.clip(step[3] / (step[2] or np.inf), -1.0, 1.0))
+        return float(orifice_x - collar_x) / self.length(middle), -slope
+
+    @property
     def step_lengths(self) -> float:
         """Distance from tip to tip in the middle of the row, tip lengths."""
         middle = (self.span - 1) / 2
         apart = abs(self.ends(middle + 0.5)[0] - self.ends(middle - 0.5)[0])
         return float(apart / self.length(middle))
+
+
+def upright(row: Row) -> Row | None:
+    """The row with its collars above its orifices; ``None`` if that is where they are.
+
+    Tips hang upright, or square to their row where the camera is turned. Between two tips the
+    network puts collars that are none, so what leans by half a step may do so for that.
+    """
+    lean, square = row.lean
+    half = _LEANS * row.step_lengths
+    if min(0.0, square) - half <= lean <= max(0.0, square) + half:
+        return None
+    aside = (lean - square / 2) * row.length((row.span - 1) / 2)
+    return row.moved((aside, 0.0, 0.0, 0.0))
 
 
 def find_row(ends: Ends, length: float, tip_mm: float, count: int) -> Row | None:
@@ -177,12 +218,12 @@ def _pairs(ends: Ends, length: float) -> Floats:
     for collar, orifice in pairs:
         if abs(orifice.x - collar.x - lean) <= 2 * _SAME_LEAN * length:
             below.setdefault(collar, []).append(orifice)
-    seen = {collar: _uppermost(orifices) for collar, orifices in below.items()}
+    seen = {collar: uppermost(orifices) for collar, orifices in below.items()}
     rows = [(c.x, c.y, o.x, o.y, _heat(c, o)) for c, o in seen.items()]
     return np.array(sorted(rows))
 
 
-def _uppermost(orifices: Sequence[End]) -> End:
+def uppermost(orifices: Sequence[End]) -> End:
     """Of lower ends below one another the one that is seen: see :data:`SEEN`."""
     warmest = max(orifice.heat for orifice in orifices)
     seen = (orifice for orifice in orifices if orifice.heat >= SEEN * warmest)
@@ -264,5 +305,11 @@ def _solve(
                 row[8] = -w * number * place
             rows.append(row)
             values.append(w * place * (1.0 + number * (taper or 0.0)))
+    length = float(np.median(np.hypot(*(places[:, 2:] - places[:, :2]).T)))
+    for column, same in zip((4, 5), _SAME_STEP, strict=True):
+        row, tie = np.zeros(9), 1 / max(same * length, 0.3)
+        row[column], row[column + 2] = -tie, tie
+        rows.append(row)
+        values.append(0.0)
     solved = np.linalg.lstsq(np.array(rows), np.array(values), rcond=None)[0]
     return solved[:4], solved[4:8], float(solved[8]) if taper is None else taper

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
@@ -18,6 +18,12 @@ _STEP_COST = 0.1
 where two ways to number the same tips explain as much."""
 
 
+_SHARED = 0.6
+"""Two lines that share this many of their ends are one."""
+
+_ENDS = 40
+"""The warmest ends of a view; a row is among these."""
+
 _ABOVE = 0.04, 0.25
 """How far above a lower end another one may stand that is seen instead, tip lengths."""
 
@@ -26,7 +32,12 @@ _LEVEL = 0.04
 
 
 def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Row | None:
-    """A row that is seen squarely, by its lower ends alone: collars before a dark head are faint.
+    """The likeliest of :func:`rows_by_orifices`; ``None`` without two ends in line."""
+    return next(iter(rows_by_orifices(ends, length, tip_mm, count, 1)), None)
+
+
+def rows_by_orifices(ends: Ends, length: float, tip_mm: float, count: int, most: int) -> list[Row]:
+    """Rows that are seen squarely, by their lower ends alone: collars before a dark head are faint.
 
     Nozzles stand 9 mm apart, which gives the scale, and with it the length of the tips. An end
     counts from the heat that a whole tip needs: strays of that heat seldom stand in line.
@@ -36,25 +47,44 @@ def find_by_orifices(ends: Ends, length: float, tip_mm: float, count: int) -> Ro
         length: Of a tip, px, about: from 0.6 to 3.2 times it is tried.
         tip_mm: Of a tip, mm.
         count: Tips that there should be.
+        most: Rows that are wanted.
+
+    Returns:
+        The likeliest first; no two that share most of their tips.
     """
-    sure = [o for o in ends.orifices if o.heat >= LEAST_HEAT]
-    tips = np.array(sorted((o.x, o.y, o.x, o.y, o.heat) for o in sure)).reshape(-1, 5)
-    best: tuple[float, dict[int, int]] = 0.0, {}
+    sure = sorted((o for o in ends.orifices if o.heat >= LEAST_HEAT), key=lambda o: -o.heat)
+    tips = np.array(sorted((o.x, o.y, o.x, o.y, o.heat) for o in sure[:_ENDS])).reshape(-1, 5)
+    lines: list[tuple[float, dict[int, int]]] = []
     for first, second in combinations(range(len(tips)), 2):
         for steps in range(1, count):
             step = (tips[second, :2] - tips[first, :2]) / steps
             if not _LONGEST[0] <= step[0] * tip_mm / PITCH_MM / length <= _LONGEST[1]:
                 continue
             line = _in_line(tips, first, step, count)
-            score = sum(tips[at, 4] for at in line.values()) - _STEP_COST * steps
-            if score > best[0]:
-                best = score, line
-    if len(best[1]) < 2:
-        return None
-    row = _raised(ends, fitted(tips, best[1]), length)
-    middle = (row.span - 1) / 2
-    step_px = abs(float((row.ends(middle + 0.5) - row.ends(middle - 0.5))[0]))
-    return _lifted(row, step_px * tip_mm / PITCH_MM, 0.0)
+            if len(line) > 1:
+                score = sum(tips[at, 4] for at in line.values()) - _STEP_COST * steps
+                lines.append((score, line))
+    lines.sort(key=lambda each: -each[0])
+    rows = []
+    for line in _unlike(lines, most):
+        row = _raised(ends, fitted(tips, line), length)
+        middle = (row.span - 1) / 2
+        step_px = abs(float((row.ends(middle + 0.5) - row.ends(middle - 0.5))[0]))
+        rows.append(row.moved((0.0, -step_px * tip_mm / PITCH_MM, 0.0, 0.0)))
+    return rows
+
+
+def _unlike(lines: Sequence[tuple[float, dict[int, int]]], most: int) -> list[dict[int, int]]:
+    """The first lines of which no two share most of their ends."""
+    kept: list[dict[int, int]] = []
+    for _, line in lines:
+        if len(kept) == most:
+            break
+        ends = set(line.values())
+        shared = (len(ends & set(one.values())) / min(len(ends), len(one)) for one in kept)
+        if all(share < _SHARED for share in shared):
+            kept.append(line)
+    return kept
 
 
 def _raised(ends: Ends, row: Row, length: float) -> Row:
@@ -76,17 +106,7 @@ def _raised(ends: Ends, row: Row, length: float) -> Row:
     alike = [rise for rise in rises if abs(rise - usual) <= _LEVEL * length]
     if 2 * len(alike) <= len(row.heats):
         return row
-    return _lifted(row, usual, usual)
-
-
-def _lifted(row: Row, collars: float, orifices: float) -> Row:
-    """The row with its collars and orifices so much higher, px in its middle.
-
-    What is nearer is larger: (p - up) / (1 + c·i) is higher by as much at that depth.
-    """
-    up = np.array([0.0, collars, 0.0, orifices]) * (1 + (row.span - 1) / 2 * row.taper)
-    places = {i: place - up / (1 + i * row.taper) for i, place in row.places.items()}
-    return replace(row, start=row.start - up, places=places)
+    return row.moved((0.0, -usual, 0.0, -usual))
 
 
 def _in_line(tips: Floats, first: int, step: Floats, count: int) -> dict[int, int]:

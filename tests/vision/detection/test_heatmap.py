@@ -165,3 +165,18 @@ def test_the_threshold_is_a_setting() -> None:
     image = frames(True, 1)[0][0]
     assert HeatmapDetector(threshold=1.01).detect(image) is None
     assert HeatmapDetector(threshold=0.0).detect(image) is not None
+
+
+def test_close_ups_and_the_whole_frame_show_the_ends_of_a_tip(detector: HeatmapDetector) -> None:
+    """Of what each view calls an end, the warmest is near the true one."""
+    near = []
+    for image, tip in frames(True, 10):
+        assert tip is not None
+        axis = tip.collar, tip.orifice
+        views = detector.ends_of_each(image, [axis, axis])
+        assert views[0] == views[1]
+        for ends in (views[0], detector.ends_of_length(image, tip.length)):
+            for found, true in ((ends.collars, tip.collar), (ends.orifices, tip.orifice)):
+                best = max(found, key=lambda end: end.heat)
+                near.append(np.hypot(best.x - true[0], best.y - true[1]) < 0.1 * tip.length)
+    assert np.mean(near) > 0.8

@@ -14,7 +14,7 @@ from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.monitor import RunMonitor
 from aegis_ot.vision.rows import ChannelAnalyser
 from aegis_ot.vision.rows.finder import channel_keyframe
-from aegis_ot.vision.types import End, Ends, Image, TipDetection
+from aegis_ot.vision.types import Axis, End, Ends, Image, TipDetection
 from aegis_ot.vocabulary import (
     ChannelOutcome,
     FailureType,
@@ -44,6 +44,12 @@ class Told:
             tuple(End(*tip.collar, 0.9) for tip in tips),
             tuple(End(*tip.orifice, 0.9) for tip in tips),
         )
+
+    def ends_of_length(self, image: Image, _length: float) -> Ends:
+        return self.ends(image, TipDetection(0, 0, 1, 1, 0.9, (0, 1), (0, 0)), 0.0)
+
+    def ends_of_each(self, image: Image, axes: Sequence[Axis]) -> list[Ends]:
+        return [self.ends_of_length(image, 1.0)] * len(axes)
 
 
 NONE_FOUND = "The pipette's pressure sensor found no liquid in {} before the aspirate"

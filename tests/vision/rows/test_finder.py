@@ -1,14 +1,16 @@
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+import cv2
 import numpy as np
 import pytest
 
 from aegis_ot.simulation import FrameTruth, SessionParameters, SimulatedCamera
 from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.rows.finder import RowFinder, SeenRow
-from aegis_ot.vision.types import FREE, End, Ends, Image, TipDetection
+from aegis_ot.vision.types import FREE, Axis, End, Ends, Image, TipDetection
 from aegis_ot.vocabulary import KeyframeKind
 
 from .frames import frames, keyframes, part_of
@@ -98,10 +100,11 @@ EMPTY = np.zeros((480, 640, 3), np.uint8)
 
 @dataclass
 class Drawn:
-    """Shows the ends that it is told to show, and guesses a tip of a length."""
+    """Shows the ends that it is told, others in close-ups, and guesses a tip of a length."""
 
     ends_of: Ends
     guessed: float = LENGTH
+    close: Ends | None = None
     reaches: list[float] = field(default_factory=list)
 
     def detect(self, image: Image) -> TipDetection | None:
@@ -116,6 +119,12 @@ class Drawn:
         self.reaches.append(reach)
         return self.ends_of
 
+    def ends_of_length(self, image: Image, length: float) -> Ends:
+        return self.ends_of
+
+    def ends_of_each(self, image: Image, axes: Sequence[Axis]) -> list[Ends]:
+        return [self.close or self.ends_of] * len(axes)
+
 
 def ends(lower: list[int], upper: list[int], y: float = 370.0) -> Ends:
     """Of the tips with these numbers."""
@@ -123,6 +132,9 @@ def ends(lower: list[int], upper: list[int], y: float = 370.0) -> Ends:
         collars=tuple(End(100.0 + STEP * n, y - LENGTH, 0.8) for n in upper),
         orifices=tuple(End(100.0 + STEP * n, y, 0.8) for n in lower),
     )
+
+
+ALL = list(range(8))
 
 
 def found(detector: Drawn) -> SeenRow:
@@ -135,17 +147,17 @@ def lengths(seen: SeenRow) -> list[float | None]:
 
 
 def test_lower_ends_alone_make_a_row() -> None:
-    assert found(Drawn(ends(list(range(8)), []))).whole
+    assert found(Drawn(ends(ALL, []), close=ends(ALL, ALL))).whole
 
 
 def test_the_row_s_own_steps_give_its_scale() -> None:
-    detector = Drawn(ends(list(range(8)), []), guessed=0.7 * LENGTH)
+    detector = Drawn(ends(ALL, []), guessed=0.7 * LENGTH, close=ends(ALL, ALL))
     assert lengths(found(detector)) == [pytest.approx(LENGTH, abs=2)] * 8
     assert detector.reaches[-1] == pytest.approx(detector.reaches[0] / 0.7, rel=0.02)
 
 
 def test_lower_ends_fill_in_for_upper_ones_that_are_faint() -> None:
-    seen = found(Drawn(ends(list(range(8)), [0, 1, 2, 3, 4])))
+    seen = found(Drawn(ends(ALL, [0, 1, 2, 3, 4]), close=ends(ALL, ALL)))
     assert [tip is not None for tip in seen.tips] == [True] * 8
 
 
@@ -160,12 +172,66 @@ def test_upper_ends_that_are_as_many_hold() -> None:
 def test_upper_ends_that_do_not_fit_the_nozzles_distance_are_mistaken(
     longer: float, length: float
 ) -> None:
-    both = ends(list(range(8)), list(range(8)))
-    upper = tuple(replace(end, y=370.0 - longer * LENGTH) for end in both.collars)
-    seen = found(Drawn(replace(both, collars=upper), guessed=longer * LENGTH))
+    upper = tuple(End(end.x, 370.0 - longer * LENGTH, 0.8) for end in ends([], ALL).collars)
+    close = Ends(tuple(replace(end, y=370.0 - length) for end in upper), ends(ALL, []).orifices)
+    seen = found(Drawn(replace(close, collars=upper), guessed=longer * LENGTH, close=close))
     assert lengths(seen) == [pytest.approx(length, abs=3)] * 8
 
 
 def test_half_a_row_of_lower_ends_is_none() -> None:
     seen = found(Drawn(ends([0, 1, 2, 3], [])))
     assert seen.tips == (None,) * 8
+
+
+def test_a_nozzle_that_a_close_up_shows_bare_has_no_tip() -> None:
+    some = [0, 1, 2, 4, 5, 6, 7]
+    seen = found(Drawn(ends(ALL, ALL), close=ends(some, some)))
+    assert [tip is not None for tip in seen.tips] == [n in some for n in range(8)]
+
+
+def test_a_row_is_found_elsewhere_than_where_a_tip_is_guessed() -> None:
+    nothing = Ends()
+
+    @dataclass
+    class Misled(Drawn):
+        def ends_of_length(self, image: Image, length: float) -> Ends:
+            return ends(ALL, [])
+
+    assert found(Misled(nothing, close=ends(ALL, ALL))).whole
+    assert found(Misled(nothing, close=nothing)).tips == (None,) * 8
+
+
+def test_the_whole_frame_is_searched_no_more_where_it_shows_no_row() -> None:
+    """From the front of an OT-2 a row is seen along: no frame of the run will show one."""
+    lengths: list[float] = []
+
+    @dataclass
+    class Counted(Drawn):
+        def ends_of_length(self, image: Image, length: float) -> Ends:
+            lengths.append(length)
+            return Ends()
+
+    keyframe = next(one for one in keyframes(1) if one.kind is KeyframeKind.TRANSIT)
+    finder = RowFinder(Counted(Ends()), keyframe, "left")
+    asked = []
+    for _ in range(6):
+        finder.find(EMPTY, keyframe)
+        asked.append(len(lengths))
+    assert asked[0] == 5  # scales
+    assert asked[3:] == [20, 20, 20]
+
+
+def test_collars_between_the_tips_are_none() -> None:
+    """Tips hang upright: drawn so, all collars half a step aside are told from the true ones."""
+    image = np.full((480, 640, 3), 90, np.uint8)
+    for n in ALL:
+        x = round(100 + STEP * n)
+        outline = [(x - 15, 106), (x + 15, 106), (x + 3, 370), (x - 3, 370)]
+        cv2.fillPoly(image, [np.array(outline)], (160, 160, 160))
+    aside = tuple(replace(end, x=end.x - STEP / 2) for end in ends([], ALL).collars)
+    detector = Drawn(Ends(aside, ends(ALL, []).orifices), close=ends(ALL, ALL))
+    keyframe = next(one for one in keyframes(1) if one.kind is KeyframeKind.TRANSIT)
+    seen = RowFinder(detector, keyframe, "left").find(image, keyframe)
+    assert [tip and round(tip.collar[0]) for tip in seen.tips] == [
+        pytest.approx(100 + STEP * n, abs=3) for n in ALL
+    ]

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aegis_ot.vision.rows.fit import Row, find_in_wells, find_row
+from aegis_ot.vision.rows.fit import Row, find_in_wells, find_row, fitted, upright
 from aegis_ot.vision.rows.hiding import HIDDEN, covered
 from aegis_ot.vision.rows.places import RowPlaces
 from aegis_ot.vision.tips import TIPS
@@ -54,6 +54,28 @@ def test_a_missing_tip_leaves_a_hole() -> None:
     assert row is not None
     assert sorted(row.heats) == [0, 1, 2, 4, 5, 6, 7]
     assert row.span == 8
+
+
+def test_misplaced_ends_do_not_read_as_a_row_seen_at_an_angle() -> None:
+    there = [0, 1, 2, 3, 4, 6]
+    seen = np.array([true_ends(n, 0.0) for n in there])
+    seen[4, [0, 2]] += 9.0, 14.0
+    seen[5, [0, 2]] += 9.0, 14.0
+    row = fitted(np.column_stack([seen, np.full(6, 0.5)]), {n: at for at, n in enumerate(there)})
+    assert abs(row.taper) < 0.009
+
+
+@pytest.mark.parametrize("roll", [-0.03, 0.0, 0.03])
+def test_collars_half_a_step_aside_are_put_above_their_orifices(roll: float) -> None:
+    seen = np.array([true_ends(n, 0.0) - [0, 0, 2, 0] for n in range(8)])
+    seen[:, [1, 3]] += roll * (seen[:, [0, 2]] - seen[0, 0])  # of the row, px down per px right
+    row = fitted(np.column_stack([seen, np.full(8, 0.5)]), {n: n for n in range(8)})
+    assert upright(row) is None
+    step = row.ends(1)[2] - row.ends(0)[2]
+    hung = upright(row.moved((step / 2, 0.0, 0.0, 0.0)))
+    assert hung is not None
+    assert abs(hung.lean[0]) < 0.04
+    assert hung.ends(3)[2:] == pytest.approx(row.ends(3)[2:])
 
 
 @pytest.mark.parametrize(("heat", "seen"), [(0.3, True), (0.1, False)])
