@@ -152,20 +152,17 @@ def _executed(protocol: Any, script: Script, limit: Limit) -> tuple[Any, Any]:
 
 
 def _declared(context: Any) -> dict[str, Parameter]:
-    found = (_parameter(item) for item in context.export_parameters_for_analysis())
-    return {parameter.name: parameter for parameter in found}
-
-
-def _parameter(declared: Any) -> Parameter:
-    choices = getattr(declared, "choices", None) or ()
-    return Parameter(
-        name=declared.variableName,
-        kind=str(declared.type),
-        default=getattr(declared, "default", None),
-        choices=tuple(choice.value for choice in choices),
-        low=getattr(declared, "min", None),
-        high=getattr(declared, "max", None),
-    )
+    return {
+        declared.variableName: Parameter(
+            name=declared.variableName,
+            kind=str(declared.type),
+            default=getattr(declared, "default", None),
+            choices=tuple(choice.value for choice in getattr(declared, "choices", None) or ()),
+            low=getattr(declared, "min", None),
+            high=getattr(declared, "max", None),
+        )
+        for declared in context.export_parameters_for_analysis()
+    }
 
 
 def _set_value(context: Any, parameter: Parameter, value: Any) -> None:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import functools
 import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import CodeType, FrameType, FunctionType, MethodType
@@ -36,7 +34,9 @@ class Script:
     data_files: Mapping[str, bytes] = field(default_factory=dict)
 
 
-_PLAYED: ContextVar[Script | None] = ContextVar("aegis_ot_played", default=None)
+_LOADERS = {"exec_run": ("proto", "new_globs"), "_perform": ("protocol", "namespace")}
+"""Opentrons' loader and the rehearsal's own: their local names for the ``PythonProtocol`` that
+they execute, and for its globals."""
 
 
 def find_home(run: Any) -> tuple[str, Mapping[str, Any]]:
@@ -51,11 +51,9 @@ def find_home(run: Any) -> tuple[str, Mapping[str, Any]]:
     Returns:
         ``co_filename`` of the protocol's code, and its globals.
     """
-    loader = _loader(sys._getframe(1))
-    if loader is not None:
-        code, namespace = loader["proto"].contents, loader.get("new_globs")
-        if isinstance(code, CodeType) and isinstance(namespace, dict):
-            return code.co_filename, namespace
+    loaded, namespace = _loaded(sys._getframe(1))
+    if loaded is not None and isinstance(loaded.contents, CodeType) and isinstance(namespace, dict):
+        return loaded.contents.co_filename, namespace
     if isinstance(run, FrameType):
         return run.f_code.co_filename, run.f_globals
     function = _function_behind(run)
@@ -78,16 +76,6 @@ def _function_behind(run: Any) -> FunctionType | None:
     return None
 
 
-@contextmanager
-def being_played(script: Script) -> Iterator[None]:
-    """Let :func:`find_script` find ``script``: no loader of Opentrons' is on the stack."""
-    token = _PLAYED.set(script)
-    try:
-        yield
-    finally:
-        _PLAYED.reset(token)
-
-
 def find_script(file_name: str, protocol: Any) -> Script | None:
     """The script that is running right now, or ``None`` where its text cannot be had.
 
@@ -99,12 +87,8 @@ def find_script(file_name: str, protocol: Any) -> Script | None:
         file_name: ``co_filename`` of the protocol's code.
         protocol: The live ``ProtocolContext``; its custom labware is taken along.
     """
-    played = _PLAYED.get()
-    if played is not None and played.file_name == file_name:
-        return played
-    loader = _loader(sys._getframe(1))
-    if loader is not None:
-        loaded = loader["proto"]
+    loaded, _ = _loaded(sys._getframe(1))
+    if loaded is not None:
         text = loaded.text
         return Script(
             text=text.decode("utf-8", "replace") if isinstance(text, bytes) else text,
@@ -119,16 +103,16 @@ def find_script(file_name: str, protocol: Any) -> Script | None:
     return Script(text=text, file_name=file_name, extra_labware=_custom_labware(protocol))
 
 
-def _loader(frame: FrameType | None) -> Mapping[str, Any] | None:
-    """Local names of Opentrons' loader on this stack: its ``PythonProtocol`` is ``proto``."""
+def _loaded(frame: FrameType | None) -> tuple[Any, Any]:
+    """The ``PythonProtocol`` that a loader on this stack executes, and its globals."""
     while frame is not None:
-        if frame.f_code.co_name == "exec_run":
-            names = frame.f_locals
-            proto = names.get("proto")
-            if hasattr(proto, "text") and hasattr(proto, "contents"):
-                return names
+        if frame.f_code.co_name in _LOADERS:
+            protocol, namespace = _LOADERS[frame.f_code.co_name]
+            loaded = frame.f_locals.get(protocol)
+            if hasattr(loaded, "text") and hasattr(loaded, "contents"):
+                return loaded, frame.f_locals.get(namespace)
         frame = frame.f_back
-    return None
+    return None, None
 
 
 def _custom_labware(protocol: Any) -> dict[str, Any]:

@@ -40,26 +40,23 @@ def simulated_context(
     with ExitStack() as stack:
         hardware = _hardware_simulator(robot_type)
         stack.callback(hardware.clean_up)
-        engine_parts: dict[str, Any] = {}
-        if api_level >= ENGINE_CORE_API_VERSION:
+        is_legacy = api_level < ENGINE_CORE_API_VERSION
+        if is_legacy:
+            core_parts = {"use_simulating_core": True, "extra_labware": dict(extra_labware or {})}
+        else:
             engine, loop = stack.enter_context(
                 _engine(hardware, robot_type, deck_type, api_level, extra_labware or {})
             )
-            engine_parts = {"protocol_engine": engine, "protocol_engine_loop": loop}
-        else:
-            engine_parts = {
-                "use_simulating_core": True,
-                "extra_labware": dict(extra_labware or {}),
-            }
+            core_parts = {"protocol_engine": engine, "protocol_engine_loop": loop}
         context = create_protocol_context(
             api_version=api_level,
             hardware_api=hardware,
             deck_type=deck_type,
             bundled_data=dict(bundled_data or {}),
-            **engine_parts,
+            **core_parts,
         )
         stack.callback(context.cleanup)
-        if not engine_parts.get("protocol_engine"):
+        if is_legacy:
             _lend_modules(context._core, hardware)
         # Both have to be homed for some commands to work; see opentrons.simulate.
         hardware.sync.home()
