@@ -7,6 +7,7 @@ half ball below, as the shape of the bottom goes.
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Mapping
 from enum import IntEnum
@@ -53,7 +54,7 @@ class Geometry:
     def __init__(self, info: WellInfo) -> None:
         self.depth = info.depth
         self._sections = info.sections or _assumed(info)
-        self._known: dict[float, float] = {}
+        self._reckon = functools.cache(self._reckoned)
         self._scale = 1.0
         inside = self._reckon(info.depth)
         if info.sections:
@@ -65,11 +66,7 @@ class Geometry:
 
     def volume_below(self, height: float) -> float:
         """µL that stand in the well when it is filled up to ``height`` mm above its bottom."""
-        height = min(round(height, 2), self.depth)
-        volume = self._known.get(height)
-        if volume is None:
-            volume = self._known[height] = self._reckon(height)
-        return volume
+        return self._scale * self._reckon(min(round(height, 2), self.depth))
 
     def is_high(self, height: float) -> bool:
         """Whether a height above the bottom is in the upper third, where no liquid is expected."""
@@ -90,8 +87,8 @@ class Geometry:
         clear = volume <= clear_of and (most <= clear_of or self.is_high(height))
         return Contact.CLEAR if clear else Contact.NEAR
 
-    def _reckon(self, height: float) -> float:
-        return self._scale * sum(_filled(section, height) for section in self._sections)
+    def _reckoned(self, height: float) -> float:
+        return sum(_filled(section, height) for section in self._sections)
 
 
 def _filled(section: Mapping[str, Any], height: float) -> float:

@@ -67,12 +67,11 @@ class Well:
     most: float = math.inf
     unsure: float = 0.0
     fallen: float = 0.0
-    pure: Composition = field(init=False)
     last: Composition = field(init=False)
 
     def __post_init__(self) -> None:
         self.most = self.capacity
-        self.pure = self.last = {self: 1.0}
+        self.last = {self: 1.0}
 
     def __repr__(self) -> str:
         return f"<{self.ref.address}{'*' * self.generation}>"
@@ -120,13 +119,10 @@ class Well:
 
     def liquid(self) -> Composition:
         """What a tip would draw now."""
-        contents = self.contents
-        if len(contents) == 1:
-            return next(iter(contents)).pure
-        total = sum(contents.values())
+        total = sum(self.contents.values())
         if total <= 0:
             return self.last
-        return {origin: volume / total for origin, volume in contents.items()}
+        return {origin: volume / total for origin, volume in self.contents.items()}
 
     def draw(self, volume: float) -> float:
         """Take liquid out; returns how much of it the well did not hold (0 if unknown)."""

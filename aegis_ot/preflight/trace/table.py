@@ -12,7 +12,7 @@ its marks likewise; ``touch`` the wall.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import TypeVar
 
@@ -157,29 +157,24 @@ def _told(same: Sequence[_Session], wells: Told) -> str:
 def _row(same: Sequence[_Row], wells: Told) -> str:
     """Rows of one word, told together."""
     line = f"L{same[0].line} " if same[0].line is not None else ""
-    volumes = sorted(row.volume for row in same)
-    volume = f" {volumes[-1]:.4g}" if volumes[-1] else ""
-    if f" {volumes[0]:.4g}" != volume and volumes[-1]:
-        volume = f" {volumes[0]:.4g}-{volumes[-1]:.4g}"
+    most = max(row.volume for row in same)
+    low, high = (f"{volume:.4g}" for volume in (min(row.volume for row in same), most))
+    volume = f" {high if low == high else f'{low}-{high}'}" if most else ""
     return f"{line}{same[0].word}{volume} {wells([w for row in same for w in row.wells])}"
 
 
 def _summed(sessions: Sequence[_Session], by_line: bool) -> str:
     """Several tip sessions in one line: what they did, each thing once with its wells."""
     rows: dict[Hashable, list[_Row]] = {}
-    for session in sessions:
-        for row in session.rows:
-            rows.setdefault((row.word, row.line if by_line else None), []).append(row)
-    if by_line:
-        told = [_row(same, _in_short) for same in rows.values()]
-    else:
-        lines = [row.line for session in sessions for row in session.rows if row.line]
-        told = [f"lines {min(lines, default=0)}-{max(lines, default=0)}"]
-        told += [
-            _row([_Row(r.word, r.volume, None, r.wells) for r in same], _in_short)
-            for same in rows.values()
-        ]
-    return f"{_tips(sessions)}: " + "; ".join(told)
+    every = [row for session in sessions for row in session.rows]
+    for row in every:
+        line = row.line if by_line else None
+        rows.setdefault((row.word, line), []).append(replace(row, line=line))
+    told = [_row(same, _in_short) for same in rows.values()]
+    if not by_line:
+        lines = [row.line for row in every if row.line]
+        told.insert(0, f"lines {min(lines, default=0)}-{max(lines, default=0)}")
+    return f"{_tips(sessions)}: {'; '.join(told)}"
 
 
 def _tips(sessions: Sequence[_Session]) -> str:

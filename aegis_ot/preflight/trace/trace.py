@@ -205,23 +205,18 @@ def chains_of(links: Sequence[Transfer]) -> list[list[Transfer]]:
     for link in links:
         feeds.setdefault(link.source, set()).add(link.well)
         fed.setdefault(link.well, set()).add(link.source)
-    parent: dict[Well, Well] = {}
-
-    def root(well: Well) -> Well:
-        parent.setdefault(well, well)
-        while parent[well] is not well:
-            parent[well] = parent[parent[well]]
-            well = parent[well]
-        return well
-
     kept = [
         link
         for link in links
         if len(fed[link.well]) <= 2 and (len(feeds[link.source]) <= 2 or not link.source.prefilled)
     ]
+    chains: dict[Well, list[Well]] = {}
     for link in kept:
-        parent[root(link.source)] = root(link.well)
-    groups: dict[Well, list[Transfer]] = {}
+        one, other = (chains.setdefault(well, [well]) for well in (link.source, link.well))
+        if one is not other:
+            one += other
+            chains.update(dict.fromkeys(other, one))
+    groups: dict[int, list[Transfer]] = {}
     for link in kept:
-        groups.setdefault(root(link.source), []).append(link)
+        groups.setdefault(id(chains[link.source]), []).append(link)
     return list(groups.values())
