@@ -77,11 +77,11 @@ class Deck:
         """Whether these are all wells of some columns, or of some rows, of a labware."""
         names = {ref.name for ref in wells}
         every = self.trace.labware[labware].wells
-        lines = [{row_column(name)[axis] for name in names} for axis in (0, 1)]
-        return any(
-            names == {name for name in every if row_column(name)[axis] in lines[axis]}
-            for axis in (0, 1)
-        )
+        for axis in (0, 1):
+            lines = {row_column(name)[axis] for name in names}
+            if names == {name for name in every if row_column(name)[axis] in lines}:
+                return True
+        return False
 
     def plates(self) -> list[LabwareInfo]:
         """Labware that holds liquid."""

@@ -80,7 +80,7 @@ def labels(deck: Deck) -> Iterator[Evidence]:
             continue
         entries = entries_of(info.label, info)
         citation = f"label '{info.label}'"
-        for names, said in entries or ():
+        for names, said in entries:
             yield Evidence(Kind.NAME, said, deck.refs((info.key,), names), citation)
         if not entries:
             apart = deck.refs((info.key,), _WELL.findall(info.label))  # "DNA (H2 = water)"

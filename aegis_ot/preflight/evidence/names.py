@@ -22,16 +22,12 @@ def named_wells(
     keyed = levels_of_keys(names)
     lists = _lists_of_levels(names, common)
     for binding in names:
-        base = binding.name.split("[", 1)[0]
         if not (binding.wells or binding.labware):
             continue
-        passing = (binding.function, base) in facts.parameters
-        if (binding.function, base) in facts.varying:
-            if _is_one_of_many(binding, names):
-                continue  # the list that it runs over says as much of all its wells
-            passing = True
-        passing = passing or (binding.function, base) in facts.rebound
-        line = facts.assigned.get(base.rpartition(".")[2], binding.line)
+        place = (binding.function, base_of(binding))
+        if place in facts.varying and _is_one_of_many(binding, names):
+            continue  # the list that it runs over says as much of all its wells
+        line = line_of(binding, facts)
         wells = deck.meant(binding.wells) or deck.used_wells(binding.labware)
         level = keyed.get(binding.name)
         text = binding.name
@@ -42,7 +38,7 @@ def named_wells(
         elif binding.wells and len(wells) > 1:
             levels = _listed_beside(binding, lists)
         yield Evidence(
-            Kind.PASSING_NAME if passing else Kind.NAME,
+            Kind.PASSING_NAME if place in facts.passing else Kind.NAME,
             text,
             wells,
             f"name `{binding.name}` at line {line}",
@@ -52,12 +48,22 @@ def named_wells(
         )
 
 
+def base_of(binding: NameBinding) -> str:
+    """``layout`` of ``layout["ntc"]``."""
+    return binding.name.split("[", 1)[0]
+
+
+def line_of(binding: NameBinding, facts: SourceFacts) -> int:
+    """Where the name, or the field of this name, is first given a value."""
+    return facts.assigned.get(base_of(binding).rpartition(".")[2], binding.line)
+
+
 def fields_of_rows(names: Sequence[NameBinding], facts: SourceFacts) -> Iterator[Evidence]:
     """What the columns are called that hold wells, for all rows of a list together:
     ``[{"sample": tube, "vehicle": trough}, ...]``; a loop over it leaves the last row only.
     """
     for binding in names:
-        base = binding.name.split("[", 1)[0]
+        base = base_of(binding)
         if len(binding.rows) < 2 or (binding.function, base) in facts.varying:
             continue
         held: dict[str, dict[WellRef, None]] = {}
@@ -65,7 +71,7 @@ def fields_of_rows(names: Sequence[NameBinding], facts: SourceFacts) -> Iterator
             for column, cell in row.cells:
                 if isinstance(cell, WellRef) and column and not column.isdigit():
                     held.setdefault(column, {})[cell] = None
-        line = facts.assigned.get(base, binding.line)
+        line = line_of(binding, facts)
         for column, wells in held.items():
             yield Evidence(
                 Kind.NAME,

@@ -14,7 +14,7 @@ from ..rules import Common
 from ..source import Index, SourceFacts, level_in, lexicon_of
 from .deck import Deck
 from .evidence import Evidence, Kind
-from .names import NUMBERED, levels_of_keys
+from .names import NUMBERED, base_of, levels_of_keys, line_of
 
 
 def plate_maps(
@@ -26,10 +26,10 @@ def plate_maps(
     for binding in names:
         if not (binding.spots or binding.rows):
             continue
-        base = binding.name.split("[", 1)[0]
+        base = base_of(binding)
         if (binding.function, base) in facts.varying or binding.name == "metadata":
             continue
-        line = facts.assigned.get(base.rpartition(".")[2], binding.line)
+        line = line_of(binding, facts)
         uses = facts.flow.indexed_with.get(base.rpartition(".")[2], [])
         found = by_map.setdefault(base, [])
         if binding.spots and uses:

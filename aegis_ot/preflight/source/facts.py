@@ -40,8 +40,8 @@ class SourceFacts:
         strings: Every other string of the text, with its line.
         assigned: Line of the first assignment of each name.
         varying: Names that are loop variables, as ``(function, name)``.
-        rebound: Names that loops bind anew in each turn, these among them.
-        parameters: Names that are parameters of functions, as ``(function, name)``.
+        passing: Names that hold many things in turn: parameters of functions, and what loops bind
+            anew in each turn, their variables among them.
         tree: The parsed text, empty where it is none.
         nodes: All its nodes by kind.
         flow: Which names the values of a name come from, and which labware they index.
@@ -55,8 +55,7 @@ class SourceFacts:
     strings: list[tuple[int, str]] = field(default_factory=list)
     assigned: dict[str, int] = field(default_factory=dict)
     varying: set[tuple[str, str]] = field(default_factory=set)
-    rebound: set[tuple[str, str]] = field(default_factory=set)
-    parameters: set[tuple[str, str]] = field(default_factory=set)
+    passing: set[tuple[str, str]] = field(default_factory=set)
     tree: ast.Module = field(default_factory=lambda: ast.Module([], []), repr=False)
 
     @cached_property
@@ -144,13 +143,13 @@ def _read_scopes(facts: SourceFacts) -> None:
     for function in facts.nodes.of(*FUNCTIONS):
         given = function.args
         for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs):
-            facts.parameters.add((name_of(function), argument.arg))
+            facts.passing.add((name_of(function), argument.arg))
     for loop, inside, _ in facts.nodes.placed(*LOOPS):
         targets = (node for node in ast.walk(loop.target) if isinstance(node, ast.Name))
         facts.varying |= {(inside, target.id) for target in targets}
     for name, _, looping in facts.nodes.placed(ast.Name):
         if looping and isinstance(name.ctx, ast.Store):
-            facts.rebound |= {(outer, name.id) for outer in looping}
+            facts.passing |= {(outer, name.id) for outer in looping}
 
 
 def source_lines(text: str) -> list[str]:

@@ -65,6 +65,7 @@ def _same(here: tuple[str, ...], parts: tuple[str, ...]) -> bool:
 
 
 _MOST_TEXTS = 4096
+"""A lexicon outlives a protocol."""
 
 
 class Lexicon:
@@ -90,16 +91,11 @@ class Lexicon:
                     self._by_first.setdefault(parts[0], []).append((parts, topic, phrase))
         for entries in self._by_first.values():
             entries.sort(key=lambda entry: -len(entry[0]))
-        self._cache: dict[str, tuple[Match, ...]] = {}
+        self._found = functools.lru_cache(maxsize=_MOST_TEXTS)(self._search)
 
     def find(self, text: str) -> tuple[Match, ...]:
         """All phrases in ``text``, none overlapping a longer one, in order."""
-        found = self._cache.get(text)
-        if found is None:
-            if len(self._cache) > _MOST_TEXTS:  # it outlives a protocol
-                self._cache.clear()
-            found = self._cache[text] = tuple(self._search(self.words(text)))
-        return found
+        return self._found(text)
 
     def words(self, text: str) -> tuple[str, ...]:
         """The words of a text that matches count: abbreviations spelled out."""
@@ -113,10 +109,10 @@ class Lexicon:
         return word if tokens(word)[0] in self._by_first else written.group()
 
     def _full(self, words: tuple[str, ...]) -> tuple[str, ...]:
-        aliases = self._aliases
-        return tuple(aliases.get(word, word) for word in words) if aliases else words
+        return tuple(self._aliases.get(word, word) for word in words)
 
-    def _search(self, words: tuple[str, ...]) -> list[Match]:
+    def _search(self, text: str) -> tuple[Match, ...]:
+        words = self.words(text)
         found: list[Match] = []
         at = 0
         while at < len(words):
@@ -129,7 +125,7 @@ class Lexicon:
                     length = len(parts)
                     found.append(Match(topic, phrase, at, at + length))
             at += length or 1
-        return found
+        return tuple(found)
 
 
 def lexicon_of(

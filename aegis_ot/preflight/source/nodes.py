@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import ast
-import functools
 from collections import defaultdict
 from collections.abc import Iterator
-from typing import Any, TypeVar
+from typing import TypeVar
 
 LOOPS: tuple[type[ast.For | ast.AsyncFor | ast.comprehension], ...] = (
     ast.For,
@@ -22,10 +21,6 @@ _SILENT_FIELDS = frozenset({"ctx", "op", "ops", "kind", "type_comment", "returns
 """What holds operators and types: nearly half of all nodes, and nothing is read from them."""
 
 
-_LEAVES = frozenset({ast.Name, ast.Constant})
-"""What holds no other nodes: most of them."""
-
-
 class Nodes:
     """Every node that says something, in reading order within its kind.
 
@@ -39,10 +34,7 @@ class Nodes:
         while open_:
             placed = open_.pop()
             node, function, looping = placed
-            kind = type(node)
-            self._placed[kind].append(placed)
-            if kind in _LEAVES:
-                continue
+            self._placed[type(node)].append(placed)
             if isinstance(node, FUNCTIONS):
                 function = name_of(node)
             elif isinstance(node, LOOPS):
@@ -67,16 +59,8 @@ def name_of(function: ast.FunctionDef | ast.Lambda) -> str:
 
 def _children(node: ast.AST) -> list[ast.AST]:
     children: list[ast.AST] = []
-    kind: Any = type(node)
-    for name in _speaking_fields(kind):
-        value = getattr(node, name, None)
-        if type(value) is list:
-            children += [child for child in value if isinstance(child, ast.AST)]
-        elif isinstance(value, ast.AST):
-            children.append(value)
+    for name, value in ast.iter_fields(node):
+        if name not in _SILENT_FIELDS:
+            parts = value if isinstance(value, list) else [value]
+            children += [part for part in parts if isinstance(part, ast.AST)]
     return children
-
-
-@functools.cache
-def _speaking_fields(kind: type[ast.AST]) -> tuple[str, ...]:
-    return tuple(name for name in kind._fields if name not in _SILENT_FIELDS)
