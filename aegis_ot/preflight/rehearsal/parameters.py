@@ -81,9 +81,9 @@ def runtime_parameters(protocol: Any, script: Script, limit: Limit) -> Any:
         return None
     try:
         for name, value in script.parameters.items():
-            _set_value(context, declared[name], value)
+            _set(context, declared[name], value, is_file=False)
         for name, path in script.csv_parameters.items():
-            _set_file(context, declared[name], path)
+            _set(context, declared[name], path, is_file=True)
     except RehearsalError as error:
         raise RehearsalError(f"{script.file_name}: {error}") from error.__cause__
     return context.export_parameters_for_protocol()
@@ -165,26 +165,16 @@ def _declared(context: Any) -> dict[str, Parameter]:
     }
 
 
-def _set_value(context: Any, parameter: Parameter, value: Any) -> None:
-    if parameter.kind == _CSV:
-        raise RehearsalError(f"the CSV parameter {parameter.name} needs a file, not a value.")
+def _set(context: Any, parameter: Parameter, value: Any, is_file: bool) -> None:
+    name, takes_file = parameter.name, parameter.kind == _CSV
+    if takes_file and not is_file:
+        raise RehearsalError(f"the CSV parameter {name} needs a file, not a value.")
+    if is_file and not takes_file:
+        raise RehearsalError(f"the runtime parameter {name} takes {parameter.takes}, no CSV file.")
     try:
-        context.set_parameters({parameter.name: value})
+        (context.initialize_csv_files if is_file else context.set_parameters)({name: value})
     except Exception as error:
-        raise RehearsalError(
-            f"the runtime parameter {parameter.name} cannot be {value!r}; it takes "
-            f"{parameter.takes}."
-        ) from error
-
-
-def _set_file(context: Any, parameter: Parameter, path: Any) -> None:
-    if parameter.kind != _CSV:
-        raise RehearsalError(
-            f"the runtime parameter {parameter.name} takes {parameter.takes}, no CSV file."
-        )
-    try:
-        context.initialize_csv_files({parameter.name: path})
-    except Exception as error:
-        raise RehearsalError(
-            f"the CSV parameter {parameter.name} cannot be {path}: {in_words(error)}"
-        ) from error
+        told = f"the runtime parameter {name} cannot be {value!r}; it takes {parameter.takes}."
+        if is_file:
+            told = f"the CSV parameter {name} cannot be {value}: {in_words(error)}"
+        raise RehearsalError(told) from error

@@ -55,10 +55,8 @@ def stopped(
     return error_at(file_name, line, told)
 
 
-def never_executed(result: Any, file_name: str) -> RehearsalError | None:
-    """The error of a ``run`` that gives a generator or a coroutine, and so executes nothing;
-    ``None`` for any other result.
-    """
+def refuse_unexecuted(result: Any, file_name: str) -> None:
+    """Refuse a ``run`` that gives a generator or a coroutine, and so executes nothing."""
     told = "it is async"
     if inspect.isgenerator(result):
         code, told = result.gi_code, "it is a generator: a yield stands in it"
@@ -68,11 +66,11 @@ def never_executed(result: Any, file_name: str) -> RehearsalError | None:
         code = result.cr_code
         result.close()  # else Python warns that nobody awaits it
     else:
-        return None
+        return
     line = code.co_firstlineno if code.co_filename == file_name else None
     name = "run" if code.co_name == "run" else f"what run returns, {code.co_name},"
     told = f"{name} is never executed, since {told}. No step of it was rehearsed."
-    return error_at(file_name, line, told)
+    raise error_at(file_name, line, told)
 
 
 def error_at(file_name: str, line: int | None, told: str) -> RehearsalError:

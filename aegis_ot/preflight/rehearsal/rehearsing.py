@@ -18,7 +18,7 @@ from .interruption import interrupted_after
 from .loading import load
 from .parameters import Limit, copied_parameters, lacking_files, plain_values, runtime_parameters
 from .recording import Recorder, Recording
-from .refusals import never_executed, stopped
+from .refusals import refuse_unexecuted, stopped
 from .script import Script
 from .simulated_context import simulated_context
 from .virtual_time import builtins_in_virtual_time
@@ -133,9 +133,7 @@ def _perform(
             run = namespace.get("run")
             if not callable(run):
                 raise RehearsalError(f"{file_name} defines no function run(protocol).")
-            result = wrap(run)(context)
-            if (unexecuted := never_executed(result, file_name)) is not None:
-                raise unexecuted
+            refuse_unexecuted(wrap(run)(context), file_name)
     except AegisError:
         raise
     except Exception as error:

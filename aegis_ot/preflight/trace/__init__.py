@@ -3,11 +3,10 @@
 Door: :func:`build_trace` gives a :class:`Trace`.
 """
 
-from .building import build_trace
+from .building import build_trace, touched_by_tip
 from .geometry import Contact, Geometry
-from .model import EMPTY_UL, Transfer, Visit, Well
+from .model import EMPTY_UL, Transfer, Visit, Well, row_column
 from .pauses import Intervention, Pauses
-from .plates import row_column
 from .table import places, trace_table
 from .tips import Met, Tip, TipBox
 from .trace import Imbalance, Trace, Usage, chains_of
@@ -31,5 +30,6 @@ __all__ = [
     "chains_of",
     "places",
     "row_column",
+    "touched_by_tip",
     "trace_table",
 ]

@@ -6,11 +6,12 @@ module is where those words become values. One pass over the recorded steps, no 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping
 
 from ...instrumentation import Event, EventKind, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
-from ..rehearsal import Record
+from ..rehearsal import Record, Recorder
 from .geometry import CLEARANCE_MM, Contact
 from .model import Layer, Transfer, Visit, Well
 from .pauses import Pauses
@@ -138,7 +139,7 @@ class _Builder:
                 if tip is None:
                     continue  # a multi-channel pipette that took up fewer tips
                 well = None if ref is None or step.disposal else self._plates.well(ref)
-                self._act(step, kind, tip, well)
+                self._act(step, tip, well)
 
     def _repeats(self, step: Operation) -> bool:
         """Whether a step only repeats a mixing cycle that is noted already.
@@ -162,17 +163,15 @@ class _Builder:
         elif step.wells and step.wells[0] is not None and len(set(refs)) > 1:
             self._trace.groups.setdefault(refs[0], refs)
 
-    def _act(self, step: Operation, kind: OperationKind, tip: Tip, well: Well | None) -> None:
-        if kind is OperationKind.AIR_GAP:
+    def _act(self, step: Operation, tip: Tip, well: Well | None) -> None:
+        kind = step.kind
+        draws = kind is OperationKind.ASPIRATE
+        if draws and well is not None and not (step.is_air or self._draws_air(step, tip, well)):
+            self._aspirate(step, tip, well)
+        elif draws or kind is OperationKind.AIR_GAP:
             tip.layers.append((None, step.volume, {}, step.line))
-        elif kind is OperationKind.ASPIRATE:
-            if well is None or step.is_air or self._draws_air(step, tip, well):
-                tip.layers.append((None, step.volume, {}, step.line))
-            else:
-                self._aspirate(step, tip, well)
         elif kind is OperationKind.DISPENSE or kind is OperationKind.BLOW_OUT:
-            blown = kind is OperationKind.BLOW_OUT
-            parts = tip.pop() if blown else tip.pop(step.volume)
+            parts = tip.pop(step.volume if kind is OperationKind.DISPENSE else math.inf)
             if well is not None:
                 self._give(step, tip, well, parts)
             elif tip in self._last:
@@ -278,3 +277,23 @@ class _Builder:
 def _slack(volume: float) -> float:
     """Rounding that volumes computed in a protocol may show, µL."""
     return max(0.1, abs(volume) * 2e-3)
+
+
+def touched_by_tip(recorder: Recorder, well: WellRef) -> frozenset[WellRef] | None:
+    """The wells that the tip has touched which last dispensed into ``well``.
+
+    The run so far is read for the worst: a well of which nothing is known counts as one that
+    holds liquid, so a tip that went below its upper third touched it.
+
+    Args:
+        recorder: Has heard all that was done.
+        well: Where the tip dispensed.
+
+    Returns:
+        ``None`` if no tip did.
+    """
+    trace = build_trace(recorder.log, recorder.labware, Pauses(), lambda ref: True)
+    for visit in reversed(trace.visits):
+        if visit.well.ref == well and visit.kind is OperationKind.DISPENSE:
+            return frozenset(touched.ref for touched in visit.tip.touched)
+    return None

@@ -72,21 +72,6 @@ class Geometry:
         """Whether a height above the bottom is in the upper third, where no liquid is expected."""
         return height >= UPPER_PART * self.depth
 
-    def contact(self, height: float, least: float, volume: float, most: float) -> Contact:
-        """How surely a tip's end at ``height`` mm above the bottom meets the liquid.
-
-        Args:
-            height: mm.
-            least: µL that surely stand in the well.
-            volume: µL that are thought to.
-            most: µL that can.
-        """
-        if self.volume_below(height) <= least:
-            return Contact.WET
-        clear_of = self.volume_below(height - CLEARANCE_MM)
-        clear = volume <= clear_of and (most <= clear_of or self.is_high(height))
-        return Contact.CLEAR if clear else Contact.NEAR
-
     def _reckoned(self, height: float) -> float:
         return sum(_filled(section, height) for section in self._sections)
 

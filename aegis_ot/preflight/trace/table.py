@@ -18,8 +18,7 @@ from typing import TypeVar
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
-from .model import Visit
-from .plates import row_column
+from .model import Visit, row_column
 from .trace import Trace
 
 _WORDS = {
