@@ -36,7 +36,7 @@ def with_opinion(report: Report, reading: Reading, settings: Settings, protocol:
     Never raises: whatever fails here, the checks' report stands.
 
     Args:
-        report: From :func:`~aegis_ot.preflight.judging.judge_reading`, of the same reading.
+        report: Of the same reading.
         reading: What the report judges.
         settings: The guard's.
         protocol: The context, for whether a robot waits.
@@ -56,14 +56,7 @@ def with_opinion(report: Report, reading: Reading, settings: Settings, protocol:
 
 
 def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: float) -> Opinion:
-    """Ask, and wait no longer than ``timeout_s``.
-
-    Args:
-        address: Of the sidecar, ``"http://192.168.1.20:7645"``.
-        token: It expects, if any.
-        dossier: What to ask about.
-        timeout_s: Longest wait, s.
-    """
+    """Ask the sidecar at ``"http://192.168.1.20:7645"``, and wait ``timeout_s`` at most."""
     try:
         with closing(HttpClient(address, token)) as client:
             return _exchange(client, dossier, timeout_s)
@@ -73,7 +66,7 @@ def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: fl
         state = "unavailable"
         detail = f"the sidecar cannot be reached ({type(error).__name__})."
     except _Refused as error:
-        state, detail = error.state, str(error)
+        state, detail = error.args
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         state, detail = "invalid", f"the sidecar's answer makes no sense ({error})."
     return Opinion(state, _WHO, detail)
@@ -99,10 +92,10 @@ def _send(client: HttpClient, method: str, path: str, body: Any, deadline: float
     status, data = client.request(method, path, body, min(left, _REQUEST_S))
     if status in (401, 403):
         raise _Refused("unauthorized", "the sidecar refused the token.")
-    if status == 404:
-        raise _Refused("unavailable", "the sidecar is too old to ask a model.")
     if status != 200:
-        raise _Refused("unavailable", f"the sidecar answered with HTTP {status}.")
+        too_old = "the sidecar is too old to ask a model."
+        told = too_old if status == 404 else f"the sidecar answered with HTTP {status}."
+        raise _Refused("unavailable", told)
     answer = json.loads(data)
     if not isinstance(answer, dict):
         raise ValueError("no object")
@@ -110,6 +103,4 @@ def _send(client: HttpClient, method: str, path: str, body: Any, deadline: float
 
 
 class _Refused(Exception):
-    def __init__(self, state: str, message: str) -> None:
-        super().__init__(message)
-        self.state = state
+    """The state of the opinion, and why."""

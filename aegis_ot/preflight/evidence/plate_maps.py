@@ -33,7 +33,7 @@ def plate_maps(
         uses = facts.flow.indexed_with.get(base.rpartition(".")[2], [])
         found = by_map.setdefault(base, [])
         if binding.spots and uses:
-            wells = _wells_of_list(deck, _labware(deck, facts, uses), binding.spots)
+            wells = _indexed(deck, facts, uses, binding.spots)
             found.append(_of_list(binding.name, wells, line, keyed.get(binding.name)))
         for row in binding.rows:
             wells = row.wells or _wells_of_row(deck, facts, row, uses)
@@ -53,20 +53,17 @@ def _of_list(name: str, wells: tuple[WellRef, ...], line: int, level: float | No
     return Evidence(Kind.NAME, name, wells, citation, line, whole=counted, levels=levels)
 
 
-def _labware(deck: Deck, facts: SourceFacts, uses: Iterable[Index]) -> tuple[str, ...]:
-    """Keys of the labware that the run indexes there."""
-    found: set[str] = set()
+def _indexed(
+    deck: Deck, facts: SourceFacts, uses: Iterable[Index], spots: Sequence[str]
+) -> tuple[WellRef, ...]:
+    """The wells of these names in the labware that the run indexes there. Where several labware
+    are indexed with them, those in which all are used: ``("D6", "H12")`` may be a tube and a well.
+    """
+    keys: set[str] = set()
     for use in uses:
         for origin in (use.held, *facts.flow.comes_from.get(use.held, ())):
-            found |= deck.by_name.get(origin, set())
-    return tuple(key for key in deck.trace.labware if key in found)
-
-
-def _wells_of_list(deck: Deck, labware: Sequence[str], spots: Sequence[str]) -> tuple[WellRef, ...]:
-    """The wells of a list of names. Where several labware are indexed with them, those in which
-    all are used: ``("D6", "H12")`` may be a tube and a well.
-    """
-    in_each = [deck.refs((key,), spots) for key in labware]
+            keys |= deck.by_name.get(origin, set())
+    in_each = [deck.refs((key,), spots) for key in deck.trace.labware if key in keys]
     if len(in_each) > 1:
         whole = [wells for wells in in_each if len(wells) == len(spots)]
         in_each = [wells for wells in whole if all(map(deck.is_used, wells))]
@@ -84,7 +81,7 @@ def _wells_of_row(
         asked = [use for use in uses if column and column in use.fields]
         if len(row.spots) > 1 and not asked:
             return ()
-        found += _wells_of_list(deck, _labware(deck, facts, asked or uses), (cell,))
+        found += _indexed(deck, facts, asked or uses, (cell,))
     return tuple(found)
 
 

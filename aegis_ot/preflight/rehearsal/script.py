@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import functools
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import CodeType, FrameType, FunctionType, MethodType
+from types import CodeType, FrameType, FunctionType
 from typing import Any
 
 _MOST_LAYERS = 20
@@ -67,12 +66,8 @@ def _function_behind(run: Any) -> FunctionType | None:
     for _ in range(_MOST_LAYERS):
         if type(run) is FunctionType and not hasattr(run, "__wrapped__"):
             return run
-        if type(run) is MethodType:
-            run = run.__func__
-        elif type(run) is functools.partial:
-            run = run.func
-        else:
-            run = getattr(run, "__wrapped__", None) or type(run).__call__
+        inner = (getattr(run, name, None) for name in ("__wrapped__", "__func__", "func"))
+        run = next(filter(None, inner), type(run).__call__)
     return None
 
 

@@ -32,14 +32,12 @@ class Match(NamedTuple):
 @functools.lru_cache(maxsize=8192)
 def tokens(text: str) -> tuple[str, ...]:
     """Cut a text or identifier into lower-case words, plurals reduced."""
-    for written, plain in _LETTERS.items():
-        text = text.replace(written, plain)
-    plain = unicodedata.normalize("NFKD", text)
+    plain = unicodedata.normalize("NFKD", text.translate(_LETTERS))
     plain = "".join(c for c in plain if not unicodedata.combining(c)).replace("'", "")
     return tuple(_singular(_folded(piece.lower())) for piece in _PIECES.findall(plain))
 
 
-_LETTERS = {"ß": "ss", "µ": "u", "æ": "ae", "Æ": "Ae", "œ": "oe", "Œ": "Oe"}
+_LETTERS = str.maketrans({"ß": "ss", "µ": "u", "æ": "ae", "Æ": "Ae", "œ": "oe", "Œ": "Oe"})
 
 
 def _folded(word: str) -> str:

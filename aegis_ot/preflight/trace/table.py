@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import groupby
+from itertools import groupby, takewhile
 from typing import TypeVar
 
 from ...instrumentation import OperationKind
@@ -233,9 +233,7 @@ def places(wells: Sequence[WellRef]) -> str:
     at = 0
     while at < len(wells):
         first = wells[at]
-        same = 1
-        while at + same < len(wells) and wells[at + same] == first:
-            same += 1
+        same = len(list(takewhile(first.__eq__, wells[at:])))
         length = same if same > 1 else _run(wells[at:])
         last = wells[at + length - 1]
         prefix = first.address.rpartition(":")[0]

@@ -52,22 +52,11 @@ class Tip:
     ) -> None:
         """The tip's outside met ``well``: it now carries all that the well holds."""
         wet = index if contact is Contact.WET else math.inf
-        met = self.touched.get(well)
-        if met is None:
-            met = self.touched[well] = Met(well, line, index, wet)
-        elif (
-            met.contact() >= contact
-            and len(well.contents) <= 1
-            and next(iter(well.contents), None) in self.origins
-        ):
-            return
+        met = self.touched.setdefault(well, Met(well, line, index, wet))
         met.wet = min(met.wet, wet)
         for origin in well.contents:
-            known = self.origins.get(origin)
-            if known is None:
-                self.origins[origin] = Met(well, line, index, wet)
-            else:
-                known.wet = min(known.wet, wet)
+            known = self.origins.setdefault(origin, Met(well, line, index, wet))
+            known.wet = min(known.wet, wet)
 
     def pop(self, volume: float = math.inf) -> list[Layer]:
         """Give off ``volume`` µL: what was drawn last leaves first; air is given off unlisted.

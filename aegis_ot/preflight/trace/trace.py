@@ -152,14 +152,12 @@ _FEWEST_EMPTIED = 2
 def _usage_of(trace: Trace) -> Mapping[WellRef, Usage]:
     """How each well is used, generations of a plate taken together."""
     usages: dict[WellRef, Usage] = {}
-    begun: set[WellRef] = set()
     for well in sorted(trace.wells.values(), key=lambda well: well.generation):
         usage = usages.setdefault(well.ref, Usage())
         usage.prefilled = usage.prefilled or well.prefilled
-        if well.visits and well.ref not in begun:
-            # A plate that comes back from the cycler is drawn from, and was filled before.
-            begun.add(well.ref)
-            usage.first_drawn = well.visits[0].kind is OperationKind.ASPIRATE
+    # A plate that comes back from the cycler is drawn from, and was filled before.
+    for visit in reversed(trace.visits):
+        usages[visit.well.ref].first_drawn = visit.kind is OperationKind.ASPIRATE
     at_first: dict[WellRef, set[WellRef]] = {}
     for one in trace.transfers:
         usages[one.well.ref].received = True
