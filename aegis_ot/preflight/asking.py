@@ -33,13 +33,8 @@ _WHO = "the sidecar's model"
 def with_opinion(report: Report, reading: Reading, settings: Settings, protocol: Any) -> Report:
     """The checks' report with the opinion of the sidecar's model merged into it.
 
-    Never raises: whatever fails here, the checks' report stands.
-
-    Args:
-        report: Of the same reading.
-        reading: What the report judges.
-        settings: The guard's.
-        protocol: The context, for whether a robot waits.
+    Never raises: whatever fails here, the checks' report stands. The protocol's context tells
+    whether a robot waits.
     """
     if settings.sidecar is None or not settings.sidecar.startswith("http"):
         return report

@@ -19,10 +19,6 @@ _WORDS = ("words", "never", "differing")
 def check_family(family: Family, file: str) -> None:
     """Refuse a family that names a role or check that does not exist, or words nobody can find.
 
-    Args:
-        family: As it was read.
-        file: Its name, for the message.
-
     Raises:
         RuleError: With file, rule or role, and field.
     """

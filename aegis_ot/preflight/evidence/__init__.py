@@ -31,12 +31,8 @@ def gather(
 ) -> list[Evidence]:
     """All evidence of one protocol.
 
-    Args:
-        trace: A first reading of the run, to know labware, liquids and used wells.
-        names: Names that held wells, from the rehearsal.
-        facts: What the text says as Python.
-        given: Roles given outright: role to places (``"4:H12"``, ``"PCR plate:A1-A8"``).
-        common: Words for amounts.
+    The trace is a first reading of the run, to know labware, liquids and used wells; ``given`` are
+    roles given outright: role to places (``"4:H12"``, ``"PCR plate:A1-A8"``).
     """
     deck = Deck(trace, names)
     found = [

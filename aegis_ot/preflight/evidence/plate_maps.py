@@ -34,7 +34,16 @@ def plate_maps(
         found = by_map.setdefault(base, [])
         if binding.spots and uses:
             wells = _indexed(deck, facts, uses, binding.spots)
-            found.append(_of_list(binding.name, wells, line, keyed.get(binding.name)))
+            level = keyed.get(binding.name)
+            # A running number tells none of its wells from the others.
+            counted = level is None and NUMBERED.fullmatch(binding.name) is not None
+            citation = f"plate map `{binding.name}` at line {line}"
+            levels = () if level is None else (level,) * len(wells)
+            found.append(
+                Evidence(
+                    Kind.NAME, binding.name, wells, citation, line, whole=counted, levels=levels
+                )
+            )
         for row in binding.rows:
             wells = row.wells or _wells_of_row(deck, facts, row, uses)
             found += _of_row(binding.name, row, wells, line, common)
@@ -43,14 +52,6 @@ def plate_maps(
         spoken_of = {ref for one in found for ref in one.wells}
         if 2 * sum(map(deck.is_used, spoken_of)) >= len(spoken_of):
             yield from found
-
-
-def _of_list(name: str, wells: tuple[WellRef, ...], line: int, level: float | None) -> Evidence:
-    # A running number tells none of its wells from the others.
-    counted = level is None and NUMBERED.fullmatch(name) is not None
-    citation = f"plate map `{name}` at line {line}"
-    levels = () if level is None else (level,) * len(wells)
-    return Evidence(Kind.NAME, name, wells, citation, line, whole=counted, levels=levels)
 
 
 def _indexed(

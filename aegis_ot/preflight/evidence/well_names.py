@@ -25,11 +25,8 @@ _SPAN = re.compile(rf"(\d+|[A-P])(?:{_TO}(\d+|[A-P]))?")
 
 
 def wells_in(text: str, wells: Collection[str]) -> list[str]:
-    """Names of the wells of this labware that a list of places stands for; ``"*"`` is all.
-
-    Args:
-        text: ``"A1, B2-B4"``, ``"columns 1-3"``, ``"row H"``, ``"*"`` or nothing.
-        wells: Names of all its wells.
+    """Names of those of a labware's wells that a list of places stands for: ``"A1, B2-B4"``,
+    ``"columns 1-3"``, ``"row H"``; ``"*"`` or nothing is all.
     """
     if text.strip() in ("", "*"):
         return list(wells)

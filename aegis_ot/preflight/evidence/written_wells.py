@@ -10,9 +10,10 @@ import re
 from collections.abc import Iterator
 
 from ...instrumentation import LabwareInfo
+from ...vocabulary import one_line
 from ..source import SourceFacts
 from .deck import Deck
-from .evidence import Evidence, Kind, shortened
+from .evidence import LONGEST_QUOTE, Evidence, Kind
 from .well_names import PLACES, wells_in
 
 _WORD = r"(?!(?:in|is|are)\b|[A-P]\d)[\w%./+µ-]+"
@@ -38,7 +39,7 @@ def written_wells(deck: Deck, facts: SourceFacts) -> Iterator[Evidence]:
             continue
         info = deck.trace.labware[called[0]]
         for names, said in entries_of(text[head.end() :], info):
-            citation = f"'{shortened(said)}' written at line {line}"
+            citation = f"'{one_line(said, LONGEST_QUOTE)}' written at line {line}"
             yield Evidence(Kind.WRITTEN, said, deck.refs(called, names), citation, line)
 
 

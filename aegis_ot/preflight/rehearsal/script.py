@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import CodeType, FrameType, FunctionType
+from types import CodeType, FrameType
 from typing import Any
-
-_MOST_LAYERS = 20
 
 
 @dataclass(frozen=True)
@@ -55,20 +55,12 @@ def find_home(run: Any) -> tuple[str, Mapping[str, Any]]:
         return loaded.contents.co_filename, namespace
     if isinstance(run, FrameType):
         return run.f_code.co_filename, run.f_globals
-    function = _function_behind(run)
-    if function is None:
-        return "<protocol>", {}
-    return function.__code__.co_filename, function.__globals__
-
-
-def _function_behind(run: Any) -> FunctionType | None:
-    """The function that a decorator, a ``partial`` or an object with ``__call__`` stands for."""
-    for _ in range(_MOST_LAYERS):
-        if type(run) is FunctionType and not hasattr(run, "__wrapped__"):
-            return run
-        inner = (getattr(run, name, None) for name in ("__wrapped__", "__func__", "func"))
-        run = next(filter(None, inner), type(run).__call__)
-    return None
+    while isinstance(run, functools.partial):
+        run = run.func
+    run = inspect.unwrap(run)
+    function = run if hasattr(run, "__code__") else type(run).__call__
+    code = getattr(function, "__code__", None)
+    return (code.co_filename, function.__globals__) if code else ("<protocol>", {})
 
 
 def find_script(file_name: str, protocol: Any) -> Script | None:

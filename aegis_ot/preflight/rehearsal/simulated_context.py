@@ -70,14 +70,11 @@ def _hardware_simulator(robot_type: str) -> Any:
 
     if robot_type == FLEX:
         # Not importable on an OT-2.
-        from opentrons.hardware_control.ot3api import OT3API
-
-        build = OT3API.build_hardware_simulator
+        from opentrons.hardware_control.ot3api import OT3API as Robot
     else:
-        from opentrons.hardware_control import API
-
-        build = API.build_hardware_simulator
-    return ThreadManager(build, feature_flags=HardwareFeatureFlags.build_from_ff())
+        from opentrons.hardware_control import API as Robot
+    flags = HardwareFeatureFlags.build_from_ff()
+    return ThreadManager(Robot.build_hardware_simulator, feature_flags=flags)
 
 
 def _lend_modules(core: Any, hardware: Any) -> None:

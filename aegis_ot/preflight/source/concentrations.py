@@ -50,12 +50,8 @@ _STRENGTH = re.compile(r"(?<![\w.])\d+(?:[.,]\d+)?\s?[x×](?!\w)", re.IGNORECASE
 
 
 def level_in(text: str, words: Mapping[str, float], plain_numbers: bool = True) -> float | None:
-    """The one level that a name or label states: with a unit, in words, or as a plain number.
-
-    Args:
-        text: The name.
-        words: Words for levels: ``{"blank": 0.0}``.
-        plain_numbers: Whether a number without a unit counts.
+    """The one level that a name or label states: with a unit, in words (``{"blank": 0.0}``), or, if
+    they count, as a plain number.
     """
     plain = _with_u(text).lower()
     found = _WITH_UNIT.findall(plain)
@@ -102,11 +98,7 @@ def name_without_level(text: str, noise: Sequence[str]) -> tuple[str, ...]:
     """The words of a name that say neither how much nor what sort of thing it is.
 
     Two liquids whose names differ in these are different compounds; those whose names do not
-    differ are doses of one.
-
-    Args:
-        text: The name.
-        noise: Words that tell no compound from another: "stock", "well", "blank".
+    differ are doses of one. Words of ``noise`` tell no compound from another: "stock", "blank".
     """
     plain = without_concentrations(text)
     words = tokens(plain)

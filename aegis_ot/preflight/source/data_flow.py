@@ -114,25 +114,21 @@ def _parts(target: ast.expr, value: ast.expr, looped: bool) -> Iterator[tuple[as
 
 def _held_names(node: ast.expr) -> Iterator[str]:
     """The names whose values an expression may pass on: ``LAYOUT`` in ``LAYOUT[code]``."""
-    if isinstance(node, ast.Name):
-        yield node.id
-    elif isinstance(node, ast.Attribute):
-        yield node.attr
-        yield from _held_names(node.value)
+    parts: Iterable[ast.AST] = ast.iter_child_nodes(node)
+    if isinstance(node, (ast.Name, ast.Attribute)):
+        yield _last_name(node)
     elif isinstance(node, ast.Subscript):
-        yield from _held_names(node.value)
+        parts = [node.value]
+    elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+        parts = [node.func.value]
     elif isinstance(node, ast.Call):
-        if isinstance(node.func, ast.Attribute):
-            yield from _held_names(node.func.value)
-        elif not isinstance(node.func, ast.Name) or node.func.id in _PASSING_ON:
-            for argument in node.args:
-                yield from _held_names(argument)
-    else:
-        for child in ast.iter_child_nodes(node):
-            if isinstance(child, ast.expr):
-                yield from _held_names(child)
-            elif isinstance(child, ast.comprehension):
-                yield from _held_names(child.iter)
+        passes_on = not isinstance(node.func, ast.Name) or node.func.id in _PASSING_ON
+        parts = node.args if passes_on else ()
+    for part in parts:
+        if isinstance(part, ast.comprehension):
+            yield from _held_names(part.iter)
+        elif isinstance(part, ast.expr):
+            yield from _held_names(part)
 
 
 def _note_index(flow: Flow, base: ast.expr, index: ast.expr) -> None:
@@ -171,10 +167,9 @@ def _call(flow: Flow, node: ast.Call, functions: dict[str, ast.FunctionDef]) -> 
     names = [argument.arg for argument in function.args.args]
     if names[:1] == ["self"]:
         names = names[1:]
-    given = [*zip(names, node.args, strict=False), *((k.arg, k.value) for k in node.keywords)]
-    for name, value in given:
-        if name is not None:
-            flow.take(name, value)
+    named = ((keyword.arg, keyword.value) for keyword in node.keywords if keyword.arg)
+    for name, value in (*zip(names, node.args, strict=False), *named):
+        flow.take(name, value)
 
 
 def _last_name(node: ast.expr) -> str:

@@ -77,12 +77,12 @@ class Lexicon:
 
     def __init__(
         self,
-        phrases: Mapping[str, Sequence[str]],
-        aliases: Mapping[str, str] | None = None,
+        phrases: tuple[tuple[str, tuple[str, ...]], ...],
+        aliases: tuple[tuple[str, str], ...],
     ) -> None:
-        self._aliases = aliases or {}
+        self._aliases = dict(aliases)
         self._by_first: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
-        for topic, listed in phrases.items():
+        for topic, listed in phrases:
             for phrase in listed:
                 parts = self._full(tokens(phrase))
                 if parts:
@@ -135,9 +135,4 @@ def lexicon_of(
     return _made(listed, tuple((aliases or {}).items()))
 
 
-@functools.lru_cache(maxsize=128)
-def _made(
-    phrases: tuple[tuple[str, tuple[str, ...]], ...],
-    aliases: tuple[tuple[str, str], ...],
-) -> Lexicon:
-    return Lexicon(dict(phrases), dict(aliases))
+_made = functools.lru_cache(maxsize=128)(Lexicon)

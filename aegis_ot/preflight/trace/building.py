@@ -37,7 +37,7 @@ def build_trace(
     Args:
         log: Operations and events, in order.
         labware: Facts of each labware, by key.
-        pauses: Reads pauses: was a plate replaced, shaken, refilled?
+        pauses: Was a plate replaced, shaken, refilled?
         prefilled: Whether a well's role implies that it held liquid before the run.
     """
     return _Builder(labware, pauses, prefilled).run(log)
@@ -283,14 +283,7 @@ def touched_by_tip(recorder: Recorder, well: WellRef) -> frozenset[WellRef] | No
     """The wells that the tip has touched which last dispensed into ``well``.
 
     The run so far is read for the worst: a well of which nothing is known counts as one that
-    holds liquid, so a tip that went below its upper third touched it.
-
-    Args:
-        recorder: Has heard all that was done.
-        well: Where the tip dispensed.
-
-    Returns:
-        ``None`` if no tip did.
+    holds liquid, so a tip that went below its upper third touched it. ``None`` if no tip did.
     """
     trace = build_trace(recorder.log, recorder.labware, Pauses(), lambda ref: True)
     for visit in reversed(trace.visits):

@@ -43,9 +43,6 @@ class Contact(IntEnum):
 class Geometry:
     """The inside of one kind of well.
 
-    Args:
-        info: What the labware definition says.
-
     Attributes:
         depth: From the rim to the bottom, mm.
         brim: µL that it holds filled to the rim.

@@ -66,10 +66,7 @@ class Pauses:
     ) -> Intervention:
         """Read a pause message; an empty one says nothing, so anything may have happened.
 
-        Args:
-            text: The message.
-            labware: Facts of each labware, by key.
-            slots: Where each stands now, by key.
+        Facts of each labware, and the slot where it stands now, are by its key.
         """
         clauses = [self._topics(clause) for clause in _CLAUSE.split(text[:_LONGEST])]
         said = frozenset().union(*clauses)

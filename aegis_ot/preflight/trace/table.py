@@ -75,12 +75,7 @@ _Told = TypeVar("_Told", _Row, _Session)
 
 
 def trace_table(trace: Trace, limit: int = 6000) -> tuple[str, ...]:
-    """The lines of the table.
-
-    Args:
-        trace: What happened.
-        limit: About how many characters the table may have in all.
-    """
+    """The lines of the table, of about ``limit`` characters in all."""
     lines: list[str] = []
     for lines in _foldings(_sessions(trace)):
         if sum(len(line) + 1 for line in lines) <= limit:
