@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
@@ -20,7 +20,6 @@ def named_wells(
 ) -> Iterator[Evidence]:
     """What variables, keys and attributes were called that held wells or whole labware."""
     keyed = levels_of_keys(names)
-    lists = _lists_of_levels(names, common)
     for binding in names:
         if not (binding.wells or binding.labware):
             continue
@@ -36,7 +35,7 @@ def named_wells(
             text = NUMBERED.sub(r"\1\4", text) if level is None else text
             levels = (level,) * len(wells)
         elif binding.wells and len(wells) > 1:
-            levels = _listed_beside(binding, lists)
+            levels = _listed_beside(binding, names, common)
         yield Evidence(
             Kind.PASSING_NAME if place in facts.passing else Kind.NAME,
             text,
@@ -105,18 +104,22 @@ def levels_of_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
     return found
 
 
-def _lists_of_levels(
-    names: Sequence[NameBinding], common: Common
-) -> Mapping[str, tuple[float, ...]]:
-    """Lists of concentrations or doses by name: ``STANDARD_CONCS = [0, 125, 250]``."""
+def _listed_beside(
+    binding: NameBinding, names: Sequence[NameBinding], common: Common
+) -> tuple[float | None, ...]:
+    """Of the lists of concentrations or doses (``STANDARD_CONCS = [0, 125, 250]``) that are as long
+    as a list of wells, the one whose name shares most words with it.
+    """
     amounts = lexicon_of({"amount": common.amounts})
-    found: dict[str, tuple[float, ...]] = {}
-    for binding in names:
-        if len(binding.values) > 1 and amounts.find(binding.name):
-            levels = [_level(item, common) for item in binding.values]
+    fitting: dict[int, set[tuple[float | None, ...]]] = {}
+    for other in names:
+        if len(other.values) == len(binding.wells) and amounts.find(other.name):
+            levels = tuple(_level(item, common) for item in other.values)
             if None not in levels:
-                found[binding.name] = tuple(level for level in levels if level is not None)
-    return found
+                shared = set(tokens(other.name)) & set(tokens(binding.name))
+                fitting.setdefault(len(shared), set()).add(levels)
+    chosen = fitting[max(fitting)] if fitting else set()
+    return chosen.pop() if len(chosen) == 1 else ()
 
 
 def _level(item: float | str, common: Common) -> float | None:
@@ -126,17 +129,3 @@ def _level(item: float | str, common: Common) -> float | None:
         return float(item)
     except OverflowError:  # an integer of hundreds of digits
         return None
-
-
-def _listed_beside(
-    binding: NameBinding, lists: Mapping[str, tuple[float, ...]]
-) -> tuple[float, ...]:
-    """The list of levels that is as long as a list of wells, and shares most words with it."""
-    fitting = [
-        (len(set(tokens(name)) & set(tokens(binding.name))), levels)
-        for name, levels in lists.items()
-        if len(levels) == len(binding.wells)
-    ]
-    best = max((shared for shared, _ in fitting), default=0)
-    chosen = {levels for shared, levels in fitting if shared == best}
-    return chosen.pop() if len(chosen) == 1 else ()

@@ -22,8 +22,8 @@ def in_words(error: BaseException) -> str:
     name = type(error).__name__
     text = str(error).strip()
     if not text:
-        silent = {"OutOfTipsError": "no tip is left in the racks of the pipette."}
-        return f"{name}: {silent[name]}" if name in silent else name
+        no_tips = f"{name}: no tip is left in the racks of the pipette."
+        return no_tips if name == "OutOfTipsError" else name
     said = f"{name}: {text}"
     wrapped = _WRAPPED.match(said)
     if wrapped is None:

@@ -6,7 +6,7 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 from .building import build_trace, touched_by_tip
 from .geometry import Contact, Geometry
 from .model import EMPTY_UL, Transfer, Visit, Well, row_column
-from .pauses import Intervention, Pauses
+from .pauses import Intervention, read_pause
 from .table import places, trace_table
 from .tips import Met, Tip, TipBox
 from .trace import Imbalance, Trace, Usage, chains_of
@@ -18,7 +18,6 @@ __all__ = [
     "Imbalance",
     "Intervention",
     "Met",
-    "Pauses",
     "Tip",
     "TipBox",
     "Trace",
@@ -29,6 +28,7 @@ __all__ = [
     "build_trace",
     "chains_of",
     "places",
+    "read_pause",
     "row_column",
     "touched_by_tip",
     "trace_table",

@@ -14,7 +14,7 @@ from ...vocabulary import WellRef
 from ..rehearsal import Record, Recorder
 from .geometry import CLEARANCE_MM, Contact
 from .model import Layer, Transfer, Visit, Well
-from .pauses import Pauses
+from .pauses import Words, read_pause, topics_in
 from .plates import Plates
 from .tips import Tip, TipBox
 from .trace import Imbalance, Trace
@@ -29,7 +29,7 @@ _FALLS_MM = 20.0
 def build_trace(
     log: Iterable[Record],
     labware: Mapping[str, LabwareInfo],
-    pauses: Pauses,
+    words: Words,
     prefilled: Callable[[WellRef], bool] = lambda ref: False,
 ) -> Trace:
     """Read a recorded run.
@@ -37,21 +37,21 @@ def build_trace(
     Args:
         log: Operations and events, in order.
         labware: Facts of each labware, by key.
-        pauses: Was a plate replaced, shaken, refilled?
+        words: Of pauses: was a plate replaced, shaken, refilled?
         prefilled: Whether a well's role implies that it held liquid before the run.
     """
-    return _Builder(labware, pauses, prefilled).run(log)
+    return _Builder(labware, words, prefilled).run(log)
 
 
 class _Builder:
     def __init__(
         self,
         labware: Mapping[str, LabwareInfo],
-        pauses: Pauses,
+        words: Words,
         prefilled: Callable[[WellRef], bool],
     ) -> None:
         self._trace = Trace(labware)
-        self._pauses = pauses
+        self._words = words
         self._plates = Plates(labware, prefilled, self._trace.wells)
         self._box = TipBox()
         self._slots = {key: info.slot for key, info in labware.items()}
@@ -89,7 +89,7 @@ class _Builder:
                 self._replace(event.labware)
         elif kind is EventKind.PAUSED:
             self._paused(event)
-        elif kind is EventKind.MODULE and self._pauses.shakes(event.text):
+        elif kind is EventKind.MODULE and "shake" in topics_in(event.text, self._words):
             plates = frozenset({event.labware}) if event.labware else None
             self._trace.shaken.append((self._index, plates))
 
@@ -105,12 +105,12 @@ class _Builder:
                 well.declared = 0.0  # declared to be empty, which "no volume" does not say
 
     def _paused(self, event: Event) -> None:
-        said = self._pauses.read(event.text, self._trace.labware, self._slots)
+        said = read_pause(event.text, self._words, self._trace.labware, self._slots)
         if said.shaken:
             self._trace.shaken.append((self._index, None))
         if said.tips:
             for key in self._trace.labware:
-                self._box.replace_rack(key)
+                self._box.refill_rack(key, returned_too=True)
         for key in said.replaced:
             self._replace(key)
         if said.volumes_unsure:
@@ -119,7 +119,7 @@ class _Builder:
     def _replace(self, key: str) -> None:
         info = self._trace.labware.get(key)
         if info is not None and info.is_tip_rack:
-            self._box.replace_rack(key)
+            self._box.refill_rack(key, returned_too=True)
         else:
             self._plates.replace(key)
 
@@ -285,7 +285,7 @@ def touched_by_tip(recorder: Recorder, well: WellRef) -> frozenset[WellRef] | No
     The run so far is read for the worst: a well of which nothing is known counts as one that
     holds liquid, so a tip that went below its upper third touched it. ``None`` if no tip did.
     """
-    trace = build_trace(recorder.log, recorder.labware, Pauses(), lambda ref: True)
+    trace = build_trace(recorder.log, recorder.labware, {}, lambda ref: True)
     for visit in reversed(trace.visits):
         if visit.well.ref == well and visit.kind is OperationKind.DISPENSE:
             return frozenset(touched.ref for touched in visit.tip.touched)

@@ -128,14 +128,12 @@ class TipBox:
             tip = self._on[(pipette, nozzle)] = self._new()
         return tip
 
-    def replace_rack(self, labware: str) -> None:
-        """Someone put a fresh rack in this one's place."""
-        for home in [home for home in self._returned if home.labware == labware]:
+    def refill_rack(self, labware: str, returned_too: bool = False) -> None:
+        """The empty places of a rack hold new tips; returned ones stay what they are, unless
+        someone put a fresh rack in its place.
+        """
+        for home in [home for home in self._returned if home.labware == labware and returned_too]:
             del self._returned[home]
-        self.refill_rack(labware)
-
-    def refill_rack(self, labware: str) -> None:
-        """The empty places of a rack hold new tips; returned ones stay what they are."""
         self._taken = {home for home in self._taken if home.labware != labware}
 
     def _new(self) -> Tip:
