@@ -5,15 +5,7 @@ from __future__ import annotations
 from ..settings import Settings
 from ..vocabulary import Finding, Severity, VerdictWord, counted
 from .database import load_database
-from .judging import (
-    Options,
-    Reading,
-    Report,
-    judge,
-    judge_reading,
-    read_recording,
-    unanswered,
-)
+from .judging import Options, Reading, Report, judge, judge_reading, read_recording, unanswered
 from .rehearsal import Recording, Script, record
 from .rules import Database
 
@@ -30,12 +22,7 @@ def read_for_guard(recording: Recording, settings: Settings) -> Reading:
 
 
 def check_recording(recording: Recording, settings: Settings) -> Report:
-    """Judge a rehearsal on record as a guard's settings say.
-
-    Raises:
-        RuleError: A rule file cannot be used.
-        ConfigurationError: A setting names a rule, role or family that does not exist.
-    """
+    """Judge a rehearsal on record as a guard's settings say; raises as :func:`read_for_guard`."""
     return judge_reading(read_for_guard(recording, settings))
 
 

@@ -7,11 +7,7 @@ from collections import defaultdict
 from collections.abc import Iterator
 from typing import TypeVar
 
-LOOPS: tuple[type[ast.For | ast.AsyncFor | ast.comprehension], ...] = (
-    ast.For,
-    ast.AsyncFor,
-    ast.comprehension,
-)
+LOOPS: tuple[type[ast.For | ast.comprehension], ...] = (ast.For, ast.comprehension)
 FUNCTIONS: tuple[type[ast.FunctionDef | ast.Lambda], ...] = (ast.FunctionDef, ast.Lambda)
 
 _Node = TypeVar("_Node", bound=ast.AST)

@@ -115,8 +115,7 @@ class TipBox:
             if tip is not None and home is not None:
                 self._returned[home] = tip  # with what is in it: tips are parked full, too
                 self._taken.discard(home)
-        for key in [key for key in self._on if key[0] == pipette]:
-            del self._on[key]
+        self._on = {key: tip for key, tip in self._on.items() if key[0] != pipette}
 
     def on(self, pipette: str, nozzle: str) -> Tip | None:
         """The tip on a nozzle, ``None`` on a bare one.

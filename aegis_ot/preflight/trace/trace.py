@@ -95,8 +95,34 @@ class Trace:
 
     @cached_property
     def usage(self) -> Mapping[WellRef, Usage]:
-        """How the run uses each well; asked once all is read."""
-        return _usage_of(self)
+        """How the run uses each well, generations of a plate taken together; asked once all is
+        read.
+        """
+        usages: dict[WellRef, Usage] = {}
+        for well in sorted(self.wells.values(), key=lambda well: well.generation):
+            usage = usages.setdefault(well.ref, Usage())
+            usage.prefilled = usage.prefilled or well.prefilled
+        # A plate that comes back from the cycler is drawn from, and was filled before.
+        for visit in reversed(self.visits):
+            usages[visit.well.ref].first_drawn = visit.kind is OperationKind.ASPIRATE
+        at_first: dict[WellRef, set[WellRef]] = {}
+        for one in self.transfers:
+            usages[one.well.ref].received = True
+            if not usages[one.source.ref].received:
+                at_first.setdefault(one.source.ref, set()).add(one.well.ref)
+        served, drains = self.served, _drains(usages, self)
+        for ref, into in served.items():
+            usages[ref].feeds = not into <= drains
+        for ref in drains:
+            usages[ref].drain = True
+        taken = {visit.well.ref for visit in self.visits if not visit.mixing}
+        for ref, used in usages.items():
+            # Not what is emptied into the trash, and filled then; nor what is only mixed.
+            if ref in served or used.received or ref not in taken:
+                used.first_drawn = used.first_drawn and used.feeds
+            if used.received and at_first.get(ref, set()) <= drains:
+                used.first_drawn = False  # emptied, filled again, and harvested in the end
+        return usages
 
     def sides(self, ref: WellRef) -> tuple[str, bool]:
         """On which side of the run's transfers a well stands: ``source``, ``destination`` or
@@ -147,35 +173,6 @@ class Trace:
 
 _FEWEST_EMPTIED = 2
 """One well that is tested before it is filled is not emptied."""
-
-
-def _usage_of(trace: Trace) -> Mapping[WellRef, Usage]:
-    """How each well is used, generations of a plate taken together."""
-    usages: dict[WellRef, Usage] = {}
-    for well in sorted(trace.wells.values(), key=lambda well: well.generation):
-        usage = usages.setdefault(well.ref, Usage())
-        usage.prefilled = usage.prefilled or well.prefilled
-    # A plate that comes back from the cycler is drawn from, and was filled before.
-    for visit in reversed(trace.visits):
-        usages[visit.well.ref].first_drawn = visit.kind is OperationKind.ASPIRATE
-    at_first: dict[WellRef, set[WellRef]] = {}
-    for one in trace.transfers:
-        usages[one.well.ref].received = True
-        if not usages[one.source.ref].received:
-            at_first.setdefault(one.source.ref, set()).add(one.well.ref)
-    served, drains = trace.served, _drains(usages, trace)
-    for ref, into in served.items():
-        usages[ref].feeds = not into <= drains
-    for ref in drains:
-        usages[ref].drain = True
-    taken = {visit.well.ref for visit in trace.visits if not visit.mixing}
-    for ref, used in usages.items():
-        # Not what is emptied into the trash, and filled then; nor what is only mixed.
-        if ref in served or used.received or ref not in taken:
-            used.first_drawn = used.first_drawn and used.feeds
-        if used.received and at_first.get(ref, set()) <= drains:
-            used.first_drawn = False  # emptied, filled again, and harvested in the end
-    return usages
 
 
 def _drains(usages: Mapping[WellRef, Usage], trace: Trace) -> set[WellRef]:
