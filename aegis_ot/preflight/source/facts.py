@@ -68,15 +68,13 @@ class SourceFacts:
 
     def comment_blocks(self) -> list[tuple[int, str]]:
         """Comments by their first line; those that stand below each other are one text."""
-        blocks: dict[int, list[str]] = {}
-        first = 0
+        blocks: list[tuple[int, list[str]]] = []
         for line, said in sorted(self.comments.items()):
             if line in self.own_line and line - 1 in self.own_line:
-                blocks[first].append(said)
+                blocks[-1][1].append(said)
             else:
-                first = line
-                blocks[first] = [said]
-        return [(line, "\n".join(texts)) for line, texts in blocks.items()]
+                blocks.append((line, [said]))
+        return [(line, "\n".join(texts)) for line, texts in blocks]
 
 
 def read_source(text: str) -> SourceFacts:

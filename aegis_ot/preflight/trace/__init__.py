@@ -6,9 +6,8 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 from .building import build_trace, touched_by_tip
 from .geometry import Contact, Geometry
 from .model import EMPTY_UL, Transfer, Visit, Well, row_column
-from .pauses import Intervention, read_pause
 from .table import places, trace_table
-from .tips import Met, Tip, TipBox
+from .tips import Met, Tip
 from .trace import Imbalance, Trace, Usage, chains_of
 
 __all__ = [
@@ -16,10 +15,8 @@ __all__ = [
     "Contact",
     "Geometry",
     "Imbalance",
-    "Intervention",
     "Met",
     "Tip",
-    "TipBox",
     "Trace",
     "Transfer",
     "Usage",
@@ -28,7 +25,6 @@ __all__ = [
     "build_trace",
     "chains_of",
     "places",
-    "read_pause",
     "row_column",
     "touched_by_tip",
     "trace_table",

@@ -114,8 +114,7 @@ def _sessions(trace: Trace) -> list[_Session]:
         if session is None:
             session = latest[key] = _Session(tips, visits[0].session > 1, [])
             found.append(session)
-        elif len(visits) > len(session.tips):
-            session.tips = tips
+        session.tips = max(session.tips, tips, key=len)
         _append(session.rows, visits)
     return found
 
@@ -183,11 +182,9 @@ def _tips(sessions: Sequence[_Session]) -> str:
     if len(sessions) > 1:
         text += f", {len(sessions)} pick-ups one after the other"
     again = sum(session.again for session in sessions)
-    return (
-        text
-        + (f", {again} of them USED BEFORE" if 0 < again < len(sessions) else "")
-        + (", USED BEFORE" if again == len(sessions) else "")
-    )
+    if again:
+        text += ", USED BEFORE" if again == len(sessions) else f", {again} of them USED BEFORE"
+    return text
 
 
 def _repeated(items: Sequence[_Told]) -> Iterator[tuple[int, list[Sequence[_Told]]]]:
@@ -198,10 +195,8 @@ def _repeated(items: Sequence[_Told]) -> Iterator[tuple[int, list[Sequence[_Told
         best = (1, 1)
         for period in range(1, min(_LONGEST_CYCLE, (len(items) - at) // 2) + 1):
             count = 1
-            while (
-                signatures[at + count * period : at + (count + 1) * period]
-                == (signatures[at : at + period])
-            ):
+            block = signatures[at : at + period]
+            while signatures[at + count * period : at + (count + 1) * period] == block:
                 count += 1
             if count > 1 and period * count > best[0] * best[1]:
                 best = (period, count)

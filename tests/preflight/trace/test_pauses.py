@@ -9,7 +9,7 @@ import pytest
 
 from aegis_ot.instrumentation import LabwareInfo, WellInfo
 from aegis_ot.preflight import Report, Script, check_script, load_database
-from aegis_ot.preflight.trace import Intervention, read_pause
+from aegis_ot.preflight.trace.pauses import Intervention, read_pause
 
 PROTOCOL = """
 metadata = {{"apiLevel": "2.15"}}
