@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..settings import Settings
-from ..vocabulary import Finding, Severity, VerdictWord, counted
+from ..vocabulary import Finding, Severity, counted
 from .database import load_database
 from .judging import Options, Reading, Report, judge, judge_reading, read_recording, unanswered
 from .rehearsal import Recording, Script, record
@@ -41,13 +41,8 @@ def check_script(
     return judge(record(script, timeout_s=timeout_s), database or load_database(), options)
 
 
-def is_rejected(report: Report) -> bool:
-    """Whether the guard refuses to run this protocol."""
-    return report.verdict is VerdictWord.FAIL
-
-
 def errors_of(report: Report) -> list[Finding]:
-    """The findings for which it is refused."""
+    """The findings for which the guard refuses to run a protocol."""
     return [finding for finding in report.findings if finding.severity is Severity.ERROR]
 
 
@@ -62,7 +57,7 @@ def rejection(report: Report) -> str:
 
 def summary(report: Report) -> str:
     """One line for the run log."""
-    errors = sum(finding.severity is Severity.ERROR for finding in report.findings)
+    errors = len(errors_of(report))
     warnings = len(report.findings) - errors
     parts = [
         counted(errors, "error"),

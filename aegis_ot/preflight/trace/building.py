@@ -79,9 +79,7 @@ class _Builder:
 
     def _event(self, event: Event) -> None:
         kind = event.kind
-        if kind is EventKind.LABWARE_LOADED:
-            self._slots[event.labware] = event.text
-        elif kind is EventKind.TIPS_RESET:
+        if kind is EventKind.TIPS_RESET:
             self._box.refill_rack(event.labware)
         elif kind is EventKind.LABWARE_MOVED:
             self._slots[event.labware] = event.text
@@ -117,11 +115,9 @@ class _Builder:
             self._plates.forget_volumes()
 
     def _replace(self, key: str) -> None:
-        info = self._trace.labware.get(key)
-        if info is not None and info.is_tip_rack:
-            self._box.refill_rack(key, returned_too=True)
-        else:
-            self._plates.replace(key)
+        """Another rack of tips, or another plate, stands there from now on."""
+        self._box.refill_rack(key, returned_too=True)
+        self._plates.replace(key)
 
     # -- steps
 
