@@ -52,9 +52,18 @@ def with_opinion(report: Report, reading: Reading, settings: Settings, protocol:
 
 def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: float) -> Opinion:
     """Ask the sidecar at ``"http://192.168.1.20:7645"``, and wait ``timeout_s`` at most."""
+    deadline = time.monotonic() + timeout_s
     try:
         with closing(HttpClient(address, token)) as client:
-            return _exchange(client, dossier, timeout_s)
+            answer = _send(client, "POST", "/v1/opinions", dossier.to_json(), deadline)
+            while answer.get("opinion") is None:
+                left = deadline - time.monotonic()
+                if left <= 0:
+                    told = f"it has not answered in {timeout_s:g} s; the next run may find it."
+                    raise _Refused("timeout", told)
+                path = f"/v1/opinions/{answer['digest']}?wait={min(_POLL_S, left):.2f}"
+                answer = _send(client, "GET", path, None, deadline)
+            return from_json(Opinion, answer["opinion"])
     except TimeoutError:
         state, detail = "timeout", f"the sidecar has not answered in {timeout_s:g} s."
     except (OSError, http.client.HTTPException) as error:
@@ -65,19 +74,6 @@ def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: fl
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         state, detail = "invalid", f"the sidecar's answer makes no sense ({error})."
     return Opinion(state, _WHO, detail)
-
-
-def _exchange(client: HttpClient, dossier: Dossier, timeout_s: float) -> Opinion:
-    deadline = time.monotonic() + timeout_s
-    answer = _send(client, "POST", "/v1/opinions", dossier.to_json(), deadline)
-    while answer.get("opinion") is None:
-        left = deadline - time.monotonic()
-        if left <= 0:
-            detail = f"it has not answered in {timeout_s:g} s; the next run may find it."
-            return Opinion("timeout", _WHO, detail)
-        path = f"/v1/opinions/{answer['digest']}?wait={min(_POLL_S, left):.2f}"
-        answer = _send(client, "GET", path, None, deadline)
-    return from_json(Opinion, answer["opinion"])
 
 
 def _send(client: HttpClient, method: str, path: str, body: Any, deadline: float) -> dict[str, Any]:

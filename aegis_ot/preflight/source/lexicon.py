@@ -73,6 +73,9 @@ class Lexicon:
         phrases: For each topic its phrases. A phrase that stands under several topics is
             reported for each.
         aliases: Abbreviations and what they stand for, word by word.
+
+    Attributes:
+        find: All phrases in a text, none overlapping a longer one, in order.
     """
 
     def __init__(
@@ -89,11 +92,7 @@ class Lexicon:
                     self._by_first.setdefault(parts[0], []).append((parts, topic, phrase))
         for entries in self._by_first.values():
             entries.sort(key=lambda entry: -len(entry[0]))
-        self._found = functools.lru_cache(maxsize=_MOST_TEXTS)(self._search)
-
-    def find(self, text: str) -> tuple[Match, ...]:
-        """All phrases in ``text``, none overlapping a longer one, in order."""
-        return self._found(text)
+        self.find = functools.lru_cache(maxsize=_MOST_TEXTS)(self._find)
 
     def words(self, text: str) -> tuple[str, ...]:
         """The words of a text that matches count: abbreviations spelled out."""
@@ -109,7 +108,7 @@ class Lexicon:
     def _full(self, words: tuple[str, ...]) -> tuple[str, ...]:
         return tuple(self._aliases.get(word, word) for word in words)
 
-    def _search(self, text: str) -> tuple[Match, ...]:
+    def _find(self, text: str) -> tuple[Match, ...]:
         words = self.words(text)
         found: list[Match] = []
         at = 0

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from ...vocabulary import WellRef
@@ -87,14 +87,13 @@ class TipBox:
         self.tips: list[Tip] = []
 
     def pick_up(
-        self, pipette: str, nozzles: Iterable[str], racks: Iterable[WellRef | None]
+        self, pipette: str, nozzles: Iterable[str], racks: Sequence[WellRef | None]
     ) -> None:
         """Put a tip on each nozzle: the returned one if one stands there, else a new one.
 
         Nozzles beside the rack, or over places whose tips are gone, stay bare: that is how a
         multi-channel pipette is used with one tip.
         """
-        racks = list(racks)
         self._seen.add(pipette)
         lead = next((home for home in racks if home is not None), None)
         for nozzle, home in zip(nozzles, racks, strict=False):
