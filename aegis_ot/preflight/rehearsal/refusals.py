@@ -37,13 +37,8 @@ def in_words(error: BaseException) -> str:
 def stopped(
     error: Exception, file_name: str, run: Any = None, lacking: Sequence[str] = ()
 ) -> RehearsalError:
-    """The error of a protocol that raised.
-
-    Args:
-        error: What it raised.
-        file_name: Of the protocol.
-        run: Where the error stands if no line of it ran.
-        lacking: CSV parameters without a file.
+    """The error of a protocol that raised: at ``run`` if no line of it ran. It may be that CSV
+    parameters are ``lacking`` a file.
     """
     line = line_of(error, file_name)
     if line is None and callable(run):

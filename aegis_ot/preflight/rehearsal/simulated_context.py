@@ -44,9 +44,9 @@ def simulated_context(
         if is_legacy:
             core_parts = {"use_simulating_core": True, "extra_labware": dict(extra_labware or {})}
         else:
-            engine, loop = stack.enter_context(
-                _engine(hardware, robot_type, deck_type, api_level, extra_labware or {})
-            )
+            engine, loop = stack.enter_context(_engine(hardware, robot_type, deck_type, api_level))
+            adding = _add(engine, extra_labware or {})
+            asyncio.run_coroutine_threadsafe(adding, loop).result()
             core_parts = {"protocol_engine": engine, "protocol_engine_loop": loop}
         context = create_protocol_context(
             api_version=api_level,
@@ -93,14 +93,7 @@ def _lend_modules(core: Any, hardware: Any) -> None:
     core.load_module = load
 
 
-@contextmanager
-def _engine(
-    hardware: Any,
-    robot_type: str,
-    deck_type: str,
-    api_level: Any,
-    extra_labware: Mapping[str, Any],
-) -> Iterator[tuple[Any, Any]]:
+def _engine(hardware: Any, robot_type: str, deck_type: str, api_level: Any) -> Any:
     from opentrons.protocol_engine import Config, DeckType, error_recovery_policy
     from opentrons.protocol_engine.create_protocol_engine import create_protocol_engine_in_thread
     from opentrons.protocol_engine.types import PostRunHardwareState
@@ -128,12 +121,9 @@ def _engine(
         "load_fixed_trash": should_load_fixed_trash_labware_for_python_protocol(api_level),
     }
     known = inspect.signature(create_protocol_engine_in_thread).parameters
-    with create_protocol_engine_in_thread(
+    return create_protocol_engine_in_thread(
         **{name: part for name, part in parts.items() if name in known}
-    ) as (engine, loop):
-        if extra_labware:
-            asyncio.run_coroutine_threadsafe(_add(engine, extra_labware), loop).result()
-        yield engine, loop
+    )
 
 
 async def _add(engine: Any, definitions: Mapping[str, Any]) -> None:

@@ -61,13 +61,9 @@ def level_in(text: str, words: Mapping[str, float], plain_numbers: bool = True) 
     if stated:
         return stated.pop() if len(stated) == 1 else None
     ratios = {1.0 / float(value) for value in _RATIO.findall(plain) if float(value) > 0}
-    if len(ratios) == 1:
-        return ratios.pop()
     said = {words[match.topic] for match in lexicon_of({w: (w,) for w in words}).find(text)}
-    if len(said) == 1:
-        return said.pop()
     numbers = set(_LONG_NUMBER.findall(plain.replace("_", " "))) if plain_numbers else set()
-    return float(numbers.pop()) if len(numbers) == 1 else None
+    return next((float(one.pop()) for one in (ratios, said, numbers) if len(one) == 1), None)
 
 
 def level_of(text: str, words: Mapping[str, float]) -> float | None:

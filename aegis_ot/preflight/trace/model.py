@@ -112,12 +112,6 @@ class Well:
             self.volume += volume
         self.contents[self] = self.contents.get(self, 0.0) + held
 
-    def forget_volume(self) -> None:
-        """Someone may have filled or emptied it by hand."""
-        self.known = False
-        self.most = self.capacity
-        self.unsure = self.volume
-
     def liquid(self) -> Composition:
         """What a tip would draw now."""
         total = sum(self.contents.values())

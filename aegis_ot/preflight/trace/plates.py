@@ -59,7 +59,9 @@ class Plates:
         for well in self._known.values():
             stands = well.generation == self._generation[well.ref.labware]
             if stands and (well.visits or well.prefilled):
-                well.forget_volume()
+                well.known = False
+                well.most = well.capacity
+                well.unsure = well.volume
 
     def _geometry(self, info: WellInfo) -> Geometry | None:
         """The wells of a plate share theirs."""
