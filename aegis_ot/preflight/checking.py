@@ -5,7 +5,15 @@ from __future__ import annotations
 from ..settings import Settings
 from ..vocabulary import Finding, Severity, counted
 from .database import load_database
-from .judging import Options, Reading, Report, judge, judge_reading, read_recording, unanswered
+from .judging import (
+    Options,
+    Reading,
+    Report,
+    judge,
+    judge_reading,
+    read_recording,
+    unanswered,
+)
 from .rehearsal import Recording, Script, record
 from .rules import Database
 

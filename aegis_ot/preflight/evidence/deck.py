@@ -40,15 +40,10 @@ class Deck:
         loaded = WellRef(labware, name, info.label or info.display_name, info.slot)
         return self._used.get(loaded, loaded)
 
-    def refs(self, labware: Iterable[str], names: Iterable[str]) -> tuple[WellRef, ...]:
-        """The wells of these names in those of these labware that have them."""
-        plain = [plain_name(name) for name in names]
-        return tuple(
-            self.ref(key, name)
-            for key in labware
-            for name in plain
-            if key in self.trace.labware and name in self.trace.labware[key].wells
-        )
+    def refs(self, labware: str, names: Iterable[str]) -> tuple[WellRef, ...]:
+        """The wells of these names that a labware has."""
+        wells = self.trace.labware[labware].wells
+        return tuple(self.ref(labware, name) for name in map(plain_name, names) if name in wells)
 
     def used_wells(self, labware: Iterable[str]) -> tuple[WellRef, ...]:
         """The wells of these labware that the run uses."""

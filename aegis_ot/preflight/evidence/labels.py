@@ -76,8 +76,8 @@ def labels(deck: Deck) -> Iterator[Evidence]:
         entries = entries_of(info.label, info)
         citation = f"label '{info.label}'"
         for names, said in entries:
-            yield Evidence(Kind.NAME, said, deck.refs((info.key,), names), citation)
+            yield Evidence(Kind.NAME, said, deck.refs(info.key, names), citation)
         if not entries:
-            apart = deck.refs((info.key,), _WELL.findall(info.label))  # "DNA (H2 = water)"
+            apart = deck.refs(info.key, _WELL.findall(info.label))  # "DNA (H2 = water)"
             wells = tuple(ref for ref in deck.used_wells((info.key,)) if ref not in apart)
             yield Evidence(Kind.NAME, info.label, wells, citation, whole=True)

@@ -64,7 +64,7 @@ def _indexed(
     for use in uses:
         for origin in (use.held, *facts.flow.comes_from.get(use.held, ())):
             keys |= deck.by_name.get(origin, set())
-    in_each = [deck.refs((key,), spots) for key in deck.trace.labware if key in keys]
+    in_each = [deck.refs(key, spots) for key in deck.trace.labware if key in keys]
     if len(in_each) > 1:
         whole = [wells for wells in in_each if len(wells) == len(spots)]
         in_each = [wells for wells in whole if all(map(deck.is_used, wells))]

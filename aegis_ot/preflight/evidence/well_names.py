@@ -30,10 +30,8 @@ def wells_in(text: str, wells: Collection[str]) -> list[str]:
     """
     if text.strip() in ("", "*"):
         return list(wells)
-    found: dict[str, None] = {}
-    for match in _PLACE.finditer(text):
-        found.update(dict.fromkeys(_meant(match, wells)))
-    return list(found)
+    found = (name for match in _PLACE.finditer(text) for name in _meant(match, wells))
+    return list(dict.fromkeys(found))
 
 
 def not_wells_in(text: str, wells: Collection[str]) -> str:

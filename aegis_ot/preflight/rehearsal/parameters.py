@@ -72,9 +72,8 @@ def runtime_parameters(protocol: Any, script: Script, limit: Limit) -> Any:
     """
     context, parameters = _executed(protocol, script, limit)
     declared = _declared(context)
-    unknown = [
-        name for name in (*script.parameters, *script.csv_parameters) if name not in declared
-    ]
+    given = (*script.parameters, *script.csv_parameters)
+    unknown = [name for name in given if name not in declared]
     if unknown:
         raise RehearsalError(f"{script.file_name}: {undeclared(unknown, declared)}")
     if parameters is None:

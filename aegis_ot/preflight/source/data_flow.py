@@ -149,10 +149,8 @@ def _fields_in(index: ast.expr) -> Iterator[str]:
     names, which may have been taken from a field called so.
     """
     for inner in ast.walk(index):
-        if isinstance(inner, ast.Attribute):
-            yield inner.attr
-        elif isinstance(inner, ast.Name):
-            yield inner.id
+        if isinstance(inner, (ast.Name, ast.Attribute)):
+            yield _last_name(inner)
         elif isinstance(inner, ast.Constant) and isinstance(inner.value, (str, int)):
             yield str(inner.value)
 

@@ -14,7 +14,7 @@ from itertools import islice
 from typing import TypeGuard
 
 from .data_flow import Flow, read_flow
-from .nodes import FUNCTIONS, LOOPS, Nodes, name_of
+from .nodes import LOOPS, Nodes
 
 _MOST_TEXTS = 2000
 """A protocol that carries its data in strings says nothing more of itself after so many."""
@@ -138,10 +138,9 @@ def _is_text(node: ast.AST | None) -> TypeGuard[ast.Constant]:
 
 def _read_scopes(facts: SourceFacts) -> None:
     """Which names loops give many values, and which ones calls do, by the function they are in."""
-    for function in facts.nodes.of(*FUNCTIONS):
-        given = function.args
+    for given, function, _ in facts.nodes.placed(ast.arguments):
         for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs):
-            facts.passing.add((name_of(function), argument.arg))
+            facts.passing.add((function, argument.arg))
     for loop, inside, _ in facts.nodes.placed(*LOOPS):
         targets = (node for node in ast.walk(loop.target) if isinstance(node, ast.Name))
         facts.varying |= {(inside, target.id) for target in targets}

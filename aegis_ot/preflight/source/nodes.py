@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from typing import TypeVar
 
 LOOPS: tuple[type[ast.For | ast.comprehension], ...] = (ast.For, ast.comprehension)
-FUNCTIONS: tuple[type[ast.FunctionDef | ast.Lambda], ...] = (ast.FunctionDef, ast.Lambda)
 
 _Node = TypeVar("_Node", bound=ast.AST)
 _Placed = tuple[ast.AST, str, tuple[str, ...]]
@@ -31,8 +30,10 @@ class Nodes:
             placed = open_.pop()
             node, function, looping = placed
             self._placed[type(node)].append(placed)
-            if isinstance(node, FUNCTIONS):
-                function = name_of(node)
+            if isinstance(node, ast.FunctionDef):
+                function = node.name
+            elif isinstance(node, ast.Lambda):
+                function = "<lambda>"
             elif isinstance(node, LOOPS):
                 looping = (*looping, function)
             open_ += [(child, function, looping) for child in reversed(_children(node))]
@@ -46,11 +47,6 @@ class Nodes:
         """Likewise, each with its function, and with those in which loops enclose it."""
         for kind in kinds:
             yield from self._placed.get(kind, ())  # type: ignore[misc]
-
-
-def name_of(function: ast.FunctionDef | ast.Lambda) -> str:
-    """A function's name."""
-    return function.name if isinstance(function, ast.FunctionDef) else "<lambda>"
 
 
 def _children(node: ast.AST) -> list[ast.AST]:

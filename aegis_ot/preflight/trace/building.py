@@ -7,7 +7,7 @@ module is where those words become values. One pass over the recorded steps, no 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from ...instrumentation import Event, EventKind, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
@@ -27,7 +27,7 @@ _FALLS_MM = 20.0
 
 
 def build_trace(
-    log: Iterable[Record],
+    log: Sequence[Record],
     labware: Mapping[str, LabwareInfo],
     words: Words,
     prefilled: Callable[[WellRef], bool] = lambda ref: False,
@@ -50,18 +50,17 @@ class _Builder:
         words: Words,
         prefilled: Callable[[WellRef], bool],
     ) -> None:
-        self._trace = Trace(labware)
+        self._box = TipBox()
+        self._trace = Trace(labware, tips=self._box.tips)
         self._words = words
         self._plates = Plates(labware, prefilled, self._trace.wells)
-        self._box = TipBox()
         self._slots = {key: info.slot for key, info in labware.items()}
         self._index = 0
         self._last: dict[Tip, Visit] = {}
         self._heights: dict[Tip, tuple[Well, float]] = {}
         self._cycle: dict[str, tuple[object, set[OperationKind]]] = {}
 
-    def run(self, log: Iterable[Record]) -> Trace:
-        log = list(log)
+    def run(self, log: Sequence[Record]) -> Trace:
         for record in log:
             # Wherever it stands in the text, it tells what is there before the run.
             if isinstance(record, Event) and record.kind is EventKind.LIQUID_LOADED:
@@ -72,7 +71,6 @@ class _Builder:
                 self._event(record)
             else:
                 self._step(record)
-        self._trace.tips = self._box.tips
         return self._trace
 
     # -- events
@@ -256,10 +254,10 @@ class _Builder:
         drawn = self._last.get(tip)
         if drawn is None or visit.volume <= 0:
             return
-        if visit.brought:
+        gives_back = drawn.well is visit.well and visit.volume >= drawn.volume * _MOST
+        if visit.brought or gives_back:
             del self._last[tip]
-            return
-        if drawn.well is not visit.well or visit.volume < drawn.volume * _MOST:
+        if visit.brought or not gives_back:
             return
         drawn.mixing = visit.mixing = True
         mixes = visit.well.mixes
@@ -267,7 +265,6 @@ class _Builder:
             mixes[-1] = (mixes[-1][0], visit.index, mixes[-1][2])
         else:
             mixes.append((drawn.index, visit.index, drawn.line))
-        del self._last[tip]
 
 
 def _slack(volume: float) -> float:
