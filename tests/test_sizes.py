@@ -9,7 +9,7 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 9_862,
+    "preflight": 9_861,
     "preflight/checks": 2_246,
     "preflight/database": 215,
     "preflight/evidence": 705,
@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 646,
     "preflight/source": 679,
     "preflight/trace": 1_499,
-    "": 65_934,
+    "": 65_933,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""

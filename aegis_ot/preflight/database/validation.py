@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import Any
@@ -33,7 +33,7 @@ def check_family(family: Family, file: str) -> None:
                         raise RuleError(f"{where}: {word!r} holds no letter or number to look for")
     parents = {name: role.parents for name, role in family.roles.items()}
     # What a role counts as is followed to the end.
-    _refuse_circle(parents, {name: f"{file}: roles.{name}: parents" for name in parents})
+    _refuse_circle(parents, lambda name: f"{file}: roles.{name}: parents")
 
 
 def _parts(family: Family, file: str) -> Iterator[tuple[str, Any]]:
@@ -94,25 +94,24 @@ def _refuse_doubles(families: Sequence[Family]) -> None:
 
 def _check_replaced(families: Sequence[Family]) -> None:
     """Of rules that give way to each other in a circle none would report anything."""
-    rules = {rule.id: rule.unless_reported for family in families for rule in family.rules}
-    places = {
-        rule.id: f"{Path(family.path).name}: rule {rule.id}: unless_reported"
-        for family in families
-        for rule in family.rules
-    }
-    for name, others in rules.items():
-        for other in others:
+    files = {rule.id: Path(family.path).name for family in families for rule in family.rules}
+    rules = {rule.id: rule for family in families for rule in family.rules}
+    for name, rule in rules.items():
+        for other in rule.unless_reported:
             if other not in rules:
-                known = ", ".join(sorted(rules))
-                raise RuleError(f"{places[name]}: there is no rule {other!r}; known are {known}")
-    _refuse_circle(rules, places)
+                raise RuleError(
+                    f"{files[name]}: rule {name}: unless_reported: there is no rule {other!r}; "
+                    f"known are {', '.join(sorted(rules))}"
+                )
+    leads_to = {name: rule.unless_reported for name, rule in rules.items()}
+    _refuse_circle(leads_to, lambda name: f"{files[name]}: rule {name}: unless_reported")
 
 
-def _refuse_circle(leads_to: Mapping[str, Collection[str]], where: Mapping[str, str]) -> None:
+def _refuse_circle(leads_to: Mapping[str, Collection[str]], where: Callable[[str], str]) -> None:
     """Refuse a way that ends where it begins, ``a -> b -> a``, through names that name others."""
     try:
         TopologicalSorter(leads_to).prepare()
     except CycleError as error:
         circle = tuple(reversed(error.args[1]))
         told = f"they go in a circle: {' -> '.join(circle)}"
-        raise RuleError(f"{where[circle[0]]}: {told}") from None
+        raise RuleError(f"{where(circle[0])}: {told}") from None
