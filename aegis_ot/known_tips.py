@@ -22,7 +22,7 @@ class KnownTips:
 
     def __init__(self) -> None:
         from .preflight.rehearsal import Recorder
-        from .preflight.tip_history import touched_by_tip
+        from .preflight.trace import touched_by_tip
         from .runtime import TipForecast, TipKnowledge
 
         self.forecast = TipForecast()

@@ -9,18 +9,18 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 10_252,
+    "preflight": 9_861,
     "preflight/checks": 2_246,
-    "preflight/database": 268,
-    "preflight/evidence": 754,
-    "preflight/judging": 897,
+    "preflight/database": 215,
+    "preflight/evidence": 705,
+    "preflight/judging": 896,
     "preflight/opinion": 709,
-    "preflight/rehearsal": 1_091,
+    "preflight/rehearsal": 1_008,
     "preflight/roles": 1_031,
     "preflight/rules": 646,
-    "preflight/source": 743,
-    "preflight/trace": 1_584,
-    "": 66_327,
+    "preflight/source": 679,
+    "preflight/trace": 1_499,
+    "": 65_933,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""

@@ -33,13 +33,8 @@ _WHO = "the sidecar's model"
 def with_opinion(report: Report, reading: Reading, settings: Settings, protocol: Any) -> Report:
     """The checks' report with the opinion of the sidecar's model merged into it.
 
-    Never raises: whatever fails here, the checks' report stands.
-
-    Args:
-        report: From :func:`~aegis_ot.preflight.judging.judge_reading`, of the same reading.
-        reading: What the report judges.
-        settings: The guard's.
-        protocol: The context, for whether a robot waits.
+    Never raises: whatever fails here, the checks' report stands. The protocol's context tells
+    whether a robot waits.
     """
     if settings.sidecar is None or not settings.sidecar.startswith("http"):
         return report
@@ -56,40 +51,29 @@ def with_opinion(report: Report, reading: Reading, settings: Settings, protocol:
 
 
 def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: float) -> Opinion:
-    """Ask, and wait no longer than ``timeout_s``.
-
-    Args:
-        address: Of the sidecar, ``"http://192.168.1.20:7645"``.
-        token: It expects, if any.
-        dossier: What to ask about.
-        timeout_s: Longest wait, s.
-    """
+    """Ask the sidecar at ``"http://192.168.1.20:7645"``, and wait ``timeout_s`` at most."""
+    deadline = time.monotonic() + timeout_s
     try:
         with closing(HttpClient(address, token)) as client:
-            return _exchange(client, dossier, timeout_s)
+            answer = _send(client, "POST", "/v1/opinions", dossier.to_json(), deadline)
+            while answer.get("opinion") is None:
+                left = deadline - time.monotonic()
+                if left <= 0:
+                    told = f"it has not answered in {timeout_s:g} s; the next run may find it."
+                    raise _Refused("timeout", told)
+                path = f"/v1/opinions/{answer['digest']}?wait={min(_POLL_S, left):.2f}"
+                answer = _send(client, "GET", path, None, deadline)
+            return from_json(Opinion, answer["opinion"])
     except TimeoutError:
         state, detail = "timeout", f"the sidecar has not answered in {timeout_s:g} s."
     except (OSError, http.client.HTTPException) as error:
         state = "unavailable"
         detail = f"the sidecar cannot be reached ({type(error).__name__})."
     except _Refused as error:
-        state, detail = error.state, str(error)
+        state, detail = error.args
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         state, detail = "invalid", f"the sidecar's answer makes no sense ({error})."
     return Opinion(state, _WHO, detail)
-
-
-def _exchange(client: HttpClient, dossier: Dossier, timeout_s: float) -> Opinion:
-    deadline = time.monotonic() + timeout_s
-    answer = _send(client, "POST", "/v1/opinions", dossier.to_json(), deadline)
-    while answer.get("opinion") is None:
-        left = deadline - time.monotonic()
-        if left <= 0:
-            detail = f"it has not answered in {timeout_s:g} s; the next run may find it."
-            return Opinion("timeout", _WHO, detail)
-        path = f"/v1/opinions/{answer['digest']}?wait={min(_POLL_S, left):.2f}"
-        answer = _send(client, "GET", path, None, deadline)
-    return from_json(Opinion, answer["opinion"])
 
 
 def _send(client: HttpClient, method: str, path: str, body: Any, deadline: float) -> dict[str, Any]:
@@ -99,10 +83,10 @@ def _send(client: HttpClient, method: str, path: str, body: Any, deadline: float
     status, data = client.request(method, path, body, min(left, _REQUEST_S))
     if status in (401, 403):
         raise _Refused("unauthorized", "the sidecar refused the token.")
-    if status == 404:
-        raise _Refused("unavailable", "the sidecar is too old to ask a model.")
     if status != 200:
-        raise _Refused("unavailable", f"the sidecar answered with HTTP {status}.")
+        too_old = "the sidecar is too old to ask a model."
+        told = too_old if status == 404 else f"the sidecar answered with HTTP {status}."
+        raise _Refused("unavailable", told)
     answer = json.loads(data)
     if not isinstance(answer, dict):
         raise ValueError("no object")
@@ -110,6 +94,4 @@ def _send(client: HttpClient, method: str, path: str, body: Any, deadline: float
 
 
 class _Refused(Exception):
-    def __init__(self, state: str, message: str) -> None:
-        super().__init__(message)
-        self.state = state
+    """The state of the opinion, and why."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..settings import Settings
-from ..vocabulary import Finding, Severity, VerdictWord, counted
+from ..vocabulary import Finding, Severity, counted
 from .database import load_database
 from .judging import (
     Options,
@@ -30,12 +30,7 @@ def read_for_guard(recording: Recording, settings: Settings) -> Reading:
 
 
 def check_recording(recording: Recording, settings: Settings) -> Report:
-    """Judge a rehearsal on record as a guard's settings say.
-
-    Raises:
-        RuleError: A rule file cannot be used.
-        ConfigurationError: A setting names a rule, role or family that does not exist.
-    """
+    """Judge a rehearsal on record as a guard's settings say; raises as :func:`read_for_guard`."""
     return judge_reading(read_for_guard(recording, settings))
 
 
@@ -54,13 +49,8 @@ def check_script(
     return judge(record(script, timeout_s=timeout_s), database or load_database(), options)
 
 
-def is_rejected(report: Report) -> bool:
-    """Whether the guard refuses to run this protocol."""
-    return report.verdict is VerdictWord.FAIL
-
-
 def errors_of(report: Report) -> list[Finding]:
-    """The findings for which it is refused."""
+    """The findings for which the guard refuses to run a protocol."""
     return [finding for finding in report.findings if finding.severity is Severity.ERROR]
 
 
@@ -75,7 +65,7 @@ def rejection(report: Report) -> str:
 
 def summary(report: Report) -> str:
     """One line for the run log."""
-    errors = sum(finding.severity is Severity.ERROR for finding in report.findings)
+    errors = len(errors_of(report))
     warnings = len(report.findings) - errors
     parts = [
         counted(errors, "error"),

@@ -16,7 +16,7 @@ from aegis_ot.instrumentation import (
 )
 from aegis_ot.preflight.database import load_database
 from aegis_ot.preflight.rehearsal import Recorder
-from aegis_ot.preflight.trace import Pauses, Trace, Well, build_trace
+from aegis_ot.preflight.trace import Trace, Well, build_trace
 from aegis_ot.vocabulary import WellRef
 
 PIPETTE = Pipette("left", "p300_single_gen2", "left", 1, 300.0)
@@ -79,7 +79,7 @@ class Bench:
 
     def trace(self) -> Trace:
         words = load_database().common.pauses
-        return build_trace(self.recorder.log, self.recorder.labware, Pauses(words))
+        return build_trace(self.recorder.log, self.recorder.labware, words)
 
     def _do(
         self,

@@ -10,7 +10,7 @@ from typing import Any
 
 from ...errors import RuleError
 from ..rules import READABLE, SCHEMA_VERSION, Common, Database, Family, parse_json, read_dataclass
-from .validation import check_family, check_together, refuse_dropped
+from .validation import check_family, check_together
 
 
 def shipped_rules() -> Path:
@@ -38,7 +38,7 @@ def load_database(extra: Sequence[str | Path] = ()) -> Database:
     for given in extra:
         path = Path(given)
         if path.is_dir():
-            found = sorted(p for p in path.glob("*.json") if _is_family_file(p))
+            found = _family_files(path)
             if not found:
                 raise RuleError(f"{path}: there is no rule file (*.json) in this folder")
             files.extend(found)
@@ -58,14 +58,14 @@ def _shipped() -> Database:
     """Read once: a robot server analyses many protocols in one process."""
     folder = shipped_rules()
     common = read_dataclass(Common, _json(folder / "common.json"), "common.json")
-    files = sorted(path for path in folder.glob("*.json") if _is_family_file(path))
-    families = [load_family(path) for path in files]
+    families = [load_family(path) for path in _family_files(folder)]
     check_together(families)
     return Database(tuple(families), common)
 
 
-def _is_family_file(path: Path) -> bool:
-    return path.name != "common.json" and not path.name.endswith("schema.json")
+def _family_files(folder: Path) -> list[Path]:
+    found = sorted(folder.glob("*.json"))
+    return [p for p in found if p.name != "common.json" and not p.name.endswith("schema.json")]
 
 
 def load_family(path: Path) -> Family:
@@ -77,7 +77,6 @@ def load_family(path: Path) -> Family:
     data = _json(path)
     if isinstance(data, dict):
         data.pop("$schema", None)
-        refuse_dropped(data, path.name)
     family = read_dataclass(Family, data, path.name)
     if family.schema not in READABLE:
         raise RuleError(f"{path.name}: schema: expected {SCHEMA_VERSION}, found {family.schema}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import Any
@@ -13,54 +13,11 @@ from ..checks import make_check
 from ..rules import Family
 from ..source import tokens
 
-_NAME = "name such wells in the protocol, load a liquid, or give them in the guard's `roles`"
-_LEAVE = "leave it out"
-
-DROPPED: Mapping[str, str] = {
-    "single_with": _NAME,
-    "single_beside": _NAME,
-    "used_like": _NAME,
-    "gets": _NAME,
-    "in_place_of": _NAME,
-    "common_to": _NAME,
-    "called_alike_beside": _NAME,
-    "passed_on": _NAME,
-    "holds": "load the liquid, and list its role in `receives`",
-    "undosed": "give the wells of dose 0 a name of their own",
-    "replicated": "name the wells of each plate",
-    "receives_with": f"{_LEAVE}: `receives` alone decides",
-    "feeds_beside": f"{_LEAVE}: `feeds` alone decides",
-}
-"""Fields of schema 1 that are gone, each with what to write instead."""
-
 _WORDS = ("words", "never", "differing")
-
-
-def refuse_dropped(data: Mapping[str, Any], file: str) -> None:
-    """Refuse a family that uses what schema 2 no longer has.
-
-    Args:
-        data: The file, as it was parsed.
-        file: Its name, for the message.
-
-    Raises:
-        RuleError: With file, role, field, and what to write instead.
-    """
-    roles = data.get("roles")
-    for name, role in roles.items() if isinstance(roles, dict) else ():
-        for field in role if isinstance(role, dict) else ():
-            if field in DROPPED:
-                raise RuleError(
-                    f"{file}: roles.{name}: {field!r} is no field since schema 2: {DROPPED[field]}"
-                )
 
 
 def check_family(family: Family, file: str) -> None:
     """Refuse a family that names a role or check that does not exist, or words nobody can find.
-
-    Args:
-        family: As it was read.
-        file: Its name, for the message.
 
     Raises:
         RuleError: With file, rule or role, and field.
@@ -71,10 +28,12 @@ def check_family(family: Family, file: str) -> None:
             if field.metadata.get("roles"):
                 _check_roles(family, getattr(part, field.name), where)
             elif field.name in _WORDS:
-                _check_words(getattr(part, field.name), where)
-    circle = _circle({name: role.parents for name, role in family.roles.items()})
-    if circle:  # what a role counts as is followed to the end
-        raise RuleError(f"{file}: roles.{circle[0]}: parents: {_told(circle)}")
+                for word in getattr(part, field.name):
+                    if not tokens(word):
+                        raise RuleError(f"{where}: {word!r} holds no letter or number to look for")
+    parents = {name: role.parents for name, role in family.roles.items()}
+    # What a role counts as is followed to the end.
+    _refuse_circle(parents, lambda name: f"{file}: roles.{name}: parents")
 
 
 def _parts(family: Family, file: str) -> Iterator[tuple[str, Any]]:
@@ -98,12 +57,6 @@ def _check_roles(family: Family, names: Sequence[str], where: str) -> None:
         if role not in family.roles:
             known = ", ".join(family.roles)
             raise RuleError(f"{where}: there is no role {role!r} in this family; known are {known}")
-
-
-def _check_words(words: Sequence[str], where: str) -> None:
-    for word in words:
-        if not tokens(word):
-            raise RuleError(f"{where}: {word!r} holds no letter or number to look for")
 
 
 def check_together(families: Sequence[Family]) -> None:
@@ -150,20 +103,15 @@ def _check_replaced(families: Sequence[Family]) -> None:
                     f"{files[name]}: rule {name}: unless_reported: there is no rule {other!r}; "
                     f"known are {', '.join(sorted(rules))}"
                 )
-    circle = _circle({name: rule.unless_reported for name, rule in rules.items()})
-    if circle:
-        where = f"{files[circle[0]]}: rule {circle[0]}: unless_reported"
-        raise RuleError(f"{where}: {_told(circle)}")
+    leads_to = {name: rule.unless_reported for name, rule in rules.items()}
+    _refuse_circle(leads_to, lambda name: f"{files[name]}: rule {name}: unless_reported")
 
 
-def _told(circle: Sequence[str]) -> str:
-    return f"they go in a circle: {' -> '.join(circle)}"
-
-
-def _circle(leads_to: Mapping[str, Collection[str]]) -> tuple[str, ...]:
-    """A way that ends where it begins, ``("a", "b", "a")``, through names that name others."""
+def _refuse_circle(leads_to: Mapping[str, Collection[str]], where: Callable[[str], str]) -> None:
+    """Refuse a way that ends where it begins, ``a -> b -> a``, through names that name others."""
     try:
         TopologicalSorter(leads_to).prepare()
     except CycleError as error:
-        return tuple(reversed(error.args[1]))
-    return ()
+        circle = tuple(reversed(error.args[1]))
+        told = f"they go in a circle: {' -> '.join(circle)}"
+        raise RuleError(f"{where(circle[0])}: {told}") from None

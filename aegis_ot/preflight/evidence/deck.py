@@ -40,15 +40,10 @@ class Deck:
         loaded = WellRef(labware, name, info.label or info.display_name, info.slot)
         return self._used.get(loaded, loaded)
 
-    def refs(self, labware: Iterable[str], names: Iterable[str]) -> tuple[WellRef, ...]:
-        """The wells of these names in those of these labware that have them."""
-        plain = [plain_name(name) for name in names]
-        return tuple(
-            self.ref(key, name)
-            for key in labware
-            for name in plain
-            if key in self.trace.labware and name in self.trace.labware[key].wells
-        )
+    def refs(self, labware: str, names: Iterable[str]) -> tuple[WellRef, ...]:
+        """The wells of these names that a labware has."""
+        wells = self.trace.labware[labware].wells
+        return tuple(self.ref(labware, name) for name in map(plain_name, names) if name in wells)
 
     def used_wells(self, labware: Iterable[str]) -> tuple[WellRef, ...]:
         """The wells of these labware that the run uses."""
@@ -77,11 +72,11 @@ class Deck:
         """Whether these are all wells of some columns, or of some rows, of a labware."""
         names = {ref.name for ref in wells}
         every = self.trace.labware[labware].wells
-        lines = [{row_column(name)[axis] for name in names} for axis in (0, 1)]
-        return any(
-            names == {name for name in every if row_column(name)[axis] in lines[axis]}
-            for axis in (0, 1)
-        )
+        for axis in (0, 1):
+            lines = {row_column(name)[axis] for name in names}
+            if names == {name for name in every if row_column(name)[axis] in lines}:
+                return True
+        return False
 
     def plates(self) -> list[LabwareInfo]:
         """Labware that holds liquid."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
-from ...vocabulary import WellRef, one_line
+from ...vocabulary import WellRef
 
 
 class Kind(IntEnum):
@@ -29,6 +29,10 @@ class Kind(IntEnum):
 
 DOUBTFUL = frozenset({Kind.MODEL, Kind.WRITTEN})
 """Kinds that help to decide and never make an error."""
+
+
+LONGEST_QUOTE = 60
+"""So many characters of a text are quoted in a citation."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +63,3 @@ class Evidence:
     def is_name(self) -> bool:
         """Whether it is a noun phrase whose last word is its head: ``sample_buffer``."""
         return self.kind not in (Kind.DESCRIPTION, Kind.WRITTEN, Kind.MODEL)
-
-
-def shortened(text: str) -> str:
-    """A text that may be quoted in a citation."""
-    return one_line(text, 60)

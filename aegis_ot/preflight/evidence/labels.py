@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from ...vocabulary import WellRef
+from ...vocabulary import WellRef, one_line
 from ..source import level_of, tokens
 from .deck import Deck, parts_of_place
-from .evidence import Evidence, Kind, shortened
+from .evidence import LONGEST_QUOTE, Evidence, Kind
 from .well_names import WELL, not_wells_in
 from .written_wells import entries_of
 
@@ -22,11 +22,6 @@ def given_roles(
 ) -> Iterator[Evidence]:
     """The guard's own arguments: ``roles={"ntc": ["PCR plate:H12"]}``, with a concentration or
     dose where a rule needs one: ``{"standard": ["4:A1 = 2 mg/mL", "4:B1 = 1 mg/mL"]}``.
-
-    Args:
-        deck: What stands on the deck.
-        given: Places by role.
-        words: Words for levels: ``{"blank": 0.0}``.
     """
     for role, listed in given.items():
         wells: list[WellRef] = []
@@ -69,7 +64,7 @@ def loaded_liquids(deck: Deck) -> Iterator[Evidence]:
         yield Evidence(Kind.LIQUID, liquid, tuple(wells), f"liquid '{liquid}'")
         description = deck.trace.descriptions.get(liquid)
         if description and len(tokens(description)) <= _SHORT:
-            said = f"liquid '{liquid}', described as '{shortened(description)}'"
+            said = f"liquid '{liquid}', described as '{one_line(description, LONGEST_QUOTE)}'"
             yield Evidence(Kind.DESCRIPTION, description, tuple(wells), said)
 
 
@@ -80,9 +75,9 @@ def labels(deck: Deck) -> Iterator[Evidence]:
             continue
         entries = entries_of(info.label, info)
         citation = f"label '{info.label}'"
-        for names, said in entries or ():
-            yield Evidence(Kind.NAME, said, deck.refs((info.key,), names), citation)
+        for names, said in entries:
+            yield Evidence(Kind.NAME, said, deck.refs(info.key, names), citation)
         if not entries:
-            apart = deck.refs((info.key,), _WELL.findall(info.label))  # "DNA (H2 = water)"
+            apart = deck.refs(info.key, _WELL.findall(info.label))  # "DNA (H2 = water)"
             wells = tuple(ref for ref in deck.used_wells((info.key,)) if ref not in apart)
             yield Evidence(Kind.NAME, info.label, wells, citation, whole=True)

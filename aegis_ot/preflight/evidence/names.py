@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
@@ -20,18 +20,13 @@ def named_wells(
 ) -> Iterator[Evidence]:
     """What variables, keys and attributes were called that held wells or whole labware."""
     keyed = levels_of_keys(names)
-    lists = _lists_of_levels(names, common)
     for binding in names:
-        base = binding.name.split("[", 1)[0]
         if not (binding.wells or binding.labware):
             continue
-        passing = (binding.function, base) in facts.parameters
-        if (binding.function, base) in facts.varying:
-            if _is_one_of_many(binding, names):
-                continue  # the list that it runs over says as much of all its wells
-            passing = True
-        passing = passing or (binding.function, base) in facts.rebound
-        line = facts.assigned.get(base.rpartition(".")[2], binding.line)
+        place = (binding.function, base_of(binding))
+        if place in facts.varying and _is_one_of_many(binding, names):
+            continue  # the list that it runs over says as much of all its wells
+        line = line_of(binding, facts)
         wells = deck.meant(binding.wells) or deck.used_wells(binding.labware)
         level = keyed.get(binding.name)
         text = binding.name
@@ -40,9 +35,9 @@ def named_wells(
             text = NUMBERED.sub(r"\1\4", text) if level is None else text
             levels = (level,) * len(wells)
         elif binding.wells and len(wells) > 1:
-            levels = _listed_beside(binding, lists)
+            levels = _listed_beside(binding, names, common)
         yield Evidence(
-            Kind.PASSING_NAME if passing else Kind.NAME,
+            Kind.PASSING_NAME if place in facts.passing else Kind.NAME,
             text,
             wells,
             f"name `{binding.name}` at line {line}",
@@ -52,12 +47,22 @@ def named_wells(
         )
 
 
+def base_of(binding: NameBinding) -> str:
+    """``layout`` of ``layout["ntc"]``."""
+    return binding.name.split("[", 1)[0]
+
+
+def line_of(binding: NameBinding, facts: SourceFacts) -> int:
+    """Where the name, or the field of this name, is first given a value."""
+    return facts.assigned.get(base_of(binding).rpartition(".")[2], binding.line)
+
+
 def fields_of_rows(names: Sequence[NameBinding], facts: SourceFacts) -> Iterator[Evidence]:
     """What the columns are called that hold wells, for all rows of a list together:
     ``[{"sample": tube, "vehicle": trough}, ...]``; a loop over it leaves the last row only.
     """
     for binding in names:
-        base = binding.name.split("[", 1)[0]
+        base = base_of(binding)
         if len(binding.rows) < 2 or (binding.function, base) in facts.varying:
             continue
         held: dict[str, dict[WellRef, None]] = {}
@@ -65,7 +70,7 @@ def fields_of_rows(names: Sequence[NameBinding], facts: SourceFacts) -> Iterator
             for column, cell in row.cells:
                 if isinstance(cell, WellRef) and column and not column.isdigit():
                     held.setdefault(column, {})[cell] = None
-        line = facts.assigned.get(base, binding.line)
+        line = line_of(binding, facts)
         for column, wells in held.items():
             yield Evidence(
                 Kind.NAME,
@@ -99,18 +104,22 @@ def levels_of_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
     return found
 
 
-def _lists_of_levels(
-    names: Sequence[NameBinding], common: Common
-) -> Mapping[str, tuple[float, ...]]:
-    """Lists of concentrations or doses by name: ``STANDARD_CONCS = [0, 125, 250]``."""
+def _listed_beside(
+    binding: NameBinding, names: Sequence[NameBinding], common: Common
+) -> tuple[float | None, ...]:
+    """Of the lists of concentrations or doses (``STANDARD_CONCS = [0, 125, 250]``) that are as long
+    as a list of wells, the one whose name shares most words with it.
+    """
     amounts = lexicon_of({"amount": common.amounts})
-    found: dict[str, tuple[float, ...]] = {}
-    for binding in names:
-        if len(binding.values) > 1 and amounts.find(binding.name):
-            levels = [_level(item, common) for item in binding.values]
+    fitting: dict[int, set[tuple[float | None, ...]]] = {}
+    for other in names:
+        if len(other.values) == len(binding.wells) and amounts.find(other.name):
+            levels = tuple(_level(item, common) for item in other.values)
             if None not in levels:
-                found[binding.name] = tuple(level for level in levels if level is not None)
-    return found
+                shared = set(tokens(other.name)) & set(tokens(binding.name))
+                fitting.setdefault(len(shared), set()).add(levels)
+    chosen = fitting[max(fitting)] if fitting else set()
+    return chosen.pop() if len(chosen) == 1 else ()
 
 
 def _level(item: float | str, common: Common) -> float | None:
@@ -120,17 +129,3 @@ def _level(item: float | str, common: Common) -> float | None:
         return float(item)
     except OverflowError:  # an integer of hundreds of digits
         return None
-
-
-def _listed_beside(
-    binding: NameBinding, lists: Mapping[str, tuple[float, ...]]
-) -> tuple[float, ...]:
-    """The list of levels that is as long as a list of wells, and shares most words with it."""
-    fitting = [
-        (len(set(tokens(name)) & set(tokens(binding.name))), levels)
-        for name, levels in lists.items()
-        if len(levels) == len(binding.wells)
-    ]
-    best = max((shared for shared, _ in fitting), default=0)
-    chosen = {levels for shared, levels in fitting if shared == best}
-    return chosen.pop() if len(chosen) == 1 else ()

@@ -14,7 +14,7 @@ from ..rules import Common
 from ..source import Index, SourceFacts, level_in, lexicon_of
 from .deck import Deck
 from .evidence import Evidence, Kind
-from .names import NUMBERED, levels_of_keys
+from .names import NUMBERED, base_of, levels_of_keys, line_of
 
 
 def plate_maps(
@@ -26,15 +26,24 @@ def plate_maps(
     for binding in names:
         if not (binding.spots or binding.rows):
             continue
-        base = binding.name.split("[", 1)[0]
+        base = base_of(binding)
         if (binding.function, base) in facts.varying or binding.name == "metadata":
             continue
-        line = facts.assigned.get(base.rpartition(".")[2], binding.line)
+        line = line_of(binding, facts)
         uses = facts.flow.indexed_with.get(base.rpartition(".")[2], [])
         found = by_map.setdefault(base, [])
         if binding.spots and uses:
-            wells = _wells_of_list(deck, _labware(deck, facts, uses), binding.spots)
-            found.append(_of_list(binding.name, wells, line, keyed.get(binding.name)))
+            wells = _indexed(deck, facts, uses, binding.spots)
+            level = keyed.get(binding.name)
+            # A running number tells none of its wells from the others.
+            counted = level is None and NUMBERED.fullmatch(binding.name) is not None
+            citation = f"plate map `{binding.name}` at line {line}"
+            levels = () if level is None else (level,) * len(wells)
+            found.append(
+                Evidence(
+                    Kind.NAME, binding.name, wells, citation, line, whole=counted, levels=levels
+                )
+            )
         for row in binding.rows:
             wells = row.wells or _wells_of_row(deck, facts, row, uses)
             found += _of_row(binding.name, row, wells, line, common)
@@ -45,28 +54,17 @@ def plate_maps(
             yield from found
 
 
-def _of_list(name: str, wells: tuple[WellRef, ...], line: int, level: float | None) -> Evidence:
-    # A running number tells none of its wells from the others.
-    counted = level is None and NUMBERED.fullmatch(name) is not None
-    citation = f"plate map `{name}` at line {line}"
-    levels = () if level is None else (level,) * len(wells)
-    return Evidence(Kind.NAME, name, wells, citation, line, whole=counted, levels=levels)
-
-
-def _labware(deck: Deck, facts: SourceFacts, uses: Iterable[Index]) -> tuple[str, ...]:
-    """Keys of the labware that the run indexes there."""
-    found: set[str] = set()
+def _indexed(
+    deck: Deck, facts: SourceFacts, uses: Iterable[Index], spots: Sequence[str]
+) -> tuple[WellRef, ...]:
+    """The wells of these names in the labware that the run indexes there. Where several labware
+    are indexed with them, those in which all are used: ``("D6", "H12")`` may be a tube and a well.
+    """
+    keys: set[str] = set()
     for use in uses:
         for origin in (use.held, *facts.flow.comes_from.get(use.held, ())):
-            found |= deck.by_name.get(origin, set())
-    return tuple(key for key in deck.trace.labware if key in found)
-
-
-def _wells_of_list(deck: Deck, labware: Sequence[str], spots: Sequence[str]) -> tuple[WellRef, ...]:
-    """The wells of a list of names. Where several labware are indexed with them, those in which
-    all are used: ``("D6", "H12")`` may be a tube and a well.
-    """
-    in_each = [deck.refs((key,), spots) for key in labware]
+            keys |= deck.by_name.get(origin, set())
+    in_each = [deck.refs(key, spots) for key in deck.trace.labware if key in keys]
     if len(in_each) > 1:
         whole = [wells for wells in in_each if len(wells) == len(spots)]
         in_each = [wells for wells in whole if all(map(deck.is_used, wells))]
@@ -84,7 +82,7 @@ def _wells_of_row(
         asked = [use for use in uses if column and column in use.fields]
         if len(row.spots) > 1 and not asked:
             return ()
-        found += _wells_of_list(deck, _labware(deck, facts, asked or uses), (cell,))
+        found += _indexed(deck, facts, asked or uses, (cell,))
     return tuple(found)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 
 from ..trace import row_column
 
@@ -22,22 +22,16 @@ PLACES = rf"{_ONE}(?:{_AND}(?:{_ONE}|{_NUMBERS}(?![\w.])|{_LETTERS}(?!\w)))*"
 """A pattern for a list of places and nothing else."""
 
 _SPAN = re.compile(rf"(\d+|[A-P])(?:{_TO}(\d+|[A-P]))?")
-_SPLIT = re.compile(_AND)
 
 
 def wells_in(text: str, wells: Collection[str]) -> list[str]:
-    """Names of the wells of this labware that a list of places stands for; ``"*"`` is all.
-
-    Args:
-        text: ``"A1, B2-B4"``, ``"columns 1-3"``, ``"row H"``, ``"*"`` or nothing.
-        wells: Names of all its wells.
+    """Names of those of a labware's wells that a list of places stands for: ``"A1, B2-B4"``,
+    ``"columns 1-3"``, ``"row H"``; ``"*"`` or nothing is all.
     """
     if text.strip() in ("", "*"):
         return list(wells)
-    found: dict[str, None] = {}
-    for match in _PLACE.finditer(text):
-        found.update(dict.fromkeys(_meant(match, wells)))
-    return list(found)
+    found = (name for match in _PLACE.finditer(text) for name in _meant(match, wells))
+    return list(dict.fromkeys(found))
 
 
 def not_wells_in(text: str, wells: Collection[str]) -> str:
@@ -55,41 +49,35 @@ def not_wells_in(text: str, wells: Collection[str]) -> str:
 
 
 def _meant(match: re.Match[str], wells: Collection[str]) -> list[str]:
+    """Wells column by column; a labware's definition may list them from H1 to A1."""
+    rows: Collection[int] | None = None
+    columns: Collection[int] | None = None
     if match["first"]:
-        first = plain_name(match["first"])
-        last = plain_name(match["last"] or match["first"])
-        (row, column), (row2, column2) = row_column(first), row_column(last)
-        rows, columns = sorted((row, row2)), sorted((column, column2))
-        return _in_order(
-            name
-            for name in wells
-            if rows[0] <= row_column(name)[0] <= rows[1]
-            and columns[0] <= row_column(name)[1] <= columns[1]
-        )
-    axis = 1 if match["columns"] else 0
-    wanted = _counted(match["columns"] or match["rows"])
-    return _in_order(name for name in wells if row_column(name)[axis] in wanted)
+        ends = (row_column(match["first"]), row_column(match["last"] or match["first"]))
+        rows, columns = (range(min(axis), max(axis) + 1) for axis in zip(*ends, strict=True))
+    elif match["columns"]:
+        columns = _counted(match["columns"])
+    else:
+        rows = _counted(match["rows"])
+    found = [
+        name
+        for name in wells
+        if (rows is None or row_column(name)[0] in rows)
+        and (columns is None or row_column(name)[1] in columns)
+    ]
+    return sorted(found, key=lambda name: row_column(name)[::-1])
 
 
 def _counted(listed: str) -> set[int]:
     """Places of a list of columns or rows, counted from 0."""
     found: set[int] = set()
-    for part in _SPLIT.split(listed):
-        span = _SPAN.search(part)
-        if span is not None:
-            low, high = (_number(end) for end in (span[1], span[2] or span[1]))
-            found.update(range(low, high + 1))
+    for span in _SPAN.finditer(listed):
+        low, high = (
+            int(end) - 1 if end.isdecimal() else row_column(end + "1")[0]
+            for end in (span[1], span[2] or span[1])
+        )
+        found.update(range(low, high + 1))
     return found
-
-
-def _number(text: str) -> int:
-    """Place of a column ``"12"`` or of a row ``"H"``, counted from 0."""
-    return int(text) - 1 if text.isdecimal() else row_column(text + "1")[0]
-
-
-def _in_order(names: Iterable[str]) -> list[str]:
-    """Wells column by column; a labware's definition may list them from H1 to A1."""
-    return sorted(names, key=lambda name: row_column(name)[::-1])
 
 
 def plain_name(name: str) -> str:

@@ -10,9 +10,10 @@ import re
 from collections.abc import Iterator
 
 from ...instrumentation import LabwareInfo
+from ...vocabulary import one_line
 from ..source import SourceFacts
 from .deck import Deck
-from .evidence import Evidence, Kind, shortened
+from .evidence import LONGEST_QUOTE, Evidence, Kind
 from .well_names import PLACES, wells_in
 
 _WORD = r"(?!(?:in|is|are)\b|[A-P]\d)[\w%./+µ-]+"
@@ -37,35 +38,25 @@ def written_wells(deck: Deck, facts: SourceFacts) -> Iterator[Evidence]:
         if head is None or len(called) != 1:
             continue
         info = deck.trace.labware[called[0]]
-        for names, said in entries_of(text[head.end() :], info) or ():
-            citation = f"'{shortened(said)}' written at line {line}"
-            yield Evidence(Kind.WRITTEN, said, deck.refs(called, names), citation, line)
+        for names, said in entries_of(text[head.end() :], info):
+            citation = f"'{one_line(said, LONGEST_QUOTE)}' written at line {line}"
+            yield Evidence(Kind.WRITTEN, said, deck.refs(info.key, names), citation, line)
 
 
-def entries_of(text: str, info: LabwareInfo) -> list[Entry] | None:
-    """The entries of a text that lists wells and what is in them; ``None`` if it says more."""
-    for pattern, wells_at in ((_BEFORE, 1), (_BEHIND, 2)):
-        entries = _entries(text.strip(), pattern, wells_at, info)
-        if entries:
-            return entries
-    return None
+def entries_of(text: str, info: LabwareInfo) -> list[Entry]:
+    """The entries of a text that lists wells and what is in them; none if it says more."""
+    return _entries(text.strip(), _BEFORE, 1, info) or _entries(text.strip(), _BEHIND, 2, info)
 
 
-def _entries(
-    text: str, pattern: re.Pattern[str], wells_at: int, info: LabwareInfo
-) -> list[Entry] | None:
+def _entries(text: str, pattern: re.Pattern[str], wells_at: int, info: LabwareInfo) -> list[Entry]:
     found: list[Entry] = []
     at = 0
     while at < len(text):
         match = pattern.match(text, at)
-        if match is None:
-            return None
-        names = wells_in(match[wells_at], info.wells)
-        if not names:
-            return None
+        names = wells_in(match[wells_at], info.wells) if match else []
+        separator = _SEPARATOR.match(text, match.end()) if match else None
+        if match is None or separator is None or not names:
+            return []
         found.append((names, match[3 - wells_at].strip(" .")))
-        separator = _SEPARATOR.match(text, match.end())
-        if separator is None:
-            return None
         at = separator.end()
     return found

@@ -21,7 +21,7 @@ from ..roles import (
 )
 from ..rules import Database, Family, RuleSpec
 from ..source import SourceFacts, lexicon_of, read_source
-from ..trace import Pauses, build_trace
+from ..trace import build_trace
 from .options import Options, check_options
 
 _PLAUSIBLE = 1.0
@@ -58,8 +58,7 @@ class Reading:
         self.recording, self.database = recording, database
         self.options, self.facts = options, facts
         common = database.common
-        pauses = Pauses(common.pauses)
-        self.trace = build_trace(recording.log, recording.labware, pauses)
+        self.trace = build_trace(recording.log, recording.labware, common.pauses)
         gathered = gather(self.trace, recording.names, facts, options.roles, common)
         self.evidence = (*gathered, *more)
         self._assigned: dict[str, Roles] = {}
@@ -75,7 +74,7 @@ class Reading:
         prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
         if prefilled & usage.keys():
             log, labware = recording.log, recording.labware
-            self.trace = build_trace(log, labware, pauses, prefilled.__contains__)
+            self.trace = build_trace(log, labware, common.pauses, prefilled.__contains__)
         for one in self.roles:
             settle_diluent(one, self.trace)
             derive(one, self.trace)

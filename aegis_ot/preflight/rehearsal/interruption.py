@@ -44,22 +44,19 @@ def second_clock(clock: Clock) -> Iterator[None]:
 def interrupted_after(
     timeout_s: float, file_name: str, is_stopping: Callable[[], bool] = lambda: False
 ) -> Iterator[None]:
-    """Interrupt what this thread does in a ``with`` block, after ``timeout_s`` or on a stop.
+    """Interrupt what this thread does in a ``with`` block, after ``timeout_s`` s or on a stop, for
+    which ``is_stopping`` is asked every 0.1 s.
 
     An endless loop in plain Python never comes back to a listener, so it is interrupted from
     another thread, again and again if it swallows that. A call that blocks inside C code is
     interrupted when it returns.
-
-    Args:
-        timeout_s: Longest time, s.
-        file_name: For the message.
-        is_stopping: Asked every 0.1 s.
 
     Raises:
         RehearsalTimeout: The time was over.
         RehearsalError: ``is_stopping`` said so.
     """
     thread = threading.get_ident()
+    interrupt = ctypes.pythonapi.PyThreadState_SetAsyncExc
     lock = threading.Lock()
     over = threading.Event()
     deadline = time.monotonic() + timeout_s
@@ -80,7 +77,7 @@ def interrupted_after(
             with lock:
                 if not over.is_set():
                     reasons.append(reason)
-                    _interrupt(thread)
+                    interrupt(ctypes.c_ulong(thread), ctypes.py_object(_Interrupted))
 
     def close() -> None:
         try:
@@ -102,12 +99,6 @@ def interrupted_after(
         raise reasons[0] from None
     finally:
         close()
-
-
-def _interrupt(thread: int) -> None:
-    ctypes.pythonapi.PyThreadState_SetAsyncExc(
-        ctypes.c_ulong(thread), ctypes.py_object(_Interrupted)
-    )
 
 
 class _Interrupted(BaseException):

@@ -72,18 +72,17 @@ def runtime_parameters(protocol: Any, script: Script, limit: Limit) -> Any:
     """
     context, parameters = _executed(protocol, script, limit)
     declared = _declared(context)
-    unknown = [
-        name for name in (*script.parameters, *script.csv_parameters) if name not in declared
-    ]
+    given = (*script.parameters, *script.csv_parameters)
+    unknown = [name for name in given if name not in declared]
     if unknown:
         raise RehearsalError(f"{script.file_name}: {undeclared(unknown, declared)}")
     if parameters is None:
         return None
     try:
         for name, value in script.parameters.items():
-            _set_value(context, declared[name], value)
+            _set(context, declared[name], value, is_file=False)
         for name, path in script.csv_parameters.items():
-            _set_file(context, declared[name], path)
+            _set(context, declared[name], path, is_file=True)
     except RehearsalError as error:
         raise RehearsalError(f"{script.file_name}: {error}") from error.__cause__
     return context.export_parameters_for_protocol()
@@ -152,42 +151,29 @@ def _executed(protocol: Any, script: Script, limit: Limit) -> tuple[Any, Any]:
 
 
 def _declared(context: Any) -> dict[str, Parameter]:
-    found = (_parameter(item) for item in context.export_parameters_for_analysis())
-    return {parameter.name: parameter for parameter in found}
-
-
-def _parameter(declared: Any) -> Parameter:
-    choices = getattr(declared, "choices", None) or ()
-    return Parameter(
-        name=declared.variableName,
-        kind=str(declared.type),
-        default=getattr(declared, "default", None),
-        choices=tuple(choice.value for choice in choices),
-        low=getattr(declared, "min", None),
-        high=getattr(declared, "max", None),
-    )
-
-
-def _set_value(context: Any, parameter: Parameter, value: Any) -> None:
-    if parameter.kind == _CSV:
-        raise RehearsalError(f"the CSV parameter {parameter.name} needs a file, not a value.")
-    try:
-        context.set_parameters({parameter.name: value})
-    except Exception as error:
-        raise RehearsalError(
-            f"the runtime parameter {parameter.name} cannot be {value!r}; it takes "
-            f"{parameter.takes}."
-        ) from error
-
-
-def _set_file(context: Any, parameter: Parameter, path: Any) -> None:
-    if parameter.kind != _CSV:
-        raise RehearsalError(
-            f"the runtime parameter {parameter.name} takes {parameter.takes}, no CSV file."
+    return {
+        declared.variableName: Parameter(
+            name=declared.variableName,
+            kind=str(declared.type),
+            default=getattr(declared, "default", None),
+            choices=tuple(choice.value for choice in getattr(declared, "choices", None) or ()),
+            low=getattr(declared, "min", None),
+            high=getattr(declared, "max", None),
         )
+        for declared in context.export_parameters_for_analysis()
+    }
+
+
+def _set(context: Any, parameter: Parameter, value: Any, is_file: bool) -> None:
+    name, takes_file = parameter.name, parameter.kind == _CSV
+    if takes_file and not is_file:
+        raise RehearsalError(f"the CSV parameter {name} needs a file, not a value.")
+    if is_file and not takes_file:
+        raise RehearsalError(f"the runtime parameter {name} takes {parameter.takes}, no CSV file.")
     try:
-        context.initialize_csv_files({parameter.name: path})
+        (context.initialize_csv_files if is_file else context.set_parameters)({name: value})
     except Exception as error:
-        raise RehearsalError(
-            f"the CSV parameter {parameter.name} cannot be {path}: {in_words(error)}"
-        ) from error
+        told = f"the runtime parameter {name} cannot be {value!r}; it takes {parameter.takes}."
+        if is_file:
+            told = f"the CSV parameter {name} cannot be {value}: {in_words(error)}"
+        raise RehearsalError(told) from error

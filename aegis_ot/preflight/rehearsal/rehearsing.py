@@ -18,8 +18,8 @@ from .interruption import interrupted_after
 from .loading import load
 from .parameters import Limit, copied_parameters, lacking_files, plain_values, runtime_parameters
 from .recording import Recorder, Recording
-from .refusals import never_executed, stopped
-from .script import Script, being_played
+from .refusals import refuse_unexecuted, stopped
+from .script import Script
 from .simulated_context import simulated_context
 from .virtual_time import builtins_in_virtual_time
 
@@ -93,7 +93,7 @@ def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.
     """
     protocol = load(script)
     limit = partial(interrupted_after, timeout_s, script.file_name)
-    with _stage(protocol, script, None, limit) as context, being_played(script):
+    with _stage(protocol, script, None, limit) as context:
         _perform(protocol, context, limit, {}, wrap)
 
 
@@ -122,7 +122,10 @@ def _perform(
     namespace: dict[str, Any],
     wrap: Callable[[Run], Run] = lambda run: run,
 ) -> None:
-    """Execute a loaded protocol in ``namespace``, and its ``run``."""
+    """Execute a loaded protocol in ``namespace``, and its ``run``.
+
+    Called so, with these names, for :func:`~.script.find_script` to find what it executes.
+    """
     file_name = protocol.filename
     try:
         with limit():
@@ -130,9 +133,7 @@ def _perform(
             run = namespace.get("run")
             if not callable(run):
                 raise RehearsalError(f"{file_name} defines no function run(protocol).")
-            result = wrap(run)(context)
-            if (unexecuted := never_executed(result, file_name)) is not None:
-                raise unexecuted
+            refuse_unexecuted(wrap(run)(context), file_name)
     except AegisError:
         raise
     except Exception as error:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import functools
+import inspect
 import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import CodeType, FrameType, FunctionType, MethodType
+from types import CodeType, FrameType
 from typing import Any
-
-_MOST_LAYERS = 20
 
 
 @dataclass(frozen=True)
@@ -36,7 +33,9 @@ class Script:
     data_files: Mapping[str, bytes] = field(default_factory=dict)
 
 
-_PLAYED: ContextVar[Script | None] = ContextVar("aegis_ot_played", default=None)
+_LOADERS = {"exec_run": ("proto", "new_globs"), "_perform": ("protocol", "namespace")}
+"""Opentrons' loader and the rehearsal's own: their local names for the ``PythonProtocol`` that
+they execute, and for its globals."""
 
 
 def find_home(run: Any) -> tuple[str, Mapping[str, Any]]:
@@ -51,41 +50,17 @@ def find_home(run: Any) -> tuple[str, Mapping[str, Any]]:
     Returns:
         ``co_filename`` of the protocol's code, and its globals.
     """
-    loader = _loader(sys._getframe(1))
-    if loader is not None:
-        code, namespace = loader["proto"].contents, loader.get("new_globs")
-        if isinstance(code, CodeType) and isinstance(namespace, dict):
-            return code.co_filename, namespace
+    loaded, namespace = _loaded(sys._getframe(1))
+    if loaded is not None and isinstance(loaded.contents, CodeType) and isinstance(namespace, dict):
+        return loaded.contents.co_filename, namespace
     if isinstance(run, FrameType):
         return run.f_code.co_filename, run.f_globals
-    function = _function_behind(run)
-    if function is None:
-        return "<protocol>", {}
-    return function.__code__.co_filename, function.__globals__
-
-
-def _function_behind(run: Any) -> FunctionType | None:
-    """The function that a decorator, a ``partial`` or an object with ``__call__`` stands for."""
-    for _ in range(_MOST_LAYERS):
-        if type(run) is FunctionType and not hasattr(run, "__wrapped__"):
-            return run
-        if type(run) is MethodType:
-            run = run.__func__
-        elif type(run) is functools.partial:
-            run = run.func
-        else:
-            run = getattr(run, "__wrapped__", None) or type(run).__call__
-    return None
-
-
-@contextmanager
-def being_played(script: Script) -> Iterator[None]:
-    """Let :func:`find_script` find ``script``: no loader of Opentrons' is on the stack."""
-    token = _PLAYED.set(script)
-    try:
-        yield
-    finally:
-        _PLAYED.reset(token)
+    while isinstance(run, functools.partial):
+        run = run.func
+    run = inspect.unwrap(run)
+    function = run if hasattr(run, "__code__") else type(run).__call__
+    code = getattr(function, "__code__", None)
+    return (code.co_filename, function.__globals__) if code else ("<protocol>", {})
 
 
 def find_script(file_name: str, protocol: Any) -> Script | None:
@@ -99,12 +74,8 @@ def find_script(file_name: str, protocol: Any) -> Script | None:
         file_name: ``co_filename`` of the protocol's code.
         protocol: The live ``ProtocolContext``; its custom labware is taken along.
     """
-    played = _PLAYED.get()
-    if played is not None and played.file_name == file_name:
-        return played
-    loader = _loader(sys._getframe(1))
-    if loader is not None:
-        loaded = loader["proto"]
+    loaded, _ = _loaded(sys._getframe(1))
+    if loaded is not None:
         text = loaded.text
         return Script(
             text=text.decode("utf-8", "replace") if isinstance(text, bytes) else text,
@@ -119,16 +90,16 @@ def find_script(file_name: str, protocol: Any) -> Script | None:
     return Script(text=text, file_name=file_name, extra_labware=_custom_labware(protocol))
 
 
-def _loader(frame: FrameType | None) -> Mapping[str, Any] | None:
-    """Local names of Opentrons' loader on this stack: its ``PythonProtocol`` is ``proto``."""
+def _loaded(frame: FrameType | None) -> tuple[Any, Any]:
+    """The ``PythonProtocol`` that a loader on this stack executes, and its globals."""
     while frame is not None:
-        if frame.f_code.co_name == "exec_run":
-            names = frame.f_locals
-            proto = names.get("proto")
-            if hasattr(proto, "text") and hasattr(proto, "contents"):
-                return names
+        if frame.f_code.co_name in _LOADERS:
+            protocol, namespace = _LOADERS[frame.f_code.co_name]
+            loaded = frame.f_locals.get(protocol)
+            if hasattr(loaded, "text") and hasattr(loaded, "contents"):
+                return loaded, frame.f_locals.get(namespace)
         frame = frame.f_back
-    return None
+    return None, None
 
 
 def _custom_labware(protocol: Any) -> dict[str, Any]:

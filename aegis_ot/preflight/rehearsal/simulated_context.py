@@ -40,26 +40,23 @@ def simulated_context(
     with ExitStack() as stack:
         hardware = _hardware_simulator(robot_type)
         stack.callback(hardware.clean_up)
-        engine_parts: dict[str, Any] = {}
-        if api_level >= ENGINE_CORE_API_VERSION:
-            engine, loop = stack.enter_context(
-                _engine(hardware, robot_type, deck_type, api_level, extra_labware or {})
-            )
-            engine_parts = {"protocol_engine": engine, "protocol_engine_loop": loop}
+        is_legacy = api_level < ENGINE_CORE_API_VERSION
+        if is_legacy:
+            core_parts = {"use_simulating_core": True, "extra_labware": dict(extra_labware or {})}
         else:
-            engine_parts = {
-                "use_simulating_core": True,
-                "extra_labware": dict(extra_labware or {}),
-            }
+            engine, loop = stack.enter_context(_engine(hardware, robot_type, deck_type, api_level))
+            adding = _add(engine, extra_labware or {})
+            asyncio.run_coroutine_threadsafe(adding, loop).result()
+            core_parts = {"protocol_engine": engine, "protocol_engine_loop": loop}
         context = create_protocol_context(
             api_version=api_level,
             hardware_api=hardware,
             deck_type=deck_type,
             bundled_data=dict(bundled_data or {}),
-            **engine_parts,
+            **core_parts,
         )
         stack.callback(context.cleanup)
-        if not engine_parts.get("protocol_engine"):
+        if is_legacy:
             _lend_modules(context._core, hardware)
         # Both have to be homed for some commands to work; see opentrons.simulate.
         hardware.sync.home()
@@ -73,14 +70,11 @@ def _hardware_simulator(robot_type: str) -> Any:
 
     if robot_type == FLEX:
         # Not importable on an OT-2.
-        from opentrons.hardware_control.ot3api import OT3API
-
-        build = OT3API.build_hardware_simulator
+        from opentrons.hardware_control.ot3api import OT3API as Robot
     else:
-        from opentrons.hardware_control import API
-
-        build = API.build_hardware_simulator
-    return ThreadManager(build, feature_flags=HardwareFeatureFlags.build_from_ff())
+        from opentrons.hardware_control import API as Robot
+    flags = HardwareFeatureFlags.build_from_ff()
+    return ThreadManager(Robot.build_hardware_simulator, feature_flags=flags)
 
 
 def _lend_modules(core: Any, hardware: Any) -> None:
@@ -99,14 +93,7 @@ def _lend_modules(core: Any, hardware: Any) -> None:
     core.load_module = load
 
 
-@contextmanager
-def _engine(
-    hardware: Any,
-    robot_type: str,
-    deck_type: str,
-    api_level: Any,
-    extra_labware: Mapping[str, Any],
-) -> Iterator[tuple[Any, Any]]:
+def _engine(hardware: Any, robot_type: str, deck_type: str, api_level: Any) -> Any:
     from opentrons.protocol_engine import Config, DeckType, error_recovery_policy
     from opentrons.protocol_engine.create_protocol_engine import create_protocol_engine_in_thread
     from opentrons.protocol_engine.types import PostRunHardwareState
@@ -134,12 +121,9 @@ def _engine(
         "load_fixed_trash": should_load_fixed_trash_labware_for_python_protocol(api_level),
     }
     known = inspect.signature(create_protocol_engine_in_thread).parameters
-    with create_protocol_engine_in_thread(
+    return create_protocol_engine_in_thread(
         **{name: part for name, part in parts.items() if name in known}
-    ) as (engine, loop):
-        if extra_labware:
-            asyncio.run_coroutine_threadsafe(_add(engine, extra_labware), loop).result()
-        yield engine, loop
+    )
 
 
 async def _add(engine: Any, definitions: Mapping[str, Any]) -> None:

@@ -18,16 +18,6 @@ _YIELD_S = 0.001
 
 def builtins_in_virtual_time() -> dict[str, Any]:
     """``__builtins__`` for a rehearsed protocol's namespace."""
-    virtual = _virtual_time_module()
-
-    def imported(name: str, *args: Any, **kwargs: Any) -> Any:
-        module = builtins.__import__(name, *args, **kwargs)
-        return virtual if module is time else module
-
-    return {**vars(builtins), "__import__": imported}
-
-
-def _virtual_time_module() -> ModuleType:
     slept = 0.0
 
     def sleep(seconds: float, /) -> None:
@@ -40,4 +30,9 @@ def _virtual_time_module() -> ModuleType:
     for name in ("time", "monotonic", "perf_counter"):
         clock = getattr(time, name)
         setattr(virtual, name, lambda clock=clock: clock() + slept)
-    return virtual
+
+    def imported(name: str, *args: Any, **kwargs: Any) -> Any:
+        module = builtins.__import__(name, *args, **kwargs)
+        return virtual if module is time else module
+
+    return {**vars(builtins), "__import__": imported}

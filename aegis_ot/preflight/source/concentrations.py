@@ -50,12 +50,8 @@ _STRENGTH = re.compile(r"(?<![\w.])\d+(?:[.,]\d+)?\s?[x×](?!\w)", re.IGNORECASE
 
 
 def level_in(text: str, words: Mapping[str, float], plain_numbers: bool = True) -> float | None:
-    """The one level that a name or label states: with a unit, in words, or as a plain number.
-
-    Args:
-        text: The name.
-        words: Words for levels: ``{"blank": 0.0}``.
-        plain_numbers: Whether a number without a unit counts.
+    """The one level that a name or label states: with a unit, in words (``{"blank": 0.0}``), or, if
+    they count, as a plain number.
     """
     plain = _with_u(text).lower()
     found = _WITH_UNIT.findall(plain)
@@ -65,13 +61,9 @@ def level_in(text: str, words: Mapping[str, float], plain_numbers: bool = True) 
     if stated:
         return stated.pop() if len(stated) == 1 else None
     ratios = {1.0 / float(value) for value in _RATIO.findall(plain) if float(value) > 0}
-    if len(ratios) == 1:
-        return ratios.pop()
     said = {words[match.topic] for match in lexicon_of({w: (w,) for w in words}).find(text)}
-    if len(said) == 1:
-        return said.pop()
     numbers = set(_LONG_NUMBER.findall(plain.replace("_", " "))) if plain_numbers else set()
-    return float(numbers.pop()) if len(numbers) == 1 else None
+    return next((float(one.pop()) for one in (ratios, said, numbers) if len(one) == 1), None)
 
 
 def level_of(text: str, words: Mapping[str, float]) -> float | None:
@@ -102,11 +94,7 @@ def name_without_level(text: str, noise: Sequence[str]) -> tuple[str, ...]:
     """The words of a name that say neither how much nor what sort of thing it is.
 
     Two liquids whose names differ in these are different compounds; those whose names do not
-    differ are doses of one.
-
-    Args:
-        text: The name.
-        noise: Words that tell no compound from another: "stock", "well", "blank".
+    differ are doses of one. Words of ``noise`` tell no compound from another: "stock", "blank".
     """
     plain = without_concentrations(text)
     words = tokens(plain)

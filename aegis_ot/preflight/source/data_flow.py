@@ -8,14 +8,21 @@ the sources says nothing of the wells beside them.
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
 from .nodes import LOOPS, Nodes
 
-_PASSING_ON = frozenset({"enumerate", "list", "tuple", "reversed", "sorted", "set", "iter", "next"})
+_ASSIGNMENTS: tuple[type[ast.Assign | ast.AnnAssign | ast.NamedExpr], ...] = (
+    ast.Assign,
+    ast.AnnAssign,
+    ast.NamedExpr,
+)
+_PASSING_ON = frozenset(
+    {"enumerate", "list", "tuple", "reversed", "sorted", "set", "iter", "next", "zip", "dict"}
+)
 _WELL_GETTERS = frozenset(
     {"wells", "well", "columns", "rows", "wells_by_name", "columns_by_name", "rows_by_name"}
 )
@@ -41,22 +48,22 @@ class Flow:
     comes_from: dict[str, set[str]] = field(default_factory=dict)
     indexed: list[Index] = field(default_factory=list)
 
-    def _origins(self, names: frozenset[str]) -> set[str]:
-        """These names, and all that their values come from."""
-        found: set[str] = set()
-        open_ = list(names)
-        while open_:
-            if (name := open_.pop()) not in found:
-                found.add(name)
-                open_ += self.comes_from.get(name, ())
-        return found
+    def take(self, name: str, value: ast.expr) -> None:
+        """The name is bound to this."""
+        self.comes_from.setdefault(name, set()).update(set(_held_names(value)) - {name})
 
     @cached_property
     def indexed_with(self) -> dict[str, list[Index]]:
-        """Where something is indexed with values of a name, by name."""
+        """Where something is indexed with values of a name, or with what comes from it, by name."""
         found: dict[str, list[Index]] = {}
         for index in self.indexed:
-            for name in self._origins(index.names):
+            origins: set[str] = set()
+            open_ = list(index.names)
+            while open_:
+                if (name := open_.pop()) not in origins:
+                    origins.add(name)
+                    open_ += self.comes_from.get(name, ())
+            for name in origins:
                 found.setdefault(name, []).append(index)
         return found
 
@@ -64,14 +71,11 @@ class Flow:
 def read_flow(nodes: Nodes) -> Flow:
     """Read all nodes of a parsed protocol."""
     flow = Flow()
-    for assignment in nodes.of(ast.Assign):
-        for target in assignment.targets:
-            _bind(flow, target, assignment.value, looped=False)
-    for typed in nodes.of(ast.AnnAssign):
-        if typed.value is not None:
-            _bind(flow, typed.target, typed.value, looped=False)
-    for walrus in nodes.of(ast.NamedExpr):
-        _bind(flow, walrus.target, walrus.value, looped=False)
+    for assignment in nodes.of(*_ASSIGNMENTS):
+        targets = assignment.targets if isinstance(assignment, ast.Assign) else [assignment.target]
+        if assignment.value is not None:
+            for target in targets:
+                _bind(flow, target, assignment.value, looped=False)
     for loop in nodes.of(*LOOPS):
         _bind(flow, loop.target, loop.iter, looped=True)
     for subscript in nodes.of(ast.Subscript):
@@ -84,59 +88,47 @@ def read_flow(nodes: Nodes) -> Flow:
 
 def _bind(flow: Flow, target: ast.expr, value: ast.expr, looped: bool) -> None:
     for part, given in _parts(target, value, looped):
-        origins = set(_held_names(given))
-        for name in _targets(part):
-            flow.comes_from.setdefault(name, set()).update(origins - {name})
+        for inner in ast.walk(part):
+            if isinstance(inner, (ast.Name, ast.Attribute)):
+                flow.take(_last_name(inner), given)
 
 
 def _parts(target: ast.expr, value: ast.expr, looped: bool) -> Iterator[tuple[ast.expr, ast.expr]]:
     """Which part of a target takes its values from which expression."""
     if isinstance(target, (ast.Tuple, ast.List)):
         width = len(target.elts)
+        pairs: Iterable[tuple[ast.expr, ast.expr]] = ()
         if looped and isinstance(value, ast.Call) and isinstance(value.func, ast.Name):
             if value.func.id == "zip" and len(value.args) == width:
-                for part, given in zip(target.elts, value.args, strict=True):
-                    yield from _parts(part, given, looped)
-                return
-            if value.func.id == "enumerate" and value.args and width == 2:
-                yield from _parts(target.elts[1], value.args[0], looped)
-                return
-        if not looped and isinstance(value, (ast.Tuple, ast.List)) and len(value.elts) == width:
-            for part, given in zip(target.elts, value.elts, strict=True):
+                pairs = zip(target.elts, value.args, strict=True)
+            elif value.func.id == "enumerate" and value.args and width == 2:
+                pairs = [(target.elts[1], value.args[0])]
+        elif not looped and isinstance(value, (ast.Tuple, ast.List)) and len(value.elts) == width:
+            pairs = zip(target.elts, value.elts, strict=True)
+        if pairs:
+            for part, given in pairs:
                 yield from _parts(part, given, looped)
             return
     yield target, value
 
 
-def _targets(node: ast.expr) -> Iterator[str]:
-    for inner in ast.walk(node):
-        if isinstance(inner, ast.Name):
-            yield inner.id
-        elif isinstance(inner, ast.Attribute):
-            yield inner.attr
-
-
 def _held_names(node: ast.expr) -> Iterator[str]:
     """The names whose values an expression may pass on: ``LAYOUT`` in ``LAYOUT[code]``."""
-    if isinstance(node, ast.Name):
-        yield node.id
-    elif isinstance(node, ast.Attribute):
-        yield node.attr
-        yield from _held_names(node.value)
+    parts: Iterable[ast.AST] = ast.iter_child_nodes(node)
+    if isinstance(node, (ast.Name, ast.Attribute)):
+        yield _last_name(node)
     elif isinstance(node, ast.Subscript):
-        yield from _held_names(node.value)
+        parts = [node.value]
+    elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+        parts = [node.func.value]
     elif isinstance(node, ast.Call):
-        if isinstance(node.func, ast.Attribute):
-            yield from _held_names(node.func.value)
-        elif not isinstance(node.func, ast.Name) or node.func.id in (*_PASSING_ON, "zip", "dict"):
-            for argument in node.args:
-                yield from _held_names(argument)
-    else:
-        for child in ast.iter_child_nodes(node):
-            if isinstance(child, ast.expr):
-                yield from _held_names(child)
-            elif isinstance(child, ast.comprehension):
-                yield from _held_names(child.iter)
+        passes_on = not isinstance(node.func, ast.Name) or node.func.id in _PASSING_ON
+        parts = node.args if passes_on else ()
+    for part in parts:
+        if isinstance(part, ast.comprehension):
+            yield from _held_names(part.iter)
+        elif isinstance(part, ast.expr):
+            yield from _held_names(part)
 
 
 def _note_index(flow: Flow, base: ast.expr, index: ast.expr) -> None:
@@ -157,10 +149,8 @@ def _fields_in(index: ast.expr) -> Iterator[str]:
     names, which may have been taken from a field called so.
     """
     for inner in ast.walk(index):
-        if isinstance(inner, ast.Attribute):
-            yield inner.attr
-        elif isinstance(inner, ast.Name):
-            yield inner.id
+        if isinstance(inner, (ast.Name, ast.Attribute)):
+            yield _last_name(inner)
         elif isinstance(inner, ast.Constant) and isinstance(inner.value, (str, int)):
             yield str(inner.value)
 
@@ -175,11 +165,9 @@ def _call(flow: Flow, node: ast.Call, functions: dict[str, ast.FunctionDef]) -> 
     names = [argument.arg for argument in function.args.args]
     if names[:1] == ["self"]:
         names = names[1:]
-    given = [*zip(names, node.args, strict=False), *((k.arg, k.value) for k in node.keywords)]
-    for name, value in given:
-        if name is not None:
-            origins = set(_held_names(value)) - {name}
-            flow.comes_from.setdefault(name, set()).update(origins)
+    named = ((keyword.arg, keyword.value) for keyword in node.keywords if keyword.arg)
+    for name, value in (*zip(names, node.args, strict=False), *named):
+        flow.take(name, value)
 
 
 def _last_name(node: ast.expr) -> str:

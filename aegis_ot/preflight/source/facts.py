@@ -14,7 +14,7 @@ from itertools import islice
 from typing import TypeGuard
 
 from .data_flow import Flow, read_flow
-from .nodes import FUNCTIONS, LOOPS, Nodes, name_of
+from .nodes import LOOPS, Nodes
 
 _MOST_TEXTS = 2000
 """A protocol that carries its data in strings says nothing more of itself after so many."""
@@ -40,8 +40,8 @@ class SourceFacts:
         strings: Every other string of the text, with its line.
         assigned: Line of the first assignment of each name.
         varying: Names that are loop variables, as ``(function, name)``.
-        rebound: Names that loops bind anew in each turn, these among them.
-        parameters: Names that are parameters of functions, as ``(function, name)``.
+        passing: Names that hold many things in turn: parameters of functions, and what loops bind
+            anew in each turn, their variables among them.
         tree: The parsed text, empty where it is none.
         nodes: All its nodes by kind.
         flow: Which names the values of a name come from, and which labware they index.
@@ -55,8 +55,7 @@ class SourceFacts:
     strings: list[tuple[int, str]] = field(default_factory=list)
     assigned: dict[str, int] = field(default_factory=dict)
     varying: set[tuple[str, str]] = field(default_factory=set)
-    rebound: set[tuple[str, str]] = field(default_factory=set)
-    parameters: set[tuple[str, str]] = field(default_factory=set)
+    passing: set[tuple[str, str]] = field(default_factory=set)
     tree: ast.Module = field(default_factory=lambda: ast.Module([], []), repr=False)
 
     @cached_property
@@ -69,15 +68,13 @@ class SourceFacts:
 
     def comment_blocks(self) -> list[tuple[int, str]]:
         """Comments by their first line; those that stand below each other are one text."""
-        blocks: dict[int, list[str]] = {}
-        first = 0
+        blocks: list[tuple[int, list[str]]] = []
         for line, said in sorted(self.comments.items()):
             if line in self.own_line and line - 1 in self.own_line:
-                blocks[first].append(said)
+                blocks[-1][1].append(said)
             else:
-                first = line
-                blocks[first] = [said]
-        return [(line, "\n".join(texts)) for line, texts in blocks.items()]
+                blocks.append((line, [said]))
+        return [(line, "\n".join(texts)) for line, texts in blocks]
 
 
 def read_source(text: str) -> SourceFacts:
@@ -141,16 +138,15 @@ def _is_text(node: ast.AST | None) -> TypeGuard[ast.Constant]:
 
 def _read_scopes(facts: SourceFacts) -> None:
     """Which names loops give many values, and which ones calls do, by the function they are in."""
-    for function in facts.nodes.of(*FUNCTIONS):
-        given = function.args
+    for given, function, _ in facts.nodes.placed(ast.arguments):
         for argument in (*given.posonlyargs, *given.args, *given.kwonlyargs):
-            facts.parameters.add((name_of(function), argument.arg))
+            facts.passing.add((function, argument.arg))
     for loop, inside, _ in facts.nodes.placed(*LOOPS):
         targets = (node for node in ast.walk(loop.target) if isinstance(node, ast.Name))
         facts.varying |= {(inside, target.id) for target in targets}
     for name, _, looping in facts.nodes.placed(ast.Name):
         if looping and isinstance(name.ctx, ast.Store):
-            facts.rebound |= {(outer, name.id) for outer in looping}
+            facts.passing |= {(outer, name.id) for outer in looping}
 
 
 def source_lines(text: str) -> list[str]:

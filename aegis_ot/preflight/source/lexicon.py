@@ -32,14 +32,12 @@ class Match(NamedTuple):
 @functools.lru_cache(maxsize=8192)
 def tokens(text: str) -> tuple[str, ...]:
     """Cut a text or identifier into lower-case words, plurals reduced."""
-    for written, plain in _LETTERS.items():
-        text = text.replace(written, plain)
-    plain = unicodedata.normalize("NFKD", text)
+    plain = unicodedata.normalize("NFKD", text.translate(_LETTERS))
     plain = "".join(c for c in plain if not unicodedata.combining(c)).replace("'", "")
     return tuple(_singular(_folded(piece.lower())) for piece in _PIECES.findall(plain))
 
 
-_LETTERS = {"ß": "ss", "µ": "u", "æ": "ae", "Æ": "Ae", "œ": "oe", "Œ": "Oe"}
+_LETTERS = str.maketrans({"ß": "ss", "µ": "u", "æ": "ae", "Æ": "Ae", "œ": "oe", "Œ": "Oe"})
 
 
 def _folded(word: str) -> str:
@@ -65,6 +63,7 @@ def _same(here: tuple[str, ...], parts: tuple[str, ...]) -> bool:
 
 
 _MOST_TEXTS = 4096
+"""A lexicon outlives a protocol."""
 
 
 class Lexicon:
@@ -74,32 +73,26 @@ class Lexicon:
         phrases: For each topic its phrases. A phrase that stands under several topics is
             reported for each.
         aliases: Abbreviations and what they stand for, word by word.
+
+    Attributes:
+        find: All phrases in a text, none overlapping a longer one, in order.
     """
 
     def __init__(
         self,
-        phrases: Mapping[str, Sequence[str]],
-        aliases: Mapping[str, str] | None = None,
+        phrases: tuple[tuple[str, tuple[str, ...]], ...],
+        aliases: tuple[tuple[str, str], ...],
     ) -> None:
-        self._aliases = aliases or {}
+        self._aliases = dict(aliases)
         self._by_first: dict[str, list[tuple[tuple[str, ...], str, str]]] = {}
-        for topic, listed in phrases.items():
+        for topic, listed in phrases:
             for phrase in listed:
                 parts = self._full(tokens(phrase))
                 if parts:
                     self._by_first.setdefault(parts[0], []).append((parts, topic, phrase))
         for entries in self._by_first.values():
             entries.sort(key=lambda entry: -len(entry[0]))
-        self._cache: dict[str, tuple[Match, ...]] = {}
-
-    def find(self, text: str) -> tuple[Match, ...]:
-        """All phrases in ``text``, none overlapping a longer one, in order."""
-        found = self._cache.get(text)
-        if found is None:
-            if len(self._cache) > _MOST_TEXTS:  # it outlives a protocol
-                self._cache.clear()
-            found = self._cache[text] = tuple(self._search(self.words(text)))
-        return found
+        self.find = functools.lru_cache(maxsize=_MOST_TEXTS)(self._find)
 
     def words(self, text: str) -> tuple[str, ...]:
         """The words of a text that matches count: abbreviations spelled out."""
@@ -113,10 +106,10 @@ class Lexicon:
         return word if tokens(word)[0] in self._by_first else written.group()
 
     def _full(self, words: tuple[str, ...]) -> tuple[str, ...]:
-        aliases = self._aliases
-        return tuple(aliases.get(word, word) for word in words) if aliases else words
+        return tuple(self._aliases.get(word, word) for word in words)
 
-    def _search(self, words: tuple[str, ...]) -> list[Match]:
+    def _find(self, text: str) -> tuple[Match, ...]:
+        words = self.words(text)
         found: list[Match] = []
         at = 0
         while at < len(words):
@@ -129,7 +122,7 @@ class Lexicon:
                     length = len(parts)
                     found.append(Match(topic, phrase, at, at + length))
             at += length or 1
-        return found
+        return tuple(found)
 
 
 def lexicon_of(
@@ -141,9 +134,4 @@ def lexicon_of(
     return _made(listed, tuple((aliases or {}).items()))
 
 
-@functools.lru_cache(maxsize=128)
-def _made(
-    phrases: tuple[tuple[str, tuple[str, ...]], ...],
-    aliases: tuple[tuple[str, str], ...],
-) -> Lexicon:
-    return Lexicon(dict(phrases), dict(aliases))
+_made = functools.lru_cache(maxsize=128)(Lexicon)

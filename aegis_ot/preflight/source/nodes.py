@@ -3,27 +3,17 @@
 from __future__ import annotations
 
 import ast
-import functools
 from collections import defaultdict
 from collections.abc import Iterator
-from typing import Any, TypeVar
+from typing import TypeVar
 
-LOOPS: tuple[type[ast.For | ast.AsyncFor | ast.comprehension], ...] = (
-    ast.For,
-    ast.AsyncFor,
-    ast.comprehension,
-)
-FUNCTIONS: tuple[type[ast.FunctionDef | ast.Lambda], ...] = (ast.FunctionDef, ast.Lambda)
+LOOPS: tuple[type[ast.For | ast.comprehension], ...] = (ast.For, ast.comprehension)
 
 _Node = TypeVar("_Node", bound=ast.AST)
 _Placed = tuple[ast.AST, str, tuple[str, ...]]
 
 _SILENT_FIELDS = frozenset({"ctx", "op", "ops", "kind", "type_comment", "returns", "annotation"})
 """What holds operators and types: nearly half of all nodes, and nothing is read from them."""
-
-
-_LEAVES = frozenset({ast.Name, ast.Constant})
-"""What holds no other nodes: most of them."""
 
 
 class Nodes:
@@ -39,12 +29,11 @@ class Nodes:
         while open_:
             placed = open_.pop()
             node, function, looping = placed
-            kind = type(node)
-            self._placed[kind].append(placed)
-            if kind in _LEAVES:
-                continue
-            if isinstance(node, FUNCTIONS):
-                function = name_of(node)
+            self._placed[type(node)].append(placed)
+            if isinstance(node, ast.FunctionDef):
+                function = node.name
+            elif isinstance(node, ast.Lambda):
+                function = "<lambda>"
             elif isinstance(node, LOOPS):
                 looping = (*looping, function)
             open_ += [(child, function, looping) for child in reversed(_children(node))]
@@ -60,23 +49,10 @@ class Nodes:
             yield from self._placed.get(kind, ())  # type: ignore[misc]
 
 
-def name_of(function: ast.FunctionDef | ast.Lambda) -> str:
-    """A function's name."""
-    return function.name if isinstance(function, ast.FunctionDef) else "<lambda>"
-
-
 def _children(node: ast.AST) -> list[ast.AST]:
     children: list[ast.AST] = []
-    kind: Any = type(node)
-    for name in _speaking_fields(kind):
-        value = getattr(node, name, None)
-        if type(value) is list:
-            children += [child for child in value if isinstance(child, ast.AST)]
-        elif isinstance(value, ast.AST):
-            children.append(value)
+    for name, value in ast.iter_fields(node):
+        if name not in _SILENT_FIELDS:
+            parts = value if isinstance(value, list) else [value]
+            children += [part for part in parts if isinstance(part, ast.AST)]
     return children
-
-
-@functools.cache
-def _speaking_fields(kind: type[ast.AST]) -> tuple[str, ...]:
-    return tuple(name for name in kind._fields if name not in _SILENT_FIELDS)

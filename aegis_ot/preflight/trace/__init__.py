@@ -3,13 +3,11 @@
 Door: :func:`build_trace` gives a :class:`Trace`.
 """
 
-from .building import build_trace
+from .building import build_trace, touched_by_tip
 from .geometry import Contact, Geometry
-from .model import EMPTY_UL, Transfer, Visit, Well
-from .pauses import Intervention, Pauses
-from .plates import row_column
+from .model import EMPTY_UL, Transfer, Visit, Well, row_column
 from .table import places, trace_table
-from .tips import Met, Tip, TipBox
+from .tips import Met, Tip
 from .trace import Imbalance, Trace, Usage, chains_of
 
 __all__ = [
@@ -17,11 +15,8 @@ __all__ = [
     "Contact",
     "Geometry",
     "Imbalance",
-    "Intervention",
     "Met",
-    "Pauses",
     "Tip",
-    "TipBox",
     "Trace",
     "Transfer",
     "Usage",
@@ -31,5 +26,6 @@ __all__ = [
     "chains_of",
     "places",
     "row_column",
+    "touched_by_tip",
     "trace_table",
 ]

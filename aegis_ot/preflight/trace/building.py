@@ -6,14 +6,15 @@ module is where those words become values. One pass over the recorded steps, no 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 from ...instrumentation import Event, EventKind, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
-from ..rehearsal import Record
+from ..rehearsal import Record, Recorder
 from .geometry import CLEARANCE_MM, Contact
 from .model import Layer, Transfer, Visit, Well
-from .pauses import Pauses
+from .pauses import Words, read_pause, topics_in
 from .plates import Plates
 from .tips import Tip, TipBox
 from .trace import Imbalance, Trace
@@ -26,9 +27,9 @@ _FALLS_MM = 20.0
 
 
 def build_trace(
-    log: Iterable[Record],
+    log: Sequence[Record],
     labware: Mapping[str, LabwareInfo],
-    pauses: Pauses,
+    words: Words,
     prefilled: Callable[[WellRef], bool] = lambda ref: False,
 ) -> Trace:
     """Read a recorded run.
@@ -36,31 +37,30 @@ def build_trace(
     Args:
         log: Operations and events, in order.
         labware: Facts of each labware, by key.
-        pauses: Reads pauses: was a plate replaced, shaken, refilled?
+        words: Of pauses: was a plate replaced, shaken, refilled?
         prefilled: Whether a well's role implies that it held liquid before the run.
     """
-    return _Builder(labware, pauses, prefilled).run(log)
+    return _Builder(labware, words, prefilled).run(log)
 
 
 class _Builder:
     def __init__(
         self,
         labware: Mapping[str, LabwareInfo],
-        pauses: Pauses,
+        words: Words,
         prefilled: Callable[[WellRef], bool],
     ) -> None:
-        self._trace = Trace(labware)
-        self._pauses = pauses
-        self._plates = Plates(labware, prefilled, self._trace.wells)
         self._box = TipBox()
+        self._trace = Trace(labware, tips=self._box.tips)
+        self._words = words
+        self._plates = Plates(labware, prefilled, self._trace.wells)
         self._slots = {key: info.slot for key, info in labware.items()}
         self._index = 0
         self._last: dict[Tip, Visit] = {}
         self._heights: dict[Tip, tuple[Well, float]] = {}
         self._cycle: dict[str, tuple[object, set[OperationKind]]] = {}
 
-    def run(self, log: Iterable[Record]) -> Trace:
-        log = list(log)
+    def run(self, log: Sequence[Record]) -> Trace:
         for record in log:
             # Wherever it stands in the text, it tells what is there before the run.
             if isinstance(record, Event) and record.kind is EventKind.LIQUID_LOADED:
@@ -71,16 +71,13 @@ class _Builder:
                 self._event(record)
             else:
                 self._step(record)
-        self._trace.tips = self._box.tips
         return self._trace
 
     # -- events
 
     def _event(self, event: Event) -> None:
         kind = event.kind
-        if kind is EventKind.LABWARE_LOADED:
-            self._slots[event.labware] = event.text
-        elif kind is EventKind.TIPS_RESET:
+        if kind is EventKind.TIPS_RESET:
             self._box.refill_rack(event.labware)
         elif kind is EventKind.LABWARE_MOVED:
             self._slots[event.labware] = event.text
@@ -88,7 +85,7 @@ class _Builder:
                 self._replace(event.labware)
         elif kind is EventKind.PAUSED:
             self._paused(event)
-        elif kind is EventKind.MODULE and self._pauses.shakes(event.text):
+        elif kind is EventKind.MODULE and "shake" in topics_in(event.text, self._words):
             plates = frozenset({event.labware}) if event.labware else None
             self._trace.shaken.append((self._index, plates))
 
@@ -104,23 +101,21 @@ class _Builder:
                 well.declared = 0.0  # declared to be empty, which "no volume" does not say
 
     def _paused(self, event: Event) -> None:
-        said = self._pauses.read(event.text, self._trace.labware, self._slots)
+        said = read_pause(event.text, self._words, self._trace.labware, self._slots)
         if said.shaken:
             self._trace.shaken.append((self._index, None))
         if said.tips:
             for key in self._trace.labware:
-                self._box.replace_rack(key)
+                self._box.refill_rack(key, returned_too=True)
         for key in said.replaced:
             self._replace(key)
         if said.volumes_unsure:
             self._plates.forget_volumes()
 
     def _replace(self, key: str) -> None:
-        info = self._trace.labware.get(key)
-        if info is not None and info.is_tip_rack:
-            self._box.replace_rack(key)
-        else:
-            self._plates.replace(key)
+        """Another rack of tips, or another plate, stands there from now on."""
+        self._box.refill_rack(key, returned_too=True)
+        self._plates.replace(key)
 
     # -- steps
 
@@ -138,7 +133,7 @@ class _Builder:
                 if tip is None:
                     continue  # a multi-channel pipette that took up fewer tips
                 well = None if ref is None or step.disposal else self._plates.well(ref)
-                self._act(step, kind, tip, well)
+                self._act(step, tip, well)
 
     def _repeats(self, step: Operation) -> bool:
         """Whether a step only repeats a mixing cycle that is noted already.
@@ -162,17 +157,15 @@ class _Builder:
         elif step.wells and step.wells[0] is not None and len(set(refs)) > 1:
             self._trace.groups.setdefault(refs[0], refs)
 
-    def _act(self, step: Operation, kind: OperationKind, tip: Tip, well: Well | None) -> None:
-        if kind is OperationKind.AIR_GAP:
+    def _act(self, step: Operation, tip: Tip, well: Well | None) -> None:
+        kind = step.kind
+        draws = kind is OperationKind.ASPIRATE
+        if draws and well is not None and not (step.is_air or self._draws_air(step, tip, well)):
+            self._aspirate(step, tip, well)
+        elif draws or kind is OperationKind.AIR_GAP:
             tip.layers.append((None, step.volume, {}, step.line))
-        elif kind is OperationKind.ASPIRATE:
-            if well is None or step.is_air or self._draws_air(step, tip, well):
-                tip.layers.append((None, step.volume, {}, step.line))
-            else:
-                self._aspirate(step, tip, well)
         elif kind is OperationKind.DISPENSE or kind is OperationKind.BLOW_OUT:
-            blown = kind is OperationKind.BLOW_OUT
-            parts = tip.pop() if blown else tip.pop(step.volume)
+            parts = tip.pop(step.volume if kind is OperationKind.DISPENSE else math.inf)
             if well is not None:
                 self._give(step, tip, well, parts)
             elif tip in self._last:
@@ -261,10 +254,10 @@ class _Builder:
         drawn = self._last.get(tip)
         if drawn is None or visit.volume <= 0:
             return
-        if visit.brought:
+        gives_back = drawn.well is visit.well and visit.volume >= drawn.volume * _MOST
+        if visit.brought or gives_back:
             del self._last[tip]
-            return
-        if drawn.well is not visit.well or visit.volume < drawn.volume * _MOST:
+        if visit.brought or not gives_back:
             return
         drawn.mixing = visit.mixing = True
         mixes = visit.well.mixes
@@ -272,9 +265,21 @@ class _Builder:
             mixes[-1] = (mixes[-1][0], visit.index, mixes[-1][2])
         else:
             mixes.append((drawn.index, visit.index, drawn.line))
-        del self._last[tip]
 
 
 def _slack(volume: float) -> float:
     """Rounding that volumes computed in a protocol may show, µL."""
     return max(0.1, abs(volume) * 2e-3)
+
+
+def touched_by_tip(recorder: Recorder, well: WellRef) -> frozenset[WellRef] | None:
+    """The wells that the tip has touched which last dispensed into ``well``.
+
+    The run so far is read for the worst: a well of which nothing is known counts as one that
+    holds liquid, so a tip that went below its upper third touched it. ``None`` if no tip did.
+    """
+    trace = build_trace(recorder.log, recorder.labware, {}, lambda ref: True)
+    for visit in reversed(trace.visits):
+        if visit.well.ref == well and visit.kind is OperationKind.DISPENSE:
+            return frozenset(touched.ref for touched in visit.tip.touched)
+    return None

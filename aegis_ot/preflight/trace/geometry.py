@@ -7,6 +7,7 @@ half ball below, as the shape of the bottom goes.
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Mapping
 from enum import IntEnum
@@ -42,9 +43,6 @@ class Contact(IntEnum):
 class Geometry:
     """The inside of one kind of well.
 
-    Args:
-        info: What the labware definition says.
-
     Attributes:
         depth: From the rim to the bottom, mm.
         brim: µL that it holds filled to the rim.
@@ -53,7 +51,7 @@ class Geometry:
     def __init__(self, info: WellInfo) -> None:
         self.depth = info.depth
         self._sections = info.sections or _assumed(info)
-        self._known: dict[float, float] = {}
+        self._reckon = functools.cache(self._reckoned)
         self._scale = 1.0
         inside = self._reckon(info.depth)
         if info.sections:
@@ -65,33 +63,14 @@ class Geometry:
 
     def volume_below(self, height: float) -> float:
         """µL that stand in the well when it is filled up to ``height`` mm above its bottom."""
-        height = min(round(height, 2), self.depth)
-        volume = self._known.get(height)
-        if volume is None:
-            volume = self._known[height] = self._reckon(height)
-        return volume
+        return self._scale * self._reckon(min(round(height, 2), self.depth))
 
     def is_high(self, height: float) -> bool:
         """Whether a height above the bottom is in the upper third, where no liquid is expected."""
         return height >= UPPER_PART * self.depth
 
-    def contact(self, height: float, least: float, volume: float, most: float) -> Contact:
-        """How surely a tip's end at ``height`` mm above the bottom meets the liquid.
-
-        Args:
-            height: mm.
-            least: µL that surely stand in the well.
-            volume: µL that are thought to.
-            most: µL that can.
-        """
-        if self.volume_below(height) <= least:
-            return Contact.WET
-        clear_of = self.volume_below(height - CLEARANCE_MM)
-        clear = volume <= clear_of and (most <= clear_of or self.is_high(height))
-        return Contact.CLEAR if clear else Contact.NEAR
-
-    def _reckon(self, height: float) -> float:
-        return self._scale * sum(_filled(section, height) for section in self._sections)
+    def _reckoned(self, height: float) -> float:
+        return sum(_filled(section, height) for section in self._sections)
 
 
 def _filled(section: Mapping[str, Any], height: float) -> float:

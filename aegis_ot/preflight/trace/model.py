@@ -53,7 +53,6 @@ class Well:
     generation: int = 0
     capacity: float = math.inf
     geometry: Geometry | None = None
-    order: tuple[int, int] = (0, 0)
     volume: float = 0.0
     known: bool = True
     declared: float | None = None
@@ -67,12 +66,13 @@ class Well:
     most: float = math.inf
     unsure: float = 0.0
     fallen: float = 0.0
-    pure: Composition = field(init=False)
+    order: tuple[int, int] = field(init=False)
     last: Composition = field(init=False)
 
     def __post_init__(self) -> None:
         self.most = self.capacity
-        self.pure = self.last = {self: 1.0}
+        self.order = row_column(self.ref.name)
+        self.last = {self: 1.0}
 
     def __repr__(self) -> str:
         return f"<{self.ref.address}{'*' * self.generation}>"
@@ -112,21 +112,12 @@ class Well:
             self.volume += volume
         self.contents[self] = self.contents.get(self, 0.0) + held
 
-    def forget_volume(self) -> None:
-        """Someone may have filled or emptied it by hand."""
-        self.known = False
-        self.most = self.capacity
-        self.unsure = self.volume
-
     def liquid(self) -> Composition:
         """What a tip would draw now."""
-        contents = self.contents
-        if len(contents) == 1:
-            return next(iter(contents)).pure
-        total = sum(contents.values())
+        total = sum(self.contents.values())
         if total <= 0:
             return self.last
-        return {origin: volume / total for origin, volume in contents.items()}
+        return {origin: volume / total for origin, volume in self.contents.items()}
 
     def draw(self, volume: float) -> float:
         """Take liquid out; returns how much of it the well did not hold (0 if unknown)."""
@@ -182,8 +173,12 @@ class Well:
             return Contact.WET if from_liquid <= 0 else Contact.NEAR if near else Contact.CLEAR
         if from_bottom is None or geometry is None:
             return Contact.WET
+        if geometry.volume_below(from_bottom) <= self.least:
+            return Contact.WET
+        below = geometry.volume_below(from_bottom - CLEARANCE_MM)
         most = self.volume if self.known else self.most
-        return geometry.contact(from_bottom, self.least, self.volume, most)
+        clear = self.volume <= below and (most <= below or geometry.is_high(from_bottom))
+        return Contact.CLEAR if clear else Contact.NEAR
 
 
 @dataclass(eq=False, slots=True, repr=False)
@@ -256,3 +251,15 @@ class Transfer(NamedTuple):
     volume: float
     liquid: Composition
     drawn: int | None
+
+
+def row_column(name: str) -> tuple[int, int]:
+    """``"B12"`` -> ``(1, 11)``; names that are not of this form count as the first well."""
+    letters = name.rstrip("0123456789")
+    digits = name[len(letters) :]
+    row = 0
+    for letter in letters.upper():
+        if not "A" <= letter <= "Z":
+            return (0, 0)
+        row = row * 26 + ord(letter) - ord("A") + 1
+    return (max(row - 1, 0), int(digits) - 1 if digits else 0)

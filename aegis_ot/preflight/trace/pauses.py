@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from ...instrumentation import LabwareInfo
 from ..source import lexicon_of, tokens
@@ -45,53 +45,41 @@ class Intervention:
     volumes_unsure: bool = True
 
 
-@dataclass(frozen=True)
-class Pauses:
-    """Reads pause messages with word lists.
+Words = Mapping[str, Sequence[str]]
+"""By topic: ``plate``, ``trough``, ``tips`` and ``covers`` (lids, seals, gloves) are things;
+``replace``, ``new``, ``away``, ``back``, ``refill`` and ``shake`` are what is done with them."""
 
-    Args:
-        words: By topic: ``plate``, ``trough``, ``tips`` and ``covers`` (lids, seals, gloves) are
-            things; ``replace``, ``new``, ``away``, ``back``, ``refill`` and ``shake`` are what is
-            done with them.
+
+def topics_in(text: str, words: Words) -> set[str]:
+    """The topics of which a text speaks."""
+    return {match.topic for match in lexicon_of(words).find(text)}
+
+
+def read_pause(
+    text: str, words: Words, labware: Mapping[str, LabwareInfo], slots: Mapping[str, str]
+) -> Intervention:
+    """Read a pause message; an empty one says nothing, so anything may have happened.
+
+    Facts of each labware, and the slot where it stands now, are by its key.
     """
-
-    words: Mapping[str, Sequence[str]] = field(default_factory=dict)
-
-    def shakes(self, text: str) -> bool:
-        """Whether a text speaks of shaking or mixing a plate."""
-        return "shake" in self._topics(text)
-
-    def read(
-        self, text: str, labware: Mapping[str, LabwareInfo], slots: Mapping[str, str]
-    ) -> Intervention:
-        """Read a pause message; an empty one says nothing, so anything may have happened.
-
-        Args:
-            text: The message.
-            labware: Facts of each labware, by key.
-            slots: Where each stands now, by key.
-        """
-        clauses = [self._topics(clause) for clause in _CLAUSE.split(text[:_LONGEST])]
-        said = frozenset().union(*clauses)
-        # "Remove the foil from the plate" is done to the foil.
-        things = frozenset().union(*(one for one in clauses if "covers" not in one)) & _LABWARE
-        named = _named(text[:_LONGEST], labware, slots)
-        tips = "tips" in said and not said.isdisjoint(("replace", "new", "refill"))
-        shaken = "shake" in said
-        if not things and not named:
-            aside = not said.isdisjoint(("tips", "covers"))
-            if "replace" not in said or aside:
-                return Intervention(tips=tips, shaken=shaken, volumes_unsure=not aside)
-            things = frozenset({"plate"})  # "Replace and resume"
-        # What is brought back is the same plate.
-        away = "away" in said and "back" not in said
-        if not away and said.isdisjoint(("replace", "new")):
-            return Intervention(tips=tips, shaken=shaken)
-        meant = named or {key for key, info in labware.items() if _may_be(info, things)}
-        return Intervention(frozenset(meant), tips, shaken)
-
-    def _topics(self, text: str) -> set[str]:
-        return {match.topic for match in lexicon_of(self.words).find(text)}
+    clauses = [topics_in(clause, words) for clause in _CLAUSE.split(text[:_LONGEST])]
+    said = frozenset().union(*clauses)
+    # "Remove the foil from the plate" is done to the foil.
+    things = frozenset().union(*(one for one in clauses if "covers" not in one)) & _LABWARE
+    named = _named(text[:_LONGEST], labware, slots)
+    tips = "tips" in said and not said.isdisjoint(("replace", "new", "refill"))
+    shaken = "shake" in said
+    if not things and not named:
+        aside = not said.isdisjoint(("tips", "covers"))
+        if "replace" not in said or aside:
+            return Intervention(tips=tips, shaken=shaken, volumes_unsure=not aside)
+        things = frozenset({"plate"})  # "Replace and resume"
+    # What is brought back is the same plate.
+    away = "away" in said and "back" not in said
+    if not away and said.isdisjoint(("replace", "new")):
+        return Intervention(tips=tips, shaken=shaken)
+    meant = named or {key for key, info in labware.items() if _may_be(info, things)}
+    return Intervention(frozenset(meant), tips, shaken)
 
 
 def _may_be(info: LabwareInfo, things: frozenset[str]) -> bool:

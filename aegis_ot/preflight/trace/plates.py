@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping
 
 from ...instrumentation import LabwareInfo, WellInfo
@@ -32,41 +33,35 @@ class Plates:
         self._labware = labware
         self._prefilled = prefilled
         self._known = known
-        self._generation: dict[str, int] = {}
-        self._current: dict[WellRef, Well] = {}
+        self._generation: Counter[str] = Counter()
         self._geometries: dict[tuple[object, ...], Geometry] = {}
 
     def well(self, ref: WellRef) -> Well:
         """The well of this name on the plate that stands there now."""
-        well = self._current.get(ref)
+        key = (ref.labware, self._generation[ref.labware], ref.name)
+        well = self._known.get(key)
         if well is None:
-            generation = self._generation.get(ref.labware, 0)
-            well = self._current[ref] = self._make(ref, generation)
-            self._known[(ref.labware, generation, ref.name)] = well
+            labware = self._labware.get(ref.labware)
+            info = labware.wells.get(ref.name) if labware else None
+            capacity = info.max_volume if info and info.max_volume > 0 else math.inf
+            geometry = self._geometry(info) if info else None
+            well = self._known[key] = Well(ref, key[1], capacity, geometry)
             if self._prefilled(ref):
                 well.fill_before_run(None)
         return well
 
     def replace(self, key: str) -> None:
         """Another plate stands for this labware from now on."""
-        self._generation[key] = self._generation.get(key, 0) + 1
-        for ref in [ref for ref in self._current if ref.labware == key]:
-            del self._current[ref]
+        self._generation[key] += 1
 
     def forget_volumes(self) -> None:
         """Someone may have filled or emptied wells by hand."""
-        for well in self._current.values():
-            if well.visits or well.prefilled:
-                well.forget_volume()
-
-    def _make(self, ref: WellRef, generation: int) -> Well:
-        labware = self._labware.get(ref.labware)
-        info = labware.wells.get(ref.name) if labware else None
-        order = row_column(ref.name)
-        if info is None:
-            return Well(ref, generation, order=order)
-        capacity = info.max_volume if info.max_volume > 0 else math.inf
-        return Well(ref, generation, capacity, self._geometry(info), order)
+        for well in self._known.values():
+            stands = well.generation == self._generation[well.ref.labware]
+            if stands and (well.visits or well.prefilled):
+                well.known = False
+                well.most = well.capacity
+                well.unsure = well.volume
 
     def _geometry(self, info: WellInfo) -> Geometry | None:
         """The wells of a plate share theirs."""
@@ -77,15 +72,3 @@ class Plates:
         if key not in self._geometries:
             self._geometries[key] = Geometry(info)
         return self._geometries[key]
-
-
-def row_column(name: str) -> tuple[int, int]:
-    """``"B12"`` -> ``(1, 11)``; names that are not of this form count as the first well."""
-    letters = name.rstrip("0123456789")
-    digits = name[len(letters) :]
-    row = 0
-    for letter in letters.upper():
-        if not "A" <= letter <= "Z":
-            return (0, 0)
-        row = row * 26 + ord(letter) - ord("A") + 1
-    return (max(row - 1, 0), int(digits) - 1 if digits else 0)

@@ -12,14 +12,13 @@ its marks likewise; ``touch`` the wall.
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
-from dataclasses import dataclass
-from itertools import groupby
+from dataclasses import dataclass, replace
+from itertools import groupby, takewhile
 from typing import TypeVar
 
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
-from .model import Visit
-from .plates import row_column
+from .model import Visit, row_column
 from .trace import Trace
 
 _WORDS = {
@@ -76,12 +75,7 @@ _Told = TypeVar("_Told", _Row, _Session)
 
 
 def trace_table(trace: Trace, limit: int = 6000) -> tuple[str, ...]:
-    """The lines of the table.
-
-    Args:
-        trace: What happened.
-        limit: About how many characters the table may have in all.
-    """
+    """The lines of the table, of about ``limit`` characters in all."""
     lines: list[str] = []
     for lines in _foldings(_sessions(trace)):
         if sum(len(line) + 1 for line in lines) <= limit:
@@ -120,8 +114,7 @@ def _sessions(trace: Trace) -> list[_Session]:
         if session is None:
             session = latest[key] = _Session(tips, visits[0].session > 1, [])
             found.append(session)
-        elif len(visits) > len(session.tips):
-            session.tips = tips
+        session.tips = max(session.tips, tips, key=len)
         _append(session.rows, visits)
     return found
 
@@ -157,29 +150,24 @@ def _told(same: Sequence[_Session], wells: Told) -> str:
 def _row(same: Sequence[_Row], wells: Told) -> str:
     """Rows of one word, told together."""
     line = f"L{same[0].line} " if same[0].line is not None else ""
-    volumes = sorted(row.volume for row in same)
-    volume = f" {volumes[-1]:.4g}" if volumes[-1] else ""
-    if f" {volumes[0]:.4g}" != volume and volumes[-1]:
-        volume = f" {volumes[0]:.4g}-{volumes[-1]:.4g}"
+    most = max(row.volume for row in same)
+    low, high = (f"{volume:.4g}" for volume in (min(row.volume for row in same), most))
+    volume = f" {high if low == high else f'{low}-{high}'}" if most else ""
     return f"{line}{same[0].word}{volume} {wells([w for row in same for w in row.wells])}"
 
 
 def _summed(sessions: Sequence[_Session], by_line: bool) -> str:
     """Several tip sessions in one line: what they did, each thing once with its wells."""
     rows: dict[Hashable, list[_Row]] = {}
-    for session in sessions:
-        for row in session.rows:
-            rows.setdefault((row.word, row.line if by_line else None), []).append(row)
-    if by_line:
-        told = [_row(same, _in_short) for same in rows.values()]
-    else:
-        lines = [row.line for session in sessions for row in session.rows if row.line]
-        told = [f"lines {min(lines, default=0)}-{max(lines, default=0)}"]
-        told += [
-            _row([_Row(r.word, r.volume, None, r.wells) for r in same], _in_short)
-            for same in rows.values()
-        ]
-    return f"{_tips(sessions)}: " + "; ".join(told)
+    every = [row for session in sessions for row in session.rows]
+    for row in every:
+        line = row.line if by_line else None
+        rows.setdefault((row.word, line), []).append(replace(row, line=line))
+    told = [_row(same, _in_short) for same in rows.values()]
+    if not by_line:
+        lines = [row.line for row in every if row.line]
+        told.insert(0, f"lines {min(lines, default=0)}-{max(lines, default=0)}")
+    return f"{_tips(sessions)}: {'; '.join(told)}"
 
 
 def _tips(sessions: Sequence[_Session]) -> str:
@@ -194,11 +182,9 @@ def _tips(sessions: Sequence[_Session]) -> str:
     if len(sessions) > 1:
         text += f", {len(sessions)} pick-ups one after the other"
     again = sum(session.again for session in sessions)
-    return (
-        text
-        + (f", {again} of them USED BEFORE" if 0 < again < len(sessions) else "")
-        + (", USED BEFORE" if again == len(sessions) else "")
-    )
+    if again:
+        text += ", USED BEFORE" if again == len(sessions) else f", {again} of them USED BEFORE"
+    return text
 
 
 def _repeated(items: Sequence[_Told]) -> Iterator[tuple[int, list[Sequence[_Told]]]]:
@@ -209,10 +195,8 @@ def _repeated(items: Sequence[_Told]) -> Iterator[tuple[int, list[Sequence[_Told
         best = (1, 1)
         for period in range(1, min(_LONGEST_CYCLE, (len(items) - at) // 2) + 1):
             count = 1
-            while (
-                signatures[at + count * period : at + (count + 1) * period]
-                == (signatures[at : at + period])
-            ):
+            block = signatures[at : at + period]
+            while signatures[at + count * period : at + (count + 1) * period] == block:
                 count += 1
             if count > 1 and period * count > best[0] * best[1]:
                 best = (period, count)
@@ -239,9 +223,7 @@ def places(wells: Sequence[WellRef]) -> str:
     at = 0
     while at < len(wells):
         first = wells[at]
-        same = 1
-        while at + same < len(wells) and wells[at + same] == first:
-            same += 1
+        same = len(list(takewhile(first.__eq__, wells[at:])))
         length = same if same > 1 else _run(wells[at:])
         last = wells[at + length - 1]
         prefix = first.address.rpartition(":")[0]

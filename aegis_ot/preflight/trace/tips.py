@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from ...vocabulary import WellRef
@@ -52,22 +52,11 @@ class Tip:
     ) -> None:
         """The tip's outside met ``well``: it now carries all that the well holds."""
         wet = index if contact is Contact.WET else math.inf
-        met = self.touched.get(well)
-        if met is None:
-            met = self.touched[well] = Met(well, line, index, wet)
-        elif (
-            met.contact() >= contact
-            and len(well.contents) <= 1
-            and next(iter(well.contents), None) in self.origins
-        ):
-            return
+        met = self.touched.setdefault(well, Met(well, line, index, wet))
         met.wet = min(met.wet, wet)
         for origin in well.contents:
-            known = self.origins.get(origin)
-            if known is None:
-                self.origins[origin] = Met(well, line, index, wet)
-            else:
-                known.wet = min(known.wet, wet)
+            known = self.origins.setdefault(origin, Met(well, line, index, wet))
+            known.wet = min(known.wet, wet)
 
     def pop(self, volume: float = math.inf) -> list[Layer]:
         """Give off ``volume`` µL: what was drawn last leaves first; air is given off unlisted.
@@ -98,14 +87,13 @@ class TipBox:
         self.tips: list[Tip] = []
 
     def pick_up(
-        self, pipette: str, nozzles: Iterable[str], racks: Iterable[WellRef | None]
+        self, pipette: str, nozzles: Iterable[str], racks: Sequence[WellRef | None]
     ) -> None:
         """Put a tip on each nozzle: the returned one if one stands there, else a new one.
 
         Nozzles beside the rack, or over places whose tips are gone, stay bare: that is how a
         multi-channel pipette is used with one tip.
         """
-        racks = list(racks)
         self._seen.add(pipette)
         lead = next((home for home in racks if home is not None), None)
         for nozzle, home in zip(nozzles, racks, strict=False):
@@ -126,8 +114,7 @@ class TipBox:
             if tip is not None and home is not None:
                 self._returned[home] = tip  # with what is in it: tips are parked full, too
                 self._taken.discard(home)
-        for key in [key for key in self._on if key[0] == pipette]:
-            del self._on[key]
+        self._on = {key: tip for key, tip in self._on.items() if key[0] != pipette}
 
     def on(self, pipette: str, nozzle: str) -> Tip | None:
         """The tip on a nozzle, ``None`` on a bare one.
@@ -139,14 +126,12 @@ class TipBox:
             tip = self._on[(pipette, nozzle)] = self._new()
         return tip
 
-    def replace_rack(self, labware: str) -> None:
-        """Someone put a fresh rack in this one's place."""
-        for home in [home for home in self._returned if home.labware == labware]:
+    def refill_rack(self, labware: str, returned_too: bool = False) -> None:
+        """The empty places of a rack hold new tips; returned ones stay what they are, unless
+        someone put a fresh rack in its place.
+        """
+        for home in [home for home in self._returned if home.labware == labware and returned_too]:
             del self._returned[home]
-        self.refill_rack(labware)
-
-    def refill_rack(self, labware: str) -> None:
-        """The empty places of a rack hold new tips; returned ones stay what they are."""
         self._taken = {home for home in self._taken if home.labware != labware}
 
     def _new(self) -> Tip:

@@ -95,8 +95,34 @@ class Trace:
 
     @cached_property
     def usage(self) -> Mapping[WellRef, Usage]:
-        """How the run uses each well; asked once all is read."""
-        return _usage_of(self)
+        """How the run uses each well, generations of a plate taken together; asked once all is
+        read.
+        """
+        usages: dict[WellRef, Usage] = {}
+        for well in sorted(self.wells.values(), key=lambda well: well.generation):
+            usage = usages.setdefault(well.ref, Usage())
+            usage.prefilled = usage.prefilled or well.prefilled
+        # A plate that comes back from the cycler is drawn from, and was filled before.
+        for visit in reversed(self.visits):
+            usages[visit.well.ref].first_drawn = visit.kind is OperationKind.ASPIRATE
+        at_first: dict[WellRef, set[WellRef]] = {}
+        for one in self.transfers:
+            usages[one.well.ref].received = True
+            if not usages[one.source.ref].received:
+                at_first.setdefault(one.source.ref, set()).add(one.well.ref)
+        served, drains = self.served, _drains(usages, self)
+        for ref, into in served.items():
+            usages[ref].feeds = not into <= drains
+        for ref in drains:
+            usages[ref].drain = True
+        taken = {visit.well.ref for visit in self.visits if not visit.mixing}
+        for ref, used in usages.items():
+            # Not what is emptied into the trash, and filled then; nor what is only mixed.
+            if ref in served or used.received or ref not in taken:
+                used.first_drawn = used.first_drawn and used.feeds
+            if used.received and at_first.get(ref, set()) <= drains:
+                used.first_drawn = False  # emptied, filled again, and harvested in the end
+        return usages
 
     def sides(self, ref: WellRef) -> tuple[str, bool]:
         """On which side of the run's transfers a well stands: ``source``, ``destination`` or
@@ -149,37 +175,6 @@ _FEWEST_EMPTIED = 2
 """One well that is tested before it is filled is not emptied."""
 
 
-def _usage_of(trace: Trace) -> Mapping[WellRef, Usage]:
-    """How each well is used, generations of a plate taken together."""
-    usages: dict[WellRef, Usage] = {}
-    begun: set[WellRef] = set()
-    for well in sorted(trace.wells.values(), key=lambda well: well.generation):
-        usage = usages.setdefault(well.ref, Usage())
-        usage.prefilled = usage.prefilled or well.prefilled
-        if well.visits and well.ref not in begun:
-            # A plate that comes back from the cycler is drawn from, and was filled before.
-            begun.add(well.ref)
-            usage.first_drawn = well.visits[0].kind is OperationKind.ASPIRATE
-    at_first: dict[WellRef, set[WellRef]] = {}
-    for one in trace.transfers:
-        usages[one.well.ref].received = True
-        if not usages[one.source.ref].received:
-            at_first.setdefault(one.source.ref, set()).add(one.well.ref)
-    served, drains = trace.served, _drains(usages, trace)
-    for ref, into in served.items():
-        usages[ref].feeds = not into <= drains
-    for ref in drains:
-        usages[ref].drain = True
-    taken = {visit.well.ref for visit in trace.visits if not visit.mixing}
-    for ref, used in usages.items():
-        # Not what is emptied into the trash, and filled then; nor what is only mixed.
-        if ref in served or used.received or ref not in taken:
-            used.first_drawn = used.first_drawn and used.feeds
-        if used.received and at_first.get(ref, set()) <= drains:
-            used.first_drawn = False  # emptied, filled again, and harvested in the end
-    return usages
-
-
 def _drains(usages: Mapping[WellRef, Usage], trace: Trace) -> set[WellRef]:
     """Where old medium goes, and what stands over beads: what several wells are emptied into that
     are filled again, or a trough for what several wells got in the run.
@@ -205,23 +200,18 @@ def chains_of(links: Sequence[Transfer]) -> list[list[Transfer]]:
     for link in links:
         feeds.setdefault(link.source, set()).add(link.well)
         fed.setdefault(link.well, set()).add(link.source)
-    parent: dict[Well, Well] = {}
-
-    def root(well: Well) -> Well:
-        parent.setdefault(well, well)
-        while parent[well] is not well:
-            parent[well] = parent[parent[well]]
-            well = parent[well]
-        return well
-
     kept = [
         link
         for link in links
         if len(fed[link.well]) <= 2 and (len(feeds[link.source]) <= 2 or not link.source.prefilled)
     ]
+    chains: dict[Well, list[Well]] = {}
     for link in kept:
-        parent[root(link.source)] = root(link.well)
-    groups: dict[Well, list[Transfer]] = {}
+        one, other = (chains.setdefault(well, [well]) for well in (link.source, link.well))
+        if one is not other:
+            one += other
+            chains.update(dict.fromkeys(other, one))
+    groups: dict[int, list[Transfer]] = {}
     for link in kept:
-        groups.setdefault(root(link.source), []).append(link)
+        groups.setdefault(id(chains[link.source]), []).append(link)
     return list(groups.values())

@@ -9,7 +9,7 @@ import pytest
 
 from aegis_ot.instrumentation import LabwareInfo, WellInfo
 from aegis_ot.preflight import Report, Script, check_script, load_database
-from aegis_ot.preflight.trace import Intervention, Pauses
+from aegis_ot.preflight.trace.pauses import Intervention, read_pause
 
 PROTOCOL = """
 metadata = {{"apiLevel": "2.15"}}
@@ -87,7 +87,7 @@ def _read(message: str) -> Intervention:
     trough = replace(plate, key="trough", slot="3", centers_channels=True)
     labware = {info.key: info for info in (tips, plate, trough)}
     slots = {key: info.slot for key, info in labware.items()}
-    return Pauses(load_database().common.pauses).read(message, labware, slots)
+    return read_pause(message, load_database().common.pauses, labware, slots)
 
 
 def test_a_plate_and_tips_may_be_told_together() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from aegis_ot.preflight.database import load_database
 from aegis_ot.preflight.rehearsal import Script, record
-from aegis_ot.preflight.trace import Pauses, Trace, Visit, Well, build_trace
+from aegis_ot.preflight.trace import Trace, Visit, Well, build_trace
 from tests.support.rehearsing import flex, ot2
 
 COLUMN = "ABCDEFGH"
@@ -16,8 +16,7 @@ COLUMN = "ABCDEFGH"
 
 def traced(text: str) -> Trace:
     recording = record(Script(textwrap.dedent(text), "protocol.py"))
-    pauses = Pauses(load_database().common.pauses)
-    return build_trace(recording.log, recording.labware, pauses)
+    return build_trace(recording.log, recording.labware, load_database().common.pauses)
 
 
 def well(trace: Trace, address: str) -> Well:

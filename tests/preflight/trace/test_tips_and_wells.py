@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from aegis_ot.instrumentation import EventKind
-from aegis_ot.preflight.trace import Contact, TipBox
+from aegis_ot.preflight.trace import Contact
+from aegis_ot.preflight.trace.tips import TipBox
 from aegis_ot.vocabulary import WellRef
 from tests.support.bench import Bench, carried, well
 

@@ -92,7 +92,7 @@ def test_what_leaves_a_tip_had_been_drawn(moves: list[tuple[bool, float]]) -> No
     drawn = given_off = 0.0
     for draws, volume in moves:
         if draws:
-            tip.layers.append((source, volume, source.pure, 1))
+            tip.layers.append((source, volume, source.liquid(), 1))
             drawn += volume
         else:
             given_off += sum(part[1] for part in tip.pop(volume))
