@@ -89,7 +89,7 @@ def test_a_sixth_family_needs_no_code() -> None:
         ),
         (
             lambda d: d["roles"]["stop"].update(in_place_of=["water"]),
-            "roles.stop: unknown field 'in_place_of'",
+            "roles.stop: 'in_place_of' is no field since schema 2: name such wells",
         ),
         (lambda d: d["signals"][1].update(roles=["nobody"]), "signals[1]: roles: there is no role"),
         (lambda d: d.update(schema=9), "schema: expected 2, found 9"),

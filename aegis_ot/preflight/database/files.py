@@ -10,7 +10,7 @@ from typing import Any
 
 from ...errors import RuleError
 from ..rules import READABLE, SCHEMA_VERSION, Common, Database, Family, parse_json, read_dataclass
-from .validation import check_family, check_together
+from .validation import check_family, check_together, refuse_dropped
 
 
 def shipped_rules() -> Path:
@@ -77,6 +77,7 @@ def load_family(path: Path) -> Family:
     data = _json(path)
     if isinstance(data, dict):
         data.pop("$schema", None)
+        refuse_dropped(data, path.name)
     family = read_dataclass(Family, data, path.name)
     if family.schema not in READABLE:
         raise RuleError(f"{path.name}: schema: expected {SCHEMA_VERSION}, found {family.schema}")
