@@ -19,7 +19,7 @@ _NARROW, _WIDE = 0.08, 0.22
 nothing is there, as far as a detection can be off; in tip lengths."""
 
 _SURE = 0.6
-"""Confidence of a detection from which it is not far off."""
+"""Confidence of a detection from which it is not far off. Of a row none is: all its tips agree."""
 
 _SIDEWAYS = 0.03
 """Standard deviation of a detection's ends across the axis, tip lengths (a box has no axis, and a
@@ -42,7 +42,7 @@ def rectify(
     orifice = np.array(detection.orifice, dtype=np.float64)
     collar, orifice, clarity = onto_outline(image, collar, orifice, shape)
     shift = _nozzle_shift(image, collar, orifice, shape, _NARROW, 4.0)
-    if shift is None and detection.confidence < _SURE:
+    if shift is None and detection.confidence < _SURE and detection.apart is None:
         strayed = _nozzle_shift(image, collar, orifice, shape, _WIDE, 8.0)
         if strayed is not None:
             along = orifice - collar

@@ -47,6 +47,10 @@ _SAME_STEP = 0.01, 0.003
 the camera looks up or down it sees the lower ends at another scale. It keeps a few misplaced ends
 from reading as a row seen at an angle: the tips would not get shorter."""
 
+_USUAL_TAPER = 0.002
+"""Of a row that is seen at 30 degrees, per px of how well its ends are placed. Lower ends alone
+hardly tell a taper from a few pixels of error."""
+
 _LEANS = 0.2
 """How much farther than upright, or than square to their row, tips surely lean, steps."""
 
@@ -311,5 +315,9 @@ def _solve(
         row[column], row[column + 2] = -tie, tie
         rows.append(row)
         values.append(0.0)
+    flat = np.zeros(9)
+    flat[8] = 1 / _USUAL_TAPER
+    rows.append(flat)
+    values.append(0.0)
     solved = np.linalg.lstsq(np.array(rows), np.array(values), rcond=None)[0]
     return solved[:4], solved[4:8], float(solved[8]) if taper is None else taper

@@ -24,18 +24,19 @@ _BESIDE = 0.65
 """A collar that is seen this far beside its place still says that a tip hangs there, steps: between
 two tips the network puts collars that are none."""
 
-_COLLAR, _ORIFICE = 0.1, 0.2
+_COLLAR, _ORIFICE = 0.06, 0.2
 """How far above or below its place an end may be, tip lengths."""
 
-_LONGER = 0.12
+_LONGER = 0.06
 """How much longer or shorter than those of its row a tip may look, tip lengths."""
 
 _SURE = 0.3
 """Heat of the tips with which others are compared."""
 
-_COLD, _TIP, _SHARE = 0.08, 0.7, 0.6
-"""There is a tip where the heat alone reaches the first, and the evidence the second and this share
-of what the row's sure tips have: before an even background a bare nozzle is not unlike a tip."""
+_COLD, _TIP, _SHARE, _NO_DOUBT = 0.08, 0.7, 0.65, 0.8
+"""There is a tip where the heat alone reaches the first, and the evidence the second and the third,
+a share of what the row's sure tips have: before an even background a bare nozzle is not unlike a
+tip. At the fourth, another share, it is beyond doubt."""
 
 _LEAST = 0.1
 """Heat from which a place speaks for a row."""
@@ -110,10 +111,10 @@ def compare(
     return {number: replace(one, likeness=likeness(number)) for number, one in nozzles.items()}
 
 
-def with_tip(nozzles: Mapping[int, Nozzle]) -> dict[int, Nozzle]:
-    """Those on which there is a tip."""
+def with_tip(nozzles: Mapping[int, Nozzle], *, surely: bool = False) -> dict[int, Nozzle]:
+    """Those on which there is a tip; ``surely``: those that leave no doubt."""
     sure = [one.evidence for one in nozzles.values() if one.heat >= _SURE]
-    least = max(_TIP, _SHARE * float(np.median(sure or [0.0])))
+    least = max(_TIP, (_NO_DOUBT if surely else _SHARE) * float(np.median(sure or [0.0])))
     return {
         number: one
         for number, one in nozzles.items()

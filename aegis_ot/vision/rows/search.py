@@ -10,7 +10,16 @@ from ..column.measure import shape_of
 from ..tips import TipGeometry
 from ..types import Detector, Image, RowDetector, TipDetection
 from .fit import PITCH_MM, Row, find_in_wells, find_row, upright
-from .nozzles import Nozzle, clarity, compare, look_at_nozzles, on_outlines, promise, row_of
+from .nozzles import (
+    Nozzle,
+    clarity,
+    compare,
+    look_at_nozzles,
+    on_outlines,
+    promise,
+    row_of,
+    with_tip,
+)
 from .orifices import find_by_orifices, rows_by_orifices
 
 _TAPERED = 0.025
@@ -25,6 +34,9 @@ _STEPS = 0.3, 1.5
 _WHOLE_STEP = 0.93, 1.08
 """A row without taper is seen squarely, and its steps are a pitch each: if they look shorter or
 longer than this, pitches, its tips are taken for longer or shorter ones."""
+
+_TELLING = 6
+"""Tips of a row from which its taper tells whether it is seen squarely."""
 
 _OFF_SCALE = 0.08
 _SAME_LENGTH = 0.15
@@ -138,7 +150,9 @@ class RowSearch:
     def _to_scale(self, row: Row) -> bool:
         """Whether steps are a pitch each, or shorter ones because the row is seen at an angle."""
         pitches = self.pitches(row)
-        return pitches <= _WHOLE_STEP[1] and (pitches >= _WHOLE_STEP[0] or self.is_tapered(row))
+        short = self._count < _TELLING  # too few to show a taper
+        whole = pitches >= _WHOLE_STEP[0] or self.is_tapered(row)
+        return pitches <= _WHOLE_STEP[1] and (whole or short)
 
     def _clearer(self, row: Row | None, by_orifices: Row | None, known: Row | None) -> Row | None:
         """Of a row by both ends and one by the lower ends the better one.
@@ -226,10 +240,10 @@ class RowSearch:
         """The row of the nozzles that have a tip, looked at again where these put it."""
         settled: Row | None = None
         for _ in range(_PASSES):
-            found = row_of(compare(nozzles, image, self._shape), self._count)
-            if found is None or len(found.heats) < self._count:
-                closer = compare(nozzles, image, self._shape, closely=True)
-                found = row_of(closer, self._count) or found
+            compared = compare(nozzles, image, self._shape)
+            if len(with_tip(compared, surely=True)) < self._count:
+                compared = compare(nozzles, image, self._shape, closely=True)
+            found = row_of(compared, self._count)
             if found is None or not _STEPS[0] <= self.pitches(found) <= _STEPS[1]:
                 break
             if settled is not None and _warmth(found) <= _GAIN * _warmth(settled):

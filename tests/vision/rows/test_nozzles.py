@@ -19,7 +19,7 @@ STEP, LENGTH, BOTTOM = 40.0, 260.0, 370.0
 
 
 def ends_of(number: int) -> np.ndarray:
-    x = 120.0 + STEP * number
+    x = 130.0 + STEP * number
     return np.array([x, BOTTOM - LENGTH, x, BOTTOM])
 
 
@@ -70,7 +70,7 @@ class Seen:
 def test_each_place_is_looked_at_that_may_have_a_nozzle_and_is_in_the_frame() -> None:
     nozzles = look_at_nozzles(Seen({}), picture([], []), a_row([0, 1, 2, 3, 4]), 8)
     assert sorted(nozzles) == list(range(-3, 8))
-    nozzles = look_at_nozzles(Seen({}), picture([], [])[:, :330], a_row([0, 1, 2, 3, 4]), 8)
+    nozzles = look_at_nozzles(Seen({}), picture([], [])[:, :340], a_row([0, 1, 2, 3, 4]), 8)
     assert sorted(nozzles) == list(range(-3, 6))
 
 
