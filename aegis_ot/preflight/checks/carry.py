@@ -53,7 +53,6 @@ class Carry(Check):
     not_into: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Look at every contact of a well with a tip that had met something before."""
         carriers = set(case.wells(self.carried))
         if self.unnamed:
             carriers.update(well for well in case.destinations if not case.of(well))
@@ -86,8 +85,7 @@ class Carry(Check):
                 elif not once:
                     let_be.setdefault(key, []).append((origin, met))
             judged[key] = visit.carried
-        doubt = unnamed_contact(case, carriers, self.into)
-        if doubt is not None:
+        if doubt := unnamed_contact(case, carriers, self.into):
             yield doubt
 
     def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
@@ -183,7 +181,6 @@ class Carry(Check):
                 Site(met.line, met.well.ref, f"met {what}"),
                 Site(visit.line, well.ref, f"entered the {case.title(well)}"),
             ),
-            well,
             (visit.line, met.line, what),
             (origin, well),
             contact=contact,
@@ -246,8 +243,9 @@ def _serves_its_well_alone(case: Case, stock: Well, origin: Well) -> bool:
 
 def _on_purpose(case: Case, stock: Well, origin: Well, visit: Visit) -> bool:
     """Whether liquid was mixed into a stock earlier, straight from its source, by another tip."""
-    earlier = [given for given in case.straight(origin, stock) if given.index < visit.index]
-    if any(given.tip is not visit.tip for given in earlier):
+    given = (one.visit for one in stock.received if one.source is origin)
+    earlier = [one for one in given if one.index < visit.index]
+    if any(one.tip is not visit.tip for one in earlier):
         return True
     return bool(earlier) and not any(
         other.tip is visit.tip and other.kind is OperationKind.ASPIRATE

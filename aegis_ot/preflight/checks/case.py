@@ -120,11 +120,6 @@ class Case:
         """
         return {well: _fillings(well) for well in self.trace.wells.values()}
 
-    @staticmethod
-    def straight(source: Well, well: Well) -> list[Visit]:
-        """The visits that brought liquid straight from one well into another, in order."""
-        return [one.visit for one in well.received if one.source is source]
-
     @property
     def series_roles(self) -> SeriesSpec:
         """Roles of what the family dilutes in a series, and with what."""
@@ -133,7 +128,7 @@ class Case:
     @cached_property
     def series(self) -> Sequence[Series]:
         """The dilution series of the protocol."""
-        return SeriesFinder(self.trace, self.roles).found(self.waste)
+        return SeriesFinder(self).found()
 
     @cached_property
     def fillers(self) -> frozenset[Well]:

@@ -7,13 +7,15 @@ order), running away from the well in which the stock stands.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence, Set
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from ...vocabulary import WellRef
-from ..roles import Roles
-from ..trace import Trace, Transfer, Well, chains_of
+from ..trace import Transfer, Well, chains_of
 from .series_links import along_series, is_copying, wells_of
+
+if TYPE_CHECKING:
+    from .case import Case
 
 _SHORTEST = 2
 
@@ -23,8 +25,7 @@ class Series:
     """One dilution series.
 
     Attributes:
-        wells: Its wells, the most concentrated first if that is known.
-        position: Place of each well in that order.
+        position: Its wells with their places, the most concentrated first if that is known.
         steps: Its dilution steps, in the order in which they are made.
         links: Those of them between two wells of the series; the others bring stock.
         directed: Whether the most concentrated end is known.
@@ -32,7 +33,6 @@ class Series:
         fillers: Wells that all of its wells are filled from, whatever they are called.
     """
 
-    wells: Sequence[Well]
     position: Mapping[Well, int]
     steps: Sequence[Transfer]
     links: Sequence[Transfer]
@@ -44,35 +44,25 @@ class Series:
 class SeriesFinder:
     """Finds the series of a run, in the eyes of one family."""
 
-    def __init__(self, trace: Trace, roles: Roles) -> None:
-        spec = roles.family.series_roles
-        self._trace = trace
-        self._roles = roles
-        self._stock, self._diluent = spec.stock, spec.diluent
+    def __init__(self, case: Case) -> None:
+        self._case = case
+        self._has = case.has
+        self._stock, self._diluent = case.series_roles.stock, case.series_roles.diluent
+        links, self._fillers = along_series(list(filter(self._is_link, case.trace.links)))
+        self._groups = [
+            group for group in chains_of(links) if len(group) >= _SHORTEST and not is_copying(group)
+        ]
+        self._taken = {well for group in self._groups for well in wells_of(group)}
+        self._in_all_of_any = frozenset().union(*map(self._in_all, self._groups))
 
-    def found(self, waste: Collection[WellRef]) -> list[Series]:
+    def found(self) -> list[Series]:
         """All series with at least two transfers between their wells."""
-        links, fillers = along_series(
-            [one for one in self._trace.links if self._is_link(one) and one.well.ref not in waste]
-        )
-        groups = [
-            group
-            for group in chains_of(links)
-            if len({(s.source, s.well) for s in group}) >= _SHORTEST and not is_copying(group)
-        ]
-        linked = {well for group in groups for well in wells_of(group)}
-        in_all = [self._in_all(group) for group in groups]
-        anywhere = frozenset().union(*in_all)
-        return [
-            self._series(group, linked, here, anywhere, fillers)
-            for group, here in zip(groups, in_all, strict=True)
-        ]
-
-    def _has(self, well: Well, wanted: Collection[str]) -> bool:
-        return self._roles.has(well.ref, wanted)
+        return list(map(self._series, self._groups))
 
     def _is_link(self, one: Transfer) -> bool:
         """Whether a transfer within a plate may run along a series: between no reagents."""
+        if one.well.ref in self._case.waste:
+            return False
         if self._has(one.source, self._diluent) or self._has(one.well, self._diluent):
             return False
         return not self._has(one.source, self._stock) or self._is_made(one.source)
@@ -85,16 +75,10 @@ class SeriesFinder:
             for one in well.received
         )
 
-    def _series(
-        self,
-        links: Sequence[Transfer],
-        taken: Set[Well],
-        in_all: frozenset[Well],
-        in_all_of_any: frozenset[Well],
-        fillers: frozenset[Well],
-    ) -> Series:
-        linked = dict.fromkeys(wells_of(links))
-        members = self._with_neighbours(list(linked), taken, in_all_of_any)
+    def _series(self, links: Sequence[Transfer]) -> Series:
+        linked = wells_of(links)
+        members = self._with_neighbours(linked)
+        in_all = self._in_all(links)
         feeding = {link.source for link in links}
         steps: list[Transfer] = []
         entries: list[Well] = []
@@ -105,7 +89,7 @@ class SeriesFinder:
                 entered[well] = -1
             last: dict[Well, Transfer] = {}
             # Beside the chain, what all wells of another chain are given is no stock either.
-            shared = in_all if well in linked else in_all_of_any
+            shared = in_all if well in linked else self._in_all_of_any
             for one in well.received:
                 if one.source not in shared and self._brings_stock(one, members, linked):
                     last[one.source] = one
@@ -119,7 +103,7 @@ class SeriesFinder:
                 entered.setdefault(link.well, link.visit.index)
         all_steps = sorted([*steps, *links], key=lambda s: s.visit.index)
         position = {well: number for number, well in enumerate(order)}
-        return Series(order, position, all_steps, links, directed, entered, fillers)
+        return Series(position, all_steps, links, directed, entered, self._fillers)
 
     def _brings_stock(
         self, one: Transfer, members: Sequence[Well], linked: Collection[Well]
@@ -130,9 +114,9 @@ class SeriesFinder:
         if self._has(one.source, self._stock):
             return True
         # Unnamed, but it goes into one well only, and that one feeds the others.
-        if self._roles.of(one.source.ref) or one.well not in linked:
+        if self._case.of(one.source) or one.well not in linked:
             return False
-        served = self._trace.served[one.source.ref]
+        served = self._case.trace.served[one.source.ref]
         return served.isdisjoint(well.ref for well in members if well is not one.well)
 
     def _in_all(self, links: Sequence[Transfer]) -> frozenset[Well]:
@@ -153,23 +137,22 @@ class SeriesFinder:
         in_all = frozenset(set.intersection(*given))
         return in_all if any(origins - in_all for origins in given) else frozenset()
 
-    def _with_neighbours(
-        self, linked: list[Well], taken: Set[Well], in_all: Set[Well]
-    ) -> list[Well]:
+    def _with_neighbours(self, linked: list[Well]) -> list[Well]:
         """Add wells of the same row or column that were given stock or diluent, but no link.
 
-        Wells of another series (``taken``) in that row are none of this one's.
+        Wells of another series in that row are none of this one's.
         """
         lines = [{well.order[axis] for well in linked} for axis in (0, 1)]
         filling = (*self._diluent, *self._stock)
         return linked + [
             well
-            for well in self._trace.wells.values()
-            if well not in taken
+            for well in self._case.trace.wells.values()
+            if well not in self._taken
             and well.plate == linked[0].plate
             and any(len(lines[axis]) == 1 and well.order[axis] in lines[axis] for axis in (0, 1))
             and any(
-                one.source not in in_all and self._has(one.source, filling) for one in well.received
+                one.source not in self._in_all_of_any and self._has(one.source, filling)
+                for one in well.received
             )
         ]
 
