@@ -17,7 +17,7 @@ from typing import Any
 
 from ..http_client import HttpClient
 from ..settings import Settings
-from ..vocabulary import Undecided, from_json
+from ..vocabulary import Undecided, from_json, to_json
 from .judging import MODEL, Reading, Report
 from .opinion import Dossier, Opinion, make_dossier, merge
 
@@ -81,7 +81,7 @@ def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: fl
 
 def _exchange(client: HttpClient, dossier: Dossier, timeout_s: float) -> Opinion:
     deadline = time.monotonic() + timeout_s
-    answer = _send(client, "POST", "/v1/opinions", dossier.to_json(), deadline)
+    answer = _send(client, "POST", "/v1/opinions", to_json(dossier), deadline)
     while answer.get("opinion") is None:
         left = deadline - time.monotonic()
         if left <= 0:

@@ -273,7 +273,7 @@ def test_ranges_and_labels_name_wells() -> None:
 
 def test_opinions_and_dossiers_cross_the_wire() -> None:
     _, dossier = checked(SILENT)
-    back = Dossier.from_json(dossier.to_json())
+    back = from_json(Dossier, to_json(dossier))
     assert back == dossier
     assert back.digest == dossier.digest
     said = answer(findings=[VIOLATED], summary="x", roles=READ)

@@ -10,9 +10,8 @@ from __future__ import annotations
 import hashlib
 import json
 from dataclasses import dataclass, replace
-from typing import Any
 
-from ...vocabulary import Finding, Severity, Undecided, WellRef, from_json, to_json
+from ...vocabulary import Finding, Severity, Undecided, WellRef, to_json
 from ..source import source_lines
 
 
@@ -110,17 +109,3 @@ class Dossier:
         values = to_json(replace(self, file=""))
         text = json.dumps(values, sort_keys=True, ensure_ascii=False)
         return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
-
-    def to_json(self) -> dict[str, Any]:
-        """Plain values for the wire."""
-        values: dict[str, Any] = to_json(self)
-        return values
-
-    @classmethod
-    def from_json(cls, data: Any) -> Dossier:
-        """Back from :meth:`to_json`.
-
-        Raises:
-            ValueError: It is no dossier; says which field.
-        """
-        return from_json(cls, data)
