@@ -23,7 +23,6 @@ class SeriesCheck(Check):
     """A check on each dilution series by itself."""
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Judge each series."""
         if not case.series:
             yield Doubt("no chain of transfers from well to well was found")
         for series in case.series:
@@ -101,7 +100,6 @@ class SeriesMixed(SeriesCheck):
     """Every dilution step is mixed in its well before liquid is drawn on from there."""
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
-        """Look for a mix between each step and the next draw from its well."""
         steps = dilutions(case, series)
         by_hand = _left_to_hand(case, steps)
         for step in steps:
@@ -115,7 +113,6 @@ class SeriesMixed(SeriesCheck):
                     Site(step.drawn, step.source.ref, "drew the more concentrated solution"),
                     Site(step.visit.line, step.well.ref, "diluted here, not mixed"),
                 ),
-                step.well,
                 (step.visit.line,),
                 warning=_BY_HAND if step.well in by_hand else "",
             )
@@ -135,7 +132,6 @@ class SeriesDirection(SeriesCheck):
     """The series runs from the most to the least concentrated well, one well at a time."""
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
-        """Compare each link with the order of the series."""
         if not series.directed:
             yield Doubt("nothing says which end of the series holds the stock")
         branches = branching(series.links)
@@ -161,7 +157,6 @@ class SeriesDirection(SeriesCheck):
                     Site(step.drawn, step.source.ref, "drew from here"),
                     Site(step.visit.line, step.well.ref, f"diluted {what}"),
                 ),
-                step.well,
                 (step.visit.line, jump < 0),
             )
 
@@ -174,7 +169,6 @@ class SeriesTip(SeriesCheck):
     """
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
-        """Follow each tip along the series."""
         if not series.entered:
             yield Doubt("nothing says which end of the series holds the stock")
         steps = dilutions(case, series)
@@ -210,7 +204,6 @@ def _one_tip(
                     Site(before.line, before.well.ref, "touched the more concentrated well"),
                     Site(visit.line, visit.well.ref, "entered a later well"),
                 ),
-                visit.well,
                 ("series tip",),
                 contact=min(before.contact, visit.contact),
                 warning=warning,

@@ -29,7 +29,6 @@ class DoseOrder(Check):
     wells: tuple[str, ...] = role_names(required=True)
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Follow each tip through the dosed wells."""
         doses = self._doses(case)
         seen: set[tuple[int, int]] = set()
         for visit in case.trace.visits:
@@ -96,7 +95,6 @@ class DoseOrder(Check):
                 Site(met.line, met.well.ref, f"met {case.title(origin)}"),
                 Site(visit.line, visit.well.ref, f"entered {harm}"),
             ),
-            visit.well,
             (visit.line, met.line, harm),
             (origin, visit.well),
             contact=min(met.contact(visit.index), visit.contact),
@@ -128,7 +126,6 @@ class DoseOrder(Check):
                         Site(met.line, other.ref, "touched a well of a higher dose"),
                         Site(visit.line, visit.well.ref, "entered a well of a lower dose"),
                     ),
-                    visit.well,
                     (visit.line, met.line, "falling"),
                     (other, visit.well),
                     contact=min(met.contact(visit.index), visit.contact),

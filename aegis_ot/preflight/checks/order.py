@@ -60,7 +60,6 @@ class MixedAfter(Check):
     wells: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Look for a mix after the last arrival."""
         unmixed = []
         by_hand = True
         for well, came in self._receivers(case):
@@ -74,7 +73,6 @@ class MixedAfter(Check):
             yield Violation(
                 f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
                 (Site(last.line, well.ref, f"received {what}, never mixed"),),
-                well,
                 (last.line, what),
                 warning=_BY_HAND if by_hand else "",
             )
@@ -109,7 +107,6 @@ class ReceivedBefore(Check):
     wells: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Compare the arrivals of both."""
         for well in case.trace.wells.values():
             if self.wells and not case.has(well, self.wells):
                 continue
@@ -129,7 +126,6 @@ class ReceivedBefore(Check):
                         Site(begun.line, well.ref, f"received {what}"),
                         Site(line, well.ref, f"received {title} after it"),
                     ),
-                    well,
                     (begun.line, line),
                 )
 
@@ -159,7 +155,6 @@ class RisingOrder(Check):
     liquid: tuple[str, ...] = role_names(required=True)
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Follow each tip session's deliveries."""
         last: dict[tuple[int, int], Transfer] = {}
         done: set[tuple[int, int, Well]] = set()
         for one in case.trace.transfers:
@@ -190,6 +185,5 @@ class RisingOrder(Check):
                         Site(one.drawn, source.ref, "drew the lower one"),
                         Site(visit.line, one.well.ref, "dispensed the lower one after"),
                     ),
-                    one.well,
                     (before.visit.line, visit.line),
                 )

@@ -84,9 +84,9 @@ def _never_received(
     )
     lacking = Site(line or _last_line(case, well), well.ref, f"receives no {title}")
     if given is None:
-        return Violation(message, (lacking,), well, (case.title(well),), (well,))
+        return Violation(message, (lacking,), (case.title(well),), (well,))
     others = Site(given[0], given[1].ref, f"{title} is given to other wells")
-    return Violation(message, (others, lacking), well, (case.title(well),), (well, given[2]))
+    return Violation(message, (others, lacking), (case.title(well),), (well, given[2]))
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,6 @@ class Receives(Check):
     always: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Look at each well that should receive it."""
         liquid = self.liquid
         served = {
             well.ref
@@ -226,7 +225,6 @@ class NeverReceives(Check):
     liquid: tuple[str, ...] = role_names(required=True)
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Look at what each such well is given."""
         for well in case.wells(self.wells):
             seen: set[Well] = set()
             for one in well.received:
@@ -266,7 +264,6 @@ def _given(case: Case, one: Transfer, origin: Well) -> Violation:
             Site(one.drawn, one.source.ref, f"drew {what}"),
             Site(line, one.well.ref, f"gave it to the {title}"),
         ),
-        one.well,
         (line, one.drawn, what, title),
         (origin, one.well),
     )

@@ -39,7 +39,6 @@ class UniformVolume(Check):
     tolerance: Annotated[float, at_least(0)] = 0.01
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Compare each well with what most wells of its assay get."""
         groups: dict[tuple[str, ...], list[Member]] = {}
         for well in case.wells(self.wells):
             if well.prefilled or case.is_drawn_first(well):
@@ -95,7 +94,6 @@ class UniformVolume(Check):
             yield Violation(
                 f"The {case.title(well)} {place(well)} {what} ({at(line)}).",
                 (Site(line, well.ref, what),),
-                well,
                 (line, case.title(well), what),
             )
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Set
 
-from ..trace import Visit, Well
+from ..trace import Well
 from .case import Case, RoleSet, carried_liquids
 from .check import Doubt, at, place
 
@@ -29,36 +29,25 @@ def unnamed_contact(case: Case, carriers: Set[Well], into: RoleSet) -> Doubt | N
     stocks: set[Well] = set()
     if any(case.family.roles[role].side != "destination" for role in into):
         stocks = {well for well in unnamed if len(case.destinations.get(well, ())) > 1}
-    if not drawn and not stocks:
-        return None
-    for visit in case.trace.visits:
-        if not visit.contact or not visit.carried or visit.well.ref in case.waste:
+    for visit in case.trace.visits if drawn or stocks else ():
+        well = visit.well
+        if not visit.contact or not visit.carried or well.ref in case.waste:
             continue
-        if visit.well in stocks:
-            for origin, met in carried_liquids(visit):
-                if origin in carriers and not _is_meant(case, visit.well, origin):
-                    return Doubt(
-                        f"nothing says what {place(visit.well)} holds, and the tip that met "
-                        f"{case.title(origin)} {at(met.line)} enters it {at(visit.line)}"
-                    )
-        elif drawn and case.has(visit.well, into):
-            found = _unnamed_on_tip(case, visit, drawn)
-            if found is not None:
+        is_stock = well in stocks
+        if not is_stock and not case.has(well, into):
+            continue
+        for origin, met in carried_liquids(visit):
+            if origin not in (carriers if is_stock else drawn):
+                continue
+            if origin in case.meant.get(well, {}) or case.same_liquid(origin, well):
+                continue
+            if is_stock:
                 return Doubt(
-                    f"nothing says what {place(found)} holds, and its tip enters the "
-                    f"{case.title(visit.well)} {place(visit.well)} {at(visit.line)}"
+                    f"nothing says what {place(well)} holds, and the tip that met "
+                    f"{case.title(origin)} {at(met.line)} enters it {at(visit.line)}"
                 )
+            return Doubt(
+                f"nothing says what {place(origin)} holds, and its tip enters the "
+                f"{case.title(well)} {place(well)} {at(visit.line)}"
+            )
     return None
-
-
-def _unnamed_on_tip(case: Case, visit: Visit, drawn: Set[Well]) -> Well | None:
-    """An unnamed source whose liquid is on the tip, and none of it is meant for this well."""
-    for origin, _ in carried_liquids(visit):
-        if origin in drawn and not _is_meant(case, visit.well, origin):
-            return origin
-    return None
-
-
-def _is_meant(case: Case, well: Well, origin: Well) -> bool:
-    """Whether a measured volume of a liquid is brought to a well, or both hold the same."""
-    return origin is well or origin in case.meant.get(well, {}) or case.same_liquid(origin, well)

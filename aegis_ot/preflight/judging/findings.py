@@ -23,27 +23,31 @@ class Broken(NamedTuple):
 
 def findings_of(broken: Sequence[Broken], strict: bool) -> list[Finding]:
     """The findings on one protocol, in the order of its lines; ``strict``: all are errors."""
-    findings = [finding for one in without_replaced(broken) for finding in _joined(one, strict)]
+    wells = {one.rule.id: {violation.well for violation in one.violations} for one in broken}
+    findings = [finding for one in broken for finding in _joined(one, strict, wells)]
     return sorted(findings, key=lambda finding: (min(finding.lines, default=0), finding.rule))
 
 
-def _joined(broken: Broken, strict: bool) -> Iterable[Finding]:
-    """One finding per cause, with all the wells that it spoils."""
+def _joined(broken: Broken, strict: bool, reported: dict[str, set[WellRef]]) -> Iterable[Finding]:
+    """One finding per cause, with all the wells that it spoils.
+
+    Those that a more telling rule reports already (``reported``, by rule) are left out.
+    """
     rule = broken.rule
+    replaced = set().union(*(reported.get(other, ()) for other in rule.unless_reported))
     groups: dict[tuple[object, ...], list[Violation]] = {}
     for violation in broken.violations:
-        groups.setdefault(violation.cause, []).append(violation)
+        if violation.well not in replaced:
+            groups.setdefault(violation.cause, []).append(violation)
     for group in groups.values():
         first = group[0]
-        wells = list(dict.fromkeys(violation.well.ref for violation in group))
-        message = first.message
-        if len(wells) > 1:
-            message = f"{message} Likewise {_listed(wells)}."
+        wells = list(dict.fromkeys(violation.well for violation in group))
+        likewise = f" Likewise {_listed(wells)}." if len(wells) > 1 else ""
         severity = Severity.WARNING if first.warning else broken.severity
         if strict:
             severity = Severity.ERROR
         sites = tuple(dict.fromkeys(site for one in group for site in one.sites))
-        told = f"{message} {first.warning}".rstrip()
+        told = f"{first.message}{likewise} {first.warning}".rstrip()
         yield Finding(rule.id, severity, told, sites, why=rule.rationale, fix=rule.fix)
 
 
@@ -63,20 +67,3 @@ def _listed(wells: Sequence[WellRef]) -> str:
     ]
     more = f" and {len(further) - _MOST_SHOWN} more" if len(further) > _MOST_SHOWN else ""
     return ", ".join(parts) + more
-
-
-def without_replaced(found: Sequence[Broken]) -> list[Broken]:
-    """Drop violations in wells that a more telling rule already reports."""
-    wells: dict[str, set[WellRef]] = {}
-    for one in found:
-        wells.setdefault(one.rule.id, set()).update(v.well.ref for v in one.violations)
-    return [
-        one._replace(
-            violations=[
-                violation
-                for violation in one.violations
-                if not any(violation.well.ref in wells.get(o, ()) for o in one.rule.unless_reported)
-            ]
-        )
-        for one in found
-    ]

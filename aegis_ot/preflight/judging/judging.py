@@ -48,10 +48,9 @@ def judge_reading(reading: Reading) -> Report:
                 continue
             missing = missing_needs(rule, case.roles)
             if missing:
-                family = case.family.family
-                undecided.append(missing_roles(reading, rule, family, missing))
+                undecided.append(missing_roles(rule, case, missing))
                 continue
-            violations, doubt = _judge_rule(rule, case, bool(options.assay))
+            violations, doubt = _judge_rule(rule, case)
             broken.append(Broken(rule, Severity(severity), violations))
             if doubt:
                 undecided.append(undecided_by(doubt, rule, case))
@@ -60,12 +59,9 @@ def judge_reading(reading: Reading) -> Report:
         return _report(reading, broken, undecided, judged)
 
 
-def _judge_rule(
-    rule: RuleSpec, case: Case, assay_given: bool
-) -> tuple[list[Violation], Doubt | None]:
+def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Doubt | None]:
     """Where a rule is broken, or why that cannot be said (``None`` if it can)."""
-    sure = case.confident or assay_given
-    if not sure and not case.family.default:
+    if not case.confident and not case.family.default:
         return [], _UNKNOWN_ASSAY
     violations: list[Violation] = []
     doubts: list[Doubt] = []
@@ -73,7 +69,7 @@ def _judge_rule(
         for result in make_check(check, rule.id).find(case):
             if isinstance(result, Doubt):
                 doubts.append(result)
-            elif not sure and not _plain(result, case.roles):
+            elif not case.confident and not _plain(result, case.roles):
                 doubts.append(_UNKNOWN_ASSAY)
             elif case.left_over and result.contact is Contact.NEAR:
                 doubts.append(_UNKNOWN_VOLUME)
@@ -81,7 +77,7 @@ def _judge_rule(
                 warning = _why_warning(result, case)
                 cause = (number, warning, *result.cause)
                 violations.append(replace(result, cause=cause, warning=warning))
-    if not sure and not violations:
+    if not case.confident and not violations:
         doubts.append(_UNKNOWN_ASSAY)
     return violations, doubts[0] if doubts and not violations else None
 

@@ -135,15 +135,9 @@ def apply_waivers(
     findings: Iterable[Finding], waivers: Sequence[Waiver]
 ) -> tuple[list[Finding], list[Waived]]:
     """Findings that stand, and findings that are waived."""
-    standing: list[Finding] = []
-    waived: list[Waived] = []
-    for finding in findings:
-        cover = next((waiver for waiver in waivers if waiver.covers(finding)), None)
-        if cover is None:
-            standing.append(finding)
-        else:
-            waived.append(Waived(finding, cover))
-    return standing, waived
+    covers = [(one, next((w for w in waivers if w.covers(one)), None)) for one in findings]
+    waived = [Waived(finding, waiver) for finding, waiver in covers if waiver is not None]
+    return [finding for finding, waiver in covers if waiver is None], waived
 
 
 def waiver_remarks(
@@ -161,7 +155,7 @@ def waiver_remarks(
         known: Every rule that exists.
     """
     remarks: list[Remark] = []
-    used = {(w.waiver.line, w.finding.rule.upper()) for w in waived}
+    used = {(one.waiver, one.finding.rule.upper()) for one in waived}
     names = {name.upper(): name for name in known}
     for waiver in waivers:
         if waiver.problem:
@@ -173,8 +167,7 @@ def waiver_remarks(
                 hint = f"; did you mean {' or '.join(names[n] for n in near)}?" if near else "."
                 told = f"The waiver names {rule}, but there is no such rule{hint}"
                 remarks.append(Remark(told, waiver.line))
-        covered = {rule for line, rule in used if line == waiver.line}
-        idle = [r for r in judged if r.upper() in waiver.rules and r.upper() not in covered]
+        idle = [r for r in judged if r.upper() in waiver.rules and (waiver, r.upper()) not in used]
         if idle:
             told = f"The waiver of {', '.join(idle)} is stale: nothing is found there."
             remarks.append(Remark(told, waiver.line))
