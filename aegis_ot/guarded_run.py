@@ -263,12 +263,11 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
         ProtocolRejected: It found errors, and ``rules`` is ``"on"`` or ``"strict"``.
     """
     from .preflight.checking import is_rejected, read_for_guard, rejection, summary
-    from .preflight.judging import judge_reading, uncollected
+    from .preflight.judging import judge_reading
 
     try:
-        with uncollected():
-            reading = read_for_guard(recording, settings)
-            report = judge_reading(reading)
+        reading = read_for_guard(recording, settings)
+        report = judge_reading(reading)
         if settings.opinion == "ask":
             from .preflight.asking import with_opinion
 

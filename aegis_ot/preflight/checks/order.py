@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -60,16 +59,14 @@ class MixedAfter(Check):
     wells: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
-        unmixed = []
-        by_hand = True
-        for well, came in self._receivers(case):
-            ever = case.trace.mixed_since(well, -1, math.inf)
-            by_hand = by_hand and not ever and not case.destinations.get(well)
-            last = came[-1].visit
-            if not (ever and case.trace.mixed_since(well, last.index, math.inf)):
-                unmixed.append((well, last))
+        receivers = list(self._receivers(case))
+        by_hand = not any(
+            case.destinations.get(well) or case.trace.mixed_since(well, -1) for well, _ in receivers
+        )
         what = case.titles(self.liquid)
-        for well, last in unmixed:
+        for well, last in receivers:
+            if case.trace.mixed_since(well, last.index):
+                continue
             yield Violation(
                 f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
                 (Site(last.line, well.ref, f"received {what}, never mixed"),),
@@ -77,8 +74,8 @@ class MixedAfter(Check):
                 warning=_BY_HAND if by_hand else "",
             )
 
-    def _receivers(self, case: Case) -> Iterator[tuple[Well, list[Transfer]]]:
-        """The wells that are judged, each with what brought it the liquid."""
+    def _receivers(self, case: Case) -> Iterator[tuple[Well, Visit]]:
+        """The wells that are judged, each with the visit that brought the last of the liquid."""
         liquid, wanted = self.liquid, self.wells
         for well in case.trace.wells.values():
             if case.has(well, liquid) or (wanted and not case.has(well, wanted)):
@@ -89,7 +86,7 @@ class MixedAfter(Check):
                 continue
             came = arrivals(case, well, liquid)
             if came:
-                yield well, came
+                yield well, came[-1].visit
 
 
 @dataclass(frozen=True)

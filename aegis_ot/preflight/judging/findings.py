@@ -2,53 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
 
 from ...vocabulary import Finding, Severity, WellRef
 from ..checks import Violation
-from ..rules import RuleSpec
+from ..rules import Database, RuleSpec
+from .options import Options
 
 
-class Broken(NamedTuple):
-    """A rule and the places where it is broken.
+def findings_of(
+    violations: Mapping[str, Sequence[Violation]], database: Database, options: Options
+) -> list[Finding]:
+    """The findings on one protocol, in the order of its lines.
 
-    ``severity`` is the highest that its findings have.
+    Args:
+        violations: Where each rule is broken, by the rule's identifier.
+        database: The rules.
+        options: For the severities in force.
     """
-
-    rule: RuleSpec
-    severity: Severity
-    violations: list[Violation]
-
-
-def findings_of(broken: Sequence[Broken], strict: bool) -> list[Finding]:
-    """The findings on one protocol, in the order of its lines; ``strict``: all are errors."""
-    wells = {one.rule.id: {violation.well for violation in one.violations} for one in broken}
-    findings = [finding for one in broken for finding in _joined(one, strict, wells)]
+    wells = {rule: {one.well for one in found} for rule, found in violations.items()}
+    findings: list[Finding] = []
+    for name, found in violations.items():
+        _, rule = database.rule(name)
+        # A more telling rule reports these already.
+        replaced = set().union(*(wells.get(other, ()) for other in rule.unless_reported))
+        groups: dict[tuple[object, ...], list[Violation]] = {}
+        for violation in found:
+            if violation.well not in replaced:
+                groups.setdefault(violation.cause, []).append(violation)
+        findings += [_joined(group, rule, options) for group in groups.values()]
     return sorted(findings, key=lambda finding: (min(finding.lines, default=0), finding.rule))
 
 
-def _joined(broken: Broken, strict: bool, reported: dict[str, set[WellRef]]) -> Iterable[Finding]:
-    """One finding per cause, with all the wells that it spoils.
-
-    Those that a more telling rule reports already (``reported``, by rule) are left out.
-    """
-    rule = broken.rule
-    replaced = set().union(*(reported.get(other, ()) for other in rule.unless_reported))
-    groups: dict[tuple[object, ...], list[Violation]] = {}
-    for violation in broken.violations:
-        if violation.well not in replaced:
-            groups.setdefault(violation.cause, []).append(violation)
-    for group in groups.values():
-        first = group[0]
-        wells = list(dict.fromkeys(violation.well for violation in group))
-        likewise = f" Likewise {_listed(wells)}." if len(wells) > 1 else ""
-        severity = Severity.WARNING if first.warning else broken.severity
-        if strict:
-            severity = Severity.ERROR
-        sites = tuple(dict.fromkeys(site for one in group for site in one.sites))
-        told = f"{first.message}{likewise} {first.warning}".rstrip()
-        yield Finding(rule.id, severity, told, sites, why=rule.rationale, fix=rule.fix)
+def _joined(group: Sequence[Violation], rule: RuleSpec, options: Options) -> Finding:
+    """The finding on violations of one cause, with all the wells that they spoil."""
+    first = group[0]
+    wells = list(dict.fromkeys(violation.well for violation in group))
+    likewise = f" Likewise {_listed(wells)}." if len(wells) > 1 else ""
+    severity = Severity.WARNING if first.warning else Severity(options.severity_of(rule))
+    if options.strict:
+        severity = Severity.ERROR
+    sites = tuple(dict.fromkeys(site for one in group for site in one.sites))
+    told = f"{first.message}{likewise} {first.warning}".rstrip()
+    return Finding(rule.id, severity, told, sites, why=rule.rationale, fix=rule.fix)
 
 
 _MOST_SHOWN = 6

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from ...instrumentation import OperationKind
-from ...vocabulary import Remark, Severity, Undecided, WellRef
+from ...vocabulary import Remark, Undecided, WellRef
 from ..checks import Case, Doubt, Violation, make_check
-from ..evidence import Deck, Kind, unknown_places
+from ..evidence import Kind, unknown_places
 from ..rehearsal import Recording
 from ..roles import Roles
 from ..rules import Database, RuleSpec
 from ..source import source_lines
 from ..trace import Contact, Well, places
 from .doubts import missing_needs, missing_roles, undecided_by, unnamed_wells
-from .findings import Broken, findings_of
+from .findings import findings_of
 from .options import Options
-from .reading import Reading, read_recording, uncollected
+from .reading import Reading, read_recording
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
@@ -38,25 +38,18 @@ def judge(recording: Recording, database: Database, options: Options | None = No
 
 def judge_reading(reading: Reading) -> Report:
     """Judge a protocol that was read already; to keep the reading, or to judge it again."""
-    options = reading.options
-    with uncollected():
-        broken: list[Broken] = []
-        undecided: list[Undecided] = []
-        for rule, case in reading.cases():
-            severity = options.severity_of(rule)
-            if severity == "off":
-                continue
-            missing = missing_needs(rule, case.roles)
-            if missing:
-                undecided.append(missing_roles(rule, case, missing))
-                continue
-            violations, doubt = _judge_rule(rule, case)
-            broken.append(Broken(rule, Severity(severity), violations))
-            if doubt:
-                undecided.append(undecided_by(doubt, rule, case))
-        open_ = {question.rule for question in undecided}
-        judged = [one.rule.id for one in broken if one.rule.id not in open_]
-        return _report(reading, broken, undecided, judged)
+    violations: dict[str, list[Violation]] = {}
+    undecided: list[Undecided] = []
+    for rule, case in reading.cases():
+        if reading.options.severity_of(rule) == "off":
+            continue
+        if missing := missing_needs(rule, case.roles):
+            undecided.append(missing_roles(rule, case, missing))
+            continue
+        violations[rule.id], doubt = _judge_rule(rule, case)
+        if doubt:
+            undecided.append(undecided_by(doubt, rule, case))
+    return _report(reading, violations, undecided)
 
 
 def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Doubt | None]:
@@ -123,19 +116,21 @@ def _is_named(well: Well, roles: Roles) -> bool:
     if assigned is None or assigned.kind < Kind.NAME:
         return False
     drawn = any(visit.kind is OperationKind.ASPIRATE for visit in well.visits)
-    return drawn or not (assigned.evidence[0].whole and assigned.role not in roles.refined)
+    # Some roles only say where something comes from or goes: others are kinds of them.
+    general = any(assigned.role in spec.parents for spec in roles.family.roles.values())
+    return drawn or general or not assigned.evidence[0].whole
 
 
 def _report(
-    reading: Reading,
-    broken: Sequence[Broken],
-    undecided: Sequence[Undecided],
-    judged: Sequence[str],
+    reading: Reading, violations: Mapping[str, list[Violation]], undecided: Sequence[Undecided]
 ) -> Report:
-    recording = reading.recording
+    recording, options, database = reading.recording, reading.options, reading.database
     waivers = read_waivers(reading.facts)
-    standing, waived = apply_waivers(findings_of(broken, reading.options.strict), waivers)
-    known = [rule.id for rule in reading.database.rules]
+    standing, waived = apply_waivers(findings_of(violations, database, options), waivers)
+    open_ = {question.rule for question in undecided}
+    judged = [rule for rule in violations if rule not in open_]
+    known = [rule.id for rule in database.rules]
+    misplaced = unknown_places(reading.deck, options.roles, database.common.levels)
     idle = (
         [] if reading.trace.visits else [Remark("It moves no liquid: there is nothing to judge.")]
     )
@@ -150,7 +145,7 @@ def _report(
         waived=tuple(waived),
         remarks=(
             *idle,
-            *_misplaced(reading),
+            *map(Remark, misplaced),
             *_conflicts(reading.roles),
             *waiver_remarks(waivers, waived, judged, known),
         ),
@@ -158,14 +153,6 @@ def _report(
         lines=tuple(source_lines(recording.text)),
         unnamed=unnamed_wells(reading),
     )
-
-
-def _misplaced(reading: Reading) -> Iterable[Remark]:
-    """Roles that were given for wells that the deck does not have."""
-    given = reading.options.roles
-    if given:
-        deck = Deck(reading.trace, reading.recording.names)
-        yield from map(Remark, unknown_places(deck, given, reading.database.common.levels))
 
 
 def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:

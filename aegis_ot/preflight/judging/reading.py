@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import gc
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import replace
 
 from ...vocabulary import WellRef
 from ..checks import Case
-from ..evidence import Evidence, gather
+from ..evidence import Deck, Evidence, gather
 from ..rehearsal import Recording
 from ..roles import (
     Roles,
@@ -40,6 +38,7 @@ class Reading:
 
     Attributes:
         trace: What it does.
+        deck: Its labware, under all names.
         evidence: All that speaks for roles.
         families: All families, the likeliest first.
         roles: What the wells are for, in each family that applies.
@@ -79,6 +78,7 @@ class Reading:
         for one in self.roles:
             settle_diluent(one, self.trace)
             derive(one, self.trace)
+        self.deck = Deck(self.trace, recording.names)
         self.waste = self._called(common.waste)
         self.unsure = self._called(common.prefilled) | self._implied_elsewhere()
 
@@ -91,17 +91,16 @@ class Reading:
     def cases(self) -> Iterator[tuple[RuleSpec, Case]]:
         """Every rule that concerns this protocol, with the case that it is judged on."""
         families = {inference.family: inference for inference in self.families}
-        for roles in self.roles:
-            inference = families[roles.family.family]
-            case = self._case(roles, inference.sure, inference.left_over)
+        known = {roles.family.family: roles for roles in self.roles}
+        for name, roles in known.items():
+            case = self._case(roles, families[name].sure, families[name].left_over)
             for rule in roles.family.rules:
                 if rule.scope == "family":
                     yield rule, case
         for family in self.database.families:
             for rule in family.rules:
                 if rule.scope == "all":
-                    known = next((r for r in self.roles if r.family is family), Roles(family))
-                    yield rule, self._case(known, True)
+                    yield rule, self._case(known.get(family.family, Roles(family)), True)
 
     def with_evidence(self, more: Sequence[Evidence], assay: Sequence[str] = ()) -> Reading:
         """The same recording read with more evidence: nothing is rehearsed again.
@@ -146,18 +145,6 @@ class Reading:
         )
 
 
-@contextmanager
-def uncollected() -> Iterator[None]:
-    """Hold the garbage collector: a trace is many small objects, none of them garbage."""
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
-
-
 def read_recording(recording: Recording, database: Database, options: Options) -> Reading:
     """Read a recording with the eyes of every family that applies.
 
@@ -166,5 +153,4 @@ def read_recording(recording: Recording, database: Database, options: Options) -
         RuleError: If a family given by hand does not exist.
     """
     check_options(options, database)
-    with uncollected():
-        return Reading(recording, database, options, read_source(recording.text))
+    return Reading(recording, database, options, read_source(recording.text))

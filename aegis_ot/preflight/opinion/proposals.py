@@ -9,7 +9,7 @@ import re
 from collections.abc import Sequence
 
 from ...vocabulary import WellRef, one_line
-from ..evidence import Deck, Evidence, Kind
+from ..evidence import Evidence, Kind
 from ..judging import Reading
 from ..roles import Roles
 from ..source import level_of, source_lines
@@ -48,7 +48,7 @@ class _Verifier:
     def __init__(self, reading: Reading, model: str) -> None:
         self._reading = reading
         self._model = model
-        self._deck = Deck(reading.trace, reading.recording.names)
+        self._deck = reading.deck
         self._lines = source_lines(reading.recording.text)
         self._taken: dict[WellRef, str] = {}
 

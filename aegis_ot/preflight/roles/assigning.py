@@ -49,13 +49,9 @@ def assign_roles(
     for one in evidence:
         named = names.of(one)
         worth = _worth(one, names)
-        fitting: dict[tuple[str, bool], str | None] = {}
         placed = False
         for ref, level in zip(one.wells, _levels(one, common), strict=True) if named else ():
-            sides = trace.sides(ref)
-            if sides not in fitting:
-                fitting[sides] = _fitting(named, roles, sides, one)
-            role = fitting[sides]
+            role = _fitting(named, roles, trace.sides(ref), one)
             if role is not None and not (family.roles[role].dosed and level == 0):
                 placed = True
                 candidates.setdefault(ref, []).append(Candidate(worth, role, one, level))
