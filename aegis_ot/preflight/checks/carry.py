@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
@@ -95,7 +96,8 @@ class Carry(Check):
         if self.via_destination:
             filled = (
                 origin is not met.well
-                or _was_fed(case, met)
+                # When the tip met it, something had been put into it.
+                or min(case.meant.get(met.well, {}).values(), default=math.inf) <= met.index
                 # A sample's tip has been in its destination too; with buffers it matters less.
                 or (
                     bool(case.of(origin))
@@ -219,12 +221,6 @@ def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
         if further:
             open_ += later
     return found
-
-
-def _was_fed(case: Case, met: Met) -> bool:
-    """Whether a well was a destination when the tip met it: something had been put into it."""
-    first = next(iter(case.meant.get(met.well, {}).values()), None)
-    return first is not None and first <= met.index
 
 
 def _brought_since(case: Case, visit: Visit, origin: Well) -> bool:

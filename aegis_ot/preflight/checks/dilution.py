@@ -183,7 +183,8 @@ class SeriesTip(SeriesCheck):
 def _one_tip(
     series: Series, steps: Sequence[Transfer], tip: Tip, visits: Sequence[Visit], warning: str
 ) -> Iterator[Result]:
-    first = next((step for step in steps if _is_made_by(step, tip)), None)
+    made = {(one.source, one.well) for visit in tip.visits for one in visit.brought}
+    first = next((step for step in steps if (step.source, step.well) in made), None)
     excepted = {first.source, first.well} if first else set()
     strongest: tuple[int, Visit] | None = None
     reported: set[Well] = set()
@@ -212,7 +213,3 @@ def _one_tip(
         holds_stock = entered is not None and entered <= visit.index
         if visit.touches and holds_stock and (strongest is None or place_here < strongest[0]):
             strongest = (place_here, visit)
-
-
-def _is_made_by(step: Transfer, tip: Tip) -> bool:
-    return any(one.source is step.source and one.visit.tip is tip for one in step.well.received)

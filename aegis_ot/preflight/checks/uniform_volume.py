@@ -71,8 +71,6 @@ class UniformVolume(Check):
         return (well.ref.labware, str(well.generation), *sorted(names))
 
     def _compare(self, case: Case, members: list[Member]) -> Iterator[Result]:
-        if len(members) < 2:
-            return
         title = case.titles(self.liquid)
         usual_got = _usual([got for _, got, _ in members])
         usual_total = _usual([total for _, _, total in members])

@@ -17,7 +17,7 @@ from ..roles import (
     infer_families,
     settle_diluent,
 )
-from ..rules import Database, Family, RuleSpec
+from ..rules import Database, RuleSpec
 from ..source import SourceFacts, lexicon_of, read_source
 from ..trace import Pauses, build_trace
 from .options import Options, check_options
@@ -61,13 +61,15 @@ class Reading:
         self.trace = build_trace(recording.log, recording.labware, pauses)
         gathered = gather(self.trace, recording.names, facts, options.roles, common)
         self.evidence = (*gathered, *more)
-        self._assigned: dict[str, Roles] = {}
+        self._assigned = {
+            family.family: assign_roles(family, common, self.evidence, self.trace)
+            for family in database.families
+        }
         found = infer_families(
-            database, facts, self.evidence, self.trace, self._roles_of, options.assay
+            database, facts, self.evidence, self.trace, self._assigned, options.assay
         )
         self.families = tuple(found)
-        applying = [database.family(one.family) for one in found if one.applies]
-        self.roles = tuple(map(self._roles_of, applying))
+        self.roles = tuple(self._assigned[one.family] for one in found if one.applies)
         prefilled = {ref for one in self.roles for ref in implied_contents(one, self.trace)}
         # Read again, now that roles say which wells held liquid before the run.
         usage = self.trace.usage
@@ -116,12 +118,6 @@ class Reading:
         common, waste, unsure = self.database.common, self.waste, self.unsure
         return Case(self.trace, roles, common, sure, waste, unsure, left_over)
 
-    def _roles_of(self, family: Family) -> Roles:
-        if family.family not in self._assigned:
-            roles = assign_roles(family, self.database.common, self.evidence, self.trace)
-            self._assigned[family.family] = roles
-        return self._assigned[family.family]
-
     def _called(self, words: Sequence[str]) -> frozenset[WellRef]:
         """Wells whose names, labels or liquids have one of these words."""
         lexicon = lexicon_of({"called": words})
@@ -139,9 +135,7 @@ class Reading:
             ref
             for inference in self.families
             if not inference.applies and inference.score >= _PLAUSIBLE
-            for ref in implied_contents(
-                self._roles_of(self.database.family(inference.family)), trace
-            )
+            for ref in implied_contents(self._assigned[inference.family], trace)
         )
 
 

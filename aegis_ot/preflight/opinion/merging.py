@@ -85,7 +85,9 @@ def _judged_again(
     reading: Reading, opinion: Opinion
 ) -> tuple[list[Evidence], list[str], Report | None]:
     """The roles that stand, why others do not, and what the checks say with them."""
-    assay = _assay(reading, opinion)
+    # The family that the model reads, where the checks only guess.
+    known = {family.family for family in reading.database.families if not family.default}
+    assay = (opinion.family,) if opinion.family in known and not reading.family_known else ()
     if not assay and not opinion.proposals:
         return [], [], None
     seen = reading.with_evidence((), assay) if assay else reading
@@ -93,14 +95,6 @@ def _judged_again(
     if not assay and not accepted:
         return accepted, rejected, None
     return accepted, rejected, judge_reading(reading.with_evidence(accepted, assay))
-
-
-def _assay(reading: Reading, opinion: Opinion) -> tuple[str, ...]:
-    """The family that the model reads, where the checks only guess."""
-    if reading.family_known:
-        return ()
-    known = {family.family for family in reading.database.families if not family.default}
-    return (opinion.family,) if opinion.family in known else ()
 
 
 def _questions(

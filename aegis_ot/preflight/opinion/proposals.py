@@ -66,8 +66,7 @@ class _Verifier:
         self._check_quotes(proposal.citations)
         for roles in families:
             for ref in wells:
-                self._check_side(roles, proposal.role, ref)
-                self._check_others(roles, proposal.role, ref)
+                self._check_well(roles, proposal.role, ref)
         levels = self._levels(proposal, len(wells))
         self._taken.update(dict.fromkeys(wells, proposal.role))
         said = proposal.citations[0]
@@ -110,16 +109,14 @@ class _Verifier:
             if not inside or quote not in _plain(self._lines[said.line - 1]):
                 raise Rejected(f"{said.quote!r} does not stand at line {said.line}")
 
-    def _check_side(self, roles: Roles, role: str, ref: WellRef) -> None:
+    def _check_well(self, roles: Roles, role: str, ref: WellRef) -> None:
+        """Hold a role against how the run uses the well, and against what else is said of it."""
         spec = roles.family.roles[role]
         side, passes_on = self._reading.trace.sides(ref)
-        if spec.side in ("any", side) or (passes_on and spec.side == "source"):
-            return
-        use = {"source": "drawn from", "destination": "filled"}
-        used = use.get(side, "neither drawn from nor filled")
-        raise Rejected(f"{ref.address} is {used} first, and a {spec.title} is {use[spec.side]}")
-
-    def _check_others(self, roles: Roles, role: str, ref: WellRef) -> None:
+        if spec.side not in ("any", side) and not (passes_on and spec.side == "source"):
+            use = {"source": "drawn from", "destination": "filled"}
+            used = use.get(side, "neither drawn from nor filled")
+            raise Rejected(f"{ref.address} is {used} first, and a {spec.title} is {use[spec.side]}")
         assigned = roles.by_well.get(ref)
         if assigned is not None and not roles.family.are_kin(role, assigned.role):
             said = assigned.evidence[0].citation

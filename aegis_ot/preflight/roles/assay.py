@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -60,7 +60,7 @@ def infer_families(
     facts: SourceFacts,
     evidence: Sequence[Evidence],
     trace: Trace,
-    roles_of: Callable[[Family], Roles],
+    assigned: Mapping[str, Roles],
     given: Sequence[str] = (),
 ) -> list[Inference]:
     """All families, the likeliest first.
@@ -70,7 +70,7 @@ def infer_families(
         facts: What the text says.
         evidence: Names, liquids and labels.
         trace: For the shapes: a chain of transfers speaks for a serial dilution.
-        roles_of: What the wells are in the eyes of a family.
+        assigned: What the wells are in the eyes of each family.
         given: Families given by hand; they apply, and no other does.
     """
     texts = list(_texts(facts, evidence, trace))
@@ -81,8 +81,8 @@ def infer_families(
         found += _seen(family, shapes, bool(found))
         if family.known_by and found and not _is_known(found):
             in_texts = _shown(found) and any(one.defining for one in found)
-            assigned = roles_of(family).by_well.values()
-            named = {a.role for a in assigned if in_texts or a.kind not in DOUBTFUL}
+            by_well = assigned[family.family].by_well.values()
+            named = {one.role for one in by_well if in_texts or one.kind not in DOUBTFUL}
             found += _named(family, named, sum(one.worth for one in found if one.worth > 0))
         found.sort(key=lambda one: -one.worth)
         scored.append((max(_score(found), 0.0), family, found))
