@@ -49,7 +49,7 @@ def with_opinion(report: Report, reading: Reading, settings: Settings, protocol:
         if not protocol.is_simulating():
             wait_s = min(wait_s, LIVE_WAIT_S)
         opinion = ask_sidecar(settings.sidecar, settings.token, dossier, wait_s)
-        return merge(report, opinion, dossier, reading)
+        return merge(report, opinion, reading)
     except Exception as error:
         reason = f"The model's opinion could not be had ({type(error).__name__}: {error})."
         return replace(report, undecided=(*report.undecided, Undecided(MODEL, reason)))

@@ -109,7 +109,7 @@ def hybrid(
 ) -> Judgement:
     """The checks, and a model that sees what they saw; it can only add."""
     reply = ask(backend, hybrid_request(dossier, reading.database))
-    merged = merge(report, opinion_of(reply, dossier), dossier, reading)
+    merged = merge(report, opinion_of(reply, dossier), reading)
     return Judgement(Configuration.HYBRID, merged, reply)
 
 

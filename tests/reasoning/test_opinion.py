@@ -301,4 +301,4 @@ def test_a_flood_of_proposals_is_cut() -> None:
 
 def test_an_answer_that_says_nothing_changes_nothing() -> None:
     report, dossier, reading = examined(CONTAMINATED)
-    assert merge(report, read_opinion(answer(), dossier, "m"), dossier, reading) == report
+    assert merge(report, read_opinion(answer(), dossier, "m"), reading) == report

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 from dataclasses import dataclass
 from itertools import islice
 from typing import Literal
@@ -13,8 +13,7 @@ from ...vocabulary import Site
 from ..rules import role_names
 from ..trace import Contact, Met, Tip, Visit, Well
 from .case import Case, carried_liquids
-from .check import Check, Result, Violation, at, place
-from .unnamed import unnamed_contact
+from .check import Check, Doubt, Result, Violation, at, place
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
 _RINSED = "The tip was rinsed in between: what is left on it is a trace."
@@ -86,7 +85,7 @@ class Carry(Check):
                 elif not once:
                     let_be.setdefault(key, []).append((origin, met))
             judged[key] = visit.carried
-        if doubt := unnamed_contact(case, carriers, self.into):
+        if doubt := self._unnamed_contact(case, carriers):
             yield doubt
 
     def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
@@ -129,6 +128,42 @@ class Carry(Check):
             if any(held) if clean else held and all(held):
                 return True
         return False
+
+    def _unnamed_contact(self, case: Case, carriers: Set[Well]) -> Doubt | None:
+        """The first contact that would break a rule if an unnamed source were what it may be.
+
+        A rule counts as decided only if every well that could break it has a role, or is shown to
+        be harmless: an unnamed trough that a tip enters with template on it may well be the water.
+        Either the tip carries a liquid of ``carriers`` into an unnamed source that serves several
+        wells, or what it drew from an unnamed source into a well of ``into``.
+        """
+        unnamed = [well for well in case.trace.wells.values() if not case.of(well)]
+        drawn = {well for well in unnamed if case.is_drawn_first(well)}
+        stocks: set[Well] = set()
+        if any(case.family.roles[role].side != "destination" for role in self.into):
+            stocks = {well for well in unnamed if len(case.destinations.get(well, ())) > 1}
+        for visit in case.trace.visits if drawn or stocks else ():
+            well = visit.well
+            if not visit.contact or not visit.carried or well.ref in case.waste:
+                continue
+            is_stock = well in stocks
+            if not is_stock and not case.has(well, self.into):
+                continue
+            for origin, met in carried_liquids(visit):
+                if origin not in (carriers if is_stock else drawn):
+                    continue
+                if origin in case.meant.get(well, {}) or case.same_liquid(origin, well):
+                    continue
+                if is_stock:
+                    return Doubt(
+                        f"nothing says what {place(well)} holds, and the tip that met "
+                        f"{case.title(origin)} {at(met.line)} enters it {at(visit.line)}"
+                    )
+                return Doubt(
+                    f"nothing says what {place(origin)} holds, and its tip enters the "
+                    f"{case.title(well)} {place(well)} {at(visit.line)}"
+                )
+        return None
 
     def _rinses_before(self, case: Case, visit: Visit) -> int:
         """How often a shared liquid was drawn into the tip and given to the waste just before."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -61,11 +62,12 @@ class MixedAfter(Check):
     def find(self, case: Case) -> Iterator[Result]:
         receivers = list(self._receivers(case))
         by_hand = not any(
-            case.destinations.get(well) or case.trace.mixed_since(well, -1) for well, _ in receivers
+            case.destinations.get(well) or case.trace.mixed_since(well, -1, math.inf)
+            for well, _ in receivers
         )
         what = case.titles(self.liquid)
         for well, last in receivers:
-            if case.trace.mixed_since(well, last.index):
+            if case.trace.mixed_since(well, last.index, math.inf):
                 continue
             yield Violation(
                 f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",

@@ -23,6 +23,7 @@ from .waivers import apply_waivers, read_waivers, waiver_remarks
 
 _UNKNOWN_VOLUME = Doubt("how high the liquid stands is not known; say it with load_liquid")
 _DOUBTFUL = "It rests on what is only read of a well: {}."
+_IDLE = Remark("It moves no liquid: there is nothing to judge.")
 _UNKNOWN_ASSAY = Doubt('the assay is not known; say it with assay="..."')
 
 
@@ -43,13 +44,14 @@ def judge_reading(reading: Reading) -> Report:
     for rule, case in reading.cases():
         if reading.options.severity_of(rule) == "off":
             continue
+        violations[rule.id] = []
         if missing := missing_needs(rule, case.roles):
             undecided.append(missing_roles(rule, case, missing))
             continue
         violations[rule.id], doubt = _judge_rule(rule, case)
         if doubt:
             undecided.append(undecided_by(doubt, rule, case))
-    return _report(reading, violations, undecided)
+    return _report(reading, violations, undecided if reading.trace.visits else ())
 
 
 def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Doubt | None]:
@@ -131,20 +133,17 @@ def _report(
     judged = [rule for rule in violations if rule not in open_]
     known = [rule.id for rule in database.rules]
     misplaced = unknown_places(reading.deck, options.roles, database.common.levels)
-    idle = (
-        [] if reading.trace.visits else [Remark("It moves no liquid: there is nothing to judge.")]
-    )
     return Report(
         file=recording.file,
         family=reading.families[0].family if reading.families else "",
         verdict=verdict_of(standing),
         findings=tuple(standing),
-        undecided=() if idle else tuple(dict.fromkeys(undecided)),
+        undecided=tuple(dict.fromkeys(undecided)),
         roles=tuple(_evidence(reading.roles)),
         families=reading.families,
         waived=tuple(waived),
         remarks=(
-            *idle,
+            *([] if reading.trace.visits else [_IDLE]),
             *map(Remark, misplaced),
             *_conflicts(reading.roles),
             *waiver_remarks(waivers, waived, judged, known),

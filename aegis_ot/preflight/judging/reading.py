@@ -15,7 +15,6 @@ from ..roles import (
     derive,
     implied_contents,
     infer_families,
-    settle_diluent,
 )
 from ..rules import Database, RuleSpec
 from ..source import SourceFacts, lexicon_of, read_source
@@ -78,7 +77,6 @@ class Reading:
             log, labware = recording.log, recording.labware
             self.trace = build_trace(log, labware, pauses, prefilled.__contains__)
         for one in self.roles:
-            settle_diluent(one, self.trace)
             derive(one, self.trace)
         self.deck = Deck(self.trace, recording.names)
         self.waste = self._called(common.waste)

@@ -123,18 +123,13 @@ def _levels(items: Sequence[RoleEvidence]) -> str:
 
 
 def _rules(reading: Reading, report: Report) -> Iterable[RuleBrief]:
-    applying = {inference.family for inference in report.families if inference.applies}
-    open_rules = {undecided.rule for undecided in report.undecided}
     shipped = str(shipped_rules())
     for family in reading.database.families:
         for rule in family.rules:
             severity = reading.options.severity_of(rule)
-            if severity == "off":
-                continue
-            judged = rule.scope == "all" or family.family in applying
-            decided = judged and rule.id not in open_rules
-            text = "" if family.path.startswith(shipped) else _own_rule(rule)
-            yield RuleBrief(rule.id, Severity(severity), decided, text)
+            if severity != "off":
+                text = "" if family.path.startswith(shipped) else _own_rule(rule)
+                yield RuleBrief(rule.id, Severity(severity), rule.id in report.judged, text)
 
 
 def _wanted(reading: Reading, report: Report) -> Iterable[str]:

@@ -2,7 +2,7 @@
 
 from .assay import Inference, infer_families
 from .assigning import assign_roles
-from .deriving import derive, implied_contents, settle_diluent
+from .deriving import derive, implied_contents
 from .roles import Assignment, Roles
 
 __all__ = [
@@ -13,5 +13,4 @@ __all__ = [
     "derive",
     "implied_contents",
     "infer_families",
-    "settle_diluent",
 ]

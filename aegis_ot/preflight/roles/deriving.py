@@ -28,6 +28,7 @@ def derive(roles: Roles, trace: Trace) -> None:
     A reaction is what template goes into; wells that only pass liquid on (a dilution plate) are
     none. A source without a name is what the wells that it feeds are named for.
     """
+    _settle_diluent(roles, trace)
     _unsay_by_use(roles, trace)
     _unsay_ends(roles, trace)
     for name, spec in roles.family.roles.items():
@@ -187,7 +188,7 @@ def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
     return set(found)
 
 
-def settle_diluent(roles: Roles, trace: Trace) -> None:
+def _settle_diluent(roles: Roles, trace: Trace) -> None:
     """Where nothing is called the diluent, find it among the buffers, or by its use."""
     spec = roles.family.series_roles
     if not spec.diluent or any(roles.known(role) for role in spec.diluent):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field
@@ -136,7 +135,7 @@ class Trace:
         """Likewise of those wells alone that held liquid before the run."""
         return {ref: into for ref, into in self.served.items() if self.usage[ref].prefilled}
 
-    def mixed_since(self, well: Well, index: int, before: float = math.inf) -> bool:
+    def mixed_since(self, well: Well, index: int, before: float) -> bool:
         """Whether ``well`` was mixed or shaken after ``index`` and before ``before``."""
         if any(index < last and first < before for first, last, _ in well.mixes):
             return True
