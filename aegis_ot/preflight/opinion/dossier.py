@@ -12,7 +12,6 @@ import json
 from dataclasses import dataclass, replace
 
 from ...vocabulary import Finding, Severity, Undecided, WellRef, to_json
-from ..source import source_lines
 
 
 @dataclass(frozen=True)
@@ -97,11 +96,6 @@ class Dossier:
     questions: tuple[Undecided, ...]
     wanted: tuple[str, ...]
     findings: tuple[Finding, ...]
-
-    @property
-    def source_lines(self) -> list[str]:
-        """The protocol's lines, as findings number them."""
-        return source_lines(self.source)
 
     @property
     def digest(self) -> str:
