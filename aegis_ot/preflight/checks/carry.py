@@ -24,12 +24,11 @@ _RINSES = 2
 @dataclass(frozen=True)
 class Carry(Check):
     """No tip that has met a liquid of ``carried`` touches, or delivers below the top of, a
-    well of ``into``.
+    well of ``into`` that no measured volume of it is meant for.
 
     Attributes:
         carried: Roles of the liquids that must not be carried.
         into: Roles of the wells that they must not be carried into.
-        meant: Whether a well that a measured volume of that liquid is meant for is let be.
         stock: Whether the wells are stocks: then liquid that was mixed into the stock on
             purpose beforehand is let be, and nothing else is.
         pooled: Whether carrying one source into another is let be when all that is ever made
@@ -44,7 +43,6 @@ class Carry(Check):
 
     carried: tuple[str, ...] = role_names(required=True)
     into: tuple[str, ...] = role_names(required=True)
-    meant: bool = True
     stock: bool = False
     pooled: bool = False
     via_destination: Literal["", "only", "not"] = ""
@@ -114,7 +112,7 @@ class Carry(Check):
             return origin in case.meant.get(well, {}) and (
                 _on_purpose(case, well, origin, visit) or self._made_of(case, visit, origin)
             )
-        if self.meant and case.is_given(well, origin):
+        if case.is_given(well, origin):
             return True
         if self.pooled:
             # Water and then sample, drawn for one well, spoils no sample for its other uses.
