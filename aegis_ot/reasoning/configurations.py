@@ -178,6 +178,5 @@ def _model_alone(
         findings=findings,
         undecided=undecided,
         notes=tuple(f"{opinion.model}, left out: {text}" for text in opinion.left_out),
-        lines=report.lines,
     )
     return Judgement(configuration, alone, reply)

@@ -13,7 +13,7 @@ from ..roles import Roles
 from ..rules import Common, Family, SeriesSpec
 from ..source import name_without_level, without_strength
 from ..trace import Met, Trace, Transfer, Visit, Well
-from .series import Series, SeriesFinder
+from .series import SeriesFinder
 
 RoleSet = Collection[str]
 """Names of roles."""
@@ -126,14 +126,9 @@ class Case:
         return self.family.series_roles
 
     @cached_property
-    def series(self) -> Sequence[Series]:
+    def series(self) -> SeriesFinder:
         """The dilution series of the protocol."""
-        return SeriesFinder(self).found()
-
-    @cached_property
-    def fillers(self) -> frozenset[Well]:
-        """Wells that fill a whole series, whatever they are called."""
-        return frozenset(well for series in self.series for well in series.fillers)
+        return SeriesFinder(self)
 
     def same_liquid(self, one: Well, other: Well) -> bool:
         """Whether two wells hold the same liquid, as far as roles, names, loads and use say."""

@@ -23,9 +23,9 @@ class SeriesCheck(Check):
     """A check on each dilution series by itself."""
 
     def find(self, case: Case) -> Iterator[Result]:
-        if not case.series:
+        if not case.series.found:
             yield Doubt("no chain of transfers from well to well was found")
-        for series in case.series:
+        for series in case.series.found:
             yield from self.along(case, series)
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
@@ -39,7 +39,7 @@ def diluent_arrivals(case: Case, well: Well) -> list[int]:
         one.visit.index
         for one in well.received
         if case.has(one.source, case.series_roles.diluent)
-        or one.source in case.fillers
+        or one.source in case.series.fillers
         or _is_made_diluent(case, one)
     ]
 

@@ -87,7 +87,7 @@ class SeriesFilledFrom(SeriesCheck):
 
 def _is_diluent_known(case: Case) -> bool:
     """Whether some reservoir, or some well of a plate that serves several, is the diluent's."""
-    plates = {well.ref.labware for series in case.series for well in series.position}
+    plates = {well.ref.labware for series in case.series.found for well in series.position}
     served = case.trace.served
     return any(
         (ref.labware not in plates or len(served.get(ref, ())) > 1)
@@ -111,7 +111,7 @@ def _filled_by_hand(case: Case, series: Series) -> bool:
     """Whether the run fills no series, or most wells of a chain get no diluent, and are drawn from
     as if they held some.
     """
-    if not any(diluent_arrivals(case, well) for one in case.series for well in one.position):
+    if not any(diluent_arrivals(case, well) for one in case.series.found for well in one.position):
         return True
     reached = {link.well for link in series.links}
     unfilled = {well for well in reached if not diluent_arrivals(case, well)}

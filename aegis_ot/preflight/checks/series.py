@@ -30,7 +30,6 @@ class Series:
         links: Those of them between two wells of the series; the others bring stock.
         directed: Whether the most concentrated end is known.
         entered: Index at which each well first held stock (-1: before the run).
-        fillers: Wells that all of its wells are filled from, whatever they are called.
     """
 
     position: Mapping[Well, int]
@@ -38,26 +37,27 @@ class Series:
     links: Sequence[Transfer]
     directed: bool
     entered: Mapping[Well, int]
-    fillers: frozenset[Well]
 
 
 class SeriesFinder:
-    """Finds the series of a run, in the eyes of one family."""
+    """Finds the series of a run, in the eyes of one family.
+
+    Attributes:
+        found: All series with at least two transfers between their wells.
+        fillers: Wells that a whole series is filled from, whatever they are called.
+    """
 
     def __init__(self, case: Case) -> None:
         self._case = case
         self._has = case.has
         self._stock, self._diluent = case.series_roles.stock, case.series_roles.diluent
-        links, self._fillers = along_series(list(filter(self._is_link, case.trace.links)))
-        self._groups = [
+        links, self.fillers = along_series(list(filter(self._is_link, case.trace.links)))
+        groups = [
             group for group in chains_of(links) if len(group) >= _SHORTEST and not is_copying(group)
         ]
-        self._taken = {well for group in self._groups for well in wells_of(group)}
-        self._in_all_of_any = frozenset().union(*map(self._in_all, self._groups))
-
-    def found(self) -> list[Series]:
-        """All series with at least two transfers between their wells."""
-        return list(map(self._series, self._groups))
+        self._taken = {well for group in groups for well in wells_of(group)}
+        self._in_all_of_any = frozenset().union(*map(self._in_all, groups))
+        self.found = list(map(self._series, groups))
 
     def _is_link(self, one: Transfer) -> bool:
         """Whether a transfer within a plate may run along a series: between no reagents."""
@@ -103,7 +103,7 @@ class SeriesFinder:
                 entered.setdefault(link.well, link.visit.index)
         all_steps = sorted([*steps, *links], key=lambda s: s.visit.index)
         position = {well: number for number, well in enumerate(order)}
-        return Series(position, all_steps, links, directed, entered, self._fillers)
+        return Series(position, all_steps, links, directed, entered)
 
     def _brings_stock(
         self, one: Transfer, members: Sequence[Well], linked: Collection[Well]

@@ -12,7 +12,6 @@ from ..evidence import Kind, unknown_places
 from ..rehearsal import Recording
 from ..roles import Roles
 from ..rules import Database, RuleSpec
-from ..source import source_lines
 from ..trace import Contact, Well, places
 from .doubts import missing_needs, missing_roles, undecided_by, unnamed_wells
 from .findings import findings_of
@@ -149,7 +148,6 @@ def _report(
             *waiver_remarks(waivers, waived, judged, known),
         ),
         judged=tuple(judged),
-        lines=tuple(source_lines(recording.text)),
         unnamed=unnamed_wells(reading),
     )
 
