@@ -262,7 +262,7 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
     Raises:
         ProtocolRejected: It found errors, and ``rules`` is ``"on"`` or ``"strict"``.
     """
-    from .preflight.checking import read_for_guard, rejection, summary
+    from .preflight.checking import is_rejected, read_for_guard, rejection, summary
     from .preflight.judging import judge_reading
 
     try:
@@ -276,13 +276,15 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
         raise
     except Exception as error:  # a fault of ours must not keep a good protocol from running
         return _failed(error)
-    if settings.rules in ("on", "strict") and report.errors:
+    if settings.rules in ("on", "strict") and is_rejected(report):
         raise ProtocolRejected(rejection(report), _first_line(report))
     return _Layer1(summary(report), report)
 
 
 def _first_line(report: Report) -> int | None:
-    return next((line for finding in report.errors for line in finding.lines), None)
+    from .preflight.checking import errors_of
+
+    return next((line for finding in errors_of(report) for line in finding.lines), None)
 
 
 def _failed(error: Exception) -> _Layer1:

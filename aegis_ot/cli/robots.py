@@ -170,15 +170,15 @@ def _show_analysis(
 def _fails_here(protocol: Path, labware: Sequence[Path], parameters: Sequence[str]) -> bool:
     from ..dryrun import read_script
     from ..errors import RehearsalError
-    from ..preflight.checking import check_script, rejection, summary
+    from ..preflight.checking import check_script, is_rejected, rejection, summary
 
     try:
         found = check_script(read_script(protocol, labware, parameters))
     except RehearsalError as error:
         _say(f"Layer 1 could not rehearse it here: {error}", "yellow")
         return False
-    _say(rejection(found) if found.errors else summary(found))
-    return bool(found.errors)
+    _say(rejection(found) if is_rejected(found) else summary(found))
+    return is_rejected(found)
 
 
 def _ask_to_start(name: str, yes: bool) -> None:

@@ -20,7 +20,7 @@ from ..checking.problems import problem_of
 from ..errors import AegisError, ConfigurationError, RehearsalError, RunAborted
 from ..guard import guard
 from ..instrumentation import Operation
-from ..preflight.checking import check_recording, rejection
+from ..preflight.checking import check_recording, is_rejected, rejection
 from ..preflight.rehearsal import Script, play, record
 from ..reports.run_html import report_run
 from ..runtime import Planner
@@ -110,7 +110,7 @@ def dry_run(
         guard_settings = load_settings(**{**said, "rules": settings.rules})
         report = check_recording(recording, guard_settings)
         progress.checked(report)
-        if report.errors and settings.rules == "on":
+        if is_rejected(report) and settings.rules == "on":
             return _rejected(script.file_name, report)
     camera = _RepeatableCamera(
         settings.seed,

@@ -12,7 +12,7 @@ from academy.agent import Agent, action
 
 from ..checking.guard_arguments import guard_arguments
 from ..errors import ConfigurationError, RunAborted
-from ..preflight.checking import check_recording, rejection
+from ..preflight.checking import check_recording, is_rejected, rejection
 from ..preflight.judging import Report
 from ..preflight.rehearsal import Script, record
 from ..runtime.words import about_layer1
@@ -109,7 +109,7 @@ class AegisAgent(Agent):
         report = await self.agent_run_sync(self._validator, job.script)
         layer1 = about_layer1(report)
         refuses = guard_arguments(job.script.text).values.get("rules", "on") == "on"
-        if refuses and report.errors:
+        if refuses and is_rejected(report):
             return {"outcome": "rejected", "detail": rejection(report), "layer1": layer1}
         self._tell(state="preparing")
         found = await self.agent_run_sync(self._session.run, job, self._control)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..settings import Settings
-from ..vocabulary import Finding, counted
+from ..vocabulary import Finding, Severity, VerdictWord, counted
 from .database import load_database
 from .judging import (
     Options,
@@ -54,19 +54,32 @@ def check_script(
     return judge(record(script, timeout_s=timeout_s), database or load_database(), options)
 
 
+def is_rejected(report: Report) -> bool:
+    """Whether the guard refuses to run this protocol."""
+    return report.verdict is VerdictWord.FAIL
+
+
+def errors_of(report: Report) -> list[Finding]:
+    """The findings for which it is refused."""
+    return [finding for finding in report.findings if finding.severity is Severity.ERROR]
+
+
 def rejection(report: Report) -> str:
     """Why a protocol is refused: every error with its rule, wells and lines."""
-    count = "an error" if len(report.errors) == 1 else f"{len(report.errors)} errors"
-    head = f"Layer 1 found {count} in {report.file}; no tip has moved."
-    return "\n".join([head, *map(_tell, report.errors)])
+    errors = errors_of(report)
+    count = "an error" if len(errors) == 1 else f"{len(errors)} errors"
+    lines = [f"Layer 1 found {count} in {report.file}; no tip has moved."]
+    lines += [_tell(finding) for finding in errors]
+    return "\n".join(lines)
 
 
 def summary(report: Report) -> str:
     """One line for the run log."""
-    errors = len(report.errors)
+    errors = sum(finding.severity is Severity.ERROR for finding in report.findings)
+    warnings = len(report.findings) - errors
     parts = [
         counted(errors, "error"),
-        counted(len(report.findings) - errors, "warning"),
+        counted(warnings, "warning"),
         f"{len(report.undecided)} undecided",
     ]
     if report.waived:

@@ -54,11 +54,6 @@ class Report:
     judged: tuple[str, ...] = ()
     unnamed: tuple[WellRef, ...] = ()
 
-    @property
-    def errors(self) -> list[Finding]:
-        """The findings for which a guard refuses to run the protocol."""
-        return [finding for finding in self.findings if finding.severity is Severity.ERROR]
-
 
 def verdict_of(findings: Sequence[Finding]) -> VerdictWord:
     """``fail`` with any error, ``warn`` with warnings only, ``pass`` otherwise."""
