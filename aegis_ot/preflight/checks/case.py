@@ -208,10 +208,7 @@ def _drawing_lines(well: Well) -> set[int | None]:
 
 
 def carried_liquids(visit: Visit, after: int = 0) -> Iterator[tuple[Well, Met]]:
-    """The liquids that the tip had met before this visit, with the first contact.
-
-    Args:
-        visit: The visit.
-        after: How many to pass over: the tip had met those before an earlier visit.
+    """The liquids that the tip had met before this visit, with the first contact; the first
+    ``after`` of them, which it had met before an earlier visit, are passed over.
     """
     return islice(visit.tip.origins.items(), after, visit.carried)

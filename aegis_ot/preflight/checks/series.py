@@ -177,15 +177,8 @@ def _turned_to_fall(
     entries: Sequence[Well],
     links: Sequence[Transfer],
 ) -> bool:
-    """Turn an order in place, if need be, so that it runs away from the stock.
-
-    Args:
-        order: The wells of a series, in the order of its labware.
-        entries: Those that stock goes into.
-        links: The transfers between them.
-
-    Returns:
-        Whether it is known which end is the most concentrated one.
+    """Turn an order in place, if need be, so that it runs away from the stock, which goes into
+    ``entries``; returns whether it is known which end is the most concentrated one.
     """
     if entries:
         # Where stock stands in the diluent's place too, only the well that no other feeds tells.

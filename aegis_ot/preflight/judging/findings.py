@@ -13,13 +13,7 @@ from .options import Options
 def findings_of(
     violations: Mapping[str, Sequence[Violation]], database: Database, options: Options
 ) -> list[Finding]:
-    """The findings on one protocol, in the order of its lines.
-
-    Args:
-        violations: Where each rule is broken, by the rule's identifier.
-        database: The rules.
-        options: For the severities in force.
-    """
+    """The findings on one protocol, in the order of its lines; ``violations`` by rule."""
     wells = {rule: {one.well for one in found} for rule, found in violations.items()}
     findings: list[Finding] = []
     for name, found in violations.items():

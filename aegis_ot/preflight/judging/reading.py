@@ -28,12 +28,7 @@ _PLAUSIBLE = 1.0
 class Reading:
     """What a protocol is taken for; made once, then judged, shown to a model, judged again.
 
-    Args:
-        recording: The rehearsal.
-        database: The rules.
-        options: How to judge.
-        facts: What its text says as Python.
-        more: Evidence beside what is gathered, a model's.
+    ``more`` is evidence beside what is gathered: a model's.
 
     Attributes:
         trace: What it does.
@@ -103,11 +98,8 @@ class Reading:
                     yield rule, self._case(known.get(family.family, Roles(family)), True)
 
     def with_evidence(self, more: Sequence[Evidence], assay: Sequence[str] = ()) -> Reading:
-        """The same recording read with more evidence: nothing is rehearsed again.
-
-        Args:
-            more: Further evidence, a model's.
-            assay: The family that it is taken for; as before if empty.
+        """The same recording read with more evidence, and as another ``assay`` if one is named:
+        nothing is rehearsed again.
         """
         options = replace(self.options, assay=tuple(assay)) if assay else self.options
         return Reading(self.recording, self.database, options, self.facts, more)

@@ -148,11 +148,7 @@ def waiver_remarks(
 ) -> list[Remark]:
     """What is wrong with the waivers of a protocol, each with its line.
 
-    Args:
-        waivers: All of them.
-        waived: What they covered.
-        judged: Rules that were judged to the end.
-        known: Every rule that exists.
+    ``judged`` are the rules that were judged to the end, ``known`` all that exist.
     """
     remarks: list[Remark] = []
     used = {(one.waiver, one.finding.rule.upper()) for one in waived}

@@ -19,7 +19,7 @@ from ..judging import (
 from ..rehearsal import Recording, Script, record
 from ..rules import Database, RuleSpec
 from ..trace import Trace, places, row_column, trace_table
-from .dossier import DeckItem, Dossier, RoleLine, RuleBrief
+from .exchange import DeckItem, Dossier, RoleLine, RuleBrief
 
 LONGEST_SOURCE = 40_000
 """Characters of source that are shown; what is cut is said."""
@@ -29,12 +29,7 @@ MOST_ROLES = 40
 
 
 def make_dossier(reading: Reading, report: Report) -> Dossier:
-    """Put together what there is to know.
-
-    Args:
-        reading: Of the protocol.
-        report: What the checks made of it.
-    """
+    """Put together what there is to know of a protocol and of what the checks made of it."""
     recording, trace = reading.recording, reading.trace
     wells = [well.ref for well in trace.wells.values()]
     wells += [role.well for role in report.roles]

@@ -25,17 +25,14 @@ from ..judging import (
     spelled,
     verdict_of,
 )
-from .opinion import Opinion, is_known, no_answer
+from .exchange import Opinion, is_known, no_answer
 from .proposals import verify_proposals
 
 
 def merge(report: Report, opinion: Opinion, reading: Reading) -> Report:
     """The checks' report with the model's opinion added; see the module for what that may do.
 
-    Args:
-        report: The checks' report.
-        opinion: The model's.
-        reading: What the report judges; judged again with the roles that the model read.
+    The ``reading`` that the report judges is judged again with the roles that the model read.
     """
     if not opinion.answered:
         return replace(report, undecided=(*report.undecided, no_answer(opinion)))

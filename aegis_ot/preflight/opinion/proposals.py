@@ -13,7 +13,7 @@ from ..evidence import Evidence, Kind
 from ..judging import Reading
 from ..roles import Roles
 from ..source import level_of, source_lines
-from .opinion import Citation, RoleProposal
+from .exchange import Citation, RoleProposal
 
 
 class Rejected(Exception):
@@ -25,10 +25,7 @@ def verify_proposals(
 ) -> tuple[list[Evidence], list[str]]:
     """The proposals that stand, as evidence; and the others, each with the reason in a sentence.
 
-    Args:
-        proposals: What the model proposes.
-        reading: Of the protocol, in the eyes of the families that are to be judged.
-        model: Whose they are.
+    ``reading`` is the protocol in the eyes of the families that are to be judged.
     """
     verifier = _Verifier(reading, model)
     accepted: list[Evidence] = []

@@ -63,15 +63,9 @@ def infer_families(
     assigned: Mapping[str, Roles],
     given: Sequence[str] = (),
 ) -> list[Inference]:
-    """All families, the likeliest first.
+    """All families, the likeliest first, with what their wells are ``assigned`` in their eyes.
 
-    Args:
-        database: The rule database.
-        facts: What the text says.
-        evidence: Names, liquids and labels.
-        trace: For the shapes: a chain of transfers speaks for a serial dilution.
-        assigned: What the wells are in the eyes of each family.
-        given: Families given by hand; they apply, and no other does.
+    Families ``given`` by hand apply, and no other does.
     """
     texts = list(_texts(facts, evidence, trace))
     shapes = shapes_of(trace)
