@@ -38,25 +38,22 @@ def judge(recording: Recording, database: Database, options: Options | None = No
 
 def judge_reading(reading: Reading) -> Report:
     """Judge a protocol that was read already; to keep the reading, or to judge it again."""
-    violations: dict[str, list[Violation]] = {}
-    undecided: list[Undecided] = []
-    for rule, case in reading.cases():
-        if reading.options.severity_of(rule) == "off":
-            continue
-        violations[rule.id] = []
-        if missing := missing_needs(rule, case.roles):
-            undecided.append(missing_roles(rule, case, missing))
-            continue
-        violations[rule.id], doubt = _judge_rule(rule, case)
-        if doubt:
-            undecided.append(undecided_by(doubt, rule, case))
-    return _report(reading, violations, undecided if reading.trace.visits else ())
+    judged = {
+        rule.id: _judge_rule(rule, case)
+        for rule, case in reading.cases()
+        if reading.options.severity_of(rule) != "off"
+    }
+    violations = {rule: found for rule, (found, _) in judged.items()}
+    undecided = [open_ for _, open_ in judged.values() if open_ and reading.trace.visits]
+    return _report(reading, violations, undecided)
 
 
-def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Doubt | None]:
+def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided | None]:
     """Where a rule is broken, or why that cannot be said (``None`` if it can)."""
+    if missing := missing_needs(rule, case.roles):
+        return [], missing_roles(rule, case, missing)
     if not case.confident and not case.family.default:
-        return [], _UNKNOWN_ASSAY
+        return [], undecided_by(_UNKNOWN_ASSAY, rule, case)
     violations: list[Violation] = []
     doubts: list[Doubt] = []
     for number, check in enumerate(rule.checks):
@@ -73,7 +70,7 @@ def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Doubt | No
                 violations.append(replace(result, cause=cause, warning=warning))
     if not case.confident and not violations:
         doubts.append(_UNKNOWN_ASSAY)
-    return violations, doubts[0] if doubts and not violations else None
+    return violations, undecided_by(doubts[0], rule, case) if doubts and not violations else None
 
 
 def _plain(violation: Violation, roles: Roles) -> bool:

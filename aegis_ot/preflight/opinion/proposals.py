@@ -45,7 +45,6 @@ class _Verifier:
     def __init__(self, reading: Reading, model: str) -> None:
         self._reading = reading
         self._model = model
-        self._deck = reading.deck
         self._lines = source_lines(reading.recording.text)
         self._taken: dict[WellRef, str] = {}
 
@@ -84,11 +83,11 @@ class _Verifier:
         """
         found: dict[WellRef, None] = {}
         for place in proposal.wells:
-            named = self._deck.at(place) if place.rpartition(":")[2].strip() else ()
+            named = self._reading.deck.at(place) if place.rpartition(":")[2].strip() else ()
             if not named:
                 raise Rejected(f"there is no well {place!r} on the deck")
             found.update(dict.fromkeys(named))
-        used = {ref.labware for ref in found if self._deck.used_wells([ref.labware])}
+        used = {ref.labware for ref in found if self._reading.deck.used_wells([ref.labware])}
         if not used:
             raise Rejected("the run does not use this labware" if found else "it names no well")
         if len(used) > 1:

@@ -3,10 +3,9 @@
 from .assay import Inference, infer_families
 from .assigning import assign_roles
 from .deriving import derive, implied_contents
-from .roles import Assignment, Roles
+from .roles import Roles
 
 __all__ = [
-    "Assignment",
     "Inference",
     "Roles",
     "assign_roles",
