@@ -11,8 +11,7 @@ from ...vocabulary import Site
 from ..trace import Tip, Transfer, Visit, Well
 from .case import Case
 from .check import Check, Doubt, Result, Violation, at, place
-from .series import Series
-from .series_links import branching
+from .series import Series, branching
 
 _BY_HAND = "None of the wells in which this series ends is mixed; that may be done by hand."
 _MIXED = "Each step is mixed before the next, which rinses the tip: common practice, not exact."

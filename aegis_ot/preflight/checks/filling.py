@@ -10,8 +10,7 @@ from ..trace import Transfer, Well
 from .case import Case
 from .check import Doubt, Result, Violation, at, place
 from .dilution import SeriesCheck, diluent_arrivals, dilutions
-from .series import Series
-from .series_links import first_of, wells_of
+from .series import Series, first_of, wells_of
 
 _GUESSED = "Several buffers are used, and none of them is called the diluent."
 
