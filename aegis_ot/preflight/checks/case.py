@@ -18,9 +18,6 @@ from .series import SeriesFinder
 RoleSet = Collection[str]
 """Names of roles."""
 
-FirstOrLast = Mapping[Well, Mapping[Well, int]]
-"""For each well other wells, each with an index of the run."""
-
 
 @dataclass
 class Case:
@@ -82,16 +79,12 @@ class Case:
         """These roles in words."""
         return between.join(self.family.roles[role].title for role in roles)
 
-    def level(self, well: Well) -> float | None:
-        """Concentration or dose of a well, if known."""
-        return self.roles.level(well.ref)
-
     def is_drawn_first(self, well: Well) -> bool:
         """Whether the run draws from a well before it puts anything there: a source."""
         return self.trace.usage[well.ref].first_drawn
 
     @cached_property
-    def meant(self) -> FirstOrLast:
+    def meant(self) -> Mapping[Well, Mapping[Well, int]]:
         """For each well the liquids that measured volumes brought to it, with first index."""
         found: dict[Well, dict[Well, int]] = {}
         for one in self.trace.transfers:
@@ -106,7 +99,7 @@ class Case:
         return liquid in meant or any(self.same_liquid(liquid, other) for other in meant)
 
     @cached_property
-    def destinations(self) -> FirstOrLast:
+    def destinations(self) -> Mapping[Well, Mapping[Well, int]]:
         """For each well the wells that it was drawn for, with the last index."""
         found: dict[Well, dict[Well, int]] = {}
         for one in self.trace.transfers:
@@ -145,7 +138,7 @@ class Case:
             one.liquids
             and one.liquids == other.liquids
             and any(map(str.isdigit, without_strength(one.liquids[0])))
-            and self.level(one) == self.level(other)
+            and self.roles.level(one.ref) == self.roles.level(other.ref)
         ):
             return True
         if {one.ref, other.ref} <= roles.unnamed and one.liquids == other.liquids:
@@ -177,7 +170,7 @@ class Case:
             return False
         if mine and self.family.roles[mine.role].dosed:
             return False
-        if one.liquids != other.liquids or self.level(one) != self.level(other):
+        if one.liquids != other.liquids or self.roles.level(one.ref) != self.roles.level(other.ref):
             return False
         served, also = (self.destinations.get(well, {}).keys() for well in (one, other))
         # A channel that runs dry may go half and half with the next one into one well.

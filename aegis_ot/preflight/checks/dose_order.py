@@ -67,9 +67,9 @@ class DoseOrder(Check):
         self, case: Case, visit: Visit, origin: Well, met: Met, here: dict[Well, float]
     ) -> Result | None:
         """The tip carries a liquid that this well never gets."""
-        mine = case.level(origin)
+        mine = case.roles.level(origin.ref)
         alike = [other for other in here if case.compound(origin) == case.compound(other)]
-        own = [case.level(other) for other in alike or here]
+        own = [case.roles.level(other.ref) for other in alike or here]
         what = f"{case.title(origin)} from {place(origin)}"
         if mine is not None and any(one is not None and not comparable(mine, one) for one in own):
             mine = None  # of different scales

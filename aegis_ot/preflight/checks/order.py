@@ -165,7 +165,7 @@ class RisingOrder(Check):
             last[key] = one
             if before is None or before.source is source:
                 continue
-            level, level_before = case.level(source), case.level(before.source)
+            level, level_before = case.roles.level(source.ref), case.roles.level(before.source.ref)
             if level_before is None or level is None or not comparable(level_before, level):
                 yield Doubt(
                     f"one tip dispenses {place(before.source)} and then "

@@ -85,10 +85,10 @@ class Reading:
 
     def cases(self) -> Iterator[tuple[RuleSpec, Case]]:
         """Every rule that concerns this protocol, with the case that it is judged on."""
-        families = {inference.family: inference for inference in self.families}
+        applying = [inference for inference in self.families if inference.applies]
         known = {roles.family.family: roles for roles in self.roles}
-        for name, roles in known.items():
-            case = self._case(roles, families[name].sure, families[name].left_over)
+        for inference, roles in zip(applying, self.roles, strict=True):
+            case = self._case(roles, inference.sure, inference.left_over)
             for rule in roles.family.rules:
                 if rule.scope == "family":
                     yield rule, case

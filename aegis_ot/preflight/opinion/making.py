@@ -40,7 +40,7 @@ def make_dossier(reading: Reading, report: Report) -> Dossier:
         family=report.family,
         family_known=reading.family_known,
         table=trace_table(trace),
-        deck=_deck(trace),
+        deck=tuple(_deck(trace)),
         wells=tuple(dict.fromkeys(wells)),
         lines=_lines(recording),
         roles=_roles(report),
@@ -69,16 +69,14 @@ def check_with_dossier(
     return report, make_dossier(reading, report), reading
 
 
-def _deck(trace: Trace) -> tuple[DeckItem, ...]:
-    items = []
+def _deck(trace: Trace) -> Iterable[DeckItem]:
     for info in trace.labware.values():
         if not info.holds_liquid:
             continue
         places_ = [row_column(name) for name in info.wells]
         rows, columns = max(p[0] for p in places_) + 1, max(p[1] for p in places_) + 1
         label = info.label or info.display_name
-        items.append(DeckItem(info.key, info.slot, label, info.load_name, rows, columns))
-    return tuple(items)
+        yield DeckItem(info.key, info.slot, label, info.load_name, rows, columns)
 
 
 def _lines(recording: Recording) -> tuple[int, ...]:
