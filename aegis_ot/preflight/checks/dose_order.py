@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
@@ -55,12 +56,11 @@ class DoseOrder(Check):
 
     def _doses(self, case: Case) -> dict[Well, dict[Well, float]]:
         """For each well the µL of each dosed liquid that it is given in the whole run."""
-        doses: dict[Well, dict[Well, float]] = {}
+        doses: dict[Well, dict[Well, float]] = defaultdict(lambda: defaultdict(float))
         for one in case.trace.transfers:
             for origin, share in one.liquid.items():
                 if case.has(origin, self.liquid):
-                    into = doses.setdefault(one.well, {})
-                    into[origin] = into.get(origin, 0.0) + one.volume * share
+                    doses[one.well][origin] += one.volume * share
         return doses
 
     def _other(

@@ -156,8 +156,7 @@ def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:
         for conflict, refs in roles.conflicts.items():
             wells.setdefault(conflict, {}).update(dict.fromkeys(refs))
     for conflict, found in wells.items():
-        told = f"What {places(list(found))} is for is said in two ways: {conflict}."
-        yield Remark(told)
+        yield Remark(f"What {places(list(found))} is for is said in two ways: {conflict}.")
 
 
 def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:

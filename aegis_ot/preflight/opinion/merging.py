@@ -82,8 +82,6 @@ def _judged_again(
     # The family that the model reads, where the checks only guess.
     known = {family.family for family in reading.database.families if not family.default}
     assay = (opinion.family,) if opinion.family in known and not reading.family_known else ()
-    if not assay and not opinion.proposals:
-        return [], [], None
     seen = reading.with_evidence((), assay) if assay else reading
     accepted, rejected = verify_proposals(opinion.proposals, seen, opinion.model)
     if not assay and not accepted:
