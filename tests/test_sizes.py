@@ -9,18 +9,18 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 10_252,
-    "preflight/checks": 2_246,
+    "preflight": 9_903,
+    "preflight/checks": 2_127,
     "preflight/database": 268,
     "preflight/evidence": 754,
-    "preflight/judging": 897,
-    "preflight/opinion": 709,
+    "preflight/judging": 790,
+    "preflight/opinion": 637,
     "preflight/rehearsal": 1_091,
-    "preflight/roles": 1_031,
-    "preflight/rules": 646,
+    "preflight/roles": 994,
+    "preflight/rules": 632,
     "preflight/source": 743,
     "preflight/trace": 1_584,
-    "": 66_327,
+    "": 65_977,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""
