@@ -263,11 +263,12 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
         ProtocolRejected: It found errors, and ``rules`` is ``"on"`` or ``"strict"``.
     """
     from .preflight.checking import is_rejected, read_for_guard, rejection, summary
-    from .preflight.judging import judge_reading
+    from .preflight.judging import judge_reading, uncollected
 
     try:
-        reading = read_for_guard(recording, settings)
-        report = judge_reading(reading)
+        with uncollected():
+            reading = read_for_guard(recording, settings)
+            report = judge_reading(reading)
         if settings.opinion == "ask":
             from .preflight.asking import with_opinion
 

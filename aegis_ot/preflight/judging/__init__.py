@@ -3,7 +3,7 @@
 from .doubts import missing_needs, pasted, spelled
 from .judging import judge, judge_reading
 from .options import Options
-from .reading import Reading, read_recording
+from .reading import Reading, read_recording, uncollected
 from .report import Report, RoleEvidence, unanswered, verdict_of
 from .waivers import MODEL, Waived, Waiver, apply_waivers, read_waivers
 
@@ -24,5 +24,6 @@ __all__ = [
     "read_waivers",
     "spelled",
     "unanswered",
+    "uncollected",
     "verdict_of",
 ]

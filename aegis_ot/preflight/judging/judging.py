@@ -16,7 +16,7 @@ from ..trace import Contact, Well, places
 from .doubts import missing_needs, missing_roles, undecided_by, unnamed_wells
 from .findings import findings_of
 from .options import Options
-from .reading import Reading, read_recording
+from .reading import Reading, read_recording, uncollected
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
@@ -36,6 +36,7 @@ def judge(recording: Recording, database: Database, options: Options | None = No
     return judge_reading(read_recording(recording, database, options or Options()))
 
 
+@uncollected()
 def judge_reading(reading: Reading) -> Report:
     """Judge a protocol that was read already; to keep the reading, or to judge it again."""
     judged = {
