@@ -17,7 +17,7 @@ from typing import Any
 
 from ..http_client import HttpClient
 from ..settings import Settings
-from ..vocabulary import Undecided, from_json
+from ..vocabulary import Undecided, from_json, to_json
 from .judging import MODEL, Reading, Report
 from .opinion import Dossier, Opinion, make_dossier, merge
 
@@ -44,7 +44,7 @@ def with_opinion(report: Report, reading: Reading, settings: Settings, protocol:
         if not protocol.is_simulating():
             wait_s = min(wait_s, LIVE_WAIT_S)
         opinion = ask_sidecar(settings.sidecar, settings.token, dossier, wait_s)
-        return merge(report, opinion, dossier, reading)
+        return merge(report, opinion, reading)
     except Exception as error:
         reason = f"The model's opinion could not be had ({type(error).__name__}: {error})."
         return replace(report, undecided=(*report.undecided, Undecided(MODEL, reason)))
@@ -55,7 +55,7 @@ def ask_sidecar(address: str, token: str | None, dossier: Dossier, timeout_s: fl
     deadline = time.monotonic() + timeout_s
     try:
         with closing(HttpClient(address, token)) as client:
-            answer = _send(client, "POST", "/v1/opinions", dossier.to_json(), deadline)
+            answer = _send(client, "POST", "/v1/opinions", to_json(dossier), deadline)
             while answer.get("opinion") is None:
                 left = deadline - time.monotonic()
                 if left <= 0:

@@ -109,7 +109,7 @@ def hybrid(
 ) -> Judgement:
     """The checks, and a model that sees what they saw; it can only add."""
     reply = ask(backend, hybrid_request(dossier, reading.database))
-    merged = merge(report, opinion_of(reply, dossier), dossier, reading)
+    merged = merge(report, opinion_of(reply, dossier), reading)
     return Judgement(Configuration.HYBRID, merged, reply)
 
 
@@ -178,6 +178,5 @@ def _model_alone(
         findings=findings,
         undecided=undecided,
         notes=tuple(f"{opinion.model}, left out: {text}" for text in opinion.left_out),
-        lines=report.lines,
     )
     return Judgement(configuration, alone, reply)

@@ -12,6 +12,7 @@ import hashlib
 
 from ..preflight.opinion import Dossier, rule_text
 from ..preflight.rules import Database, Family
+from ..preflight.source import source_lines
 from ..vocabulary import one_line
 from .answer import ANSWER_SCHEMA, BLIND_SCHEMA
 from .backend import Message, Passage, Request
@@ -97,7 +98,7 @@ def _source(dossier: Dossier) -> list[str]:
     # The file's name stays out: it says nothing about the steps, and a copy of a protocol
     # should find the answer that its original got.
     lines = ["Source:"]
-    lines += [f"{n}|{_visible(text)}" for n, text in enumerate(dossier.source_lines, 1)]
+    lines += [f"{n}|{_visible(text)}" for n, text in enumerate(source_lines(dossier.source), 1)]
     if dossier.parameters not in ("", "{}"):
         lines.append(f"Runtime parameters: {_flat(dossier.parameters)}")
     return lines

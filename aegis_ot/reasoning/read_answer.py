@@ -12,6 +12,7 @@ from ..preflight.evidence import wells_in
 from ..preflight.evidence.deck import without_slot
 from ..preflight.judging import MODEL
 from ..preflight.opinion import Citation, Dossier, Opinion, RoleProposal, RuleAnswer, is_known
+from ..preflight.source import source_lines
 from ..vocabulary import Finding, Severity, Site, WellRef, one_line
 from .backend import State
 
@@ -73,7 +74,7 @@ class _Bounds:
             for name in (ref.slot, ref.label, load_name):
                 wells = self._known.setdefault(name.lower(), {})
                 wells.setdefault(ref.name, []).append(ref)
-        count = len(dossier.source_lines)
+        count = len(source_lines(dossier.source))
         self.lines = set(range(1, count + 1)) if blind else set(dossier.lines)
         self.severity = {brief.id: brief.severity for brief in dossier.rules}
 

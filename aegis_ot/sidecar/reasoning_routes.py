@@ -18,7 +18,7 @@ from ..preflight.opinion import Dossier, Opinion
 from ..reasoning import Backend, Opinions, load_prices, make_backend
 from ..reasoning.gate_tiers import Budget, VlmTiers
 from ..vision.gates import ConfirmingGate
-from ..vocabulary import to_json
+from ..vocabulary import from_json, to_json
 from .bodies import read_body
 from .config import SidecarConfig
 from .wire import MAX_WAIT, WireError
@@ -98,9 +98,8 @@ def opinion_router(opinions: Opinions) -> APIRouter:
 
 
 def _dossier(body: bytes) -> Dossier:
-
     try:
-        return Dossier.from_json(json.loads(body))
+        return from_json(Dossier, json.loads(body))
     except (ValueError, RecursionError) as error:
         raise WireError(422, "body", f"The body is not a valid dossier: {error}.") from None
 

@@ -16,6 +16,7 @@ from aegis_ot.checking.guard_arguments import guard_arguments
 from aegis_ot.checking.run import options_for
 from aegis_ot.preflight import Options, Report, check_script
 from aegis_ot.preflight.rehearsal import Script
+from aegis_ot.preflight.source import source_lines
 from aegis_ot.vocabulary import Finding
 
 FILES = sorted((Path(__file__).parent / "protocols").glob("*.py"))
@@ -27,7 +28,7 @@ def test_diagnostics(path: Path, snapshot: SnapshotAssertion) -> None:
     text = path.read_text(encoding="utf-8")
     options = options_for(guard_arguments(text), Options())
     report = check_script(Script(text, path.name), options=options)
-    assert "\n".join(diagnostics(report)) == snapshot
+    assert "\n".join(diagnostics(report, source_lines(text))) == snapshot
     for finding in report.findings:
         assert finding.lines
         assert finding.wells
@@ -35,12 +36,12 @@ def test_diagnostics(path: Path, snapshot: SnapshotAssertion) -> None:
         assert finding.fix
 
 
-def diagnostics(report: Report) -> Iterator[str]:
+def diagnostics(report: Report, lines: list[str]) -> Iterator[str]:
     """Everything that is said of a protocol, for people to compare."""
     yield f"{report.verdict.value}, {report.family}"
     for finding in report.findings:
         yield f"{finding.rule} {finding.severity.value}: {finding.message}"
-        yield from _sites(finding, report)
+        yield from _sites(finding, lines)
         yield f"    fix: {finding.fix}"
     for undecided in report.undecided:
         yield f"{undecided.rule} undecided: {undecided.reason}"
@@ -48,10 +49,10 @@ def diagnostics(report: Report) -> Iterator[str]:
         yield f"remark, line {remark.line}: {remark.message}"
 
 
-def _sites(finding: Finding, report: Report) -> Iterator[str]:
+def _sites(finding: Finding, lines: list[str]) -> Iterator[str]:
     addresses = [well.address for well in finding.wells]
     if len(addresses) > SHOWN:
         addresses = [*addresses[: SHOWN - 2], "...", addresses[-1], f"({len(addresses)} wells)"]
     yield f"    wells: {' '.join(addresses)}"
     for line in finding.lines:
-        yield f"    line {line}: {report.lines[line - 1].strip()}"
+        yield f"    line {line}: {lines[line - 1].strip()}"

@@ -273,7 +273,7 @@ def test_ranges_and_labels_name_wells() -> None:
 
 def test_opinions_and_dossiers_cross_the_wire() -> None:
     _, dossier = checked(SILENT)
-    back = Dossier.from_json(dossier.to_json())
+    back = from_json(Dossier, to_json(dossier))
     assert back == dossier
     assert back.digest == dossier.digest
     said = answer(findings=[VIOLATED], summary="x", roles=READ)
@@ -301,4 +301,4 @@ def test_a_flood_of_proposals_is_cut() -> None:
 
 def test_an_answer_that_says_nothing_changes_nothing() -> None:
     report, dossier, reading = examined(CONTAMINATED)
-    assert merge(report, read_opinion(answer(), dossier, "m"), dossier, reading) == report
+    assert merge(report, read_opinion(answer(), dossier, "m"), reading) == report

@@ -51,7 +51,7 @@ def doubts(case: Case, rule: str) -> list[str]:
 
 def wells(violations: list[Violation]) -> set[str]:
     """The wells that suffer: ``plate:A1``."""
-    return {f"{one.well.ref.labware}:{one.well.ref.name}" for one in violations}
+    return {f"{one.well.labware}:{one.well.name}" for one in violations}
 
 
 def _results(case: Case, rule: str) -> list[Violation | Doubt]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterator, Set
 from dataclasses import dataclass
 from itertools import islice
 from typing import Literal
@@ -12,8 +13,7 @@ from ...vocabulary import Site
 from ..rules import role_names
 from ..trace import Contact, Met, Tip, Visit, Well
 from .case import Case, carried_liquids
-from .check import Check, Result, Violation, at, place
-from .unnamed import unnamed_contact
+from .check import Check, Doubt, Result, Violation, at, place
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
 _RINSED = "The tip was rinsed in between: what is left on it is a trace."
@@ -24,12 +24,11 @@ _RINSES = 2
 @dataclass(frozen=True)
 class Carry(Check):
     """No tip that has met a liquid of ``carried`` touches, or delivers below the top of, a
-    well of ``into``.
+    well of ``into`` that no measured volume of it is meant for.
 
     Attributes:
         carried: Roles of the liquids that must not be carried.
         into: Roles of the wells that they must not be carried into.
-        meant: Whether a well that a measured volume of that liquid is meant for is let be.
         stock: Whether the wells are stocks: then liquid that was mixed into the stock on
             purpose beforehand is let be, and nothing else is.
         pooled: Whether carrying one source into another is let be when all that is ever made
@@ -44,7 +43,6 @@ class Carry(Check):
 
     carried: tuple[str, ...] = role_names(required=True)
     into: tuple[str, ...] = role_names(required=True)
-    meant: bool = True
     stock: bool = False
     pooled: bool = False
     via_destination: Literal["", "only", "not"] = ""
@@ -53,7 +51,6 @@ class Carry(Check):
     not_into: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Look at every contact of a well with a tip that had met something before."""
         carriers = set(case.wells(self.carried))
         if self.unnamed:
             carriers.update(well for well in case.destinations if not case.of(well))
@@ -86,8 +83,7 @@ class Carry(Check):
                 elif not once:
                     let_be.setdefault(key, []).append((origin, met))
             judged[key] = visit.carried
-        doubt = unnamed_contact(case, carriers, self.into)
-        if doubt is not None:
+        if doubt := self._unnamed_contact(case, carriers):
             yield doubt
 
     def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
@@ -97,7 +93,8 @@ class Carry(Check):
         if self.via_destination:
             filled = (
                 origin is not met.well
-                or _was_fed(case, met)
+                # When the tip met it, something had been put into it.
+                or min(case.meant.get(met.well, {}).values(), default=math.inf) <= met.index
                 # A sample's tip has been in its destination too; with buffers it matters less.
                 or (
                     bool(case.of(origin))
@@ -115,7 +112,7 @@ class Carry(Check):
             return origin in case.meant.get(well, {}) and (
                 _on_purpose(case, well, origin, visit) or self._made_of(case, visit, origin)
             )
-        if self.meant and case.is_given(well, origin):
+        if case.is_given(well, origin):
             return True
         if self.pooled:
             # Water and then sample, drawn for one well, spoils no sample for its other uses.
@@ -129,6 +126,42 @@ class Carry(Check):
             if any(held) if clean else held and all(held):
                 return True
         return False
+
+    def _unnamed_contact(self, case: Case, carriers: Set[Well]) -> Doubt | None:
+        """The first contact that would break a rule if an unnamed source were what it may be.
+
+        A rule counts as decided only if every well that could break it has a role, or is shown to
+        be harmless: an unnamed trough that a tip enters with template on it may well be the water.
+        Either the tip carries a liquid of ``carriers`` into an unnamed source that serves several
+        wells, or what it drew from an unnamed source into a well of ``into``.
+        """
+        unnamed = [well for well in case.trace.wells.values() if not case.of(well)]
+        drawn = {well for well in unnamed if case.is_drawn_first(well)}
+        stocks: set[Well] = set()
+        if any(case.family.roles[role].side != "destination" for role in self.into):
+            stocks = {well for well in unnamed if len(case.destinations.get(well, ())) > 1}
+        for visit in case.trace.visits if drawn or stocks else ():
+            well = visit.well
+            if not visit.contact or not visit.carried or well.ref in case.waste:
+                continue
+            is_stock = well in stocks
+            if not is_stock and not case.has(well, self.into):
+                continue
+            for origin, met in carried_liquids(visit):
+                if origin not in (carriers if is_stock else drawn):
+                    continue
+                if origin in case.meant.get(well, {}) or case.same_liquid(origin, well):
+                    continue
+                if is_stock:
+                    return Doubt(
+                        f"nothing says what {place(well)} holds, and the tip that met "
+                        f"{case.title(origin)} {at(met.line)} enters it {at(visit.line)}"
+                    )
+                return Doubt(
+                    f"nothing says what {place(origin)} holds, and its tip enters the "
+                    f"{case.title(well)} {place(well)} {at(visit.line)}"
+                )
+        return None
 
     def _rinses_before(self, case: Case, visit: Visit) -> int:
         """How often a shared liquid was drawn into the tip and given to the waste just before."""
@@ -183,7 +216,6 @@ class Carry(Check):
                 Site(met.line, met.well.ref, f"met {what}"),
                 Site(visit.line, well.ref, f"entered the {case.title(well)}"),
             ),
-            well,
             (visit.line, met.line, what),
             (origin, well),
             contact=contact,
@@ -224,12 +256,6 @@ def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
     return found
 
 
-def _was_fed(case: Case, met: Met) -> bool:
-    """Whether a well was a destination when the tip met it: something had been put into it."""
-    first = next(iter(case.meant.get(met.well, {}).values()), None)
-    return first is not None and first <= met.index
-
-
 def _brought_since(case: Case, visit: Visit, origin: Well) -> bool:
     """Whether the tip has also touched a well that this liquid was brought to before."""
     return any(
@@ -246,8 +272,9 @@ def _serves_its_well_alone(case: Case, stock: Well, origin: Well) -> bool:
 
 def _on_purpose(case: Case, stock: Well, origin: Well, visit: Visit) -> bool:
     """Whether liquid was mixed into a stock earlier, straight from its source, by another tip."""
-    earlier = [given for given in case.straight(origin, stock) if given.index < visit.index]
-    if any(given.tip is not visit.tip for given in earlier):
+    given = (one.visit for one in stock.received if one.source is origin)
+    earlier = [one for one in given if one.index < visit.index]
+    if any(one.tip is not visit.tip for one in earlier):
         return True
     return bool(earlier) and not any(
         other.tip is visit.tip and other.kind is OperationKind.ASPIRATE

@@ -13,13 +13,10 @@ from ..roles import Roles
 from ..rules import Common, Family, SeriesSpec
 from ..source import name_without_level, without_strength
 from ..trace import Met, Trace, Transfer, Visit, Well
-from .series import Series, SeriesFinder
+from .series import SeriesFinder
 
 RoleSet = Collection[str]
 """Names of roles."""
-
-FirstOrLast = Mapping[Well, Mapping[Well, int]]
-"""For each well other wells, each with an index of the run."""
 
 
 @dataclass
@@ -82,16 +79,12 @@ class Case:
         """These roles in words."""
         return between.join(self.family.roles[role].title for role in roles)
 
-    def level(self, well: Well) -> float | None:
-        """Concentration or dose of a well, if known."""
-        return self.roles.level(well.ref)
-
     def is_drawn_first(self, well: Well) -> bool:
         """Whether the run draws from a well before it puts anything there: a source."""
         return self.trace.usage[well.ref].first_drawn
 
     @cached_property
-    def meant(self) -> FirstOrLast:
+    def meant(self) -> Mapping[Well, Mapping[Well, int]]:
         """For each well the liquids that measured volumes brought to it, with first index."""
         found: dict[Well, dict[Well, int]] = {}
         for one in self.trace.transfers:
@@ -106,7 +99,7 @@ class Case:
         return liquid in meant or any(self.same_liquid(liquid, other) for other in meant)
 
     @cached_property
-    def destinations(self) -> FirstOrLast:
+    def destinations(self) -> Mapping[Well, Mapping[Well, int]]:
         """For each well the wells that it was drawn for, with the last index."""
         found: dict[Well, dict[Well, int]] = {}
         for one in self.trace.transfers:
@@ -120,25 +113,15 @@ class Case:
         """
         return {well: _fillings(well) for well in self.trace.wells.values()}
 
-    @staticmethod
-    def straight(source: Well, well: Well) -> list[Visit]:
-        """The visits that brought liquid straight from one well into another, in order."""
-        return [one.visit for one in well.received if one.source is source]
-
     @property
     def series_roles(self) -> SeriesSpec:
         """Roles of what the family dilutes in a series, and with what."""
         return self.family.series_roles
 
     @cached_property
-    def series(self) -> Sequence[Series]:
+    def series(self) -> SeriesFinder:
         """The dilution series of the protocol."""
-        return SeriesFinder(self.trace, self.roles).found(self.waste)
-
-    @cached_property
-    def fillers(self) -> frozenset[Well]:
-        """Wells that fill a whole series, whatever they are called."""
-        return frozenset(well for series in self.series for well in series.fillers)
+        return SeriesFinder(self)
 
     def same_liquid(self, one: Well, other: Well) -> bool:
         """Whether two wells hold the same liquid, as far as roles, names, loads and use say."""
@@ -155,7 +138,7 @@ class Case:
             one.liquids
             and one.liquids == other.liquids
             and any(map(str.isdigit, without_strength(one.liquids[0])))
-            and self.level(one) == self.level(other)
+            and self.roles.level(one.ref) == self.roles.level(other.ref)
         ):
             return True
         if {one.ref, other.ref} <= roles.unnamed and one.liquids == other.liquids:
@@ -187,7 +170,7 @@ class Case:
             return False
         if mine and self.family.roles[mine.role].dosed:
             return False
-        if one.liquids != other.liquids or self.level(one) != self.level(other):
+        if one.liquids != other.liquids or self.roles.level(one.ref) != self.roles.level(other.ref):
             return False
         served, also = (self.destinations.get(well, {}).keys() for well in (one, other))
         # A channel that runs dry may go half and half with the next one into one well.
@@ -218,10 +201,7 @@ def _drawing_lines(well: Well) -> set[int | None]:
 
 
 def carried_liquids(visit: Visit, after: int = 0) -> Iterator[tuple[Well, Met]]:
-    """The liquids that the tip had met before this visit, with the first contact.
-
-    Args:
-        visit: The visit.
-        after: How many to pass over: the tip had met those before an earlier visit.
+    """The liquids that the tip had met before this visit, with the first contact; the first
+    ``after`` of them, which it had met before an earlier visit, are passed over.
     """
     return islice(visit.tip.origins.items(), after, visit.carried)

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from ...vocabulary import Site
+from ...vocabulary import Site, WellRef
 from ..trace import Contact, Well
 from .case import Case
 
@@ -18,7 +18,6 @@ class Violation:
     Attributes:
         message: One sentence in plain words about this place.
         sites: Both ends; the well that suffers stands last.
-        well: The well that suffers.
         cause: Violations of one cause become one finding.
         rests_on: Wells without whose roles nothing would be wrong.
         contact: How surely the tips touched what it rests on.
@@ -28,12 +27,18 @@ class Violation:
 
     message: str
     sites: tuple[Site, ...]
-    well: Well
     cause: tuple[Any, ...]
     rests_on: tuple[Well, ...] = ()
     contact: Contact = Contact.WET
     warning: str = ""
     in_any_assay: bool = False
+
+    @property
+    def well(self) -> WellRef:
+        """The well that suffers."""
+        well = self.sites[-1].well
+        assert well is not None
+        return well
 
 
 @dataclass(frozen=True)

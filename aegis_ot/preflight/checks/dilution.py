@@ -11,8 +11,7 @@ from ...vocabulary import Site
 from ..trace import Tip, Transfer, Visit, Well
 from .case import Case
 from .check import Check, Doubt, Result, Violation, at, place
-from .series import Series
-from .series_links import branching
+from .series import Series, branching
 
 _BY_HAND = "None of the wells in which this series ends is mixed; that may be done by hand."
 _MIXED = "Each step is mixed before the next, which rinses the tip: common practice, not exact."
@@ -23,10 +22,9 @@ class SeriesCheck(Check):
     """A check on each dilution series by itself."""
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Judge each series."""
-        if not case.series:
+        if not case.series.found:
             yield Doubt("no chain of transfers from well to well was found")
-        for series in case.series:
+        for series in case.series.found:
             yield from self.along(case, series)
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
@@ -40,7 +38,7 @@ def diluent_arrivals(case: Case, well: Well) -> list[int]:
         one.visit.index
         for one in well.received
         if case.has(one.source, case.series_roles.diluent)
-        or one.source in case.fillers
+        or one.source in case.series.fillers
         or _is_made_diluent(case, one)
     ]
 
@@ -101,7 +99,6 @@ class SeriesMixed(SeriesCheck):
     """Every dilution step is mixed in its well before liquid is drawn on from there."""
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
-        """Look for a mix between each step and the next draw from its well."""
         steps = dilutions(case, series)
         by_hand = _left_to_hand(case, steps)
         for step in steps:
@@ -115,7 +112,6 @@ class SeriesMixed(SeriesCheck):
                     Site(step.drawn, step.source.ref, "drew the more concentrated solution"),
                     Site(step.visit.line, step.well.ref, "diluted here, not mixed"),
                 ),
-                step.well,
                 (step.visit.line,),
                 warning=_BY_HAND if step.well in by_hand else "",
             )
@@ -135,7 +131,6 @@ class SeriesDirection(SeriesCheck):
     """The series runs from the most to the least concentrated well, one well at a time."""
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
-        """Compare each link with the order of the series."""
         if not series.directed:
             yield Doubt("nothing says which end of the series holds the stock")
         branches = branching(series.links)
@@ -161,7 +156,6 @@ class SeriesDirection(SeriesCheck):
                     Site(step.drawn, step.source.ref, "drew from here"),
                     Site(step.visit.line, step.well.ref, f"diluted {what}"),
                 ),
-                step.well,
                 (step.visit.line, jump < 0),
             )
 
@@ -174,7 +168,6 @@ class SeriesTip(SeriesCheck):
     """
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
-        """Follow each tip along the series."""
         if not series.entered:
             yield Doubt("nothing says which end of the series holds the stock")
         steps = dilutions(case, series)
@@ -189,7 +182,8 @@ class SeriesTip(SeriesCheck):
 def _one_tip(
     series: Series, steps: Sequence[Transfer], tip: Tip, visits: Sequence[Visit], warning: str
 ) -> Iterator[Result]:
-    first = next((step for step in steps if _is_made_by(step, tip)), None)
+    made = {(one.source, one.well) for visit in tip.visits for one in visit.brought}
+    first = next((step for step in steps if (step.source, step.well) in made), None)
     excepted = {first.source, first.well} if first else set()
     strongest: tuple[int, Visit] | None = None
     reported: set[Well] = set()
@@ -210,7 +204,6 @@ def _one_tip(
                     Site(before.line, before.well.ref, "touched the more concentrated well"),
                     Site(visit.line, visit.well.ref, "entered a later well"),
                 ),
-                visit.well,
                 ("series tip",),
                 contact=min(before.contact, visit.contact),
                 warning=warning,
@@ -219,7 +212,3 @@ def _one_tip(
         holds_stock = entered is not None and entered <= visit.index
         if visit.touches and holds_stock and (strongest is None or place_here < strongest[0]):
             strongest = (place_here, visit)
-
-
-def _is_made_by(step: Transfer, tip: Tip) -> bool:
-    return any(one.source is step.source and one.visit.tip is tip for one in step.well.received)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import islice
@@ -29,7 +30,6 @@ class DoseOrder(Check):
     wells: tuple[str, ...] = role_names(required=True)
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Follow each tip through the dosed wells."""
         doses = self._doses(case)
         seen: set[tuple[int, int]] = set()
         for visit in case.trace.visits:
@@ -56,21 +56,20 @@ class DoseOrder(Check):
 
     def _doses(self, case: Case) -> dict[Well, dict[Well, float]]:
         """For each well the µL of each dosed liquid that it is given in the whole run."""
-        doses: dict[Well, dict[Well, float]] = {}
+        doses: dict[Well, dict[Well, float]] = defaultdict(lambda: defaultdict(float))
         for one in case.trace.transfers:
             for origin, share in one.liquid.items():
                 if case.has(origin, self.liquid):
-                    into = doses.setdefault(one.well, {})
-                    into[origin] = into.get(origin, 0.0) + one.volume * share
+                    doses[one.well][origin] += one.volume * share
         return doses
 
     def _other(
         self, case: Case, visit: Visit, origin: Well, met: Met, here: dict[Well, float]
     ) -> Result | None:
         """The tip carries a liquid that this well never gets."""
-        mine = case.level(origin)
+        mine = case.roles.level(origin.ref)
         alike = [other for other in here if case.compound(origin) == case.compound(other)]
-        own = [case.level(other) for other in alike or here]
+        own = [case.roles.level(other.ref) for other in alike or here]
         what = f"{case.title(origin)} from {place(origin)}"
         if mine is not None and any(one is not None and not comparable(mine, one) for one in own):
             mine = None  # of different scales
@@ -96,7 +95,6 @@ class DoseOrder(Check):
                 Site(met.line, met.well.ref, f"met {case.title(origin)}"),
                 Site(visit.line, visit.well.ref, f"entered {harm}"),
             ),
-            visit.well,
             (visit.line, met.line, harm),
             (origin, visit.well),
             contact=min(met.contact(visit.index), visit.contact),
@@ -128,7 +126,6 @@ class DoseOrder(Check):
                         Site(met.line, other.ref, "touched a well of a higher dose"),
                         Site(visit.line, visit.well.ref, "entered a well of a lower dose"),
                     ),
-                    visit.well,
                     (visit.line, met.line, "falling"),
                     (other, visit.well),
                     contact=min(met.contact(visit.index), visit.contact),

@@ -10,8 +10,7 @@ from ..trace import Transfer, Well
 from .case import Case
 from .check import Doubt, Result, Violation, at, place
 from .dilution import SeriesCheck, diluent_arrivals, dilutions
-from .series import Series
-from .series_links import first_of, wells_of
+from .series import Series, first_of, wells_of
 
 _GUESSED = "Several buffers are used, and none of them is called the diluent."
 
@@ -21,7 +20,6 @@ class SeriesFilledFirst(SeriesCheck):
     """Every well of the series holds its diluent before the more concentrated solution."""
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
-        """Look at what each well holds when its step comes."""
         done: set[Well] = set()
         for step in dilutions(case, series):
             well = step.well
@@ -47,7 +45,6 @@ class SeriesFilledFirst(SeriesCheck):
                 f"{place(well)} receives the more concentrated solution {at(step.visit.line)} "
                 + ("before its diluent." if fills else "and never any diluent."),
                 tuple(sites),
-                well,
                 (step.visit.line, bool(fills)),
                 warning=_GUESSED if case.roles.diluent_guessed else "",
             )
@@ -58,7 +55,6 @@ class SeriesFilledFrom(SeriesCheck):
     """What the wells of the series are filled with comes from the diluent's own reservoir."""
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
-        """Look at the source of each filling."""
         done: set[Well] = set()
         for step in series.steps:
             wrong = wrong_fill(case, series, step)
@@ -83,7 +79,6 @@ class SeriesFilledFrom(SeriesCheck):
                     Site(wrong.drawn, source.ref, "drew this in the diluent's place"),
                     Site(wrong.visit.line, step.well.ref, "filled with it"),
                 ),
-                step.well,
                 (wrong.visit.line, id(source)),
                 warning=_GUESSED if case.roles.diluent_guessed and is_buffer else "",
             )
@@ -91,7 +86,7 @@ class SeriesFilledFrom(SeriesCheck):
 
 def _is_diluent_known(case: Case) -> bool:
     """Whether some reservoir, or some well of a plate that serves several, is the diluent's."""
-    plates = {well.ref.labware for series in case.series for well in series.wells}
+    plates = {well.ref.labware for series in case.series.found for well in series.position}
     served = case.trace.served
     return any(
         (ref.labware not in plates or len(served.get(ref, ())) > 1)
@@ -115,7 +110,7 @@ def _filled_by_hand(case: Case, series: Series) -> bool:
     """Whether the run fills no series, or most wells of a chain get no diluent, and are drawn from
     as if they held some.
     """
-    if not any(diluent_arrivals(case, well) for one in case.series for well in one.wells):
+    if not any(diluent_arrivals(case, well) for one in case.series.found for well in one.position):
         return True
     reached = {link.well for link in series.links}
     unfilled = {well for well in reached if not diluent_arrivals(case, well)}

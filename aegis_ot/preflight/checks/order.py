@@ -60,27 +60,24 @@ class MixedAfter(Check):
     wells: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Look for a mix after the last arrival."""
-        unmixed = []
-        by_hand = True
-        for well, came in self._receivers(case):
-            ever = case.trace.mixed_since(well, -1, math.inf)
-            by_hand = by_hand and not ever and not case.destinations.get(well)
-            last = came[-1].visit
-            if not (ever and case.trace.mixed_since(well, last.index, math.inf)):
-                unmixed.append((well, last))
+        receivers = list(self._receivers(case))
+        by_hand = not any(
+            case.destinations.get(well) or case.trace.mixed_since(well, -1, math.inf)
+            for well, _ in receivers
+        )
         what = case.titles(self.liquid)
-        for well, last in unmixed:
+        for well, last in receivers:
+            if case.trace.mixed_since(well, last.index, math.inf):
+                continue
             yield Violation(
                 f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
                 (Site(last.line, well.ref, f"received {what}, never mixed"),),
-                well,
                 (last.line, what),
                 warning=_BY_HAND if by_hand else "",
             )
 
-    def _receivers(self, case: Case) -> Iterator[tuple[Well, list[Transfer]]]:
-        """The wells that are judged, each with what brought it the liquid."""
+    def _receivers(self, case: Case) -> Iterator[tuple[Well, Visit]]:
+        """The wells that are judged, each with the visit that brought the last of the liquid."""
         liquid, wanted = self.liquid, self.wells
         for well in case.trace.wells.values():
             if case.has(well, liquid) or (wanted and not case.has(well, wanted)):
@@ -91,7 +88,7 @@ class MixedAfter(Check):
                 continue
             came = arrivals(case, well, liquid)
             if came:
-                yield well, came
+                yield well, came[-1].visit
 
 
 @dataclass(frozen=True)
@@ -109,7 +106,6 @@ class ReceivedBefore(Check):
     wells: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Compare the arrivals of both."""
         for well in case.trace.wells.values():
             if self.wells and not case.has(well, self.wells):
                 continue
@@ -129,7 +125,6 @@ class ReceivedBefore(Check):
                         Site(begun.line, well.ref, f"received {what}"),
                         Site(line, well.ref, f"received {title} after it"),
                     ),
-                    well,
                     (begun.line, line),
                 )
 
@@ -159,7 +154,6 @@ class RisingOrder(Check):
     liquid: tuple[str, ...] = role_names(required=True)
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Follow each tip session's deliveries."""
         last: dict[tuple[int, int], Transfer] = {}
         done: set[tuple[int, int, Well]] = set()
         for one in case.trace.transfers:
@@ -171,7 +165,7 @@ class RisingOrder(Check):
             last[key] = one
             if before is None or before.source is source:
                 continue
-            level, level_before = case.level(source), case.level(before.source)
+            level, level_before = case.roles.level(source.ref), case.roles.level(before.source.ref)
             if level_before is None or level is None or not comparable(level_before, level):
                 yield Doubt(
                     f"one tip dispenses {place(before.source)} and then "
@@ -190,6 +184,5 @@ class RisingOrder(Check):
                         Site(one.drawn, source.ref, "drew the lower one"),
                         Site(visit.line, one.well.ref, "dispensed the lower one after"),
                     ),
-                    one.well,
                     (before.visit.line, visit.line),
                 )

@@ -84,9 +84,9 @@ def _never_received(
     )
     lacking = Site(line or _last_line(case, well), well.ref, f"receives no {title}")
     if given is None:
-        return Violation(message, (lacking,), well, (case.title(well),), (well,))
+        return Violation(message, (lacking,), (case.title(well),), (well,))
     others = Site(given[0], given[1].ref, f"{title} is given to other wells")
-    return Violation(message, (others, lacking), well, (case.title(well),), (well, given[2]))
+    return Violation(message, (others, lacking), (case.title(well),), (well, given[2]))
 
 
 @dataclass(frozen=True)
@@ -109,21 +109,18 @@ class Receives(Check):
     always: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Look at each well that should receive it."""
         liquid = self.liquid
         served = {
             well.ref
             for well in case.trace.wells.values()
             if received(case, well, liquid)[0] > 0 or case.has(well, liquid)
         }
-        plates = self._plates(case, liquid)
-        if not plates and self._stands_unused(case, liquid):
+        plates, judged = self._plates(case), list(self._judged(case))
+        if not plates and self._stands_unused(case):
             plates = {ref.labware for ref, used in case.trace.usage.items() if used.received}
-            judged = [well for well in self._judged(case) if case.has(well, self.always)]
-        else:
-            judged = list(self._judged(case))
+            judged = [well for well in judged if case.has(well, self.always)]
         if not plates or not judged:
-            names = case.titles(self.liquid, ", ")
+            names = case.titles(liquid, ", ")
             yield Doubt(f"no well is seen to receive {names}; it may be added by hand")
             return
         reported: set[WellRef] = set()
@@ -135,7 +132,7 @@ class Receives(Check):
         ]
         # The best evidence for what the liquid is: a comment alone makes no error.
         given.sort(key=lambda one: case.roles.is_doubtful(one[2].ref))
-        title = case.titles(self.liquid)
+        title = case.titles(liquid)
         for well in judged:
             if well.ref in served | reported or well.ref.labware not in plates:
                 continue
@@ -174,7 +171,7 @@ class Receives(Check):
             and all(case.is_one_liquid(one.source) for one in well.received)
         )
 
-    def _plates(self, case: Case, liquid: RoleSet) -> set[str]:
+    def _plates(self, case: Case) -> set[str]:
         """Labware where some well is given the liquid, and their replicates.
 
         A well that is given what stood in such a well before, liquid and all, is another stage.
@@ -182,15 +179,16 @@ class Receives(Check):
         return {
             one.well.ref.labware
             for one in case.trace.transfers
-            if case.has(one.source, liquid)
-            or (case.brings(one, liquid) and not case.has(one.source, self.wells))
+            if case.has(one.source, self.liquid)
+            or (case.brings(one, self.liquid) and not case.has(one.source, self.wells))
         }
 
-    @staticmethod
-    def _stands_unused(case: Case, liquid: RoleSet) -> bool:
+    def _stands_unused(self, case: Case) -> bool:
         """Whether a well of its own is named for the liquid: then nobody adds it by hand."""
         return any(
-            case.roles.is_called(ref, liquid) and assigned.kind >= Kind.NAME and not assigned.whole
+            assigned.kind >= Kind.NAME
+            and not assigned.whole
+            and case.roles.is_called(ref, self.liquid)
             for ref, assigned in case.roles.by_well.items()
         )
 
@@ -226,7 +224,6 @@ class NeverReceives(Check):
     liquid: tuple[str, ...] = role_names(required=True)
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Look at what each such well is given."""
         for well in case.wells(self.wells):
             seen: set[Well] = set()
             for one in well.received:
@@ -266,7 +263,6 @@ def _given(case: Case, one: Transfer, origin: Well) -> Violation:
             Site(one.drawn, one.source.ref, f"drew {what}"),
             Site(line, one.well.ref, f"gave it to the {title}"),
         ),
-        one.well,
         (line, one.drawn, what, title),
         (origin, one.well),
     )

@@ -39,7 +39,6 @@ class UniformVolume(Check):
     tolerance: Annotated[float, at_least(0)] = 0.01
 
     def find(self, case: Case) -> Iterator[Result]:
-        """Compare each well with what most wells of its assay get."""
         groups: dict[tuple[str, ...], list[Member]] = {}
         for well in case.wells(self.wells):
             if well.prefilled or case.is_drawn_first(well):
@@ -72,8 +71,6 @@ class UniformVolume(Check):
         return (well.ref.labware, str(well.generation), *sorted(names))
 
     def _compare(self, case: Case, members: list[Member]) -> Iterator[Result]:
-        if len(members) < 2:
-            return
         title = case.titles(self.liquid)
         usual_got = _usual([got for _, got, _ in members])
         usual_total = _usual([total for _, _, total in members])
@@ -95,7 +92,6 @@ class UniformVolume(Check):
             yield Violation(
                 f"The {case.title(well)} {place(well)} {what} ({at(line)}).",
                 (Site(line, well.ref, what),),
-                well,
                 (line, case.title(well), what),
             )
 

@@ -148,4 +148,4 @@ def _violation(imbalance: Imbalance, warning: str, most: float) -> Violation:
     if lines and lines[-1] != visit.line:
         sites.insert(0, Site(lines[-1], well.ref, "last filled here"))
     cause = (visit.line, imbalance.overfilled)
-    return Violation(message, tuple(sites), well, cause, warning=warning)
+    return Violation(message, tuple(sites), cause, warning=warning)

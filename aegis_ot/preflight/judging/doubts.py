@@ -21,20 +21,12 @@ def missing_needs(rule: RuleSpec, roles: Roles) -> list[str]:
     return [need for need in rule.needs if not any(map(roles.known, need.split("|")))]
 
 
-def missing_roles(reading: Reading, rule: RuleSpec, family: str, needs: Sequence[str]) -> Undecided:
-    """A rule whose needs no well is known for, with the roles to be given.
-
-    Args:
-        reading: The protocol.
-        rule: The rule.
-        family: The family whose roles are missing.
-        needs: Of the rule's needs, those that are not known; ``"a|b"`` for either.
-    """
-    roles = reading.database.family(family).roles
-    names = [" or ".join(roles[role].title for role in need.split("|")) for need in needs]
+def missing_roles(rule: RuleSpec, case: Case, needs: Sequence[str]) -> Undecided:
+    """A rule that ``needs`` roles which no well is known for, with the roles to be given."""
+    names = [case.titles(need.split("|")) for need in needs]
     reason = f"nothing says which well is the {' and which the '.join(names)}"
     first = [need.split("|")[0] for need in needs]
-    return Undecided(rule.id, reason, pasted({r: _offered(r, reading, family) for r in first}))
+    return Undecided(rule.id, reason, pasted({role: _offered(role, case) for role in first}))
 
 
 def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
@@ -61,19 +53,17 @@ def unnamed_wells(reading: Reading) -> tuple[WellRef, ...]:
     return tuple(dict.fromkeys(ref for ref in found if roles is None or ref not in roles.by_well))
 
 
-def _offered(role: str, reading: Reading, family: str) -> list[str]:
+def _offered(role: str, case: Case) -> list[str]:
     """Wells on the role's side, as a guard takes them: to be cut down to the right ones.
 
     Those of a more general role (an NTC is one of the reactions), else those of which nothing is
     said, else all: some well is called what it is not.
     """
-    roles = next((one for one in reading.roles if one.family.family == family), None)
-    if roles is None:
-        return []
-    side = roles.family.roles[role].side
-    used = (well.ref for well in reading.trace.wells.values() if well.visits)
-    fitting = [ref for ref in dict.fromkeys(used) if side in ("any", reading.trace.sides(ref)[0])]
-    general = roles.family.closure(role) - {role}
+    roles, family = case.roles, case.family
+    side = family.roles[role].side
+    used = (well.ref for well in case.trace.wells.values() if well.visits)
+    fitting = [ref for ref in dict.fromkeys(used) if side in ("any", case.trace.sides(ref)[0])]
+    general = family.closure(role) - {role}
     kin = [r for r in fitting if r in roles.by_well and roles.by_well[r].role in general]
     offered = kin or [ref for ref in fitting if ref not in roles.by_well] or fitting
     return spelled(offered)[:_MOST_SHOWN]

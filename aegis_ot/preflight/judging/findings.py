@@ -2,49 +2,43 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
 
 from ...vocabulary import Finding, Severity, WellRef
 from ..checks import Violation
-from ..rules import RuleSpec
+from ..rules import Database, RuleSpec
+from .options import Options
 
 
-class Broken(NamedTuple):
-    """A rule and the places where it is broken.
-
-    ``severity`` is the highest that its findings have.
-    """
-
-    rule: RuleSpec
-    severity: Severity
-    violations: list[Violation]
-
-
-def findings_of(broken: Sequence[Broken], strict: bool) -> list[Finding]:
-    """The findings on one protocol, in the order of its lines; ``strict``: all are errors."""
-    findings = [finding for one in without_replaced(broken) for finding in _joined(one, strict)]
+def findings_of(
+    violations: Mapping[str, Sequence[Violation]], database: Database, options: Options
+) -> list[Finding]:
+    """The findings on one protocol, in the order of its lines; ``violations`` by rule."""
+    wells = {rule: {one.well for one in found} for rule, found in violations.items()}
+    findings: list[Finding] = []
+    for name, found in violations.items():
+        _, rule = database.rule(name)
+        # A more telling rule reports these already.
+        replaced = set().union(*(wells.get(other, ()) for other in rule.unless_reported))
+        groups: dict[tuple[object, ...], list[Violation]] = {}
+        for violation in found:
+            if violation.well not in replaced:
+                groups.setdefault(violation.cause, []).append(violation)
+        findings += [_joined(group, rule, options) for group in groups.values()]
     return sorted(findings, key=lambda finding: (min(finding.lines, default=0), finding.rule))
 
 
-def _joined(broken: Broken, strict: bool) -> Iterable[Finding]:
-    """One finding per cause, with all the wells that it spoils."""
-    rule = broken.rule
-    groups: dict[tuple[object, ...], list[Violation]] = {}
-    for violation in broken.violations:
-        groups.setdefault(violation.cause, []).append(violation)
-    for group in groups.values():
-        first = group[0]
-        wells = list(dict.fromkeys(violation.well.ref for violation in group))
-        message = first.message
-        if len(wells) > 1:
-            message = f"{message} Likewise {_listed(wells)}."
-        severity = Severity.WARNING if first.warning else broken.severity
-        if strict:
-            severity = Severity.ERROR
-        sites = tuple(dict.fromkeys(site for one in group for site in one.sites))
-        told = f"{message} {first.warning}".rstrip()
-        yield Finding(rule.id, severity, told, sites, why=rule.rationale, fix=rule.fix)
+def _joined(group: Sequence[Violation], rule: RuleSpec, options: Options) -> Finding:
+    """The finding on violations of one cause, with all the wells that they spoil."""
+    first = group[0]
+    wells = list(dict.fromkeys(violation.well for violation in group))
+    likewise = f" Likewise {_listed(wells)}." if len(wells) > 1 else ""
+    severity = Severity.WARNING if first.warning else Severity(options.severity_of(rule))
+    if options.strict:
+        severity = Severity.ERROR
+    sites = tuple(dict.fromkeys(site for one in group for site in one.sites))
+    told = f"{first.message}{likewise} {first.warning}".rstrip()
+    return Finding(rule.id, severity, told, sites, why=rule.rationale, fix=rule.fix)
 
 
 _MOST_SHOWN = 6
@@ -63,20 +57,3 @@ def _listed(wells: Sequence[WellRef]) -> str:
     ]
     more = f" and {len(further) - _MOST_SHOWN} more" if len(further) > _MOST_SHOWN else ""
     return ", ".join(parts) + more
-
-
-def without_replaced(found: Sequence[Broken]) -> list[Broken]:
-    """Drop violations in wells that a more telling rule already reports."""
-    wells: dict[str, set[WellRef]] = {}
-    for one in found:
-        wells.setdefault(one.rule.id, set()).update(v.well.ref for v in one.violations)
-    return [
-        one._replace(
-            violations=[
-                violation
-                for violation in one.violations
-                if not any(violation.well.ref in wells.get(o, ()) for o in one.rule.unless_reported)
-            ]
-        )
-        for one in found
-    ]

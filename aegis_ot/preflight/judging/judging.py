@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from ...instrumentation import OperationKind
-from ...vocabulary import Remark, Severity, Undecided, WellRef
+from ...vocabulary import Remark, Undecided, WellRef
 from ..checks import Case, Doubt, Violation, make_check
-from ..evidence import Deck, Kind, unknown_places
+from ..evidence import Kind, unknown_places
 from ..rehearsal import Recording
 from ..roles import Roles
 from ..rules import Database, RuleSpec
-from ..source import source_lines
 from ..trace import Contact, Well, places
 from .doubts import missing_needs, missing_roles, undecided_by, unnamed_wells
-from .findings import Broken, findings_of
+from .findings import findings_of
 from .options import Options
 from .reading import Reading, read_recording, uncollected
 from .report import Report, RoleEvidence, verdict_of
@@ -23,6 +22,7 @@ from .waivers import apply_waivers, read_waivers, waiver_remarks
 
 _UNKNOWN_VOLUME = Doubt("how high the liquid stands is not known; say it with load_liquid")
 _DOUBTFUL = "It rests on what is only read of a well: {}."
+_IDLE = Remark("It moves no liquid: there is nothing to judge.")
 _UNKNOWN_ASSAY = Doubt('the assay is not known; say it with assay="..."')
 
 
@@ -36,44 +36,32 @@ def judge(recording: Recording, database: Database, options: Options | None = No
     return judge_reading(read_recording(recording, database, options or Options()))
 
 
+@uncollected()
 def judge_reading(reading: Reading) -> Report:
     """Judge a protocol that was read already; to keep the reading, or to judge it again."""
-    options = reading.options
-    with uncollected():
-        broken: list[Broken] = []
-        undecided: list[Undecided] = []
-        for rule, case in reading.cases():
-            severity = options.severity_of(rule)
-            if severity == "off":
-                continue
-            missing = missing_needs(rule, case.roles)
-            if missing:
-                family = case.family.family
-                undecided.append(missing_roles(reading, rule, family, missing))
-                continue
-            violations, doubt = _judge_rule(rule, case, bool(options.assay))
-            broken.append(Broken(rule, Severity(severity), violations))
-            if doubt:
-                undecided.append(undecided_by(doubt, rule, case))
-        open_ = {question.rule for question in undecided}
-        judged = [one.rule.id for one in broken if one.rule.id not in open_]
-        return _report(reading, broken, undecided, judged)
+    judged = {
+        rule.id: _judge_rule(rule, case)
+        for rule, case in reading.cases()
+        if reading.options.severity_of(rule) != "off"
+    }
+    violations = {rule: found for rule, (found, _) in judged.items()}
+    undecided = [open_ for _, open_ in judged.values() if open_ and reading.trace.visits]
+    return _report(reading, violations, undecided)
 
 
-def _judge_rule(
-    rule: RuleSpec, case: Case, assay_given: bool
-) -> tuple[list[Violation], Doubt | None]:
+def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided | None]:
     """Where a rule is broken, or why that cannot be said (``None`` if it can)."""
-    sure = case.confident or assay_given
-    if not sure and not case.family.default:
-        return [], _UNKNOWN_ASSAY
+    if missing := missing_needs(rule, case.roles):
+        return [], missing_roles(rule, case, missing)
+    if not case.confident and not case.family.default:
+        return [], undecided_by(_UNKNOWN_ASSAY, rule, case)
     violations: list[Violation] = []
     doubts: list[Doubt] = []
     for number, check in enumerate(rule.checks):
         for result in make_check(check, rule.id).find(case):
             if isinstance(result, Doubt):
                 doubts.append(result)
-            elif not sure and not _plain(result, case.roles):
+            elif not case.confident and not _plain(result, case.roles):
                 doubts.append(_UNKNOWN_ASSAY)
             elif case.left_over and result.contact is Contact.NEAR:
                 doubts.append(_UNKNOWN_VOLUME)
@@ -81,9 +69,9 @@ def _judge_rule(
                 warning = _why_warning(result, case)
                 cause = (number, warning, *result.cause)
                 violations.append(replace(result, cause=cause, warning=warning))
-    if not sure and not violations:
+    if not case.confident and not violations:
         doubts.append(_UNKNOWN_ASSAY)
-    return violations, doubts[0] if doubts and not violations else None
+    return violations, undecided_by(doubts[0], rule, case) if doubts and not violations else None
 
 
 def _plain(violation: Violation, roles: Roles) -> bool:
@@ -127,49 +115,39 @@ def _is_named(well: Well, roles: Roles) -> bool:
     if assigned is None or assigned.kind < Kind.NAME:
         return False
     drawn = any(visit.kind is OperationKind.ASPIRATE for visit in well.visits)
-    return drawn or not (assigned.evidence[0].whole and assigned.role not in roles.refined)
+    # Some roles only say where something comes from or goes: others are kinds of them.
+    general = any(assigned.role in spec.parents for spec in roles.family.roles.values())
+    return drawn or general or not assigned.evidence[0].whole
 
 
 def _report(
-    reading: Reading,
-    broken: Sequence[Broken],
-    undecided: Sequence[Undecided],
-    judged: Sequence[str],
+    reading: Reading, violations: Mapping[str, list[Violation]], undecided: Sequence[Undecided]
 ) -> Report:
-    recording = reading.recording
+    recording, options, database = reading.recording, reading.options, reading.database
     waivers = read_waivers(reading.facts)
-    standing, waived = apply_waivers(findings_of(broken, reading.options.strict), waivers)
-    known = [rule.id for rule in reading.database.rules]
-    idle = (
-        [] if reading.trace.visits else [Remark("It moves no liquid: there is nothing to judge.")]
-    )
+    standing, waived = apply_waivers(findings_of(violations, database, options), waivers)
+    open_ = {question.rule for question in undecided}
+    judged = [rule for rule in violations if rule not in open_]
+    known = [rule.id for rule in database.rules]
+    misplaced = unknown_places(reading.deck, options.roles, database.common.levels)
     return Report(
         file=recording.file,
         family=reading.families[0].family if reading.families else "",
         verdict=verdict_of(standing),
         findings=tuple(standing),
-        undecided=() if idle else tuple(dict.fromkeys(undecided)),
+        undecided=tuple(dict.fromkeys(undecided)),
         roles=tuple(_evidence(reading.roles)),
         families=reading.families,
         waived=tuple(waived),
         remarks=(
-            *idle,
-            *_misplaced(reading),
+            *([] if reading.trace.visits else [_IDLE]),
+            *map(Remark, misplaced),
             *_conflicts(reading.roles),
             *waiver_remarks(waivers, waived, judged, known),
         ),
         judged=tuple(judged),
-        lines=tuple(source_lines(recording.text)),
         unnamed=unnamed_wells(reading),
     )
-
-
-def _misplaced(reading: Reading) -> Iterable[Remark]:
-    """Roles that were given for wells that the deck does not have."""
-    given = reading.options.roles
-    if given:
-        deck = Deck(reading.trace, reading.recording.names)
-        yield from map(Remark, unknown_places(deck, given, reading.database.common.levels))
 
 
 def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:
@@ -179,8 +157,7 @@ def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:
         for conflict, refs in roles.conflicts.items():
             wells.setdefault(conflict, {}).update(dict.fromkeys(refs))
     for conflict, found in wells.items():
-        told = f"What {places(list(found))} is for is said in two ways: {conflict}."
-        yield Remark(told)
+        yield Remark(f"What {places(list(found))} is for is said in two ways: {conflict}.")
 
 
 def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:

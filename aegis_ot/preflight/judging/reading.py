@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from ...vocabulary import WellRef
 from ..checks import Case
-from ..evidence import Evidence, gather
+from ..evidence import Deck, Evidence, gather
 from ..rehearsal import Recording
 from ..roles import (
     Roles,
@@ -17,9 +17,8 @@ from ..roles import (
     derive,
     implied_contents,
     infer_families,
-    settle_diluent,
 )
-from ..rules import Database, Family, RuleSpec
+from ..rules import Database, RuleSpec
 from ..source import SourceFacts, lexicon_of, read_source
 from ..trace import build_trace
 from .options import Options, check_options
@@ -31,15 +30,11 @@ _PLAUSIBLE = 1.0
 class Reading:
     """What a protocol is taken for; made once, then judged, shown to a model, judged again.
 
-    Args:
-        recording: The rehearsal.
-        database: The rules.
-        options: How to judge.
-        facts: What its text says as Python.
-        more: Evidence beside what is gathered, a model's.
+    ``more`` is evidence beside what is gathered: a model's.
 
     Attributes:
         trace: What it does.
+        deck: Its labware, under all names.
         evidence: All that speaks for roles.
         families: All families, the likeliest first.
         roles: What the wells are for, in each family that applies.
@@ -61,13 +56,15 @@ class Reading:
         self.trace = build_trace(recording.log, recording.labware, common.pauses)
         gathered = gather(self.trace, recording.names, facts, options.roles, common)
         self.evidence = (*gathered, *more)
-        self._assigned: dict[str, Roles] = {}
+        self._assigned = {
+            family.family: assign_roles(family, common, self.evidence, self.trace)
+            for family in database.families
+        }
         found = infer_families(
-            database, facts, self.evidence, self.trace, self._roles_of, options.assay
+            database, facts, self.evidence, self.trace, self._assigned, options.assay
         )
         self.families = tuple(found)
-        applying = [database.family(one.family) for one in found if one.applies]
-        self.roles = tuple(map(self._roles_of, applying))
+        self.roles = tuple(self._assigned[one.family] for one in found if one.applies)
         prefilled = {ref for one in self.roles for ref in implied_contents(one, self.trace)}
         # Read again, now that roles say which wells held liquid before the run.
         usage = self.trace.usage
@@ -76,8 +73,8 @@ class Reading:
             log, labware = recording.log, recording.labware
             self.trace = build_trace(log, labware, common.pauses, prefilled.__contains__)
         for one in self.roles:
-            settle_diluent(one, self.trace)
             derive(one, self.trace)
+        self.deck = Deck(self.trace, recording.names)
         self.waste = self._called(common.waste)
         self.unsure = self._called(common.prefilled) | self._implied_elsewhere()
 
@@ -89,9 +86,9 @@ class Reading:
 
     def cases(self) -> Iterator[tuple[RuleSpec, Case]]:
         """Every rule that concerns this protocol, with the case that it is judged on."""
-        families = {inference.family: inference for inference in self.families}
-        for roles in self.roles:
-            inference = families[roles.family.family]
+        applying = [inference for inference in self.families if inference.applies]
+        known = {roles.family.family: roles for roles in self.roles}
+        for inference, roles in zip(applying, self.roles, strict=True):
             case = self._case(roles, inference.sure, inference.left_over)
             for rule in roles.family.rules:
                 if rule.scope == "family":
@@ -99,15 +96,11 @@ class Reading:
         for family in self.database.families:
             for rule in family.rules:
                 if rule.scope == "all":
-                    known = next((r for r in self.roles if r.family is family), Roles(family))
-                    yield rule, self._case(known, True)
+                    yield rule, self._case(known.get(family.family, Roles(family)), True)
 
     def with_evidence(self, more: Sequence[Evidence], assay: Sequence[str] = ()) -> Reading:
-        """The same recording read with more evidence: nothing is rehearsed again.
-
-        Args:
-            more: Further evidence, a model's.
-            assay: The family that it is taken for; as before if empty.
+        """The same recording read with more evidence, and as another ``assay`` if one is named:
+        nothing is rehearsed again.
         """
         options = replace(self.options, assay=tuple(assay)) if assay else self.options
         return Reading(self.recording, self.database, options, self.facts, more)
@@ -115,12 +108,6 @@ class Reading:
     def _case(self, roles: Roles, sure: bool, left_over: bool = False) -> Case:
         common, waste, unsure = self.database.common, self.waste, self.unsure
         return Case(self.trace, roles, common, sure, waste, unsure, left_over)
-
-    def _roles_of(self, family: Family) -> Roles:
-        if family.family not in self._assigned:
-            roles = assign_roles(family, self.database.common, self.evidence, self.trace)
-            self._assigned[family.family] = roles
-        return self._assigned[family.family]
 
     def _called(self, words: Sequence[str]) -> frozenset[WellRef]:
         """Wells whose names, labels or liquids have one of these words."""
@@ -139,15 +126,15 @@ class Reading:
             ref
             for inference in self.families
             if not inference.applies and inference.score >= _PLAUSIBLE
-            for ref in implied_contents(
-                self._roles_of(self.database.family(inference.family)), trace
-            )
+            for ref in implied_contents(self._assigned[inference.family], trace)
         )
 
 
 @contextmanager
 def uncollected() -> Iterator[None]:
-    """Hold the garbage collector: a trace is many small objects, none of them garbage."""
+    """Hold the garbage collector, which takes a third of the time of a verdict: a trace is many
+    small objects, none of them garbage.
+    """
     was_on = gc.isenabled()
     gc.disable()
     try:
@@ -157,6 +144,7 @@ def uncollected() -> Iterator[None]:
             gc.enable()
 
 
+@uncollected()
 def read_recording(recording: Recording, database: Database, options: Options) -> Reading:
     """Read a recording with the eyes of every family that applies.
 
@@ -165,5 +153,4 @@ def read_recording(recording: Recording, database: Database, options: Options) -
         RuleError: If a family given by hand does not exist.
     """
     check_options(options, database)
-    with uncollected():
-        return Reading(recording, database, options, read_source(recording.text))
+    return Reading(recording, database, options, read_source(recording.text))

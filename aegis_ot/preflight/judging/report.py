@@ -38,7 +38,6 @@ class Report:
         notes: What a model has to say beyond findings.
         remarks: Conflicting evidence, stale and faulty waivers.
         judged: Rules that were judged to the end.
-        lines: The protocol's source lines.
         unnamed: Wells that the run uses and of which nothing says what they are for.
     """
 
@@ -53,7 +52,6 @@ class Report:
     notes: tuple[str, ...] = ()
     remarks: tuple[Remark, ...] = ()
     judged: tuple[str, ...] = ()
-    lines: tuple[str, ...] = ()
     unnamed: tuple[WellRef, ...] = ()
 
 

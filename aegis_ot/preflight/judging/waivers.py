@@ -13,7 +13,7 @@ from __future__ import annotations
 import ast
 import difflib
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from ...vocabulary import Finding, Remark
@@ -72,12 +72,10 @@ class Waived:
 def read_waivers(facts: SourceFacts) -> list[Waiver]:
     """All waivers of a protocol."""
     waivers: list[Waiver] = []
-    statements: dict[int, tuple[int, ...]] = {}
     for line, comment in facts.comments.items():
         match = _WAIVER.search(comment)
         if match is not None:
-            statements = statements or _statements(facts)
-            waivers.append(_waiver(line, match, _covered(line, facts, statements)))
+            waivers.append(_waiver(line, match, _covered(line, facts)))
         elif _is_misspelt(comment):
             waivers.append(Waiver(line, (), (), "", f"is not understood: {_WRITE}"))
     return waivers
@@ -104,46 +102,38 @@ def _waiver(line: int, match: re.Match[str], covered: tuple[int, ...]) -> Waiver
     return Waiver(line, covered, rules, reason, problem)
 
 
-def _statements(facts: SourceFacts) -> dict[int, tuple[int, ...]]:
-    """By line, the lines of the innermost statement there; of a compound one, of its head."""
-    found: dict[int, tuple[int, ...]] = {}
+def _statement_at(line: int, facts: SourceFacts) -> tuple[int, ...]:
+    """The lines of the innermost statement there; of a compound one, of its head."""
+    found = range(line, line + 1)
     for part in ast.walk(facts.tree):  # from the outermost to the innermost
         if isinstance(part, ast.stmt):
             body = getattr(part, "body", None)
             last = body[0].lineno - 1 if body else part.end_lineno or part.lineno
-            lines = tuple(range(part.lineno, max(last, part.lineno) + 1))
-            found.update(dict.fromkeys(lines, lines))
-    return found
+            lines = range(part.lineno, max(last, part.lineno) + 1)
+            found = lines if line in lines else found
+    return tuple(found)
 
 
-def _covered(
-    line: int, facts: SourceFacts, statements: Mapping[int, tuple[int, ...]]
-) -> tuple[int, ...]:
+def _covered(line: int, facts: SourceFacts) -> tuple[int, ...]:
     """The lines of the statement at ``line`` or below it; empty: the whole file."""
     if line not in facts.own_line:
-        return statements.get(line, (line,))
+        return _statement_at(line, facts)
     texts = {first for first, _ in facts.docstrings}
     if all(node.lineno > line or node.lineno in texts for node in facts.tree.body):
         return ()  # before the first statement
     below = line + 1
     while below in facts.own_line:
         below += 1
-    return (line, *statements.get(below, (below,)))
+    return (line, *_statement_at(below, facts))
 
 
 def apply_waivers(
     findings: Iterable[Finding], waivers: Sequence[Waiver]
 ) -> tuple[list[Finding], list[Waived]]:
     """Findings that stand, and findings that are waived."""
-    standing: list[Finding] = []
-    waived: list[Waived] = []
-    for finding in findings:
-        cover = next((waiver for waiver in waivers if waiver.covers(finding)), None)
-        if cover is None:
-            standing.append(finding)
-        else:
-            waived.append(Waived(finding, cover))
-    return standing, waived
+    covers = [(one, next((w for w in waivers if w.covers(one)), None)) for one in findings]
+    waived = [Waived(finding, waiver) for finding, waiver in covers if waiver is not None]
+    return [finding for finding, waiver in covers if waiver is None], waived
 
 
 def waiver_remarks(
@@ -151,31 +141,24 @@ def waiver_remarks(
     waived: Sequence[Waived],
     judged: Collection[str],
     known: Collection[str],
-) -> list[Remark]:
+) -> Iterable[Remark]:
     """What is wrong with the waivers of a protocol, each with its line.
 
-    Args:
-        waivers: All of them.
-        waived: What they covered.
-        judged: Rules that were judged to the end.
-        known: Every rule that exists.
+    ``judged`` are the rules that were judged to the end, ``known`` all that exist.
     """
-    remarks: list[Remark] = []
-    used = {(w.waiver.line, w.finding.rule.upper()) for w in waived}
+    used = {(one.waiver, one.finding.rule.upper()) for one in waived}
     names = {name.upper(): name for name in known}
     for waiver in waivers:
         if waiver.problem:
-            remarks.append(Remark(f"The waiver {waiver.problem}.", waiver.line))
+            yield Remark(f"The waiver {waiver.problem}.", waiver.line)
             continue
         for rule in waiver.rules:
             if rule not in names and rule != MODEL:
                 near = difflib.get_close_matches(rule, names, n=2, cutoff=0.6)
                 hint = f"; did you mean {' or '.join(names[n] for n in near)}?" if near else "."
                 told = f"The waiver names {rule}, but there is no such rule{hint}"
-                remarks.append(Remark(told, waiver.line))
-        covered = {rule for line, rule in used if line == waiver.line}
-        idle = [r for r in judged if r.upper() in waiver.rules and r.upper() not in covered]
+                yield Remark(told, waiver.line)
+        idle = [r for r in judged if r.upper() in waiver.rules and (waiver, r.upper()) not in used]
         if idle:
             told = f"The waiver of {', '.join(idle)} is stale: nothing is found there."
-            remarks.append(Remark(told, waiver.line))
-    return remarks
+            yield Remark(told, waiver.line)

@@ -5,10 +5,9 @@ In this order: a :class:`Dossier` is made from the kept reading, the model is as
 source and trace, and what is left is merged into the report. Standard library only.
 """
 
-from .dossier import Dossier
+from .exchange import Citation, Dossier, Opinion, RoleProposal, RuleAnswer, is_known, no_answer
 from .making import check_with_dossier, make_dossier, rule_text
 from .merging import merge
-from .opinion import Citation, Opinion, RoleProposal, RuleAnswer, is_known, no_answer
 from .proposals import verify_proposals
 
 __all__ = [

@@ -19,7 +19,7 @@ from ..judging import (
 from ..rehearsal import Recording, Script, record
 from ..rules import Database, RuleSpec
 from ..trace import Trace, places, row_column, trace_table
-from .dossier import DeckItem, Dossier, RoleLine, RuleBrief
+from .exchange import DeckItem, Dossier, RoleLine, RuleBrief
 
 LONGEST_SOURCE = 40_000
 """Characters of source that are shown; what is cut is said."""
@@ -29,12 +29,7 @@ MOST_ROLES = 40
 
 
 def make_dossier(reading: Reading, report: Report) -> Dossier:
-    """Put together what there is to know.
-
-    Args:
-        reading: Of the protocol.
-        report: What the checks made of it.
-    """
+    """Put together what there is to know of a protocol and of what the checks made of it."""
     recording, trace = reading.recording, reading.trace
     wells = [well.ref for well in trace.wells.values()]
     wells += [role.well for role in report.roles]
@@ -45,7 +40,7 @@ def make_dossier(reading: Reading, report: Report) -> Dossier:
         family=report.family,
         family_known=reading.family_known,
         table=trace_table(trace),
-        deck=_deck(trace),
+        deck=tuple(_deck(trace)),
         wells=tuple(dict.fromkeys(wells)),
         lines=_lines(recording),
         roles=_roles(report),
@@ -74,16 +69,14 @@ def check_with_dossier(
     return report, make_dossier(reading, report), reading
 
 
-def _deck(trace: Trace) -> tuple[DeckItem, ...]:
-    items = []
+def _deck(trace: Trace) -> Iterable[DeckItem]:
     for info in trace.labware.values():
         if not info.holds_liquid:
             continue
         places_ = [row_column(name) for name in info.wells]
         rows, columns = max(p[0] for p in places_) + 1, max(p[1] for p in places_) + 1
         label = info.label or info.display_name
-        items.append(DeckItem(info.key, info.slot, label, info.load_name, rows, columns))
-    return tuple(items)
+        yield DeckItem(info.key, info.slot, label, info.load_name, rows, columns)
 
 
 def _lines(recording: Recording) -> tuple[int, ...]:
@@ -123,18 +116,13 @@ def _levels(items: Sequence[RoleEvidence]) -> str:
 
 
 def _rules(reading: Reading, report: Report) -> Iterable[RuleBrief]:
-    applying = {inference.family for inference in report.families if inference.applies}
-    open_rules = {undecided.rule for undecided in report.undecided}
     shipped = str(shipped_rules())
     for family in reading.database.families:
         for rule in family.rules:
             severity = reading.options.severity_of(rule)
-            if severity == "off":
-                continue
-            judged = rule.scope == "all" or family.family in applying
-            decided = judged and rule.id not in open_rules
-            text = "" if family.path.startswith(shipped) else _own_rule(rule)
-            yield RuleBrief(rule.id, Severity(severity), decided, text)
+            if severity != "off":
+                text = "" if family.path.startswith(shipped) else _own_rule(rule)
+                yield RuleBrief(rule.id, Severity(severity), rule.id in report.judged, text)
 
 
 def _wanted(reading: Reading, report: Report) -> Iterable[str]:

@@ -25,23 +25,17 @@ from ..judging import (
     spelled,
     verdict_of,
 )
-from .dossier import Dossier
-from .opinion import Opinion, is_known, no_answer
+from .exchange import Opinion, is_known, no_answer
 from .proposals import verify_proposals
 
 
-def merge(report: Report, opinion: Opinion, dossier: Dossier, reading: Reading) -> Report:
+def merge(report: Report, opinion: Opinion, reading: Reading) -> Report:
     """The checks' report with the model's opinion added; see the module for what that may do.
 
-    Args:
-        report: The checks' report.
-        opinion: The model's.
-        dossier: What the model was asked about.
-        reading: What the report judges; judged again with the roles that the model read.
+    The ``reading`` that the report judges is judged again with the roles that the model read.
     """
     if not opinion.answered:
         return replace(report, undecided=(*report.undecided, no_answer(opinion)))
-    decided = {brief.id for brief in dossier.rules if brief.decided}
     notes = [f"{opinion.model}: {opinion.summary}"] if opinion.summary else []
     severity = Severity.ERROR if reading.options.strict else Severity.WARNING
     accepted, rejected, second = _judged_again(reading, opinion)
@@ -54,10 +48,10 @@ def merge(report: Report, opinion: Opinion, dossier: Dossier, reading: Reading) 
             source="model",
         )
         for finding in (second.findings if second else ())
-        if finding.rule not in decided
+        if finding.rule not in report.judged
     ]
     for finding in opinion.findings:
-        if finding.rule in decided:
+        if finding.rule in report.judged:
             notes.append(
                 f"{opinion.model} disagrees with the check of {finding.rule}, which stands: "
                 f"{finding.message}"
@@ -85,22 +79,14 @@ def _judged_again(
     reading: Reading, opinion: Opinion
 ) -> tuple[list[Evidence], list[str], Report | None]:
     """The roles that stand, why others do not, and what the checks say with them."""
-    assay = _assay(reading, opinion)
-    if not assay and not opinion.proposals:
-        return [], [], None
+    # The family that the model reads, where the checks only guess.
+    known = {family.family for family in reading.database.families if not family.default}
+    assay = (opinion.family,) if opinion.family in known and not reading.family_known else ()
     seen = reading.with_evidence((), assay) if assay else reading
     accepted, rejected = verify_proposals(opinion.proposals, seen, opinion.model)
     if not assay and not accepted:
         return accepted, rejected, None
     return accepted, rejected, judge_reading(reading.with_evidence(accepted, assay))
-
-
-def _assay(reading: Reading, opinion: Opinion) -> tuple[str, ...]:
-    """The family that the model reads, where the checks only guess."""
-    if reading.family_known:
-        return ()
-    known = {family.family for family in reading.database.families if not family.default}
-    return (opinion.family,) if opinion.family in known else ()
 
 
 def _questions(

@@ -9,11 +9,11 @@ import re
 from collections.abc import Sequence
 
 from ...vocabulary import WellRef, one_line
-from ..evidence import Deck, Evidence, Kind
+from ..evidence import Evidence, Kind
 from ..judging import Reading
 from ..roles import Roles
 from ..source import level_of, source_lines
-from .opinion import Citation, RoleProposal
+from .exchange import Citation, RoleProposal
 
 
 class Rejected(Exception):
@@ -25,10 +25,7 @@ def verify_proposals(
 ) -> tuple[list[Evidence], list[str]]:
     """The proposals that stand, as evidence; and the others, each with the reason in a sentence.
 
-    Args:
-        proposals: What the model proposes.
-        reading: Of the protocol, in the eyes of the families that are to be judged.
-        model: Whose they are.
+    ``reading`` is the protocol in the eyes of the families that are to be judged.
     """
     verifier = _Verifier(reading, model)
     accepted: list[Evidence] = []
@@ -48,7 +45,6 @@ class _Verifier:
     def __init__(self, reading: Reading, model: str) -> None:
         self._reading = reading
         self._model = model
-        self._deck = Deck(reading.trace, reading.recording.names)
         self._lines = source_lines(reading.recording.text)
         self._taken: dict[WellRef, str] = {}
 
@@ -66,8 +62,7 @@ class _Verifier:
         self._check_quotes(proposal.citations)
         for roles in families:
             for ref in wells:
-                self._check_side(roles, proposal.role, ref)
-                self._check_others(roles, proposal.role, ref)
+                self._check_well(roles, proposal.role, ref)
         levels = self._levels(proposal, len(wells))
         self._taken.update(dict.fromkeys(wells, proposal.role))
         said = proposal.citations[0]
@@ -88,11 +83,11 @@ class _Verifier:
         """
         found: dict[WellRef, None] = {}
         for place in proposal.wells:
-            named = self._deck.at(place) if place.rpartition(":")[2].strip() else ()
+            named = self._reading.deck.at(place) if place.rpartition(":")[2].strip() else ()
             if not named:
                 raise Rejected(f"there is no well {place!r} on the deck")
             found.update(dict.fromkeys(named))
-        used = {ref.labware for ref in found if self._deck.used_wells([ref.labware])}
+        used = {ref.labware for ref in found if self._reading.deck.used_wells([ref.labware])}
         if not used:
             raise Rejected("the run does not use this labware" if found else "it names no well")
         if len(used) > 1:
@@ -110,16 +105,14 @@ class _Verifier:
             if not inside or quote not in _plain(self._lines[said.line - 1]):
                 raise Rejected(f"{said.quote!r} does not stand at line {said.line}")
 
-    def _check_side(self, roles: Roles, role: str, ref: WellRef) -> None:
+    def _check_well(self, roles: Roles, role: str, ref: WellRef) -> None:
+        """Hold a role against how the run uses the well, and against what else is said of it."""
         spec = roles.family.roles[role]
         side, passes_on = self._reading.trace.sides(ref)
-        if spec.side in ("any", side) or (passes_on and spec.side == "source"):
-            return
-        use = {"source": "drawn from", "destination": "filled"}
-        used = use.get(side, "neither drawn from nor filled")
-        raise Rejected(f"{ref.address} is {used} first, and a {spec.title} is {use[spec.side]}")
-
-    def _check_others(self, roles: Roles, role: str, ref: WellRef) -> None:
+        if spec.side not in ("any", side) and not (passes_on and spec.side == "source"):
+            use = {"source": "drawn from", "destination": "filled"}
+            used = use.get(side, "neither drawn from nor filled")
+            raise Rejected(f"{ref.address} is {used} first, and a {spec.title} is {use[spec.side]}")
         assigned = roles.by_well.get(ref)
         if assigned is not None and not roles.family.are_kin(role, assigned.role):
             said = assigned.evidence[0].citation

@@ -2,16 +2,14 @@
 
 from .assay import Inference, infer_families
 from .assigning import assign_roles
-from .deriving import derive, implied_contents, settle_diluent
-from .roles import Assignment, Roles
+from .deriving import derive, implied_contents
+from .roles import Roles
 
 __all__ = [
-    "Assignment",
     "Inference",
     "Roles",
     "assign_roles",
     "derive",
     "implied_contents",
     "infer_families",
-    "settle_diluent",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -60,18 +60,12 @@ def infer_families(
     facts: SourceFacts,
     evidence: Sequence[Evidence],
     trace: Trace,
-    roles_of: Callable[[Family], Roles],
+    assigned: Mapping[str, Roles],
     given: Sequence[str] = (),
 ) -> list[Inference]:
-    """All families, the likeliest first.
+    """All families, the likeliest first, with what their wells are ``assigned`` in their eyes.
 
-    Args:
-        database: The rule database.
-        facts: What the text says.
-        evidence: Names, liquids and labels.
-        trace: For the shapes: a chain of transfers speaks for a serial dilution.
-        roles_of: What the wells are in the eyes of a family.
-        given: Families given by hand; they apply, and no other does.
+    Families ``given`` by hand apply, and no other does.
     """
     texts = list(_texts(facts, evidence, trace))
     shapes = shapes_of(trace)
@@ -79,49 +73,46 @@ def infer_families(
     for family in database.families:
         found = _found(family, texts, database.common)
         found += _seen(family, shapes, bool(found))
-        if family.known_by and found and not (_score(found) >= SURE and _defines(found)):
+        if family.known_by and found and not _is_known(found):
             in_texts = _shown(found) and any(one.defining for one in found)
-            assigned = roles_of(family).by_well.values()
-            named = {a.role for a in assigned if in_texts or a.kind not in DOUBTFUL}
+            by_well = assigned[family.family].by_well.values()
+            named = {one.role for one in by_well if in_texts or one.kind not in DOUBTFUL}
             found += _named(family, named, sum(one.worth for one in found if one.worth > 0))
         found.sort(key=lambda one: -one.worth)
         scored.append((max(_score(found), 0.0), family, found))
     scored.sort(key=lambda item: -item[0])
     total = sum(score for score, _, _ in scored) or 1.0
-    known = [score for score, _, found in scored if score >= SURE and _defines(found)]
-    best = max(known, default=0.0)
+    best = max((score for score, _, found in scored if _is_known(found)), default=0.0)
     # Where wells are given what a family's own are, its words outweigh "source" and "transfer";
     # and nothing is told twice, as the one family's fault and as the other's.
     outdone = any(
-        not family.default and score >= max(SURE, ALSO * best) and _defines(found) and _shown(found)
+        not family.default and score >= ALSO * best and _is_known(found) and _shown(found)
         for score, family, found in scored
     )
     inferences = []
     for score, family, found in scored:
         name, reasons = family.family, tuple(one.said for one in found if one.worth > 0)[:6]
-        sure = score >= SURE and _defines(found)
+        sure = _is_known(found)
         applies = sure and (score == best or (score >= ALSO * best and _said_outright(found)))
         if given:
             applies = sure = name in given
         elif family.default:
             applies = applies and score == best and not outdone
-            sure = sure if known else _nothing_against(found)
+            sure = sure if best else _nothing_against(found)
         confidence = 1.0 if given and applies else score / total * min(1.0, score / (2 * SURE))
         inferences.append(Inference(name, score, round(confidence, 2), reasons, applies, sure))
+    if not given and not any(inference.applies for inference in inferences):
+        inferences = [
+            replace(i, reasons=(*i.reasons, "no other family fits"), applies=True, left_over=True)
+            if database.family(i.family).default
+            else i
+            for i in inferences
+        ]
     # What the run's own shape speaks against comes after another that applies.
     odd = {
         family.family for _, family, found in scored if any(f.shape and f.worth < 0 for f in found)
     }
-    if given or any(inference.applies for inference in inferences):
-        inferences.sort(key=lambda i: (not i.applies, i.family in odd, -i.score))
-        return inferences
-    inferences = [
-        replace(i, reasons=(*i.reasons, "no other family fits"), applies=True, left_over=True)
-        if database.family(i.family).default
-        else i
-        for i in inferences
-    ]
-    return sorted(inferences, key=lambda i: (not i.left_over, -i.score))
+    return sorted(inferences, key=lambda i: (not i.applies, i.family in odd, -i.score))
 
 
 def _texts(
@@ -163,6 +154,11 @@ class _Found(NamedTuple):
 
 def _score(found: Sequence[_Found]) -> float:
     return sum(one.worth for one in found)
+
+
+def _is_known(found: Sequence[_Found]) -> bool:
+    """Whether enough speaks for the family, and something defines it."""
+    return _score(found) >= SURE and _defines(found)
 
 
 def _defines(found: Sequence[_Found]) -> bool:

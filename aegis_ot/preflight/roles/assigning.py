@@ -35,27 +35,16 @@ def assign_roles(
     evidence: Sequence[Evidence],
     trace: Trace,
 ) -> Roles:
-    """Give each well the role that the strongest evidence names.
-
-    Args:
-        family: Whose roles and words.
-        common: Words for levels.
-        evidence: All evidence.
-        trace: For how the run uses each well, and the columns that multi-channel pipettes reach.
-    """
+    """Give each well the role that the strongest evidence names, and that its use allows."""
     roles = Roles(family)
     names = RoleNames(family, common)
     candidates: dict[WellRef, list[Candidate]] = {}
     for one in evidence:
         named = names.of(one)
         worth = _worth(one, names)
-        fitting: dict[tuple[str, bool], str | None] = {}
         placed = False
         for ref, level in zip(one.wells, _levels(one, common), strict=True) if named else ():
-            sides = trace.sides(ref)
-            if sides not in fitting:
-                fitting[sides] = _fitting(named, roles, sides, one)
-            role = fitting[sides]
+            role = _fitting(named, roles, trace.sides(ref), one)
             if role is not None and not (family.roles[role].dosed and level == 0):
                 placed = True
                 candidates.setdefault(ref, []).append(Candidate(worth, role, one, level))
@@ -130,8 +119,7 @@ def _chosen(
         finer = best.role in closure(other.role) - {other.role}
         if finer and not other.evidence.whole and other.evidence.kind is not Kind.PASSING_NAME:
             best = other
-    differing = [other for other in found if not are_kin(best.role, other.role)]
-    rivals = [other for other in differing if other.worth == best.worth]
+    rivals = [o for o in found if o.worth == best.worth and not are_kin(best.role, o.role)]
     conflict = ""
     if rivals:
         conflict = f"{best.evidence.citation} against {rivals[0].evidence.citation}"
@@ -147,11 +135,10 @@ def _chosen(
         else:
             if best.evidence.kind <= Kind.PASSING_NAME:
                 return None
-    agreeing = [other for other in found if are_kin(best.role, other.role)]
+    agreeing = [best, *(other for other in found if are_kin(best.role, other.role))]
     # By identity: each piece is there once, and comparing pieces of many wells is dear.
-    evidence = {id(one.evidence): one.evidence for one in (best, *agreeing)}
-    levels = [other.level for other in agreeing if other.level is not None]
-    level = best.level if best.level is not None else next(iter(levels), None)
+    evidence = {id(one.evidence): one.evidence for one in agreeing}
+    level = next((one.level for one in agreeing if one.level is not None), None)
     return Assignment(best.role, tuple(evidence.values()), level, conflict)
 
 

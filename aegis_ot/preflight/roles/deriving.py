@@ -28,6 +28,7 @@ def derive(roles: Roles, trace: Trace) -> None:
     A reaction is what template goes into; wells that only pass liquid on (a dilution plate) are
     none. A source without a name is what the wells that it feeds are named for.
     """
+    _settle_diluent(roles, trace)
     _unsay_by_use(roles, trace)
     _unsay_ends(roles, trace)
     for name, spec in roles.family.roles.items():
@@ -146,19 +147,14 @@ def _derive_receiving(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> 
             continue
         assigned = roles.by_well.get(well.ref)
         unlike = assigned is not None and assigned.role not in roles.family.closure(name)
-        if assigned is not None and unlike and not assigned.whole:
-            continue
-        if unlike and _receives_what_it_is_named_for(roles, well):
-            continue
+        if assigned is not None and unlike:
+            named_for = roles.family.roles[assigned.role].receives
+            if not assigned.whole or not named_for or _receives(roles, well, named_for, ()):
+                continue
         if _receives(roles, well, spec.receives, (name,)):
             if unlike:
                 del roles.by_well[well.ref]  # calibrators stand on the "CSF plate" as well
             roles.derive(well.ref, name)
-
-
-def _receives_what_it_is_named_for(roles: Roles, well: Well) -> bool:
-    wanted = roles.family.roles[roles.by_well[well.ref].role].receives
-    return not wanted or _receives(roles, well, wanted, ())
 
 
 def _receives(roles: Roles, well: Well, wanted: Collection[str], made: Collection[str]) -> bool:
@@ -192,7 +188,7 @@ def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
     return set(found)
 
 
-def settle_diluent(roles: Roles, trace: Trace) -> None:
+def _settle_diluent(roles: Roles, trace: Trace) -> None:
     """Where nothing is called the diluent, find it among the buffers, or by its use."""
     spec = roles.family.series_roles
     if not spec.diluent or any(roles.known(role) for role in spec.diluent):

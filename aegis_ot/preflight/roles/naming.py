@@ -14,12 +14,7 @@ _SEVERAL = 3
 
 
 class RoleNames:
-    """The words of one family's roles.
-
-    Args:
-        family: The family.
-        common: Words of no family.
-    """
+    """The words of one family's roles."""
 
     def __init__(self, family: Family, common: Common) -> None:
         self._family = family

@@ -99,11 +99,6 @@ class Roles:
         assigned = self.by_well.get(ref)
         return assigned is not None and assigned.whole and not self.derived.get(ref)
 
-    @cached_property
-    def refined(self) -> frozenset[str]:
-        """Roles that only say where something comes from or goes: others are kinds of them."""
-        return frozenset(p for spec in self.family.roles.values() for p in spec.parents)
-
     def level(self, ref: WellRef) -> float | None:
         """Concentration or dose of a well, if known."""
         assigned = self.by_well.get(ref)
@@ -130,9 +125,7 @@ class Roles:
 
     def known(self, role: str) -> bool:
         """Whether any well has this role."""
-        if any(role in self.family.closure(a.role) for a in self.by_well.values()):
-            return True
-        return any(role in extra for extra in self.derived.values())
+        return any(role in self.of(ref) for ref in (*self.by_well, *self.derived))
 
     def title(self, ref: WellRef) -> str:
         """What a well is, for a message: "no-template control"."""

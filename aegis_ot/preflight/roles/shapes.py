@@ -6,7 +6,7 @@ Wells that feed each other in turn (``chain``); one well fed by many that feed n
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Mapping, Set
 
 from ...vocabulary import WellRef
@@ -26,8 +26,7 @@ def shapes_of(trace: Trace) -> dict[Shape, tuple[float, str]]:
     """The shapes that a run shows: how clearly (1 for three wells, 2 for six) and in words."""
     fed, feeds = _fed(trace), trace.served
     found: dict[Shape, tuple[float, str]] = {}
-    chains = (len({(s.source, s.well) for s in group}) for group in chains_of(trace.links))
-    chain = max(chains, default=0)
+    chain = max(map(len, chains_of(trace.links)), default=0)
     if chain >= 2:
         found["chain"] = (_clearness(chain), f"a chain of {chain} transfers from well to well")
     pooled = _pooled(fed, feeds)
@@ -45,10 +44,9 @@ def _clearness(wells: int) -> float:
 
 
 def _fed(trace: Trace) -> Fed:
-    fed: dict[WellRef, dict[WellRef, float]] = {}
+    fed: dict[WellRef, dict[WellRef, float]] = defaultdict(lambda: defaultdict(float))
     for one in trace.transfers:
-        given = fed.setdefault(one.well.ref, {})
-        given[one.source.ref] = given.get(one.source.ref, 0.0) + one.volume
+        fed[one.well.ref][one.source.ref] += one.volume
     return fed
 
 

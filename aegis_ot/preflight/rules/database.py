@@ -64,12 +64,10 @@ class Database:
         Raises:
             RuleError: If there is none with this identifier.
         """
-        for family in self.families:
-            for rule in family.rules:
-                if rule.id == rule_id:
-                    return family, rule
-        known = ", ".join(rule.id for rule in self.rules)
-        raise RuleError(f"there is no rule {rule_id!r}; known are {known}")
+        known = {rule.id: (family, rule) for family in self.families for rule in family.rules}
+        if rule_id not in known:
+            raise RuleError(f"there is no rule {rule_id!r}; known are {', '.join(known)}")
+        return known[rule_id]
 
     def family(self, name: str) -> Family:
         """Find a family.
@@ -77,8 +75,7 @@ class Database:
         Raises:
             RuleError: If there is none of this name.
         """
-        for family in self.families:
-            if family.family == name:
-                return family
-        known = ", ".join(family.family for family in self.families)
-        raise RuleError(f"there is no assay family {name!r}; known are {known}")
+        known = {family.family: family for family in self.families}
+        if name not in known:
+            raise RuleError(f"there is no assay family {name!r}; known are {', '.join(known)}")
+        return known[name]

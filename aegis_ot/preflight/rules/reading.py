@@ -2,7 +2,8 @@
 
 The robot has no pydantic and no jsonschema; a rule file must still be refused with the file,
 the rule and the field that is wrong. What is refused here is refused by the published schema
-(:mod:`aegis_ot.reports.rule_schema`) as well: both go by the types and limits of the dataclasses.
+(:mod:`aegis_ot.reports.rule_schema`) as well: both go by the types of the fields and by what is
+said beside these: ``Annotated[float, at_least(0)]``.
 """
 
 from __future__ import annotations
@@ -14,10 +15,51 @@ import re
 import types
 import typing
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeVar
 
 from ...errors import RuleError
+
+
+@dataclass(frozen=True, eq=False)
+class Limit:
+    """What a field may hold beyond its type.
+
+    Attributes:
+        allows: Whether a value of the field's type is fine.
+        expected: What is expected instead of another: "a text that is not empty".
+        schema: The same in JSON Schema.
+    """
+
+    allows: Callable[[Any], bool]
+    expected: str
+    schema: Mapping[str, Any]
+
+
+def at_least(least: float) -> Limit:
+    """A number that is no smaller."""
+    told = f"a number that is at least {least:g}"
+    return Limit(lambda value: bool(value >= least), told, {"minimum": least})
+
+
+def matching(pattern: str, meaning: str) -> Limit:
+    """A text in which a pattern is found that Python and JSON Schema read alike."""
+    return Limit(lambda text: bool(re.search(pattern, text)), meaning, {"pattern": pattern})
+
+
+NOT_EMPTY = Limit(bool, "at least one", {"minItems": 1})
+
+# Names stand between commas and brackets in options and waivers, and families name pages. In
+# Python "$" is also before a last line break, hence what follows it.
+Name = Annotated[
+    str,
+    matching(
+        r"^[A-Za-z0-9_][A-Za-z0-9_.-]*$(?!\n)",
+        "a name of letters, digits, '_', '-' and '.', without spaces",
+    ),
+]
+Word = Annotated[str, matching(r"\S", "a word or phrase")]
 
 T = TypeVar("T")
 _HALF = re.compile("[\ud800-\udfff]")

@@ -11,7 +11,7 @@ from dataclasses import MISSING, dataclass, field
 from functools import cached_property
 from typing import Annotated, Any, Literal
 
-from .limits import NOT_EMPTY, Name, Word
+from .reading import NOT_EMPTY, Name, Word
 
 SCHEMA_VERSION = 2
 READABLE = (1, SCHEMA_VERSION)

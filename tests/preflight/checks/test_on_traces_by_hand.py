@@ -98,7 +98,7 @@ def test_a_measured_volume_of_template_in_an_ntc() -> None:
     bench = Bench()
     transfer(bench, "source:A1", "plate:H1", top=HIGH)
     (found,) = broken(case_of(bench.trace(), "pcr", PCR), "PCR-4")
-    assert found.well.ref.name == "H1"
+    assert found.well.name == "H1"
     assert "10 µL" in found.message
 
 
@@ -216,7 +216,7 @@ def test_dye_before_protein_and_dye_never_mixed() -> None:
     transfer(bench, "source:C1", "plate:A1", 100, HIGH)
     transfer(bench, "source:C1", "plate:B1", 100)
     transfer(bench, "source:B1", "plate:B1")
-    messages = {one.well.ref.name: one.message for one in
+    messages = {one.well.name: one.message for one in
                 broken(case_of(bench.trace(), "bradford", roles), "BRD-4")}  # fmt: skip
     assert "never mixed" in messages["A1"]
     assert "B1" in messages
@@ -454,7 +454,7 @@ def test_beyond_the_brim_is_an_error_below_it_a_warning() -> None:
     transfer(bench, "source:A1", "plate:A1", 240)
     transfer(bench, "source:A1", "plate:B1", 260)
     transfer(bench, "source:A1", "plate:B1", 50)
-    found = {one.well.ref.name: one for one in
+    found = {one.well.name: one for one in
              broken(case_of(bench.trace(), "generic", {}), "GEN-3")}  # fmt: skip
     assert "brim (254.5 µL)" in found["A1"].warning
     assert found["B1"].warning == ""
@@ -523,7 +523,7 @@ def test_a_taste_between_two_fillings_empties_no_well() -> None:
     transfer(bench, "plate:D1", "source:H5", 16)
     transfer(bench, "source:A1", "plate:D1", 30, HIGH)
     (found,) = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
-    assert (found.well.ref.name, found.warning) == ("D1", "")
+    assert (found.well.name, found.warning) == ("D1", "")
 
 
 def test_neither_a_blow_out_nor_a_wash_that_was_drawn_off_fills_a_well_again() -> None:
@@ -537,7 +537,7 @@ def test_neither_a_blow_out_nor_a_wash_that_was_drawn_off_fills_a_well_again() -
     bench.give("plate:D1", 205, top=HIGH)
     bench.blow_out("plate:D1")
     found = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
-    plate = {one.well.ref.name: one.warning for one in found if one.well.ref.labware == "plate"}
+    plate = {one.well.name: one.warning for one in found if one.well.labware == "plate"}
     assert plate.keys() == {"A1", "B1", "C1", "D1"}
     assert all("brim" in warning for warning in plate.values())
 
@@ -559,7 +559,7 @@ def test_filled_twice_what_its_neighbours_get_once() -> None:
         transfer(bench, "source:A1", f"plate:{target}", 105, HIGH)
     transfer(bench, "source:A1", "plate:C1", 105, HIGH)
     (found,) = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
-    assert found.well.ref.name == "C1"
+    assert found.well.name == "C1"
     assert not found.warning
 
 
