@@ -14,22 +14,17 @@ from ..rules import Family
 from ..source import tokens
 
 _NAME = "name such wells in the protocol, load a liquid, or give them in the guard's `roles`"
-_LEAVE = "leave it out"
+_BY_NAME = (
+    "single_with single_beside used_like gets in_place_of common_to called_alike_beside passed_on"
+)
 
 DROPPED: Mapping[str, str] = {
-    "single_with": _NAME,
-    "single_beside": _NAME,
-    "used_like": _NAME,
-    "gets": _NAME,
-    "in_place_of": _NAME,
-    "common_to": _NAME,
-    "called_alike_beside": _NAME,
-    "passed_on": _NAME,
+    **dict.fromkeys(_BY_NAME.split(), _NAME),
     "holds": "load the liquid, and list its role in `receives`",
     "undosed": "give the wells of dose 0 a name of their own",
     "replicated": "name the wells of each plate",
-    "receives_with": f"{_LEAVE}: `receives` alone decides",
-    "feeds_beside": f"{_LEAVE}: `feeds` alone decides",
+    "receives_with": "leave it out: `receives` alone decides",
+    "feeds_beside": "leave it out: `feeds` alone decides",
 }
 """Fields of schema 1 that are gone, each with what to write instead."""
 

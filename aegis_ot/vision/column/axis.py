@@ -14,12 +14,12 @@ import numpy as np
 from ..types import Image, TipDetection
 from .strip import Array, Point, Strip, TipShape, resample
 
-_NARROW, _WIDE = 0.08, 0.22
-"""How far from where it should be the nozzle's end is looked for: first near by, and only if
-nothing is there, as far as a detection can be off; in tip lengths."""
+_REACH = 0.08
+"""How far from where it should be the nozzle's end is looked for, tip lengths: farther down is the
+lower end of a real tip's sleeve, which is a sharper step."""
 
-_SURE = 0.6
-"""Confidence of a detection from which it is not far off. Of a row none is: all its tips agree."""
+_CLEAR = 4.0
+"""What a step must be to stand out, times the noise."""
 
 _SIDEWAYS = 0.03
 """Standard deviation of a detection's ends across the axis, tip lengths (a box has no axis, and a
@@ -34,21 +34,14 @@ def rectify(
     Args:
         image: Whole frame, ``(height, width, 3)`` uint8, BGR.
         detection: The tip in it. Errors across the axis up to a tip's width are mended, along
-            it up to a fifth of the tip at the collar and a few per cent at the orifice.
+            it a few per cent of the tip.
         shape: Outline of the tip class.
         length: Length of the tip in px, where it is known better than from this detection.
     """
     collar = np.array(detection.collar, dtype=np.float64)
     orifice = np.array(detection.orifice, dtype=np.float64)
     collar, orifice, clarity = onto_outline(image, collar, orifice, shape)
-    shift = _nozzle_shift(image, collar, orifice, shape, _NARROW, 4.0)
-    if shift is None and detection.confidence < _SURE and detection.apart is None:
-        strayed = _nozzle_shift(image, collar, orifice, shape, _WIDE, 8.0)
-        if strayed is not None:
-            along = orifice - collar
-            collar, orifice = collar + along * strayed, orifice + along * strayed
-            collar, orifice, clarity = onto_outline(image, collar, orifice, shape)
-            shift = _nozzle_shift(image, collar, orifice, shape, _NARROW, 4.0)
+    shift = _nozzle_shift(image, collar, orifice, shape)
     collar = collar + (orifice - collar) * (shift or 0.0)
     if length is not None:
         collar, orifice = _of_length(image, collar, orifice, shape, length)
@@ -75,7 +68,7 @@ def _of_length(
     along = orifice - collar
     along = along * (length / max(float(np.hypot(*along)), 1.0))
     choices = ((collar, collar + along), (orifice - along, orifice))
-    shift = [_nozzle_shift(image, top, end, shape, _NARROW, 4.0) for top, end in choices]
+    shift = [_nozzle_shift(image, top, end, shape) for top, end in choices]
     best = 1 if shift[0] is None and shift[1] is not None else 0
     step = along * (shift[best] or 0.0)
     return choices[best][0] + step, choices[best][1] + step
@@ -128,16 +121,14 @@ def onto_outline(
     return collar, orifice, clarity
 
 
-def _nozzle_shift(
-    image: Image, collar: Point, orifice: Point, shape: TipShape, reach: float, clear: float
-) -> float | None:
+def _nozzle_shift(image: Image, collar: Point, orifice: Point, shape: TipShape) -> float | None:
     """How far down the axis the nozzle ends from where it should, tip lengths.
 
-    ``None`` if no step within ``reach`` stands out ``clear`` times from the noise.
+    ``None`` if no step within reach stands out from the noise.
     """
-    grey, u, v = _grey(image, collar, orifice, shape, reach + 0.05)
+    grey, u, v = _grey(image, collar, orifice, shape, _REACH + 0.05)
     bore = grey[:, np.abs(v) < 0.6 * shape.collar_radius].mean(axis=1)
-    found = _step(u, -bore, shape.nozzle_end, reach, 3, clear)
+    found = _step(u, -bore, shape.nozzle_end, _REACH, 3)
     return None if found is None else found - shape.nozzle_end
 
 
@@ -167,9 +158,7 @@ def _grey(
     return np.asarray(pixels.mean(axis=2), dtype=np.float32), u, v
 
 
-def _step(
-    u: Array, profile: Array, expected: float, reach: float, width: int, clear: float = 4.0
-) -> float | None:
+def _step(u: Array, profile: Array, expected: float, reach: float, width: int) -> float | None:
     """Sub-row position of the steepest rise of a profile near ``expected``, or ``None``."""
     kernel = np.concatenate([np.full(width, -1.0), np.full(width, 1.0)]) / width
     rise = np.correlate(profile.astype(np.float64), kernel, mode="same")
@@ -178,7 +167,7 @@ def _step(
     weight = np.exp(-0.5 * ((u[near] - expected) / reach) ** 2)
     best = int(near[np.argmax(rise[near] * weight)])
     noise = 1.48 * float(np.median(np.abs(rise - np.median(rise)))) + 1e-6
-    if rise[best] < clear * noise or best in (0, len(u) - 1):
+    if rise[best] < _CLEAR * noise or best in (0, len(u) - 1):
         return None
     left, mid, right = rise[best - 1], rise[best], rise[best + 1]
     bend = left - 2 * mid + right
