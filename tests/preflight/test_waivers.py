@@ -122,3 +122,17 @@ def test_a_waiver_beside_a_statement_of_many_lines_covers_it(database: Database)
     assert report.findings == ()
     assert len(report.waived) == 1
     assert report.remarks == ()
+
+
+def test_where_nothing_moves_no_waiver_is_stale(database: Database) -> None:
+    text = (
+        "# aegis: ignore[PCR-1, GEN-3] the NTC is added by hand\n"
+        "metadata = {'apiLevel': '2.15'}\n"
+        "def run(protocol):\n"
+        "    plate = protocol.load_labware('nest_96_wellplate_100ul_pcr_full_skirt', 2)\n"
+        "    protocol.comment('PCR master mix, template, NTC')\n"
+    )
+    report = _check(text, "t.py", database)
+    assert report.undecided == ()
+    assert "PCR-1" not in report.judged
+    assert not any("PCR-1" in remark.message for remark in report.remarks)

@@ -110,7 +110,7 @@ class Carry(Check):
             if _serves_its_well_alone(case, well, origin):
                 return True
             return origin in case.meant.get(well, {}) and (
-                _on_purpose(case, well, origin, visit) or self._made_of(case, visit, origin)
+                _on_purpose(well, origin, visit) or self._made_of(case, visit, origin)
             )
         if case.is_given(well, origin):
             return True
@@ -270,7 +270,7 @@ def _serves_its_well_alone(case: Case, stock: Well, origin: Well) -> bool:
     return len(drawn_for) == 1 and all(origin in case.meant.get(dest, {}) for dest in drawn_for)
 
 
-def _on_purpose(case: Case, stock: Well, origin: Well, visit: Visit) -> bool:
+def _on_purpose(stock: Well, origin: Well, visit: Visit) -> bool:
     """Whether liquid was mixed into a stock earlier, straight from its source, by another tip."""
     given = (one.visit for one in stock.received if one.source is origin)
     earlier = [one for one in given if one.index < visit.index]

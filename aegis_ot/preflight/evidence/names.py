@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from ...instrumentation import NameBinding
 from ...vocabulary import WellRef
@@ -19,7 +19,7 @@ def named_wells(
     deck: Deck, names: Sequence[NameBinding], facts: SourceFacts, common: Common
 ) -> Iterator[Evidence]:
     """What variables, keys and attributes were called that held wells or whole labware."""
-    keyed = levels_of_keys(names)
+    keyed, listed = levels_of_keys(names), _lists_of_levels(names, common)
     for binding in names:
         if not (binding.wells or binding.labware):
             continue
@@ -35,7 +35,7 @@ def named_wells(
             text = NUMBERED.sub(r"\1\4", text) if level is None else text
             levels = (level,) * len(wells)
         elif binding.wells and len(wells) > 1:
-            levels = _listed_beside(binding, names, common)
+            levels = _listed_beside(binding, listed)
         yield Evidence(
             Kind.PASSING_NAME if place in facts.passing else Kind.NAME,
             text,
@@ -104,20 +104,32 @@ def levels_of_keys(names: Sequence[NameBinding]) -> dict[str, float | None]:
     return found
 
 
-def _listed_beside(
-    binding: NameBinding, names: Sequence[NameBinding], common: Common
-) -> tuple[float | None, ...]:
-    """Of the lists of concentrations or doses (``STANDARD_CONCS = [0, 125, 250]``) that are as long
-    as a list of wells, the one whose name shares most words with it.
-    """
+def _lists_of_levels(
+    names: Sequence[NameBinding], common: Common
+) -> dict[tuple[str, str], tuple[float, ...]]:
+    """Lists of concentrations or doses by function and name: ``STANDARD_CONCS = [0, 125, 250]``."""
     amounts = lexicon_of({"amount": common.amounts})
-    fitting: dict[int, set[tuple[float | None, ...]]] = {}
-    for other in names:
-        if len(other.values) == len(binding.wells) and amounts.find(other.name):
-            levels = tuple(_level(item, common) for item in other.values)
+    found: dict[tuple[str, str], tuple[float, ...]] = {}
+    for one in names:
+        if len(one.values) > 1 and amounts.find(one.name):
+            levels = [_level(item, common) for item in one.values]
             if None not in levels:
-                shared = set(tokens(other.name)) & set(tokens(binding.name))
-                fitting.setdefault(len(shared), set()).add(levels)
+                found[one.function, one.name] = tuple(lv for lv in levels if lv is not None)
+    return found
+
+
+def _listed_beside(
+    wells: NameBinding, listed: Mapping[tuple[str, str], tuple[float, ...]]
+) -> tuple[float, ...]:
+    """Of the lists of levels that are as long as a list of wells, the one whose name shares most
+    words with it; of two of one name that of its own function.
+    """
+    own = {name for function, name in listed if function == wells.function}
+    fitting: dict[int, set[tuple[float, ...]]] = {}
+    for (function, name), levels in listed.items():
+        if len(levels) == len(wells.wells) and (function == wells.function or name not in own):
+            shared = set(tokens(name)) & set(tokens(wells.name))
+            fitting.setdefault(len(shared), set()).add(levels)
     chosen = fitting[max(fitting)] if fitting else set()
     return chosen.pop() if len(chosen) == 1 else ()
 

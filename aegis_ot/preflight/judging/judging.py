@@ -45,7 +45,7 @@ def judge_reading(reading: Reading) -> Report:
         if reading.options.severity_of(rule) != "off"
     }
     violations = {rule: found for rule, (found, _) in judged.items()}
-    undecided = [open_ for _, open_ in judged.values() if open_ and reading.trace.visits]
+    undecided = [open_ for _, open_ in judged.values() if open_]
     return _report(reading, violations, undecided)
 
 
@@ -135,7 +135,7 @@ def _report(
         family=reading.families[0].family if reading.families else "",
         verdict=verdict_of(standing),
         findings=tuple(standing),
-        undecided=tuple(dict.fromkeys(undecided)),
+        undecided=tuple(dict.fromkeys(undecided)) if reading.trace.visits else (),
         roles=tuple(_evidence(reading.roles)),
         families=reading.families,
         waived=tuple(waived),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import inspect
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -37,6 +36,9 @@ _LOADERS = {"exec_run": ("proto", "new_globs"), "_perform": ("protocol", "namesp
 """Opentrons' loader and the rehearsal's own: their local names for the ``PythonProtocol`` that
 they execute, and for its globals."""
 
+_WRAPPERS = 32
+"""So many decorators and ``partial`` are looked through; one may wrap itself."""
+
 
 def find_home(run: Any) -> tuple[str, Mapping[str, Any]]:
     """Where the protocol that is running right now is written.
@@ -55,9 +57,12 @@ def find_home(run: Any) -> tuple[str, Mapping[str, Any]]:
         return loaded.contents.co_filename, namespace
     if isinstance(run, FrameType):
         return run.f_code.co_filename, run.f_globals
-    while isinstance(run, functools.partial):
-        run = run.func
-    run = inspect.unwrap(run)
+    for _ in range(_WRAPPERS):
+        partial = isinstance(run, functools.partial)
+        inner = run.func if partial else getattr(run, "__wrapped__", None)
+        if inner is None:
+            break
+        run = inner
     function = run if hasattr(run, "__code__") else type(run).__call__
     code = getattr(function, "__code__", None)
     return (code.co_filename, function.__globals__) if code else ("<protocol>", {})

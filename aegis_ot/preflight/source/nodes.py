@@ -30,7 +30,7 @@ class Nodes:
             placed = open_.pop()
             node, function, looping = placed
             self._placed[type(node)].append(placed)
-            if isinstance(node, ast.FunctionDef):
+            if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)):
                 function = node.name
             elif isinstance(node, ast.Lambda):
                 function = "<lambda>"

@@ -151,7 +151,7 @@ class HeatmapDetector:
             image: BGR, ``uint8``, shape ``(height, width, 3)``.
             axes: Where a tip may hang, collar and orifice, px.
         """
-        return self._ends_in([close_up(image, collar, orifice) for collar, orifice in axes])
+        return self._ends_in([close_up(image, *axis) for axis in axes]) if axes else []
 
     def _ends_in(self, views: list[View]) -> list[Ends]:
         def found(view: View, maps: Maps, kind: int) -> tuple[End, ...]:

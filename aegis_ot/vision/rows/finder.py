@@ -11,7 +11,7 @@ from ..types import FREE, Detector, Image, TipDetection
 from .fit import Row
 from .hiding import HIDDEN, covered
 from .places import RowPlaces
-from .search import STEEP, RowSearch
+from .search import RowSearch
 
 FirstChannel = Literal["auto", "left", "right"]
 """On which side of the frame the first channel is; ``"auto"``: see :class:`RowFinder`."""
@@ -78,7 +78,7 @@ class RowFinder:
             self._places.note(keyframe.position, row)
             self._orient(row)
             return self._seen(row, 0)
-        if row is not None and self._search.pitches(row) >= STEEP:
+        if row is not None:
             offset = self._places.offset(keyframe.position, row, self._count)
             if offset is not None:
                 return self._seen(row, offset)

@@ -42,14 +42,9 @@ The network has learned from tips of many makes: below the end that it sees it m
 warmer one, where that of a longer make would be.
 """
 
-_SAME_STEP = 0.01, 0.003
-"""By how much the steps of the two ends differ in x and in y, before the taper, tip lengths: where
-the camera looks up or down it sees the lower ends at another scale. It keeps a few misplaced ends
-from reading as a row seen at an angle: the tips would not get shorter."""
-
-_USUAL_TAPER = 0.002
-"""Of a row that is seen at 30 degrees, per px of how well its ends are placed. Lower ends alone
-hardly tell a taper from a few pixels of error."""
+_SAME_STEP = 0.01
+"""By how much the steps of the two ends differ before the taper, tip lengths: a camera that looks
+up or down sees the lower ends at another scale."""
 
 _LEANS = 0.2
 """How much farther than upright, or than square to their row, tips surely lean, steps."""
@@ -275,10 +270,13 @@ def _at(tips: Floats, place: Floats, step: float, length: float) -> int | None:
     return at if off[at] <= 1 else None
 
 
-def fitted(tips: Floats, chain: dict[int, int], taper: float | None = None) -> Row:
+def fitted(
+    tips: Floats, chain: dict[int, int], taper: float | None = None, *, flat: float = 0.0
+) -> Row:
     """Least squares over both ends of all tips, those that stray counting less.
 
-    ``taper``: where it is known better than from these tips.
+    ``taper``: where it is known better than from these tips. ``flat``: how much a row without taper
+    is preferred, px of misplaced ends per unit of taper.
     """
     base = min(chain)
     numbers = np.array(sorted(chain)) - base
@@ -286,7 +284,7 @@ def fitted(tips: Floats, chain: dict[int, int], taper: float | None = None) -> R
     places, heats = seen[:, :4], seen[:, 4]
     weight = np.ones_like(places)
     for _ in range(4):
-        start, step, slope = _solve(numbers, places, weight, taper)
+        start, step, slope = _solve(numbers, places, weight, taper, flat)
         off = (start + numbers[:, None] * step) / (1 + numbers[:, None] * slope) - places
         scale = np.maximum(0.7, 1.5 * np.median(np.abs(off), axis=0))
         weight = 1 / np.maximum(1.0, np.abs(off) / scale)
@@ -296,7 +294,7 @@ def fitted(tips: Floats, chain: dict[int, int], taper: float | None = None) -> R
 
 
 def _solve(
-    numbers: NDArray[Any], places: Floats, weight: Floats, given: float | None
+    numbers: NDArray[Any], places: Floats, weight: Floats, given: float | None, flat: float
 ) -> tuple[Floats, Floats, float]:
     """``places·(1 + c·i) = p + q·i`` is linear in p, q (four each) and c."""
     taper = 0.0 if given is None and len(numbers) < 4 else given  # too few to tell it
@@ -310,14 +308,13 @@ def _solve(
             rows.append(row)
             values.append(w * place * (1.0 + number * (taper or 0.0)))
     length = float(np.median(np.hypot(*(places[:, 2:] - places[:, :2]).T)))
-    for column, same in zip((4, 5), _SAME_STEP, strict=True):
-        row, tie = np.zeros(9), 1 / max(same * length, 0.3)
+    tie = 1 / max(_SAME_STEP * length, 0.3)
+    for column in (4, 5):
+        row = np.zeros(9)
         row[column], row[column + 2] = -tie, tie
         rows.append(row)
         values.append(0.0)
-    flat = np.zeros(9)
-    flat[8] = 1 / _USUAL_TAPER
-    rows.append(flat)
+    rows.append(np.append(np.zeros(8), flat))
     values.append(0.0)
     solved = np.linalg.lstsq(np.array(rows), np.array(values), rcond=None)[0]
     return solved[:4], solved[4:8], float(solved[8]) if taper is None else taper

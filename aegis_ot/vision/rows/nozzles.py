@@ -30,10 +30,13 @@ _COLLAR, _ORIFICE = 0.06, 0.2
 _LONGER = 0.06
 """How much longer or shorter than those of its row a tip may look, tip lengths."""
 
+_TRUSTED = 0.6
+"""Median heat of a row whose ends are taken as the network gives them."""
+
 _SURE = 0.3
 """Heat of the tips with which others are compared."""
 
-_COLD, _TIP, _SHARE, _NO_DOUBT = 0.08, 0.7, 0.65, 0.8
+_COLD, _TIP, _SHARE, _NO_DOUBT = 0.12, 0.7, 0.65, 0.8
 """There is a tip where the heat alone reaches the first, and the evidence the second and the third,
 a share of what the row's sure tips have: before an even background a bare nozzle is not unlike a
 tip. At the fourth, another share, it is beyond doubt."""
@@ -103,6 +106,8 @@ def compare(
 
     def likeness(number: int) -> float:
         others = [outlines[other] for other in sure if other != number]
+        if sure == [number]:  # it is what the others are compared with
+            others = [outline for other, outline in outlines.items() if other != number]
         if not others:
             return 0.0
         mean = np.mean(others, axis=0)
@@ -132,13 +137,18 @@ def row_of(nozzles: Mapping[int, Nozzle], count: int) -> Row | None:
 
 
 def on_outlines(row: Row, image: Image, shape: TipShape) -> Row:
-    """The row fitted to its tips' outlines: what the network says of collars is rough."""
+    """The row fitted to its tips' outlines, where the network is not sure of it: what it says of
+    collars is rough then. A sure row is left alone: of a narrow tip it knows more than edges do.
+    """
+    if np.median([*row.heats.values()]) >= _TRUSTED:
+        return row
     table = []
     for number, heat in row.heats.items():
         ends = row.best(number)
         collar, orifice, _ = onto_outline(image, ends[:2], ends[2:], shape)
         table.append((*collar, *orifice, heat))
-    return fitted(np.array(table), {number: at for at, number in enumerate(row.heats)})
+    chain = {number: at for at, number in enumerate(row.heats)}
+    return fitted(np.array(table), chain, row.taper)
 
 
 def clarity(row: Row, image: Image, shape: TipShape) -> float:

@@ -24,6 +24,10 @@ _SHARED = 0.6
 _ENDS = 40
 """The warmest ends of a view; a row is among these."""
 
+_FLAT = 1.5
+"""Lower ends alone hardly tell a taper from a few misplaced pixels: how much a flat row is
+preferred, row widths."""
+
 _ABOVE = 0.04, 0.25
 """How far above a lower end another one may stand that is seen instead, tip lengths."""
 
@@ -67,7 +71,8 @@ def rows_by_orifices(ends: Ends, length: float, tip_mm: float, count: int, most:
     lines.sort(key=lambda each: -each[0])
     rows = []
     for line in _unlike(lines, most):
-        row = _raised(ends, fitted(tips, line), length)
+        wide = float(np.ptp(tips[list(line.values()), 0]))
+        row = _raised(ends, fitted(tips, line, flat=_FLAT * wide), length)
         middle = (row.span - 1) / 2
         step_px = abs(float((row.ends(middle + 0.5) - row.ends(middle - 0.5))[0]))
         rows.append(row.moved((0.0, -step_px * tip_mm / PITCH_MM, 0.0, 0.0)))

@@ -25,7 +25,7 @@ from .orifices import find_by_orifices, rows_by_orifices
 _TAPERED = 0.025
 """A row whose far end is smaller by this share is seen at an angle: its depth can be told."""
 
-STEEP = 0.65
+_STEEP = 0.65
 """Below this many pitches from tip to tip, tips overlap: one that is not found may be hidden."""
 
 _STEPS = 0.3, 1.5
@@ -43,6 +43,9 @@ _SAME_LENGTH = 0.15
 
 _SCALES = 0.2, 0.28, 0.4, 0.56, 0.75
 """Lengths of tips that are looked for in the whole frame, as shares of its height."""
+
+_SMALLEST = 0.12
+"""Of tips that are looked for in the whole frame, a share of its height."""
 
 _LINES, _FEWEST, _TRIED = 3, 3, 2
 """Rows of lower ends that are looked at per scale, from so many tips; and how many of the most
@@ -91,7 +94,7 @@ class RowSearch:
             return None
         near = self._near(image, seed, known)
         found = [] if near is None else [self._settled(image, near, self._look(image, near))]
-        if not any(row is not None and len(row.heats) == self._count for row in found):
+        if not any(self._is_it(row, known) for row in found):
             found += self._searched(image, known)
         return max(filter(self._enough, found), key=_warmth, default=None)
 
@@ -193,17 +196,27 @@ class RowSearch:
         self._in_vain = 0 if any(map(self._enough, found)) else self._in_vain + 1
         return found
 
+    def _is_it(self, row: Row | None, known: Row | None) -> bool:
+        """Whether this is the row: whole, or a tip or two less and as long as the known one."""
+        if row is None or known is None or len(row.heats) == self._count:
+            return row is not None and len(row.heats) == self._count
+        ratio = row.length((row.span - 1) / 2) / known.length((known.span - 1) / 2)
+        return len(row.heats) >= self._count - 2 and abs(ratio - 1) <= _SAME_LENGTH
+
     def _enough(self, row: Row | None) -> TypeGuard[Row]:
         """Whether the row is whole, or half of it is seen and its tips stand apart."""
         if row is None or len(row.heats) == self._count:
             return row is not None
-        return len(row.heats) >= max(3, self._count / 2) and self.pitches(row) >= STEEP
+        return len(row.heats) >= max(3, self._count / 2) and self.pitches(row) >= _STEEP
 
     def _anywhere(self, image: Image, known: Row | None) -> Iterator[tuple[Row, dict[int, Nozzle]]]:
         """What else in the frame may be the row, the likeliest first, and what its places show."""
         assert isinstance(self._detector, RowDetector)
         scales = [share * image.shape[0] for share in _SCALES]
-        lengths = scales if known is None else [known.length((known.span - 1) / 2)]
+        if known is None:
+            lengths = scales
+        else:  # no smaller ones: the view would grow beyond measure
+            lengths = [max(known.length((known.span - 1) / 2), _SMALLEST * image.shape[0])]
         tried: list[tuple[float, Row, dict[int, Nozzle]]] = []
         for length in lengths:
             ends = self._detector.ends_of_length(image, length)

@@ -87,3 +87,20 @@ def test_a_loop_variable_says_nothing_that_its_list_does_not() -> None:
     )
     assert "template" not in evidence(reading, Kind.NAME)
     assert set(roles_by_well(reading)) == {"2:A1", "2:A2"}
+
+
+def test_of_two_lists_of_levels_of_one_name_that_of_the_wells_own_function_counts() -> None:
+    reading = read(
+        """
+        def fill(concs):
+            STANDARD_CONCS = [9, 8, 7]
+            return concs
+        standards = [tubes["A1"], tubes["A2"], tubes["A3"]]
+        STANDARD_CONCS = [2000, 1000, 0]
+        fill(STANDARD_CONCS)
+        for well, tube in zip(plate.wells(), standards):
+            p20.transfer(2, tube, well)
+        """,
+        assay="bradford",
+    )
+    assert evidence(reading, Kind.NAME)["standards"][0].levels == (2000.0, 1000.0, 0.0)

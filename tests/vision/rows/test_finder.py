@@ -44,6 +44,41 @@ def test_eight_tips_are_found_and_named(detector: HeatmapDetector, angle: float)
             assert finder.assumed == (angle == 0)
 
 
+@pytest.mark.parametrize(("angle", "size"), [(15, 1.0), (20, 0.5), (30, 0.5)])
+@pytest.mark.parametrize("flipped", [False, True])
+def test_the_first_channel_is_told_from_either_side(
+    detector: HeatmapDetector, angle: float, size: float, flipped: bool
+) -> None:
+    for keyframe, frame, truth in frames(angle, seed=3):
+        if keyframe.kind is KeyframeKind.TRANSIT:
+            image = cv2.flip(frame.image, 1) if flipped else frame.image
+            image = cv2.resize(image, None, fx=size, fy=size, interpolation=cv2.INTER_AREA)
+            finder = RowFinder(detector, keyframe, "auto")
+            seen = finder.find(image, keyframe)
+            assert (seen.whole, finder.assumed) == (True, False)
+            for tip, true in zip(seen.tips, truth.tips, strict=True):
+                assert tip is not None
+                x = frame.image.shape[1] - true.orifice[0] if flipped else true.orifice[0]
+                assert tip.orifice[0] == pytest.approx(size * x, abs=15 * size)
+
+
+def test_the_ends_of_a_narrow_row_that_is_sure_are_left_where_they_are(
+    detector: HeatmapDetector,
+) -> None:
+    camera = SimulatedCamera(411, (), SessionParameters.beside(15, 411))
+    keyframe = replace(
+        list(keyframes(1))[1], pipette="p20_multi_gen2", capacity_ul=20.0, commanded_ul=15.0,
+        expected_ul=15.0,
+    )  # fmt: skip
+    camera.announce(keyframe)
+    seen = RowFinder(detector, keyframe, "auto").find(camera.frame_after(0.0, 5.0).image, keyframe)
+    assert camera.truth is not None
+    for tip, true in zip(seen.tips, camera.truth.tips, strict=True):
+        assert tip is not None
+        assert abs(tip.collar[0] - true.collar[0]) < 0.03 * tip.length
+        assert abs(tip.orifice[0] - true.orifice[0]) < 0.03 * tip.length
+
+
 def test_seen_along_the_row_no_tip_can_be_told_apart(detector: HeatmapDetector) -> None:
     for keyframe, frame, _ in frames(90):
         if keyframe.kind is KeyframeKind.TRANSIT:

@@ -56,13 +56,14 @@ def test_a_missing_tip_leaves_a_hole() -> None:
     assert row.span == 8
 
 
-def test_misplaced_ends_do_not_read_as_a_row_seen_at_an_angle() -> None:
-    there = [0, 1, 2, 3, 4, 6]
-    seen = np.array([true_ends(n, 0.0) for n in there])
-    seen[4, [0, 2]] += 9.0, 14.0
-    seen[5, [0, 2]] += 9.0, 14.0
-    row = fitted(np.column_stack([seen, np.full(6, 0.5)]), {n: at for at, n in enumerate(there)})
-    assert abs(row.taper) < 0.009
+@pytest.mark.parametrize("size", [1.0, 0.5, 0.25])
+@pytest.mark.parametrize("degrees", [15, 30])
+def test_the_taper_does_not_depend_on_the_picture_s_size(degrees: float, size: float) -> None:
+    seen = size * np.array([true_ends(n, np.radians(degrees)) for n in range(8)])
+    row = fitted(np.column_stack([seen, np.full(8, 0.5)]), {n: n for n in range(8)})
+    first, last = (float(np.hypot(*(seen[n, 2:] - seen[n, :2]))) for n in (0, 7))
+    assert row.length(7) / row.length(0) == pytest.approx(last / first, abs=0.005)
+    assert 7 * row.taper == pytest.approx(first / last - 1, rel=0.1)
 
 
 @pytest.mark.parametrize("roll", [-0.03, 0.0, 0.03])

@@ -113,6 +113,13 @@ def test_where_nothing_is_surely_a_tip_likeness_says_nothing(closely: bool) -> N
     assert row_of(compared, 8) is None
 
 
+def test_the_only_sure_tip_is_one_of_them() -> None:
+    image = picture(range(8), range(8))
+    heats = {**dict.fromkeys(range(8), 0.28), 3: 0.45}
+    nozzles = compare(look_at_nozzles(Seen(heats), image, a_row(range(8)), 8), image, shape_of(TIP))
+    assert sorted(with_tip(nozzles)) == list(range(8))
+
+
 def test_of_nine_places_in_line_the_eight_that_say_most_are_the_row() -> None:
     nozzles = {n: Nozzle(ends_of(n), 0.5, 0.6) for n in range(8)}
     row = row_of({**nozzles, 8: Nozzle(ends_of(8), 0.5, 0.3)}, 8)
