@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 632,
     "preflight/source": 679,
     "preflight/trace": 1_499,
-    "": 66_141,
+    "": 66_167,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
 for ``preflight`` and 48,000 for the package."""

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from ..column.axis import onto_outline
 from ..column.strip import TipShape, resample
 from ..types import Axis, Ends, Image, RowDetector
-from .fit import STRAY, Floats, Row, fitted, uppermost
+from .both_ends import uppermost
+from .fit import STRAY, Floats, Row, fitted
 
 _BESIDE = 0.65
 """A collar that is seen this far beside its place still says that a tip hangs there, steps: between

@@ -8,7 +8,8 @@ from itertools import combinations
 import numpy as np
 
 from ..types import Ends
-from .fit import LEAST_HEAT, PITCH_MM, SEEN, STRAY, Floats, Row, fitted
+from .both_ends import LEAST_HEAT, SEEN
+from .fit import PITCH_MM, STRAY, Floats, Row, fitted
 
 _LONGEST = 0.6, 3.2
 """Lengths that a row's own steps may give its tips, times the one that is expected."""
@@ -73,8 +74,7 @@ def rows_by_orifices(ends: Ends, length: float, tip_mm: float, count: int, most:
     for line in _unlike(lines, most):
         wide = float(np.ptp(tips[list(line.values()), 0]))
         row = _raised(ends, fitted(tips, line, flat=_FLAT * wide), length)
-        middle = (row.span - 1) / 2
-        step_px = abs(float((row.ends(middle + 0.5) - row.ends(middle - 0.5))[0]))
+        step_px = abs(float(row.middle_step[0]))
         rows.append(row.moved((0.0, -step_px * tip_mm / PITCH_MM, 0.0, 0.0)))
     return rows
 
@@ -94,7 +94,7 @@ def _unlike(lines: Sequence[tuple[float, dict[int, int]]], most: int) -> list[di
 
 def _raised(ends: Ends, row: Row, length: float) -> Row:
     """The row where its ends are seen, if most of its tips have another end just above: see
-    :data:`~.fit.SEEN`."""
+    :data:`~.both_ends.SEEN`."""
     rises: list[float] = []
     for number, heat in row.heats.items():
         x, y = row.ends(number)[2:]

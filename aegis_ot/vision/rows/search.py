@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import TypeGuard
 
 from ..column.measure import shape_of
 from ..tips import TipGeometry
 from ..types import Detector, Image, RowDetector, TipDetection
-from .fit import PITCH_MM, Row, find_in_wells, find_row, upright
+from .both_ends import find_in_wells, find_row
+from .fit import PITCH_MM, Row, upright
 from .nozzles import (
     Nozzle,
     clarity,
@@ -39,7 +39,11 @@ _TELLING = 6
 """Tips of a row from which its taper tells whether it is seen squarely."""
 
 _OFF_SCALE = 0.08
+"""A row is looked at again at its own scale if its tips are so much longer or shorter than the one
+it was found beside, tip lengths."""
+
 _SAME_LENGTH = 0.15
+"""By how much the tips of one run's rows differ in length, tip lengths: the robot moves."""
 
 _SCALES = 0.2, 0.28, 0.4, 0.56, 0.75
 """Lengths of tips that are looked for in the whole frame, as shares of its height."""
@@ -94,7 +98,7 @@ class RowSearch:
             return None
         near = self._near(image, seed, known)
         found = [] if near is None else [self._settled(image, near, self._look(image, near))]
-        if not any(self._is_it(row, known) for row in found):
+        if not any(row is not None and self._is_it(row, known) for row in found):
             found += self._searched(image, known)
         return max(filter(self._enough, found), key=_warmth, default=None)
 
@@ -164,9 +168,7 @@ class RowSearch:
         the pitch then. Seen at an angle their own scale is too small: whole rows before tell.
         """
         if by_orifices is not None and known is not None:
-            length, wanted = (one.length((one.span - 1) / 2) for one in (by_orifices, known))
-            if abs(length / wanted - 1) > _SAME_LENGTH:
-                by_orifices = None
+            by_orifices = by_orifices if _as_long(by_orifices, known) else None
         if by_orifices is None or row is None:
             return by_orifices or row
         more = len(by_orifices.heats) - len(row.heats)
@@ -184,7 +186,7 @@ class RowSearch:
             row = find_by_orifices(ends, length, self._tip.length_mm, self._count)
             if row is None or (found is not None and len(row.heats) < len(found.heats)):
                 break
-            found, length = row, row.length((row.span - 1) / 2)
+            found, length = row, row.middle_length
         # Four warm spots in line are no row: bare heads have shown as many.
         return found if found is not None and 2 * len(found.heats) > self._count else None
 
@@ -196,27 +198,25 @@ class RowSearch:
         self._in_vain = 0 if any(map(self._enough, found)) else self._in_vain + 1
         return found
 
-    def _is_it(self, row: Row | None, known: Row | None) -> bool:
+    def _is_it(self, row: Row, known: Row | None) -> bool:
         """Whether this is the row: whole, or a tip or two less and as long as the known one."""
-        if row is None or known is None or len(row.heats) == self._count:
-            return row is not None and len(row.heats) == self._count
-        ratio = row.length((row.span - 1) / 2) / known.length((known.span - 1) / 2)
-        return len(row.heats) >= self._count - 2 and abs(ratio - 1) <= _SAME_LENGTH
+        missing = self._count - len(row.heats)
+        return missing == 0 or (known is not None and missing <= 2 and _as_long(row, known))
 
     def _enough(self, row: Row | None) -> TypeGuard[Row]:
         """Whether the row is whole, or half of it is seen and its tips stand apart."""
-        if row is None or len(row.heats) == self._count:
-            return row is not None
-        return len(row.heats) >= max(3, self._count / 2) and self.pitches(row) >= _STEEP
+        if row is None:
+            return False
+        half = len(row.heats) >= max(3, self._count / 2) and self.pitches(row) >= _STEEP
+        return half or len(row.heats) == self._count
 
-    def _anywhere(self, image: Image, known: Row | None) -> Iterator[tuple[Row, dict[int, Nozzle]]]:
+    def _anywhere(self, image: Image, known: Row | None) -> list[tuple[Row, dict[int, Nozzle]]]:
         """What else in the frame may be the row, the likeliest first, and what its places show."""
         assert isinstance(self._detector, RowDetector)
-        scales = [share * image.shape[0] for share in _SCALES]
-        if known is None:
-            lengths = scales
-        else:  # no smaller ones: the view would grow beyond measure
-            lengths = [max(known.length((known.span - 1) / 2), _SMALLEST * image.shape[0])]
+        height = image.shape[0]
+        lengths = [share * height for share in _SCALES]
+        if known is not None:  # no smaller ones: the view would grow beyond measure
+            lengths = [max(known.middle_length, _SMALLEST * height)]
         tried: list[tuple[float, Row, dict[int, Nozzle]]] = []
         for length in lengths:
             ends = self._detector.ends_of_length(image, length)
@@ -225,7 +225,7 @@ class RowSearch:
                     nozzles = self._look(image, line)
                     tried.append((promise(nozzles, self._count), line, nozzles))
         tried.sort(key=lambda each: -each[0])
-        yield from ((row, nozzles) for _, row, nozzles in tried[:_TRIED])
+        return [(row, nozzles) for _, row, nozzles in tried[:_TRIED]]
 
     def _hung(self, image: Image, row: Row) -> Row:
         """The row at its steps' scale, and hung upright where that explains more of the picture."""
@@ -242,7 +242,7 @@ class RowSearch:
         """
         if self.pitches(row) <= _WHOLE_STEP[1]:
             return row
-        short = (1.0 - self.pitches(row)) * row.length((row.span - 1) / 2)
+        short = (1.0 - self.pitches(row)) * row.middle_length
         return row.moved((0.0, short, 0.0, 0.0))
 
     def _look(self, image: Image, row: Row) -> dict[int, Nozzle]:
@@ -266,6 +266,10 @@ class RowSearch:
                 break
             nozzles = self._look(image, self._hung(image, found))
         return settled if settled is None else on_outlines(settled, image, self._shape)
+
+
+def _as_long(row: Row, known: Row) -> bool:
+    return abs(row.middle_length / known.middle_length - 1) <= _SAME_LENGTH
 
 
 def _warmth(row: Row) -> float:

@@ -3,7 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aegis_ot.vision.rows.fit import Row, find_in_wells, find_row, fitted, upright
+from aegis_ot.vision.rows.both_ends import find_in_wells, find_row
+from aegis_ot.vision.rows.fit import Row, fitted, upright
 from aegis_ot.vision.rows.hiding import HIDDEN, covered
 from aegis_ot.vision.rows.places import RowPlaces
 from aegis_ot.vision.tips import TIPS
