@@ -10,7 +10,7 @@ from itertools import islice
 from ...instrumentation import OperationKind
 from ...vocabulary import WellRef
 from ..roles import Roles
-from ..rules import Common, Family, SeriesSpec
+from ..rules import Common, Family
 from ..source import name_without_level, without_strength
 from ..trace import Met, Trace, Transfer, Visit, Well
 from .series import SeriesFinder
@@ -112,11 +112,6 @@ class Case:
         drawn off: a wash is gone. A blow-out ends what a dispense began.
         """
         return {well: _fillings(well) for well in self.trace.wells.values()}
-
-    @property
-    def series_roles(self) -> SeriesSpec:
-        """Roles of what the family dilutes in a series, and with what."""
-        return self.family.series_roles
 
     @cached_property
     def series(self) -> SeriesFinder:

@@ -37,7 +37,7 @@ def diluent_arrivals(case: Case, well: Well) -> list[int]:
     return [
         one.visit.index
         for one in well.received
-        if case.has(one.source, case.series_roles.diluent)
+        if case.has(one.source, case.family.series.diluent)
         or one.source in case.series.fillers
         or _is_made_diluent(case, one)
     ]
@@ -48,8 +48,8 @@ def _is_made_diluent(case: Case, one: Transfer) -> bool:
     return (
         one.source.ref.labware != one.well.ref.labware
         and not one.source.prefilled
-        and case.brings(one, case.series_roles.diluent)
-        and not case.brings(one, case.series_roles.stock)
+        and case.brings(one, case.family.series.diluent)
+        and not case.brings(one, case.family.series.stock)
     )
 
 
@@ -63,7 +63,7 @@ def dilutions(case: Case, series: Series) -> list[Transfer]:
         step
         for step in series.steps
         if step.source in series.position
-        or case.has(step.well, case.series_roles.diluent)
+        or case.has(step.well, case.family.series.diluent)
         or _is_filled_before_drawn(case, step)
     ]
 

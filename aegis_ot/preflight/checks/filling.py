@@ -62,16 +62,16 @@ class SeriesFilledFrom(SeriesCheck):
                 continue
             done.add(step.well)
             source = wrong.source
-            if not case.has(source, case.series_roles.stock) and not _is_diluent_known(case):
+            if not case.has(source, case.family.series.stock) and not _is_diluent_known(case):
                 yield Doubt("nothing says which reservoir holds the diluent")
                 return
             if not case.of(source):
                 yield Doubt(f"nothing says what {place(source)} holds")
                 continue
-            if case.has(source, case.series_roles.stock) and _is_in_all(case, series, source):
+            if case.has(source, case.family.series.stock) and _is_in_all(case, series, source):
                 yield Doubt(f"all wells are given {place(source)}; it may be what dilutes")
                 continue
-            is_buffer = case.has(source, case.series_roles.diluent_else)
+            is_buffer = case.has(source, case.family.series.diluent_else)
             yield Violation(
                 f"{place(step.well)} is filled from the {case.title(source)} "
                 f"{place(source)}, {at(wrong.drawn)}, where its diluent should come.",
@@ -90,7 +90,7 @@ def _is_diluent_known(case: Case) -> bool:
     served = case.trace.served
     return any(
         (ref.labware not in plates or len(served.get(ref, ())) > 1)
-        and case.roles.is_called(ref, case.series_roles.diluent)
+        and case.roles.is_called(ref, case.family.series.diluent)
         for ref in case.roles.by_well
     )
 
@@ -130,7 +130,7 @@ def _is_undiluted_head(case: Case, series: Series, well: Well) -> bool:
         return False
     first = well.received[0].visit
     return first.empty_before and any(
-        case.has(one.source, case.series_roles.stock) for one in first.brought
+        case.has(one.source, case.family.series.stock) for one in first.brought
     )
 
 

@@ -45,19 +45,17 @@ _BY_HAND = "None of the wells that receive it is mixed in the run; that may be d
 
 @dataclass(frozen=True)
 class MixedAfter(Check):
-    """Each well of ``wells`` that receives ``liquid`` is mixed after the last of it.
+    """Each well that receives ``liquid`` is mixed after the last of it, but those that hold a
+    reagent which the run makes and shares out.
 
     Any mixing counts: ``mix``, ``mix_after``, repeated aspirating and dispensing, a shaker, or
     a pause that asks someone to shake.
 
     Attributes:
         liquid: Roles of the liquid.
-        wells: Roles of the wells that are judged; else all that receive the liquid, but those
-            that hold a reagent which the run makes and shares out.
     """
 
     liquid: tuple[str, ...] = role_names(required=True)
-    wells: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
         receivers = list(self._receivers(case))
@@ -78,15 +76,12 @@ class MixedAfter(Check):
 
     def _receivers(self, case: Case) -> Iterator[tuple[Well, Visit]]:
         """The wells that are judged, each with the visit that brought the last of the liquid."""
-        liquid, wanted = self.liquid, self.wells
         for well in case.trace.wells.values():
-            if case.has(well, liquid) or (wanted and not case.has(well, wanted)):
+            if case.has(well, self.liquid) or well.ref in case.waste:
                 continue
-            if well.ref in case.waste:
+            if case.destinations.get(well) and _is_reagent(case, well, self.liquid):
                 continue
-            if not wanted and case.destinations.get(well) and _is_reagent(case, well, liquid):
-                continue
-            came = arrivals(case, well, liquid)
+            came = arrivals(case, well, self.liquid)
             if came:
                 yield well, came[-1].visit
 
@@ -98,17 +93,13 @@ class ReceivedBefore(Check):
     Attributes:
         first: Roles of the liquid that comes first.
         then: Roles of the liquid that comes after it.
-        wells: Roles of the wells that are judged; else all that receive both.
     """
 
     first: tuple[str, ...] = role_names(required=True)
     then: tuple[str, ...] = role_names(required=True)
-    wells: tuple[str, ...] = role_names()
 
     def find(self, case: Case) -> Iterator[Result]:
         for well in case.trace.wells.values():
-            if self.wells and not case.has(well, self.wells):
-                continue
             begun = _begun(case, arrivals(case, well, self.then), self.then)
             if begun is None:
                 continue

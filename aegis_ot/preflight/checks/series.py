@@ -55,7 +55,7 @@ class SeriesFinder:
     def __init__(self, case: Case) -> None:
         self._case = case
         self._has = case.has
-        self._stock, self._diluent = case.series_roles.stock, case.series_roles.diluent
+        self._stock, self._diluent = case.family.series.stock, case.family.series.diluent
         links, self.fillers = along_series(list(filter(self._is_link, case.trace.links)))
         groups = [
             group for group in chains_of(links) if len(group) >= _SHORTEST and not is_copying(group)

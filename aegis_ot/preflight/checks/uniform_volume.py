@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Annotated
 
 from ...vocabulary import Site
-from ..rules import at_least, role_names
+from ..rules import role_names
 from ..trace import Well
 from .case import Case
 from .check import Check, Result, Violation, at, microlitres, place
@@ -31,12 +30,10 @@ class UniformVolume(Check):
     Attributes:
         wells: Roles of the wells.
         liquid: Roles of the liquid.
-        tolerance: Share of the usual volume by which a well may differ.
     """
 
     wells: tuple[str, ...] = role_names(required=True)
     liquid: tuple[str, ...] = role_names(required=True)
-    tolerance: Annotated[float, at_least(0)] = 0.01
 
     def find(self, case: Case) -> Iterator[Result]:
         groups: dict[tuple[str, ...], list[Member]] = {}
@@ -59,9 +56,6 @@ class UniformVolume(Check):
             for other in case.destinations.get(well, {})
         )
 
-    def _differs(self, volume: float, usual: float) -> bool:
-        return abs(volume - usual) > max(self.tolerance * usual, 0.01)
-
     def _assay(self, case: Case, well: Well) -> tuple[str, ...]:
         names = set()
         for tube in came_from(case, well, self.liquid):
@@ -76,15 +70,15 @@ class UniformVolume(Check):
         usual_total = _usual([total for _, _, total in members])
         # Where a good part of the wells ends elsewhere, several kinds of reactions are meant.
         few = (
-            3 * sum(self._differs(total, usual_total) for _, _, total in members) <= len(members)
+            3 * sum(_differs(total, usual_total) for _, _, total in members) <= len(members)
             or len(members) < 6
         )
         for well, got, total in members:
-            if self._differs(got, usual_got):
+            if _differs(got, usual_got):
                 what = f"receives {microlitres(got)} of {title}; the others receive "
                 what += microlitres(usual_got)
                 line = received(case, well, self.liquid)[1]
-            elif self._differs(total, usual_total) and few:
+            elif _differs(total, usual_total) and few:
                 what = f"ends at {microlitres(total)}; the others end at {microlitres(usual_total)}"
                 line = filled(well)[1]
             else:
@@ -94,6 +88,11 @@ class UniformVolume(Check):
                 (Site(line, well.ref, what),),
                 (line, case.title(well), what),
             )
+
+
+def _differs(volume: float, usual: float) -> bool:
+    """Whether a volume is off the usual one, µL, by more than 1 % and more than rounding is."""
+    return abs(volume - usual) > max(0.01 * usual, 0.01)
 
 
 def _usual(values: list[float]) -> float:

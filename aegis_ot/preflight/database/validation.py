@@ -76,7 +76,7 @@ def _parts(family: Family, file: str) -> Iterator[tuple[str, Any]]:
         yield f"{file}: signals[{number}]", signal
     for name, role in family.roles.items():
         yield f"{file}: roles.{name}", role
-    yield f"{file}: series", family.series_roles
+    yield f"{file}: series", family.series
     for number, together in enumerate(family.known_by):
         yield f"{file}: known_by[{number}]", together
     for rule in family.rules:

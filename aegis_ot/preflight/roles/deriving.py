@@ -190,7 +190,7 @@ def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:
 
 def _settle_diluent(roles: Roles, trace: Trace) -> None:
     """Where nothing is called the diluent, find it among the buffers, or by its use."""
-    spec = roles.family.series_roles
+    spec = roles.family.series
     if not spec.diluent or any(roles.known(role) for role in spec.diluent):
         return
     filled: dict[str, set[WellRef]] = {}

@@ -3,7 +3,7 @@
 The robot has no pydantic and no jsonschema; a rule file must still be refused with the file,
 the rule and the field that is wrong. What is refused here is refused by the published schema
 (:mod:`aegis_ot.reports.rule_schema`) as well: both go by the types of the fields and by what is
-said beside these: ``Annotated[float, at_least(0)]``.
+said beside these: ``Annotated[str, matching(...)]``.
 """
 
 from __future__ import annotations
@@ -35,12 +35,6 @@ class Limit:
     allows: Callable[[Any], bool]
     expected: str
     schema: Mapping[str, Any]
-
-
-def at_least(least: float) -> Limit:
-    """A number that is no smaller."""
-    told = f"a number that is at least {least:g}"
-    return Limit(lambda value: bool(value >= least), told, {"minimum": least})
 
 
 def matching(pattern: str, meaning: str) -> Limit:

@@ -133,14 +133,12 @@ class SeriesSpec:
     """Which roles make a dilution series.
 
     Attributes:
-        wells: Wells of the series.
         stock: What is diluted.
         diluent: What it is diluted with.
         diluent_else: What counts as diluent where nothing is called so: the one of these that
             the wells are mostly filled from.
     """
 
-    wells: tuple[str, ...] = role_names(required=True)
     stock: tuple[str, ...] = role_names(required=True)
     diluent: tuple[str, ...] = role_names(required=True)
     diluent_else: tuple[str, ...] = role_names()
@@ -241,16 +239,11 @@ class Family:
     roles: Mapping[Name, RoleSpec]
     rules: Annotated[tuple[RuleSpec, ...], NOT_EMPTY]
     schema: int = SCHEMA_VERSION
-    series: SeriesSpec | None = None
+    series: SeriesSpec = field(default_factory=lambda: SeriesSpec((), ()))
     shapes: tuple[ShapeSignal, ...] = ()
     known_by: tuple[RoleSignal, ...] = ()
     default: bool = False
     path: str = field(default="", compare=False, metadata={"internal": True})
-
-    @property
-    def series_roles(self) -> SeriesSpec:
-        """Which roles make a dilution series; none where it has no such series."""
-        return self.series or SeriesSpec((), (), ())
 
     def closure(self, role: str) -> frozenset[str]:
         """A role and all roles above it."""
