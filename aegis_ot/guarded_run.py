@@ -263,12 +263,12 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
         ProtocolRejected: It found errors, and ``rules`` is ``"on"`` or ``"strict"``.
     """
     from .preflight.checking import errors_of, read_for_guard, rejection, summary
-    from .preflight.judging import judge_reading, uncollected
+    from .preflight.judging import judge, uncollected
 
     try:
         with uncollected():
             reading = read_for_guard(recording, settings)
-            report = judge_reading(reading)
+            report = judge(reading)
         if settings.opinion == "ask":
             from .preflight.asking import with_opinion
 

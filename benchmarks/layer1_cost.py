@@ -62,14 +62,14 @@ def check(path: Path) -> None:
 
 def _verdict_share(path: Path) -> float:
     """Time of the verdict, rules loaded, over the time of the rehearsal."""
-    from aegis_ot.preflight import judge, load_database, record
+    from aegis_ot.preflight import Reading, judge, load_database, record
     from aegis_ot.preflight.rehearsal import Script
 
     script, database = Script(path.read_text(), path.name), load_database()
     begun = time.process_time()
     recording = record(script)
     rehearsed = time.process_time()
-    judge(recording, database)
+    judge(Reading(recording, database))
     return (time.process_time() - rehearsed) / (rehearsed - begun)
 
 

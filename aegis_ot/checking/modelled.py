@@ -9,8 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..preflight import Database, Options, Report
-from ..preflight.judging import read_recording
+from ..preflight import Database, Options, Reading, Report
 from .tasks import Examined
 
 if TYPE_CHECKING:
@@ -46,5 +45,5 @@ def ask_model(
     """
     from ..reasoning import judge_in
 
-    reading = read_recording(examined.recording, database, options)
+    reading = Reading(examined.recording, database, options)
     return judge_in(asking.configuration, report, examined.dossier, reading, asking.backend)

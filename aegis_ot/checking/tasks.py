@@ -12,6 +12,7 @@ from ..errors import AegisError
 from ..preflight import (
     Database,
     Options,
+    Reading,
     Report,
     check_script,
     judge,
@@ -90,7 +91,7 @@ class TimedCheck(_OfProtocol):
         start = time.perf_counter()
         recording = record(self.script, timeout_s=self.timeout_s)
         recorded = time.perf_counter()
-        report = judge(recording, _database(self.rules), self.options)
+        report = judge(Reading(recording, _database(self.rules), self.options))
         return Timed(report, recorded - start, time.perf_counter() - recorded)
 
 

@@ -17,20 +17,18 @@ Each step is a room of its own, and imports run down this list only (a contract 
     rehearsal   the protocol run in the simulator, and recorded
 """
 
-from .checking import check_recording, check_script
+from .checking import check_script
 from .database import load_database
-from .judging import Options, Report, judge
-from .rehearsal import Recorder, Recording, Script, record
+from .judging import Options, Reading, Report, judge
+from .rehearsal import Script, record
 from .rules import Database
 
 __all__ = [
     "Database",
     "Options",
-    "Recorder",
-    "Recording",
+    "Reading",
     "Report",
     "Script",
-    "check_recording",
     "check_script",
     "judge",
     "load_database",

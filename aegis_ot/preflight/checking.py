@@ -5,15 +5,7 @@ from __future__ import annotations
 from ..settings import Settings
 from ..vocabulary import Finding, Severity, counted
 from .database import load_database
-from .judging import (
-    Options,
-    Reading,
-    Report,
-    judge,
-    judge_reading,
-    read_recording,
-    unanswered,
-)
+from .judging import Options, Reading, Report, judge, unanswered
 from .rehearsal import Recording, Script, record
 from .rules import Database
 
@@ -26,12 +18,12 @@ def read_for_guard(recording: Recording, settings: Settings) -> Reading:
         ConfigurationError: A setting names a rule, role or family that does not exist.
     """
     database = load_database([settings.rules_path] if settings.rules_path else [])
-    return read_recording(recording, database, Options.from_settings(settings))
+    return Reading(recording, database, Options.from_settings(settings))
 
 
 def check_recording(recording: Recording, settings: Settings) -> Report:
     """Judge a rehearsal on record as a guard's settings say; raises as :func:`read_for_guard`."""
-    return judge_reading(read_for_guard(recording, settings))
+    return judge(read_for_guard(recording, settings))
 
 
 def check_script(
@@ -46,7 +38,8 @@ def check_script(
         RehearsalError: It cannot be rehearsed.
         RuleError: A rule file cannot be used.
     """
-    return judge(record(script, timeout_s=timeout_s), database or load_database(), options)
+    recording = record(script, timeout_s=timeout_s)
+    return judge(Reading(recording, database or load_database(), options))
 
 
 def errors_of(report: Report) -> list[Finding]:

@@ -7,7 +7,7 @@ import textwrap
 
 from aegis_ot.preflight import Options, Script, load_database, record
 from aegis_ot.preflight.evidence import Evidence, Kind
-from aegis_ot.preflight.judging import Reading, read_recording
+from aegis_ot.preflight.judging import Reading
 from aegis_ot.preflight.roles import Roles
 
 DECK = """
@@ -28,9 +28,7 @@ def read(body: str, head: str = "", label: str = "None", assay: str = "pcr") -> 
     """A protocol on a PCR plate in slot 1 and a tube rack in slot 2."""
     inside = textwrap.indent(textwrap.dedent(body).strip("\n"), "    ")
     text = DECK.format(head=textwrap.dedent(head), body=inside, label=label)
-    return read_recording(
-        record(Script(text, "protocol.py")), load_database(), Options(assay=(assay,))
-    )
+    return Reading(record(Script(text, "protocol.py")), load_database(), Options(assay=(assay,)))
 
 
 def evidence(reading: Reading, kind: Kind) -> dict[str, tuple[Evidence, list[str]]]:

@@ -1,9 +1,9 @@
 """From a recording to a verdict: every rule judged, its findings joined, waivers applied."""
 
 from .doubts import missing_needs, pasted, spelled
-from .judging import judge, judge_reading
+from .judging import judge
 from .options import Options
-from .reading import Reading, read_recording, uncollected
+from .reading import Reading, uncollected
 from .report import Report, RoleEvidence, unanswered, verdict_of
 from .waivers import MODEL, Waived, Waiver, apply_waivers, read_waivers
 
@@ -17,10 +17,8 @@ __all__ = [
     "Waiver",
     "apply_waivers",
     "judge",
-    "judge_reading",
     "missing_needs",
     "pasted",
-    "read_recording",
     "read_waivers",
     "spelled",
     "unanswered",

@@ -9,14 +9,12 @@ from ...instrumentation import OperationKind
 from ...vocabulary import Remark, Undecided, WellRef
 from ..checks import Case, Doubt, Violation, make_check
 from ..evidence import Kind, unknown_places
-from ..rehearsal import Recording
 from ..roles import Roles
-from ..rules import Database, RuleSpec
+from ..rules import RuleSpec
 from ..trace import Contact, Well, places
 from .doubts import missing_needs, missing_roles, undecided_by, unnamed_wells
 from .findings import findings_of
-from .options import Options
-from .reading import Reading, read_recording, uncollected
+from .reading import Reading, uncollected
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
@@ -26,19 +24,9 @@ _IDLE = Remark("It moves no liquid: there is nothing to judge.")
 _UNKNOWN_ASSAY = Doubt('the assay is not known; say it with assay="..."')
 
 
-def judge(recording: Recording, database: Database, options: Options | None = None) -> Report:
-    """Judge a recorded protocol by all rules in force.
-
-    Raises:
-        ConfigurationError: If an option names a rule, role or family that does not exist.
-        RuleError: If a family given by hand does not exist.
-    """
-    return judge_reading(read_recording(recording, database, options or Options()))
-
-
 @uncollected()
-def judge_reading(reading: Reading) -> Report:
-    """Judge a protocol that was read already; to keep the reading, or to judge it again."""
+def judge(reading: Reading) -> Report:
+    """Judge a protocol by all rules in force."""
     judged = {
         rule.id: _judge_rule(rule, case)
         for rule, case in reading.cases()

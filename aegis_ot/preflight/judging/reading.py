@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import gc
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -11,15 +12,9 @@ from ...vocabulary import WellRef
 from ..checks import Case
 from ..evidence import Deck, Evidence, gather
 from ..rehearsal import Recording
-from ..roles import (
-    Roles,
-    assign_roles,
-    derive,
-    implied_contents,
-    infer_families,
-)
+from ..roles import Roles, assign_roles, derive, implied_contents, infer_families
 from ..rules import Database, RuleSpec
-from ..source import SourceFacts, lexicon_of, read_source
+from ..source import lexicon_of, read_source
 from ..trace import build_trace
 from .options import Options, check_options
 
@@ -27,12 +22,32 @@ _PLAUSIBLE = 1.0
 """From this score on a family that is not judged may still say what wells held."""
 
 
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Hold the garbage collector, which takes a third of the time of a verdict: a trace is many
+    small objects, none of them garbage.
+    """
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
+
+
 class Reading:
-    """What a protocol is taken for; made once, then judged, shown to a model, judged again.
+    """What a recorded protocol is taken for, with the eyes of every family that applies; made once,
+    then judged, shown to a model, judged again.
 
     ``more`` is evidence beside what is gathered: a model's.
 
+    Raises:
+        ConfigurationError: If an option names a rule, role or family that does not exist.
+        RuleError: If a family given by hand does not exist.
+
     Attributes:
+        facts: What its text says as Python.
         trace: What it does.
         deck: Its labware, under all names.
         evidence: All that speaks for roles.
@@ -42,35 +57,35 @@ class Reading:
         unsure: Wells that may have held liquid before the run, as names go.
     """
 
+    @uncollected()
     def __init__(
         self,
         recording: Recording,
         database: Database,
-        options: Options,
-        facts: SourceFacts,
+        options: Options | None = None,
         more: Sequence[Evidence] = (),
     ) -> None:
-        self.recording, self.database = recording, database
-        self.options, self.facts = options, facts
-        common = database.common
-        self.trace = build_trace(recording.log, recording.labware, common.pauses)
-        gathered = gather(self.trace, recording.names, facts, options.roles, common)
-        self.evidence = (*gathered, *more)
-        self._assigned = {
-            family.family: assign_roles(family, common, self.evidence, self.trace)
-            for family in database.families
-        }
-        found = infer_families(
-            database, facts, self.evidence, self.trace, self._assigned, options.assay
-        )
-        self.families = tuple(found)
-        self.roles = tuple(self._assigned[one.family] for one in found if one.applies)
-        prefilled = {ref for one in self.roles for ref in implied_contents(one, self.trace)}
+        options = options or Options()
+        check_options(options, database)
+        self.recording, self.database, self.options = recording, database, options
+        self.facts = read_source(recording.text)
+        common, log, labware = database.common, recording.log, recording.labware
+        self.trace = trace = build_trace(log, labware, common.pauses)
+        gathered = gather(trace, recording.names, self.facts, options.roles, common)
+        self.evidence = evidence = (*gathered, *more)
+
+        @functools.cache  # asked of few families
+        def assigned(family: str) -> Roles:
+            return assign_roles(database.family(family), common, evidence, trace)
+
+        found = infer_families(database, self.facts, evidence, trace, assigned, options.assay)
+        self._assigned, self.families = assigned, tuple(found)
+        self.roles = tuple(assigned(one.family) for one in found if one.applies)
+        prefilled = {ref for one in self.roles for ref in implied_contents(one, trace)}
         # Read again, now that roles say which wells held liquid before the run.
-        usage = self.trace.usage
+        usage = trace.usage
         prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
         if prefilled & usage.keys():
-            log, labware = recording.log, recording.labware
             self.trace = build_trace(log, labware, common.pauses, prefilled.__contains__)
         for one in self.roles:
             derive(one, self.trace)
@@ -103,7 +118,7 @@ class Reading:
         nothing is rehearsed again.
         """
         options = replace(self.options, assay=tuple(assay)) if assay else self.options
-        return Reading(self.recording, self.database, options, self.facts, more)
+        return Reading(self.recording, self.database, options, more)
 
     def _case(self, roles: Roles, sure: bool, left_over: bool = False) -> Case:
         common, waste, unsure = self.database.common, self.waste, self.unsure
@@ -126,31 +141,5 @@ class Reading:
             ref
             for inference in self.families
             if not inference.applies and inference.score >= _PLAUSIBLE
-            for ref in implied_contents(self._assigned[inference.family], trace)
+            for ref in implied_contents(self._assigned(inference.family), trace)
         )
-
-
-@contextmanager
-def uncollected() -> Iterator[None]:
-    """Hold the garbage collector, which takes a third of the time of a verdict: a trace is many
-    small objects, none of them garbage.
-    """
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
-
-
-@uncollected()
-def read_recording(recording: Recording, database: Database, options: Options) -> Reading:
-    """Read a recording with the eyes of every family that applies.
-
-    Raises:
-        ConfigurationError: If an option names a rule, role or family that does not exist.
-        RuleError: If a family given by hand does not exist.
-    """
-    check_options(options, database)
-    return Reading(recording, database, options, read_source(recording.text))

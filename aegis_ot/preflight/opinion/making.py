@@ -7,15 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from ...vocabulary import Severity, WellRef
 from ..database import load_database, shipped_rules
-from ..judging import (
-    Options,
-    Reading,
-    Report,
-    RoleEvidence,
-    judge_reading,
-    missing_needs,
-    read_recording,
-)
+from ..judging import Options, Reading, Report, RoleEvidence, judge, missing_needs
 from ..rehearsal import Recording, Script, record
 from ..rules import Database, RuleSpec
 from ..trace import Trace, places, row_column, trace_table
@@ -64,8 +56,8 @@ def check_with_dossier(
         RuleError: A rule file cannot be used.
     """
     recording = record(script, timeout_s=timeout_s)
-    reading = read_recording(recording, database or load_database(), options or Options())
-    report = judge_reading(reading)
+    reading = Reading(recording, database or load_database(), options)
+    report = judge(reading)
     return report, make_dossier(reading, report), reading
 
 

@@ -19,7 +19,7 @@ from ..judging import (
     Report,
     RoleEvidence,
     apply_waivers,
-    judge_reading,
+    judge,
     pasted,
     read_waivers,
     spelled,
@@ -86,7 +86,7 @@ def _judged_again(
     accepted, rejected = verify_proposals(opinion.proposals, seen, opinion.model)
     if not assay and not accepted:
         return accepted, rejected, None
-    return accepted, rejected, judge_reading(reading.with_evidence(accepted, assay))
+    return accepted, rejected, judge(reading.with_evidence(accepted, assay))
 
 
 def _questions(

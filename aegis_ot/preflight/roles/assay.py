@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -60,10 +60,10 @@ def infer_families(
     facts: SourceFacts,
     evidence: Sequence[Evidence],
     trace: Trace,
-    assigned: Mapping[str, Roles],
+    assigned: Callable[[str], Roles],
     given: Sequence[str] = (),
 ) -> list[Inference]:
-    """All families, the likeliest first, with what their wells are ``assigned`` in their eyes.
+    """All families, the likeliest first; ``assigned`` tells what wells are for in a family's eyes.
 
     Families ``given`` by hand apply, and no other does.
     """
@@ -75,7 +75,7 @@ def infer_families(
         found += _seen(family, shapes, bool(found))
         if family.known_by and found and not _is_known(found):
             in_texts = _shown(found) and any(one.defining for one in found)
-            by_well = assigned[family.family].by_well.values()
+            by_well = assigned(family.family).by_well.values()
             named = {one.role for one in by_well if in_texts or one.kind not in DOUBTFUL}
             found += _named(family, named, sum(one.worth for one in found if one.worth > 0))
         found.sort(key=lambda one: -one.worth)

@@ -8,7 +8,7 @@ import textwrap
 
 import pytest
 
-from aegis_ot.preflight import Options, Report, Script, judge, load_database, record
+from aegis_ot.preflight import Options, Reading, Report, Script, judge, load_database, record
 from aegis_ot.preflight.checking import summary
 from aegis_ot.preflight.rehearsal import Recording
 
@@ -33,7 +33,7 @@ def recording() -> Recording:
 
 def told(**roles: str) -> Report:
     given = {role: (place,) for role, place in roles.items()}
-    return judge(recording(), load_database(), Options(roles=given))
+    return judge(Reading(recording(), load_database(), Options(roles=given)))
 
 
 @pytest.mark.parametrize(

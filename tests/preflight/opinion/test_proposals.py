@@ -8,7 +8,7 @@ import pytest
 
 from aegis_ot.preflight import Options, load_database, record
 from aegis_ot.preflight.evidence import Evidence, Kind
-from aegis_ot.preflight.judging import Reading, read_recording
+from aegis_ot.preflight.judging import Reading
 from aegis_ot.preflight.opinion import Citation, RoleProposal, verify_proposals
 from aegis_ot.preflight.rehearsal import Script
 
@@ -41,7 +41,7 @@ def run(protocol):
 
 @functools.cache
 def read(text: str) -> Reading:
-    return read_recording(record(Script(text, "protocol.py")), load_database(), Options())
+    return Reading(record(Script(text, "protocol.py")), load_database(), Options())
 
 
 def verified(*proposals: RoleProposal, text: str = PROTOCOL) -> tuple[list[Evidence], list[str]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from aegis_ot.preflight import Options, Script, load_database, record
-from aegis_ot.preflight.judging import read_recording
+from aegis_ot.preflight.judging import Reading
 
 from ..reading import read, roles_by_well
 
@@ -22,7 +22,7 @@ def test_a_loaded_liquid_beats_a_name() -> None:
 def test_what_the_guard_is_given_beats_all() -> None:
     text = read("ntc = plate['A1']\np20.transfer(2, tubes['A1'], ntc)").recording.text
     options = Options(assay=("pcr",), roles={"positive_reaction": ["1:A1"]})
-    reading = read_recording(record(Script(text, "p.py")), load_database(), options)
+    reading = Reading(record(Script(text, "p.py")), load_database(), options)
     assert roles_by_well(reading)["1:A1"] == "positive_reaction"
 
 
