@@ -44,7 +44,6 @@ class Evidence:
         text: The words that may name a role.
         wells: The wells it speaks of, in order.
         citation: For people: "name `ntc` at line 12".
-        line: Where it stands in the source, if it does.
         whole: Whether it speaks of a whole labware rather than of chosen wells.
         role: The role itself, where it was given outright.
         levels: Concentration or dose of each of its wells, where it gives them one by one.
@@ -54,7 +53,6 @@ class Evidence:
     text: str
     wells: tuple[WellRef, ...]
     citation: str
-    line: int | None = None
     whole: bool = False
     role: str = ""
     levels: tuple[float | None, ...] = ()

@@ -41,7 +41,6 @@ def named_wells(
             text,
             wells,
             f"name `{binding.name}` at line {line}",
-            line,
             whole=not binding.wells,
             levels=levels,
         )
@@ -72,13 +71,8 @@ def fields_of_rows(names: Sequence[NameBinding], facts: SourceFacts) -> Iterator
                     held.setdefault(column, {})[cell] = None
         line = line_of(binding, facts)
         for column, wells in held.items():
-            yield Evidence(
-                Kind.NAME,
-                f"{base}.{column}",
-                tuple(wells),
-                f"field `{column}` of `{binding.name}` at line {line}",
-                line,
-            )
+            citation = f"field `{column}` of `{binding.name}` at line {line}"
+            yield Evidence(Kind.NAME, f"{base}.{column}", tuple(wells), citation)
 
 
 def _is_one_of_many(binding: NameBinding, names: Sequence[NameBinding]) -> bool:

@@ -40,9 +40,7 @@ def plate_maps(
             citation = f"plate map `{binding.name}` at line {line}"
             levels = () if level is None else (level,) * len(wells)
             found.append(
-                Evidence(
-                    Kind.NAME, binding.name, wells, citation, line, whole=counted, levels=levels
-                )
+                Evidence(Kind.NAME, binding.name, wells, citation, whole=counted, levels=levels)
             )
         for row in binding.rows:
             wells = row.wells or _wells_of_row(deck, facts, row, uses)
@@ -87,11 +85,7 @@ def _wells_of_row(
 
 
 def _of_row(
-    name: str,
-    row: Row,
-    wells: tuple[WellRef, ...],
-    line: int,
-    common: Common,
+    name: str, row: Row, wells: tuple[WellRef, ...], line: int, common: Common
 ) -> Iterator[Evidence]:
     amounts = lexicon_of({"amount": common.amounts})
     of_amounts = bool(amounts.find(name))
@@ -104,11 +98,6 @@ def _of_row(
     level = numbers[0] if len(numbers) == 1 else None
     for text in texts or ([name] if level is not None else []):
         own = level if level is not None else level_in(text, common.levels)
-        yield Evidence(
-            Kind.NAME,
-            text,
-            wells,
-            f"'{text}' beside it in `{name}` at line {line}",
-            line,
-            levels=() if own is None else (own,) * len(wells),
-        )
+        levels = () if own is None else (own,) * len(wells)
+        citation = f"'{text}' beside it in `{name}` at line {line}"
+        yield Evidence(Kind.NAME, text, wells, citation, levels=levels)

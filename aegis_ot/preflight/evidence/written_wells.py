@@ -40,7 +40,7 @@ def written_wells(deck: Deck, facts: SourceFacts) -> Iterator[Evidence]:
         info = deck.trace.labware[called[0]]
         for names, said in entries_of(text[head.end() :], info):
             citation = f"'{one_line(said, LONGEST_QUOTE)}' written at line {line}"
-            yield Evidence(Kind.WRITTEN, said, deck.refs(info.key, names), citation, line)
+            yield Evidence(Kind.WRITTEN, said, deck.refs(info.key, names), citation)
 
 
 def entries_of(text: str, info: LabwareInfo) -> list[Entry]:

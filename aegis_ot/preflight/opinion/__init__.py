@@ -8,7 +8,6 @@ source and trace, and what is left is merged into the report. Standard library o
 from .exchange import Citation, Dossier, Opinion, RoleProposal, RuleAnswer, is_known, no_answer
 from .making import check_with_dossier, make_dossier, rule_text
 from .merging import merge
-from .proposals import verify_proposals
 
 __all__ = [
     "Citation",
@@ -22,5 +21,4 @@ __all__ = [
     "merge",
     "no_answer",
     "rule_text",
-    "verify_proposals",
 ]

@@ -71,7 +71,6 @@ class _Verifier:
             proposal.role,
             wells,
             f"read by {self._model} at line {said.line}: '{said.quote}'",
-            said.line,
             role=proposal.role,
             levels=levels,
         )

@@ -1,7 +1,6 @@
 """What a protocol's text says as Python: tokens, comments, names, lines, how values flow."""
 
 from .concentrations import (
-    Concentration,
     comparable,
     has_concentration,
     level_in,
@@ -15,7 +14,6 @@ from .facts import SourceFacts, read_source, source_lines
 from .lexicon import Lexicon, Match, lexicon_of, tokens
 
 __all__ = [
-    "Concentration",
     "Index",
     "Lexicon",
     "Match",

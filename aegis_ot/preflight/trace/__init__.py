@@ -4,7 +4,7 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 """
 
 from .building import build_trace, touched_by_tip
-from .geometry import Contact, Geometry
+from .geometry import Contact
 from .model import EMPTY_UL, Transfer, Visit, Well, row_column
 from .table import places, trace_table
 from .tips import Met, Tip
@@ -13,7 +13,6 @@ from .trace import Imbalance, Trace, Usage, chains_of
 __all__ = [
     "EMPTY_UL",
     "Contact",
-    "Geometry",
     "Imbalance",
     "Met",
     "Tip",

@@ -262,9 +262,9 @@ class _Builder:
         drawn.mixing = visit.mixing = True
         mixes = visit.well.mixes
         if mixes and mixes[-1][1] >= drawn.index - 1:
-            mixes[-1] = (mixes[-1][0], visit.index, mixes[-1][2])
+            mixes[-1] = (mixes[-1][0], visit.index)
         else:
-            mixes.append((drawn.index, visit.index, drawn.line))
+            mixes.append((drawn.index, visit.index))
 
 
 def _slack(volume: float) -> float:

@@ -40,7 +40,7 @@ class Well:
         liquids: Names of liquids loaded into it.
         visits: Everything tips did here, in order.
         received: What came into it from other wells, in order.
-        mixes: ``(first index, last index, line)`` of each time it was mixed.
+        mixes: First and last index of each time it was mixed.
         prefilled: Whether it held liquid before the run.
         fed: Whether the run has put liquid into it.
         most: What it holds at most while that is unknown, µL: a full well less what was taken.
@@ -60,7 +60,7 @@ class Well:
     liquids: list[str] = field(default_factory=list)
     visits: list[Visit] = field(default_factory=list)
     received: list[Transfer] = field(default_factory=list)
-    mixes: list[tuple[int, int, int | None]] = field(default_factory=list)
+    mixes: list[tuple[int, int]] = field(default_factory=list)
     prefilled: bool = False
     fed: bool = False
     most: float = math.inf

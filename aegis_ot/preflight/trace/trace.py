@@ -163,7 +163,7 @@ class Trace:
 
     def mixed_since(self, well: Well, index: int, before: float) -> bool:
         """Whether ``well`` was mixed or shaken after ``index`` and before ``before``."""
-        if any(index < last and first < before for first, last, _ in well.mixes):
+        if any(index < last and first < before for first, last in well.mixes):
             return True
         return any(
             index < at < before and (keys is None or well.ref.labware in keys)

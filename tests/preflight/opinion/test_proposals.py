@@ -9,7 +9,8 @@ import pytest
 from aegis_ot.preflight import Options, load_database, record
 from aegis_ot.preflight.evidence import Evidence, Kind
 from aegis_ot.preflight.judging import Reading
-from aegis_ot.preflight.opinion import Citation, RoleProposal, verify_proposals
+from aegis_ot.preflight.opinion import Citation, RoleProposal
+from aegis_ot.preflight.opinion.proposals import verify_proposals
 from aegis_ot.preflight.rehearsal import Script
 
 PROTOCOL = """metadata = {"apiLevel": "2.15", "protocolName": "PCR set-up"}
@@ -64,7 +65,7 @@ def reason(proposal: RoleProposal, text: str = PROTOCOL) -> str:
 def test_what_stands_becomes_evidence_of_the_weakest_kind() -> None:
     (one,), rejected = verified(said("template", "2:A2"))
     assert rejected == []
-    assert (one.kind, one.role, one.line) == (Kind.MODEL, "template", 2)
+    assert (one.kind, one.role) == (Kind.MODEL, "template")
     assert [ref.address for ref in one.wells] == ["2:A2"]
     assert one.citation == "read by m at line 2: 'genomic DNA'"
 

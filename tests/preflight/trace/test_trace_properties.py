@@ -11,7 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from aegis_ot.instrumentation import WellInfo
-from aegis_ot.preflight.trace import Contact, Geometry, Tip, Well, trace_table
+from aegis_ot.preflight.trace import Contact, Tip, Well, trace_table
+from aegis_ot.preflight.trace.geometry import Geometry
 from aegis_ot.vocabulary import WellRef
 from tests.support.bench import Bench
 
