@@ -130,7 +130,7 @@ class Trace:
 
         A well that the run never uses stands where the others of its labware stand.
         """
-        used = self.usage.get(ref, Usage())
+        used = self.usage.get(ref) or Usage()
         side = used.side
         if not side:
             others = self._sides.get(ref.labware, set())
