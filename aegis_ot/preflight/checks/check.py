@@ -57,11 +57,6 @@ class Doubt:
 Result = Violation | Doubt
 
 
-def place(well: Well) -> str:
-    """A well in a message: "A1 of PCR plate (slot 4)"."""
-    return str(well.ref)
-
-
 def at(line: int | None) -> str:
     """ "at line 14", or nothing."""
     return f"at line {line}" if line else "somewhere in the protocol"

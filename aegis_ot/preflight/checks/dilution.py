@@ -10,7 +10,7 @@ from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Tip, Transfer, Visit, Well
 from .case import Case
-from .check import Check, Doubt, Result, Violation, at, place
+from .check import Check, Doubt, Result, Violation, at
 from .series import Series, branching
 
 _BY_HAND = "None of the wells in which this series ends is mixed; that may be done by hand."
@@ -107,7 +107,7 @@ class SeriesMixed(SeriesCheck):
             drawn = next_draw(step)
             then = f"before liquid is carried on {at(drawn.line)}" if drawn else "afterwards"
             yield Violation(
-                f"The dilution into {place(step.well)} {at(step.visit.line)} is not mixed {then}.",
+                f"The dilution into {step.well.ref} {at(step.visit.line)} is not mixed {then}.",
                 (
                     Site(step.drawn, step.source.ref, "drew the more concentrated solution"),
                     Site(step.visit.line, step.well.ref, "diluted here, not mixed"),
@@ -150,8 +150,8 @@ class SeriesDirection(SeriesCheck):
                 else f"skipping {jump - 1} well{'s' if jump > 2 else ''} of the series"
             )
             yield Violation(
-                f"The dilution runs {what}: from {place(step.source)} {at(step.drawn)} into "
-                f"{place(step.well)} {at(step.visit.line)}.",
+                f"The dilution runs {what}: from {step.source.ref} {at(step.drawn)} into "
+                f"{step.well.ref} {at(step.visit.line)}.",
                 (
                     Site(step.drawn, step.source.ref, "drew from here"),
                     Site(step.visit.line, step.well.ref, f"diluted {what}"),
@@ -198,8 +198,8 @@ def _one_tip(
             reported.add(visit.well)
             before = strongest[1]
             yield Violation(
-                f"The tip that touched the more concentrated {place(before.well)} "
-                f"{at(before.line)} entered {place(visit.well)} {at(visit.line)}.",
+                f"The tip that touched the more concentrated {before.well.ref} "
+                f"{at(before.line)} entered {visit.well.ref} {at(visit.line)}.",
                 (
                     Site(before.line, before.well.ref, "touched the more concentrated well"),
                     Site(visit.line, visit.well.ref, "entered a later well"),

@@ -12,7 +12,7 @@ from ..rules import role_names
 from ..source import comparable, lexicon_of
 from ..trace import Met, Visit, Well
 from .case import Case, carried_liquids
-from .check import Check, Doubt, Result, Violation, at, place
+from .check import Check, Doubt, Result, Violation, at
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ class DoseOrder(Check):
         mine = case.roles.level(origin.ref)
         alike = [other for other in here if case.compound(origin) == case.compound(other)]
         own = [case.roles.level(other.ref) for other in alike or here]
-        what = f"{case.title(origin)} from {place(origin)}"
+        what = f"{case.title(origin)} from {origin.ref}"
         if mine is not None and any(one is not None and not comparable(mine, one) for one in own):
             mine = None  # of different scales
         if here and mine is not None and all(level is not None for level in own):
@@ -78,7 +78,7 @@ class DoseOrder(Check):
                 return None
             harm = "a well of a lower dose" if alike else "a well of another compound"
         elif here and (mine is not None or any(level is not None for level in own)):
-            why = f"the dose in {place(origin)} or of its neighbours is not known"
+            why = f"the dose in {origin.ref} or of its neighbours is not known"
             return Doubt(why, (origin, *here))
         elif here and all(_in_one_list(case, origin, other) for other in here):
             return Doubt(
@@ -89,7 +89,7 @@ class DoseOrder(Check):
         else:
             harm = "a treated well that is not meant for it"
         return Violation(
-            f"The tip that met {what} {at(met.line)} entered {place(visit.well)}, {harm}, "
+            f"The tip that met {what} {at(met.line)} entered {visit.well.ref}, {harm}, "
             f"{at(visit.line)}.",
             (
                 Site(met.line, met.well.ref, f"met {case.title(origin)}"),
@@ -120,8 +120,8 @@ class DoseOrder(Check):
                 continue
             if any(volume > here[origin] * 1.01 for origin, volume in there.items()):
                 return Violation(
-                    f"The tip that touched {place(other)}, a well of a higher dose, "
-                    f"{at(met.line)} entered {place(visit.well)} {at(visit.line)}.",
+                    f"The tip that touched {other.ref}, a well of a higher dose, "
+                    f"{at(met.line)} entered {visit.well.ref} {at(visit.line)}.",
                     (
                         Site(met.line, other.ref, "touched a well of a higher dose"),
                         Site(visit.line, visit.well.ref, "entered a well of a lower dose"),

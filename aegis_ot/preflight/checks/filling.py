@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ...vocabulary import Site
 from ..trace import Transfer, Well
 from .case import Case
-from .check import Doubt, Result, Violation, at, place
+from .check import Doubt, Result, Violation, at
 from .dilution import SeriesCheck, diluent_arrivals, dilutions
 from .series import Series, first_of, wells_of
 
@@ -42,7 +42,7 @@ class SeriesFilledFirst(SeriesCheck):
                 late = next(v for v in well.visits if v.index == fills[0])
                 sites.append(Site(late.line, well.ref, "the diluent comes only here"))
             yield Violation(
-                f"{place(well)} receives the more concentrated solution {at(step.visit.line)} "
+                f"{well.ref} receives the more concentrated solution {at(step.visit.line)} "
                 + ("before its diluent." if fills else "and never any diluent."),
                 tuple(sites),
                 (step.visit.line, bool(fills)),
@@ -66,15 +66,15 @@ class SeriesFilledFrom(SeriesCheck):
                 yield Doubt("nothing says which reservoir holds the diluent")
                 return
             if not case.of(source):
-                yield Doubt(f"nothing says what {place(source)} holds")
+                yield Doubt(f"nothing says what {source.ref} holds")
                 continue
             if case.has(source, case.family.series.stock) and _is_in_all(case, series, source):
-                yield Doubt(f"all wells are given {place(source)}; it may be what dilutes")
+                yield Doubt(f"all wells are given {source.ref}; it may be what dilutes")
                 continue
             is_buffer = case.has(source, case.family.series.diluent_else)
             yield Violation(
-                f"{place(step.well)} is filled from the {case.title(source)} "
-                f"{place(source)}, {at(wrong.drawn)}, where its diluent should come.",
+                f"{step.well.ref} is filled from the {case.title(source)} "
+                f"{source.ref}, {at(wrong.drawn)}, where its diluent should come.",
                 (
                     Site(wrong.drawn, source.ref, "drew this in the diluent's place"),
                     Site(wrong.visit.line, step.well.ref, "filled with it"),

@@ -11,7 +11,7 @@ from ..rules import role_names
 from ..source import comparable
 from ..trace import Transfer, Visit, Well
 from .case import Case, RoleSet
-from .check import Check, Doubt, Result, Violation, at, place
+from .check import Check, Doubt, Result, Violation, at
 
 
 def arrivals(case: Case, well: Well, liquid: RoleSet) -> list[Transfer]:
@@ -68,7 +68,7 @@ class MixedAfter(Check):
             if case.trace.mixed_since(well, last.index, math.inf):
                 continue
             yield Violation(
-                f"{place(well)} receives {what} {at(last.line)} and is never mixed afterwards.",
+                f"{well.ref} receives {what} {at(last.line)} and is never mixed afterwards.",
                 (Site(last.line, well.ref, f"received {what}, never mixed"),),
                 (last.line, what),
                 warning=_BY_HAND if by_hand else "",
@@ -110,7 +110,7 @@ class ReceivedBefore(Check):
                 what = case.titles(self.then)
                 title, line = case.title(one.source), one.visit.line
                 yield Violation(
-                    f"{place(well)} receives {what} {at(begun.line)}, before the "
+                    f"{well.ref} receives {what} {at(begun.line)}, before the "
                     f"{title} that is added {at(line)}.",
                     (
                         Site(begun.line, well.ref, f"received {what}"),
@@ -159,16 +159,16 @@ class RisingOrder(Check):
             level, level_before = case.roles.level(source.ref), case.roles.level(before.source.ref)
             if level_before is None or level is None or not comparable(level_before, level):
                 yield Doubt(
-                    f"one tip dispenses {place(before.source)} and then "
-                    f"{place(source)}, and nothing says which is more concentrated",
+                    f"one tip dispenses {before.source.ref} and then "
+                    f"{source.ref}, and nothing says which is more concentrated",
                     (before.source, source),
                 )
             elif level < level_before and (*key, source) not in done:
                 done.add((*key, source))
                 yield Violation(
                     f"The tip that dispensed {case.title(before.source)} from "
-                    f"{place(before.source)} {at(before.visit.line)} goes on with the less "
-                    f"concentrated one from {place(source)} into {place(one.well)} "
+                    f"{before.source.ref} {at(before.visit.line)} goes on with the less "
+                    f"concentrated one from {source.ref} into {one.well.ref} "
                     f"{at(visit.line)}.",
                     (
                         Site(before.visit.line, before.source.ref, "dispensed the higher one"),

@@ -10,7 +10,7 @@ from ..evidence import Kind
 from ..rules import role_names
 from ..trace import EMPTY_UL, Transfer, Usage, Well
 from .case import Case, RoleSet
-from .check import Check, Doubt, Result, Violation, at, microlitres, place
+from .check import Check, Doubt, Result, Violation, at, microlitres
 
 
 def received(case: Case, well: Well, liquid: RoleSet) -> tuple[float, int | None]:
@@ -79,7 +79,7 @@ def _never_received(
 ) -> Violation:
     """A well without a liquid that others are ``given``: at which line, whence, what it was."""
     total, line = filled(well)
-    message = f"The {case.title(well)} {place(well)} never receives {title}" + (
+    message = f"The {case.title(well)} {well.ref} never receives {title}" + (
         f", though it receives {microlitres(total)} {at(line)}." if total > 0 else "."
     )
     lacking = Site(line or _last_line(case, well), well.ref, f"receives no {title}")
@@ -146,15 +146,15 @@ class Receives(Check):
         """Why nobody can say whether a well that lacks the liquid should have it, or ``""``."""
         if unknown := _unknown_source(case, well, served):
             return (
-                f"{place(well)} receives something from {place(unknown)}, and nothing says "
+                f"{well.ref} receives something from {unknown.ref}, and nothing says "
                 "what stands there"
             )
         if self._held_more(case, well):
-            return f"more is drawn from {place(well)} than the run puts there: it held more before"
+            return f"more is drawn from {well.ref} than the run puts there: it held more before"
         if is_made_of(case, well, self.wells):
-            return f"{place(well)} is filled from wells like it, at a later stage perhaps"
+            return f"{well.ref} is filled from wells like it, at a later stage perhaps"
         if case.roles.is_named_by_labware(well.ref):
-            return f"nothing but its plate's name says what {place(well)} is for"
+            return f"nothing but its plate's name says what {well.ref} is for"
         return ""
 
     def _held_more(self, case: Case, well: Well) -> bool:
@@ -233,8 +233,8 @@ class NeverReceives(Check):
                     if not case.of(origin) and self._may_be(case, origin, well):
                         seen.add(origin)
                         yield Doubt(
-                            f"nothing says what {place(origin)} holds, which goes into the "
-                            f"{case.title(well)} {place(well)} as well"
+                            f"nothing says what {origin.ref} holds, which goes into the "
+                            f"{case.title(well)} {well.ref} as well"
                         )
                     elif case.has(origin, self.liquid) and not case.has(origin, self.wells):
                         seen.add(origin)
@@ -257,8 +257,8 @@ def _given(case: Case, one: Transfer, origin: Well) -> Violation:
     what, title = case.title(origin), case.title(one.well)
     line = one.visit.line
     return Violation(
-        f"{microlitres(one.visit.volume)} drawn from {what} in {place(one.source)} {at(one.drawn)} "
-        f"are dispensed into the {title} {place(one.well)} {at(line)}.",
+        f"{microlitres(one.visit.volume)} drawn from {what} in {one.source.ref} {at(one.drawn)} "
+        f"are dispensed into the {title} {one.well.ref} {at(line)}.",
         (
             Site(one.drawn, one.source.ref, f"drew {what}"),
             Site(line, one.well.ref, f"gave it to the {title}"),

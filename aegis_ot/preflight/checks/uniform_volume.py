@@ -9,7 +9,7 @@ from ...vocabulary import Site
 from ..rules import role_names
 from ..trace import Well
 from .case import Case
-from .check import Check, Result, Violation, at, microlitres, place
+from .check import Check, Result, Violation, at, microlitres
 from .receiving import came_from, filled, is_made_of, received
 
 Member = tuple[Well, float, float]
@@ -84,7 +84,7 @@ class UniformVolume(Check):
             else:
                 continue
             yield Violation(
-                f"The {case.title(well)} {place(well)} {what} ({at(line)}).",
+                f"The {case.title(well)} {well.ref} {what} ({at(line)}).",
                 (Site(line, well.ref, what),),
                 (line, case.title(well), what),
             )

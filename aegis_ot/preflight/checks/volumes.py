@@ -9,7 +9,7 @@ from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Imbalance, Visit, Well
 from .case import Case
-from .check import Check, Doubt, Result, Violation, at, microlitres, place
+from .check import Check, Doubt, Result, Violation, at, microlitres
 
 _FEWEST_ALIKE = 3
 _FAR_SHORT = 2.0
@@ -55,7 +55,7 @@ class VolumeBookkeeping(Check):
                 if one.visit.mixing or well.ref.labware in short:
                     drawn, held = microlitres(one.volume), microlitres(one.limit)
                     yield Doubt(
-                        f"{drawn} are drawn from {place(well)} {at(one.visit.line)}, and the run "
+                        f"{drawn} are drawn from {well.ref} {at(one.visit.line)}, and the run "
                         f"has put {held} there: it may have held more"
                     )
                     continue
@@ -137,12 +137,10 @@ def _violation(imbalance: Imbalance, warning: str, most: float) -> Violation:
     volume, limit = microlitres(imbalance.volume), microlitres(imbalance.limit)
     if imbalance.overfilled:
         later = f", and to {microlitres(most)} later" if microlitres(most) != volume else ""
-        message = f"{place(well)} is filled to {volume} {at(visit.line)}{later}; it holds {limit}."
+        message = f"{well.ref} is filled to {volume} {at(visit.line)}{later}; it holds {limit}."
         sites = [Site(visit.line, well.ref, f"filled to {volume}")]
     else:
-        message = (
-            f"{volume} are drawn from {place(well)} {at(visit.line)}, which holds {limit} then."
-        )
+        message = f"{volume} are drawn from {well.ref} {at(visit.line)}, which holds {limit} then."
         sites = [Site(visit.line, well.ref, f"drew {volume} of {limit}")]
     lines = [v.line for v in well.visits if v.index < visit.index and v.brought]
     if lines and lines[-1] != visit.line:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from ..evidence import Evidence, Kind
 from ..rules import Common, Family
-from ..source import Lexicon, Match, lexicon_of, tokens, without_concentrations
+from ..source import Lexicon, lexicon_of, tokens, without_concentrations
 
 _SEVERAL = 3
 """Two wells may well hold one liquid that is called by a plural."""
@@ -80,9 +80,6 @@ class RoleNames:
         found = telling or found  # `SAMPLE_POS` is the place of a sample
         return [match.topic for match in reversed(found) if not match.topic.startswith("!")]
 
-    def _names(self, found: Sequence[Match]) -> set[str]:
-        return {match.topic for match in found if not match.topic.startswith("!")}
-
     def _speaks_of_several(self, evidence: Evidence, text: str, named: Sequence[str]) -> bool:
         """Whether a text joins things that differ: "samples and NTC" says of no well which.
 
@@ -92,7 +89,8 @@ class RoleNames:
         if len(parts) < 2 and evidence.is_name:
             return False
         unlike = any(not self._family.are_kin(one, other) for one in named for other in named)
-        told = [bool(self._names(self._lexicon.find(part))) for part in parts]
+        found = map(self._lexicon.find, parts)
+        told = [any(not match.topic.startswith("!") for match in one) for one in found]
         return unlike or (evidence.whole and any(told) and not all(told))
 
     def _parts(self, text: str) -> list[str]:
