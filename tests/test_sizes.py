@@ -9,21 +9,21 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 9_586,
-    "preflight/checks": 2_127,
+    "preflight": 9_481,
+    "preflight/checks": 2_108,
     "preflight/database": 250,
-    "preflight/evidence": 717,
-    "preflight/judging": 811,
-    "preflight/opinion": 637,
+    "preflight/evidence": 698,
+    "preflight/judging": 784,
+    "preflight/opinion": 626,
     "preflight/rehearsal": 1_013,
-    "preflight/roles": 994,
-    "preflight/rules": 632,
-    "preflight/source": 679,
-    "preflight/trace": 1_499,
-    "": 66_167,
+    "preflight/roles": 992,
+    "preflight/rules": 618,
+    "preflight/source": 676,
+    "preflight/trace": 1_498,
+    "": 66_062,
 }
-"""Lines of Python by room; the whole package last. They stand at what was reached; the aim is 9,500
-for ``preflight`` and 48,000 for the package."""
+"""Lines of Python by room; the whole package last. They stand at what was reached: ``preflight`` is
+within its aim of 9,500, the package has 48,000 for an aim."""
 
 
 def lines_of(folder: Path) -> int:

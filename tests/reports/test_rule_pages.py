@@ -52,7 +52,6 @@ def test_every_parameter_of_every_check_is_told() -> None:
         told = dict(re.findall(r"^- `(\w+)`(?: \([^:]*\))?: (.+)$", part, re.MULTILINE))
         assert list(told) == [field.name for field in fields(check)], name
     assert "- `not_into` (optional): Roles whose wells are let be" in page
-    assert "- `tolerance` (`0.01` if left out): Share of" in page
 
 
 @pytest.mark.parametrize(

@@ -151,13 +151,11 @@ class _Builder:
         return False
 
     def _note_group(self, step: Operation) -> None:
-        first = step.wells[0] if step.wells else None
-        if first is not None and len(step.wells) == 1:
-            self._trace.singles.add(first)
-        elif first is not None and first not in self._trace.groups:
-            refs = tuple(ref for ref in step.wells if ref)
-            if len(set(refs)) > 1:
-                self._trace.groups[first] = refs
+        refs = tuple(ref for ref in step.wells if ref)
+        if len(step.wells) == 1:
+            self._trace.singles.update(refs)
+        elif step.wells and step.wells[0] is not None and len(set(refs)) > 1:
+            self._trace.groups.setdefault(refs[0], refs)
 
     def _act(self, step: Operation, tip: Tip, well: Well | None) -> None:
         kind = step.kind
