@@ -13,7 +13,7 @@ from __future__ import annotations
 import ast
 import difflib
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ...vocabulary import Finding, Remark
@@ -72,10 +72,12 @@ class Waived:
 def read_waivers(facts: SourceFacts) -> list[Waiver]:
     """All waivers of a protocol."""
     waivers: list[Waiver] = []
+    stand = any(map(_WAIVER.search, facts.comments.values()))  # in few protocols any does
+    statements = _statements(facts) if stand else {}
     for line, comment in facts.comments.items():
         match = _WAIVER.search(comment)
         if match is not None:
-            waivers.append(_waiver(line, match, _covered(line, facts)))
+            waivers.append(_waiver(line, match, _covered(line, facts, statements)))
         elif _is_misspelt(comment):
             waivers.append(Waiver(line, (), (), "", f"is not understood: {_WRITE}"))
     return waivers
@@ -102,30 +104,31 @@ def _waiver(line: int, match: re.Match[str], covered: tuple[int, ...]) -> Waiver
     return Waiver(line, covered, rules, reason, problem)
 
 
-def _statement(line: int, facts: SourceFacts) -> tuple[int, ...]:
-    """The lines of the innermost statement at a line; of a compound one, of its head."""
-    found: tuple[int, ...] = (line,)
+def _statements(facts: SourceFacts) -> dict[int, tuple[int, ...]]:
+    """By line, the lines of the innermost statement there; of a compound one, of its head."""
+    found: dict[int, tuple[int, ...]] = {}
     for part in ast.walk(facts.tree):  # from the outermost to the innermost
         if isinstance(part, ast.stmt):
             body = getattr(part, "body", None)
             last = body[0].lineno - 1 if body else part.end_lineno or part.lineno
-            lines = range(part.lineno, max(last, part.lineno) + 1)
-            if line in lines:
-                found = tuple(lines)
+            lines = tuple(range(part.lineno, max(last, part.lineno) + 1))
+            found.update(dict.fromkeys(lines, lines))
     return found
 
 
-def _covered(line: int, facts: SourceFacts) -> tuple[int, ...]:
+def _covered(
+    line: int, facts: SourceFacts, statements: Mapping[int, tuple[int, ...]]
+) -> tuple[int, ...]:
     """The lines of the statement at ``line`` or below it; empty: the whole file."""
     if line not in facts.own_line:
-        return _statement(line, facts)
+        return statements.get(line, (line,))
     texts = {first for first, _ in facts.docstrings}
     if all(node.lineno > line or node.lineno in texts for node in facts.tree.body):
         return ()  # before the first statement
     below = line + 1
     while below in facts.own_line:
         below += 1
-    return (line, *_statement(below, facts))
+    return (line, *statements.get(below, (below,)))
 
 
 def apply_waivers(
