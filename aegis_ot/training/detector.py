@@ -15,9 +15,9 @@ import torch
 
 from .._version import __version__
 from ..errors import ConfigurationError, DatasetError
-from ..vision.detection.heatmap import FORMAT, HeatmapDetector
+from ..vision.detection.heatmap import FORMAT, HeatmapDetector, load_weights
 from .figures import choose_threshold, measure, read_images
-from .fitting import DetectorSettings, fit, mixed_frames
+from .fitting import CONTINUING, DetectorSettings, fit, mixed_frames
 from .frame_pool import FramePool
 from .network import TipNetwork
 from .photometry import shows
@@ -26,6 +26,9 @@ from .simulated import SimulatedFrames
 from .sources import sources_digest
 
 __all__ = ["DetectorSettings", "train"]
+
+SHIPPED = "shipped"
+"""What ``start`` is for the weights that come with the package."""
 
 
 def export(network: TipNetwork, path: Path) -> None:
@@ -55,6 +58,7 @@ def train(
     settings: DetectorSettings | None = None,
     hold_out: Sequence[str] = (),
     progress: Callable[[str], None] | None = None,
+    start: str | Path | None = None,
 ) -> Path:
     """Train a detector and write its weights and their description.
 
@@ -65,21 +69,27 @@ def train(
         settings: How to train.
         hold_out: Plates (as in ``manifest.csv``) that are left out, for measuring.
         progress: Told one line at a time how far it is.
+        start: Weights to train on from, or :data:`SHIPPED`; a new network if not given.
 
     Returns:
         Path of the ``.onnx`` file.
 
     Raises:
-        ConfigurationError: ``out`` cannot be written, a plate to hold out is in no data set, or
-            no plate is left.
+        ModelError: The weights to start from are missing, damaged or of another version.
+        ConfigurationError: They are of another network, ``out`` cannot be written, a plate to
+            hold out is in no data set, or no plate is left.
         DatasetError: A data set cannot be read, or two have the same name.
     """
-    chosen = settings or DetectorSettings()
+    chosen = settings or (DetectorSettings() if start is None else CONTINUING)
     path, held = _output(out), set(hold_out)
+    begun, start_sha256 = None, None
+    if start is not None:
+        weights, described = load_weights(None if start == SHIPPED else start)
+        begun, start_sha256 = TipNetwork.exported(weights), described["sha256"]
     by_set = _read(datasets, held)
     learnt = [f for frames in by_set.values() for f in frames if _plate(f) not in held]
     pool = FramePool(learnt) if learnt else None
-    network, digest = fit(pool, seed, chosen, progress)
+    network, digest = fit(pool, seed, chosen, progress, begun)
     export(network, path)
     description = {
         "format": FORMAT,
@@ -87,6 +97,7 @@ def train(
         "threshold": 0.5 if chosen.threshold is None else chosen.threshold,
         "parameters": sum(p.numel() for p in network.parameters()),
         "seed": seed,
+        "start_sha256": start_sha256,
         "settings": asdict(chosen),
         "data": {
             "sets": list(by_set),

@@ -63,13 +63,25 @@ class DetectorSettings:
     threads: int = 2
 
 
+CONTINUING = DetectorSettings(rounds=4, frozen=4, learning_rate=1e-3)
+"""For a network that has learnt already: shorter, in smaller steps, its statistics held."""
+
+
 def fit(
     pool: FramePool | None,
     seed: int,
     settings: DetectorSettings,
     progress: Callable[[str], None] | None = None,
+    start: TipNetwork | None = None,
 ) -> tuple[TipNetwork, str]:
     """Train a network on drawn and simulated frames and, if there is a pool, on recorded ones.
+
+    Args:
+        pool: Recorded frames.
+        seed: Of every random choice.
+        settings: How to train.
+        progress: Told one line a round.
+        start: A network that has learnt already; a new one if not given.
 
     Returns:
         The network, and the SHA-256 of all that it has learnt from: two trainings whose sums
@@ -82,12 +94,12 @@ def fit(
     torch.use_deterministic_algorithms(True)
     rng = np.random.default_rng(seed)
     simulated = SimulatedFrames(seed)
-    network = TipNetwork().to(memory_format=torch.channels_last)
+    network = (start or TipNetwork()).to(memory_format=torch.channels_last)
     optimiser = torch.optim.AdamW(
         network.parameters(), lr=settings.learning_rate, weight_decay=1e-3
     )
     digest = hashlib.sha256()
-    start = time.monotonic()
+    began = time.monotonic()
     total_passes = settings.rounds * settings.passes
     for turn in range(settings.rounds):
         wide, close = _collect(settings, pool, simulated, rng)
@@ -107,7 +119,7 @@ def fit(
                 losses.append(_step(network, optimiser, *tensors))
         tell(
             f"round {turn + 1} of {settings.rounds}: mean loss {np.mean(losses):.3f}, "
-            f"{time.monotonic() - start:.0f} s"
+            f"{time.monotonic() - began:.0f} s"
         )
     return network, digest.hexdigest()
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import numpy as np
+import onnx
 import torch
 from torch import Tensor, nn
 from torch.nn import functional as F
 
+from ..errors import ConfigurationError
 from ..vision.detection.decode import CHANNELS
 
 
@@ -58,6 +61,43 @@ class TipNetwork(nn.Module):  # type: ignore[misc]
         with torch.no_grad():
             self.head.bias[:2] = -4.0
             self.head.bias[6] = 2.3
+
+    @classmethod
+    def exported(cls, weights: bytes) -> TipNetwork:
+        """The network of an ONNX export, to be trained on.
+
+        An export has means and variances multiplied into its convolutions: here each of these
+        normalises by a mean of 0 and a variance of 1, which must stay frozen.
+
+        Raises:
+            ConfigurationError: It is of another network.
+        """
+        graph = onnx.load_from_string(weights).graph
+        stored = {one.name: onnx.numpy_helper.to_array(one) for one in graph.initializer}
+        given = [
+            [stored.get(name, np.empty(0)) for name in node.input[1:]]
+            for node in graph.node
+            if node.op_type == "Conv"
+        ]
+        network = cls()
+        layers = [one for one in network.modules() if isinstance(one, nn.Conv2d)]
+        if [layer.weight.shape for layer in layers] != [weight.shape for weight, *_ in given]:
+            raise ConfigurationError(
+                "The weights to start from are of another network than the tip detector's: they "
+                "cannot be trained on. Start from ones that 'aegis-ot train detector' has made."
+            )
+        remaining = iter(given)
+        with torch.no_grad():
+            for layer in network.modules():
+                if isinstance(layer, nn.Conv2d):
+                    weight, bias = (torch.tensor(values) for values in next(remaining))
+                    layer.weight.copy_(weight)
+                    if layer.bias is not None:
+                        layer.bias.copy_(bias)
+                elif isinstance(layer, nn.BatchNorm2d):  # comes after its convolution
+                    layer.bias.copy_(bias)
+                    layer.running_var.fill_(1 - layer.eps)
+        return network
 
     def freeze_statistics(self) -> None:
         """Train on with the running means and variances that the exported network will use.

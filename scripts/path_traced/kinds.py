@@ -38,6 +38,8 @@ class CameraKind:
         balance: White balance (B, G, R) about which plates scatter.
         dyes: Concentration, as a multiple of what ``DYES`` says.
         view_mm: What is to be in view from side to side: both labwares.
+        nozzle_mm: Of the pipette in view above the tip; as long as a single channel's if not given.
+        head: Grey level of the pipette; as the session draws it if not given.
     """
 
     size: tuple[int, int]
@@ -58,6 +60,8 @@ class CameraKind:
     balance: tuple[float, float, float] = (1.0, 1.0, 1.0)
     dyes: Range = (0.8, 2.5)
     view_mm: float = 118.0
+    nozzle_mm: Range | None = None
+    head: Range | None = None
 
 
 KINDS: Mapping[str, CameraKind] = {
@@ -113,11 +117,17 @@ def any_kind(rng: np.random.Generator) -> CameraKind:
 
 
 def any_row(rng: np.random.Generator) -> CameraKind:
-    """As :func:`any_kind`, of eight tips in a row: seen from beside the deck, not end-on."""
+    """As :func:`any_kind`, of eight tips in a row: seen from beside the deck, not end-on.
+
+    The head of such a pipette ends close above its tips; many are black, and many cameras see
+    them before a bright wall, close enough for the row to fill the frame.
+    """
     pipette = str(rng.choice(ROW_PIPETTES))
     return replace(
         any_kind(rng), pipettes=(pipette,), azimuth_deg=(60, 98), elevation_deg=(1, 16),
-        distance_mm=(300, 650), filling=(0.24, 0.6), view_mm=70.0,
+        distance_mm=(180, 650), filling=(0.3, 0.68), view_mm=float(rng.uniform(52, 75)),
+        nozzle_mm=(3, 16), head=(8, 60) if rng.random() < 0.6 else None,
+        panel=(150, 250) if rng.random() < 0.5 else (12, 250),
     )  # fmt: skip
 
 
@@ -152,6 +162,10 @@ def draw_session(
         # Whoever looks from beside the deck has the panel at its right end.
         panel_right_mm=230.0 if kind.azimuth_deg[0] > 35 else base.panel_right_mm,
     )  # fmt: skip
+    if kind.nozzle_mm:
+        session = replace(session, shaft_mm=u(kind.nozzle_mm))
+    if kind.head:
+        session = replace(session, shaft=(u(kind.head),) * 3, body=(u(kind.head),) * 3)
     x, y, z = (place + u((-60, 60)) for place in kind.lamp_place)
     lamps = Lamps(
         around=u(kind.around), strength=u(kind.lamp), place=(x, y, z), size=kind.lamp_size

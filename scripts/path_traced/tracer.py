@@ -46,7 +46,7 @@ class Quality:
     soft_px: int = 4
 
 
-FOR_DETECTOR = Quality(still=12, body=4, tip=16, soft_px=16)
+FOR_DETECTOR = Quality(still=12, body=4, tip=24, soft_px=16)
 """Fewer rays, for what is left of their noise drowns in a camera's; and softer edges of what is
 rendered anew, so that the end of the pipette's shadow on the panel is not taken for a sign."""
 
