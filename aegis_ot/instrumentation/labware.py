@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -60,6 +61,11 @@ class LabwareInfo:
     is_trash: bool
     centers_channels: bool = False
     wells: Mapping[str, WellInfo] = field(default_factory=dict)
+
+    @functools.cached_property
+    def middles(self) -> Mapping[tuple[float, float], str]:
+        """The wells by the x and y of their middles, mm, to a hundredth."""
+        return {(round(well.x, 2), round(well.y, 2)): name for name, well in self.wells.items()}
 
     @property
     def holds_liquid(self) -> bool:

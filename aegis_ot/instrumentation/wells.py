@@ -240,6 +240,9 @@ def _wells_under(
 
 
 def _well_at(info: LabwareInfo, x: float, y: float) -> str | None:
+    # Nozzles stand as far apart as wells, so nearly always over a well's middle.
+    if (name := info.middles.get((round(x, 2), round(y, 2)))) is not None:
+        return name
     for name, well in info.wells.items():
         if well.diameter is not None:
             reach = well.diameter / 2 + _SLACK_MM
