@@ -9,18 +9,18 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 9_484,
-    "preflight/checks": 2_108,
+    "preflight": 9_490,
+    "preflight/checks": 2_111,
     "preflight/database": 250,
     "preflight/evidence": 698,
-    "preflight/judging": 787,
+    "preflight/judging": 790,
     "preflight/opinion": 626,
     "preflight/rehearsal": 1_013,
     "preflight/roles": 992,
     "preflight/rules": 618,
     "preflight/source": 676,
     "preflight/trace": 1_498,
-    "": 66_150,
+    "": 66_169,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached: ``preflight`` is
 within its aim of 9,500, the package has 48,000 for an aim."""

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from ..errors import ConfigurationError
 from ..preflight import Database, Report
-from ..preflight.judging import RoleEvidence, spelled
+from ..preflight.judging import spelled
 from ..vocabulary import WellRef
 from .result import CheckedProtocol
 
-_OPEN = "# which wells?"
+_HOW = (
+    "# Put it above `def run(...)`, in place of a @guard that stands there already, below\n"
+    "# `from aegis_ot import guard`; complete what it asks, and leave out roles that no well has."
+)
+_OPEN = "which wells?"
 
 
 def roles_template(checked: CheckedProtocol, database: Database) -> str:
-    """A decorator with every role of the protocol's family: filled with what is known, each entry
+    """A decorator with every role of the families that apply: filled with what is known, each entry
     with its evidence; what nothing names stands in comments below.
 
     Args:
         checked: The protocol.
-        database: The rules, for the roles of its family.
+        database: The rules, for the roles of its families.
 
     Raises:
         ConfigurationError: It could not be judged, so nothing of its roles is known.
@@ -28,14 +30,20 @@ def roles_template(checked: CheckedProtocol, database: Database) -> str:
     if report is None:
         why = checked.problem.message if checked.problem else "it could not be judged"
         raise ConfigurationError(f"{checked.file}: no roles can be told: {why}")
-    family = database.family(report.family)
+    families = [one.family for one in report.families if one.applies] or [report.family]
     known = _by_role(report)
-    lines = ["@guard(", f'    assay="{family.family}",', "    roles={"]
-    for name, spec in family.roles.items():
+    lines = [_HOW, "@guard("]
+    if len(families) == 1:  # a guard that names one of several would not judge by the others
+        lines.append(f'    assay="{families[0]}",')
+    lines.append("    roles={")
+    titles = {
+        name: spec.title for one in families for name, spec in database.family(one).roles.items()
+    }
+    for name, title in titles.items():
         found = known.get(name, {})
         listed = ", ".join(f'"{place}"' for place in spelled(found))
-        why = "; ".join(dict.fromkeys(found.values())) or _OPEN.removeprefix("# ")
-        lines.append(f'        "{name}": [{listed}],  # {spec.title}: {why}')
+        why = "; ".join(dict.fromkeys(found.values())) or _OPEN
+        lines.append(f'        "{name}": [{listed}],  # {title}: {why}')
     lines += ["    },", ")"]
     unnamed = [ref for ref in report.unnamed if all(ref not in wells for wells in known.values())]
     if unnamed:
@@ -47,14 +55,9 @@ def roles_template(checked: CheckedProtocol, database: Database) -> str:
 def _by_role(report: Report) -> dict[str, dict[WellRef, str]]:
     """The wells of each role that evidence names, with the first evidence; not what follows."""
     found: dict[str, dict[WellRef, str]] = {}
-    for item in _named(report.roles, report.family):
-        found.setdefault(item.role, {})[item.well] = item.evidence[0]
+    told: set[tuple[str, WellRef]] = set()
+    for item in report.roles:
+        if item.evidence and not item.derived and (item.family, item.well) not in told:
+            told.add((item.family, item.well))
+            found.setdefault(item.role, {})[item.well] = item.evidence[0]
     return found
-
-
-def _named(roles: Iterable[RoleEvidence], family: str) -> Iterable[RoleEvidence]:
-    told: set[WellRef] = set()
-    for item in roles:
-        if item.family == family and item.evidence and item.well not in told:
-            told.add(item.well)
-            yield item

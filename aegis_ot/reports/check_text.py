@@ -86,14 +86,15 @@ def _protocol(
         yield f"{where}: {paint('warning', _BOLD, _YELLOW)}: {remark.message}"
     for note in checked.notes:
         rest.append(f"{checked.file}: note: {note}")
-    by_reason: dict[tuple[str, str], list[str]] = {}
+    by_reason: dict[tuple[str, str, str], list[str]] = {}
     for undecided in checked.undecided:
         if undecided.reason != checked.unanswered:
-            by_reason.setdefault((undecided.reason, undecided.paste), []).append(undecided.rule)
-    for (reason, paste), rules in by_reason.items():
+            asked = (undecided.reason, undecided.to_write, undecided.paste)
+            by_reason.setdefault(asked, []).append(undecided.rule)
+    for (reason, to_write, paste), rules in by_reason.items():
         rest.append(f"{checked.file}: undecided: {', '.join(rules)}: {reason}")
         if paste:
-            rest.append(f"    write: {paste}")
+            rest.append(f"    {to_write}: {paste}")
     if checked.baselined:
         rules = list(dict.fromkeys(finding.rule for finding in checked.baselined))
         told = counted(len(checked.baselined), "known finding")

@@ -102,4 +102,13 @@ class Undecided:
     @property
     def told(self) -> str:
         """The reason, and what to write, on one line."""
-        return f"{self.reason}. Write: {self.paste}" if self.paste else self.reason
+        return (
+            f"{self.reason}. {self.to_write.capitalize()}: {self.paste}"
+            if self.paste
+            else self.reason
+        )
+
+    @property
+    def to_write(self) -> str:
+        """What to do with ``paste``: the wells in it are offered, and not all of them are meant."""
+        return "write, with the right wells only" if "roles=" in self.paste else "write"

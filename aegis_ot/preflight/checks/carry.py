@@ -239,6 +239,9 @@ class Carry(Check):
         ends = [dest for dest in made if not _made_after(case, dest, visit.index, further=False)]
         brought = case.meant.get(met.well, {}).items()
         stood = {origin, *(liquid for liquid, first in brought if first < visit.index)}
+        stock = case.meant.get(visit.well, {})
+        if any(stock.get(one) == visit.index for one in stood):
+            return ""  # poured in, not clinging: what comes to hold it may have it from here
         # On a plate that is pooled nearly all is plainly there, and need not be compared.
         told = all(
             case.is_given(dest, one) for dest in ends for one in stood.difference(case.meant[dest])

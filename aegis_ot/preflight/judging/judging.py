@@ -161,6 +161,5 @@ def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:
             )
         for ref, derived in roles.derived.items():
             for role in sorted(derived):
-                yield RoleEvidence(
-                    roles.family.family, ref, role, ("follows from what it receives",)
-                )
+                why = ("follows from what it receives",)
+                yield RoleEvidence(roles.family.family, ref, role, why, derived=True)

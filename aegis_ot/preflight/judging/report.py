@@ -12,7 +12,10 @@ from .waivers import MODEL, Waived
 
 @dataclass(frozen=True)
 class RoleEvidence:
-    """One well's role with its evidence, for ``--explain-roles``."""
+    """One well's role with its evidence, for ``--explain-roles``.
+
+    ``derived``: it follows from what the run does with the well; nothing names it.
+    """
 
     family: str
     well: WellRef
@@ -20,6 +23,7 @@ class RoleEvidence:
     evidence: tuple[str, ...]
     level: float | None = None
     conflict: str = ""
+    derived: bool = False
 
 
 @dataclass(frozen=True)

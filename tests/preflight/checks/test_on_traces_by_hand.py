@@ -422,6 +422,20 @@ def test_back_into_a_stock_of_which_all_is_given_the_same(second: str, practice:
     assert [bool(one.warning) for one in found] == [practice]
 
 
+def test_what_is_poured_back_into_a_stock_is_no_trace() -> None:
+    """The later well is given that liquid too, but may have it from the stock alone."""
+    roles = {"source": "source:C1", "stock": "source:D1", "destination": "plate:A1 plate:A2"}
+    bench = Bench()
+    transfer(bench, "source:D1", "plate:A1", 30, HIGH)
+    transfer(bench, "source:C1", "plate:A1", 30, HIGH)
+    transfer(bench, "plate:A1", "source:D1", 20)
+    transfer(bench, "source:D1", "plate:A2")
+    transfer(bench, "source:C1", "plate:A2", 30)
+    found = broken(case_of(bench.trace(), "generic", roles), "GEN-2")
+    assert wells(found) == {"source:D1"}
+    assert [one.warning for one in found] == [""]
+
+
 def test_pooling_is_meant() -> None:
     roles = {"source": "source:A1 source:B1", "destination": "plate:A1"}
     bench = Bench()
