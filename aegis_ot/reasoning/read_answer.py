@@ -44,11 +44,11 @@ def read_opinion(
             left_out.append(told)
         if given["rule"] in asked:
             answers.append(RuleAnswer(given["rule"], given["answer"], _text(given["reason"])))
-    violated = [
+    violated = [  # of a rule that the checks decided, too: a disagreement is told as such
         {"rule": given["rule"], "message": given["reason"] or "The model reads that it is broken.",
          "wells": given["wells"], "lines": given["lines"]}
         for given in value.get("answers", ())
-        if given["rule"] in asked and given["answer"] == "violated"
+        if given["rule"] in bounds.severity and given["answer"] == "violated"
     ]  # fmt: skip
     more, problems = _findings(violated, bounds)
     findings += [one for one in more if not is_known(one, findings)]

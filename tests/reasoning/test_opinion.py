@@ -114,6 +114,14 @@ def test_a_rule_that_the_checks_decided_stays_decided() -> None:
     assert any("disagrees" in note and "PCR-1" in note for note in after.notes)
 
 
+def test_an_answer_against_a_decided_rule_is_told_in_a_note() -> None:
+    before = checked(CONTAMINATED)[0]
+    said = reading_of("PCR-1", "violated", ["4:A1"], [13], "A1 has no master mix.")
+    after = judged(CONTAMINATED, answer(answers=[said])).report
+    assert after.findings == before.findings
+    assert any("disagrees" in one and "A1 has no master mix." in one for one in after.notes)
+
+
 def test_a_finding_beyond_the_rules_only_warns() -> None:
     odd = finding("MODEL", ["4:A1"], [12], "The template is diluted a thousandfold.")
     after = judged(SILENT, answer(findings=[odd])).report
