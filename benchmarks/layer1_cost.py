@@ -18,7 +18,7 @@ from .protocols import COMMANDS, plate_protocol
 
 REPETITIONS = 5
 TARGET_RATIO = 1.5
-TARGET_SHARE = 10.0
+TARGET_SHARE = 5.0
 TARGET_MB = 50.0
 
 
