@@ -79,6 +79,10 @@ REFUSED_BY_BOTH = [
     ),
     (lambda d: d.update(rules=[]), "rules: expected at least one, found an empty list"),
     (lambda d: d.update(schema=3), "schema: expected 2, found 3"),
+    (
+        lambda d: d.update(series={"wells": ["stop"], "stock": ["stop"], "diluent": ["stop"]}),
+        "mine.json: series: 'wells' is no field any more: leave it out",
+    ),
 ]
 
 

@@ -39,8 +39,10 @@ def refuse_dropped(data: Mapping[str, Any], file: str) -> None:
         file: Its name, for the message.
 
     Raises:
-        RuleError: With file, role, field, and what to write instead.
+        RuleError: With file, place, field, and what to write instead.
     """
+    if isinstance(series := data.get("series"), dict) and "wells" in series:
+        raise RuleError(f"{file}: series: 'wells' is no field any more: leave it out")
     roles = data.get("roles")
     for name, role in roles.items() if isinstance(roles, dict) else ():
         for field in role if isinstance(role, dict) else ():
