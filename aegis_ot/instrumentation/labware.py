@@ -64,8 +64,9 @@ class LabwareInfo:
 
     @functools.cached_property
     def middles(self) -> Mapping[tuple[float, float], str]:
-        """The wells by the x and y of their middles, mm, to a hundredth."""
-        return {(round(well.x, 2), round(well.y, 2)): name for name, well in self.wells.items()}
+        """The wells by the x and y of their middles, mm, to a hundredth; of two the first."""
+        wells = reversed([*self.wells.items()])
+        return {(round(well.x, 2), round(well.y, 2)): name for name, well in wells}
 
     @property
     def holds_liquid(self) -> bool:

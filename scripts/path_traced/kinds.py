@@ -38,7 +38,7 @@ class CameraKind:
         balance: White balance (B, G, R) about which plates scatter.
         dyes: Concentration, as a multiple of what ``DYES`` says.
         view_mm: What is to be in view from side to side: both labwares.
-        nozzle_mm: Of the pipette in view above the tip; as long as a single channel's if not given.
+        shaft_mm: Of the pipette in view above the tip; as long as a single channel's if not given.
         head: Grey level of the pipette; as the session draws it if not given.
     """
 
@@ -60,7 +60,7 @@ class CameraKind:
     balance: tuple[float, float, float] = (1.0, 1.0, 1.0)
     dyes: Range = (0.8, 2.5)
     view_mm: float = 118.0
-    nozzle_mm: Range | None = None
+    shaft_mm: Range | None = None
     head: Range | None = None
 
 
@@ -126,7 +126,7 @@ def any_row(rng: np.random.Generator) -> CameraKind:
     return replace(
         any_kind(rng), pipettes=(pipette,), azimuth_deg=(60, 98), elevation_deg=(1, 16),
         distance_mm=(180, 650), filling=(0.3, 0.68), view_mm=float(rng.uniform(52, 75)),
-        nozzle_mm=(3, 16), head=(8, 60) if rng.random() < 0.6 else None,
+        shaft_mm=(3, 16), head=(8, 60) if rng.random() < 0.6 else None,
         panel=(150, 250) if rng.random() < 0.5 else (12, 250),
     )  # fmt: skip
 
@@ -162,8 +162,8 @@ def draw_session(
         # Whoever looks from beside the deck has the panel at its right end.
         panel_right_mm=230.0 if kind.azimuth_deg[0] > 35 else base.panel_right_mm,
     )  # fmt: skip
-    if kind.nozzle_mm:
-        session = replace(session, shaft_mm=u(kind.nozzle_mm))
+    if kind.shaft_mm:
+        session = replace(session, shaft_mm=u(kind.shaft_mm))
     if kind.head:
         session = replace(session, shaft=(u(kind.head),) * 3, body=(u(kind.head),) * 3)
     x, y, z = (place + u((-60, 60)) for place in kind.lamp_place)
