@@ -10,9 +10,9 @@ from .result import CheckedProtocol
 
 _HOW = (
     "# Put it above `def run(...)`, in place of a @guard that stands there already, below\n"
-    "# `from aegis_ot import guard`; complete what it asks, and leave out roles that no well has."
+    "# `from aegis_ot import guard`. Complete the roles that no well has yet, without their #:\n"
+    '# `"ntc": ["4:H12"]`, a concentration as `["4:A1 = 2 mg/mL"]`; `"ntc": []` says there is none.'
 )
-_OPEN = "which wells?"
 
 
 def roles_template(checked: CheckedProtocol, database: Database) -> str:
@@ -42,8 +42,8 @@ def roles_template(checked: CheckedProtocol, database: Database) -> str:
     for name, title in titles.items():
         found = known.get(name, {})
         listed = ", ".join(f'"{place}"' for place in spelled(found))
-        why = "; ".join(dict.fromkeys(found.values())) or _OPEN
-        lines.append(f'        "{name}": [{listed}],  # {title}: {why}')
+        why = "; ".join(dict.fromkeys(found.values())) or "which wells?"
+        lines.append(f'        {"" if found else "# "}"{name}": [{listed}],  # {title}: {why}')
     lines += ["    },", ")"]
     unnamed = [ref for ref in report.unnamed if all(ref not in wells for wells in known.values())]
     if unnamed:

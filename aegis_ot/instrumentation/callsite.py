@@ -51,10 +51,13 @@ class ProtocolStack:
         file_name: ``co_filename`` of the protocol's code.
 
     Attributes:
-        returned: Gets each such frame, innermost first; ``None`` while nobody asks for them.
+        met: Gets each such frame at each walk that meets it, innermost first; ``None`` while
+            nobody asks for them.
+        returned: Gets each such frame once its function has returned, innermost first.
     """
 
     def __init__(self, file_name: str) -> None:
+        self.met: Callable[[FrameType], None] | None = None
         self.returned: Callable[[FrameType], None] | None = None
         self._kinds = {file_name: _PROTOCOL}
         self._running: list[FrameType] = []
@@ -98,6 +101,9 @@ class ProtocolStack:
         if self.returned is not None and within:
             del own[within:]
             self._now_running(own)
+            if self.met is not None:
+                for frame in own:
+                    self.met(frame)
         return CallSite(tuple(lines), call, mixing)
 
     def close(self) -> None:

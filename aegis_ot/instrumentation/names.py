@@ -2,9 +2,10 @@
 
 The tap walks the stack at each operation and event anyway, to find the protocol's line. The
 functions of the protocol that it meets there are looked at once they have returned, with the
-last values of their local names; the protocol's globals at the end of the run. A function that
-did nothing to the robot, not even load something, is not seen: its names count where another
-name holds what it gave back.
+last values of their local names; the protocol's globals at the end of the run. Names that hold a
+well are looked at each time: a loop binds its name anew (``for standard, well in zip(...)``). A
+function that did nothing to the robot, not even load something, is not seen: its names count
+where another name holds what it gave back.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from types import FrameType
+from types import CodeType, FrameType
 from typing import Any
 
 from ..vocabulary import WellRef
@@ -163,7 +164,7 @@ class NameCollector:
             namespace: The protocol's globals.
         """
         self._reader.own_modules[str(namespace.get("__name__", "builtins"))] = True
-        self._stack.returned = self._look_at
+        self._stack.met, self._stack.returned = self._look_at_wells, self._look_at
         try:
             yield
             self._stack.close()
@@ -173,22 +174,40 @@ class NameCollector:
             with suppress(Exception):
                 self._look_at_notes()
         finally:
-            self._stack.returned = None
+            self._stack.met = self._stack.returned = None
             self._stack.close()
             self._last.clear()
             self._labware.clear()
 
     def _look_at(self, frame: FrameType) -> None:
+        if _may_be_read(frame.f_code):
+            self.look(frame.f_locals, *self._function_of(frame))
+
+    def _look_at_wells(self, frame: FrameType) -> None:
+        if not _may_be_read(frame.f_code):
+            return
+        well_type = self._reader.well_type
+        function = None
+        for name, value in frame.f_locals.items():
+            if type(value) is well_type:
+                function = function or self._function_of(frame)
+                if self._last.get((function[0], name)) is not value:
+                    self.look({name: value}, *function)
+
+    def _function_of(self, frame: FrameType) -> tuple[str, int]:
+        """Name and first line of a frame's function; see :class:`NameBinding`."""
         code = frame.f_code
-        if code.co_name.startswith("<"):
-            return  # comprehensions and lambdas bind no names that tell of a well's use
-        if _SHARES_LOCALS and not _ASKS_FOR_LOCALS.isdisjoint(code.co_names):
-            return  # to look would write into the dict that the protocol itself holds
         if code.co_filename == self._file_name:
-            self.look(frame.f_locals, code.co_name, code.co_firstlineno)
-        else:
-            module = frame.f_globals.get("__name__", "")
-            self.look(frame.f_locals, f"{module}.{code.co_name}", 0)
+            return code.co_name, code.co_firstlineno
+        return f"{frame.f_globals.get('__name__', '')}.{code.co_name}", 0
+
+
+def _may_be_read(code: CodeType) -> bool:
+    """Whether a function's local names tell of a well's use, and can be read unnoticed."""
+    if code.co_name.startswith("<"):
+        return False  # comprehensions and lambdas; a module's names are looked at in the end
+    # To look would write into the dict that the protocol itself holds.
+    return not _SHARES_LOCALS or _ASKS_FOR_LOCALS.isdisjoint(code.co_names)
 
 
 def _may_hold(value: Any) -> bool:

@@ -105,7 +105,7 @@ class ValueReader:
         from opentrons.types import Location
 
         # Asked for by type: a protocol's own objects may answer any attribute, or raise at it.
-        self._well_type: type = Well
+        self.well_type: type = Well
         self._location_type: Any = Location
         self.labware_type: type = Labware
         self._wells = wells
@@ -117,7 +117,7 @@ class ValueReader:
 
     def read(self, value: Any, depth: int = 0) -> Held:
         """All that a value holds, in the given depth of what holds it."""
-        if type(value) is self._well_type:
+        if type(value) is self.well_type:
             return Held(wells=self.wells(value, depth))
         listed = items(value)
         kinds = set(map(type, listed))
@@ -140,7 +140,7 @@ class ValueReader:
         """
         if self.is_place(value):
             value = value.labware.as_well()
-        if issubclass(type(value), self._well_type):
+        if issubclass(type(value), self.well_type):
             core = value._core
             info = self._wells.info_of(core)
             return () if info.is_tip_rack else (self._wells.ref(info.key, str(core.get_name())),)
@@ -216,7 +216,7 @@ class ValueReader:
     def _table(self, lines: tuple[Any, ...]) -> Iterator[tuple[tuple[str, Cell], ...]]:
         columns: tuple[str, ...] = ()
         for at, line in enumerate(lines):
-            if type(line) in BARE or type(line) is self._well_type:
+            if type(line) in BARE or type(line) is self.well_type:
                 continue
             listed = items(line)
             if not listed and not entries(line) and not self.fields(line):
@@ -234,7 +234,7 @@ class ValueReader:
         return len(listed) > 1 and all(entries(item) or self.fields(item) for item in listed)
 
     def _is_place(self, value: Any) -> bool:
-        return is_spot(value) or issubclass(type(value), self._well_type)
+        return is_spot(value) or issubclass(type(value), self.well_type)
 
     def _cells(self, value: Any, column: str = "") -> tuple[tuple[str, Cell], ...]:
         """What stands in one row; an object in it (``source.name``) is opened, one level deep."""
@@ -252,7 +252,7 @@ class ValueReader:
                     continue
             if _is_plain(item):
                 cells.append((beside, item))
-            elif type(item) is self._well_type:
+            elif type(item) is self.well_type:
                 cells += [(beside, ref) for ref in self.wells(item)]
             elif not column and item is not value and self.fields(item):
                 cells += self._cells(item, beside or "item")

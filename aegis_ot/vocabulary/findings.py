@@ -93,11 +93,13 @@ class Undecided:
         rule: Rule identifier.
         reason: What it lacked, in one line.
         paste: What the protocol's author can write to decide it; ``""`` where nothing short does.
+        to_write: What to do with it, in a few words: not all that it offers may be meant.
     """
 
     rule: str
     reason: str
     paste: str = ""
+    to_write: str = "write"
 
     @property
     def told(self) -> str:
@@ -107,8 +109,3 @@ class Undecided:
             if self.paste
             else self.reason
         )
-
-    @property
-    def to_write(self) -> str:
-        """What to do with ``paste``: the wells in it are offered, and not all of them are meant."""
-        return "write, with the right wells only" if "roles=" in self.paste else "write"

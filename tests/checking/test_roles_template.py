@@ -76,7 +76,7 @@ def test_what_only_follows_is_not_written_as_if_it_were_known(tmp_path: Path) ->
     before = _checked(tmp_path, NOTHING_NAMED)
     assert before.verdict is VerdictWord.WARN
     template = roles_template(before, load_database())
-    assert '"source": [],  # source: which wells?' in template
+    assert '        # "source": [],  # source: which wells?' in template
     assert "#   2:A1-D1" in template
     after = _checked(tmp_path, _pasted(NOTHING_NAMED, template))
     assert _told(after) == _told(before)

@@ -169,6 +169,22 @@ def test_a_name_whose_value_changes_tells_each_value():
     assert told == ["A1", "B1"]
 
 
+def test_a_loop_tells_each_well_that_its_names_held():
+    body = """
+    def give(source, target):
+        single.transfer(50, source, target)
+    for standard, well in zip(plate.rows()[0][:3], plate.rows()[1]):
+        give(standard, well)
+    """
+    _, rehearsal = run(ot2(body))
+    told = {}
+    for binding in rehearsal.names:
+        told.setdefault((binding.function, binding.name), []).extend(w.name for w in binding.wells)
+    assert told["run", "standard"] == ["A1", "A2", "A3"]
+    assert told["run", "well"] == ["B1", "B2", "B3"]
+    assert told["give", "source"] == ["A1", "A2", "A3"]
+
+
 def test_functions_in_functions_classes_and_tables_are_seen():
     body = """
     def inner():

@@ -109,6 +109,8 @@ class Carry(Check):
                 return True  # it was in the stock already
             if _serves_its_well_alone(case, well, origin):
                 return True
+            if self.pooled and _is_being_made(case, visit, origin):
+                return True
             return origin in case.meant.get(well, {}) and (
                 _on_purpose(well, origin, visit) or self._made_of(case, visit, origin)
             )
@@ -132,34 +134,39 @@ class Carry(Check):
 
         A rule counts as decided only if every well that could break it has a role, or is shown to
         be harmless: an unnamed trough that a tip enters with template on it may well be the water.
-        Either the tip carries a liquid of ``carriers`` into an unnamed source that serves several
-        wells, or what it drew from an unnamed source into a well of ``into``.
+        The tip carries a liquid of ``carriers`` into an unnamed source that serves several wells,
+        or what it drew from an unnamed source into a well of ``into``, or into another such source.
         """
         unnamed = [well for well in case.trace.wells.values() if not case.of(well)]
         drawn = {well for well in unnamed if case.is_drawn_first(well)}
+        sources: set[Well] = set()
         stocks: set[Well] = set()
         if any(case.family.roles[role].side != "destination" for role in self.into):
             stocks = {well for well in unnamed if len(case.destinations.get(well, ())) > 1}
+            sources = stocks & drawn if self.shared else drawn
         for visit in case.trace.visits if drawn or stocks else ():
             well = visit.well
             if not visit.contact or not visit.carried or well.ref in case.waste:
                 continue
-            is_stock = well in stocks
-            if not is_stock and not case.has(well, self.into):
-                continue
-            for origin, met in carried_liquids(visit):
-                if origin not in (carriers if is_stock else drawn):
+            met_before = (carriers if well in stocks else set()) | (
+                drawn if well in sources or case.has(well, self.into) else set()
+            )
+            for origin, met in carried_liquids(visit) if met_before else ():
+                if origin not in met_before:
                     continue
                 if origin in case.meant.get(well, {}) or case.same_liquid(origin, well):
                     continue
-                if is_stock:
+                if not case.of(well):
+                    what = case.title(origin) if case.of(origin) else str(origin.ref)
                     return Doubt(
                         f"nothing says what {well.ref} holds, and the tip that met "
-                        f"{case.title(origin)} {at(met.line)} enters it {at(visit.line)}"
+                        f"{what} {at(met.line)} enters it {at(visit.line)}",
+                        roles_of=(well,) if case.of(origin) else (origin, well),
                     )
                 return Doubt(
                     f"nothing says what {origin.ref} holds, and its tip enters the "
-                    f"{case.title(well)} {well.ref} {at(visit.line)}"
+                    f"{case.title(well)} {well.ref} {at(visit.line)}",
+                    roles_of=(origin,),
                 )
         return None
 
@@ -274,6 +281,18 @@ def _serves_its_well_alone(case: Case, stock: Well, origin: Well) -> bool:
     """Whether all that is drawn from a stock goes to one well, which holds that liquid as well."""
     drawn_for = case.destinations.get(stock, {})
     return len(drawn_for) == 1 and all(origin in case.meant.get(dest, {}) for dest in drawn_for)
+
+
+def _is_being_made(case: Case, visit: Visit, origin: Well) -> bool:
+    """Whether a liquid is brought to a well that the run fills, and draws nothing from as yet."""
+    well = visit.well
+    if well.prefilled or case.is_drawn_first(well) or origin not in case.meant.get(well, {}):
+        return False
+    return all(
+        other.index > visit.index
+        for other in well.visits
+        if other.kind is OperationKind.ASPIRATE and not other.mixing
+    )
 
 
 def _on_purpose(stock: Well, origin: Well, visit: Visit) -> bool:

@@ -31,6 +31,8 @@ class Case:
         waste: Wells that are called waste.
         unsure: Wells that may have held liquid before the run, as the labware's name goes.
         left_over: Whether the family is judged only because no other one fits.
+        in_prose: Whether only comments and docstrings tell that it is of this family.
+        absent: Roles that no well has, as the guard's arguments say: ``{"ntc": []}``.
     """
 
     trace: Trace
@@ -40,6 +42,8 @@ class Case:
     waste: frozenset[WellRef] = frozenset()
     unsure: frozenset[WellRef] = frozenset()
     left_over: bool = False
+    in_prose: bool = False
+    absent: frozenset[str] = frozenset()
     _of: dict[Well, frozenset[str]] = field(default_factory=dict, init=False)
     _same: dict[tuple[Well, Well], bool] = field(default_factory=dict, init=False)
 

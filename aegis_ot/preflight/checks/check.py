@@ -48,10 +48,14 @@ class Doubt:
     Attributes:
         reason: Why, in a sentence.
         levels_of: Wells whose concentration or dose would decide it.
+        roles_of: Wells whose role would decide it.
+        role: The role that one of these has; ``""`` for any that a source has.
     """
 
     reason: str
     levels_of: tuple[Well, ...] = ()
+    roles_of: tuple[Well, ...] = ()
+    role: str = ""
 
 
 Result = Violation | Doubt

@@ -126,13 +126,20 @@ def _left_to_hand(case: Case, steps: Sequence[Transfer]) -> set[Well]:
     return set() if len(wells) < 2 or any(is_mixed(case, step) for step in ends) else wells
 
 
+def _unknown_direction(case: Case, series: Series) -> Doubt:
+    ends = tuple(sorted(series.position, key=series.position.__getitem__))
+    stock = case.family.series.stock[0]
+    why = "nothing says which end of the series holds the stock"
+    return Doubt(why, (), (ends[0], ends[-1]), stock)
+
+
 @dataclass(frozen=True)
 class SeriesDirection(SeriesCheck):
     """The series runs from the most to the least concentrated well, one well at a time."""
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
         if not series.directed:
-            yield Doubt("nothing says which end of the series holds the stock")
+            yield _unknown_direction(case, series)
         branches = branching(series.links)
         jumps = [series.position[step.well] - series.position[step.source] for step in series.links]
         backwards = 2 * jumps.count(-1) > len(jumps)
@@ -169,7 +176,7 @@ class SeriesTip(SeriesCheck):
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
         if not series.entered:
-            yield Doubt("nothing says which end of the series holds the stock")
+            yield _unknown_direction(case, series)
         steps = dilutions(case, series)
         feeding = {link.source for link in series.links}
         goes_on = [step for step in steps if step.well in feeding]  # the last well is SD-1's

@@ -63,10 +63,13 @@ class SeriesFilledFrom(SeriesCheck):
             done.add(step.well)
             source = wrong.source
             if not case.has(source, case.family.series.stock) and not _is_diluent_known(case):
-                yield Doubt("nothing says which reservoir holds the diluent")
+                diluent = case.family.series.diluent[0]
+                yield Doubt(
+                    "nothing says which reservoir holds the diluent", (), (source,), diluent
+                )
                 return
             if not case.of(source):
-                yield Doubt(f"nothing says what {source.ref} holds")
+                yield Doubt(f"nothing says what {source.ref} holds", roles_of=(source,))
                 continue
             if case.has(source, case.family.series.stock) and _is_in_all(case, series, source):
                 yield Doubt(f"all wells are given {source.ref}; it may be what dilutes")

@@ -234,7 +234,8 @@ class NeverReceives(Check):
                         seen.add(origin)
                         yield Doubt(
                             f"nothing says what {origin.ref} holds, which goes into the "
-                            f"{case.title(well)} {well.ref} as well"
+                            f"{case.title(well)} {well.ref} as well",
+                            roles_of=(origin,),
                         )
                     elif case.has(origin, self.liquid) and not case.has(origin, self.wells):
                         seen.add(origin)

@@ -12,6 +12,11 @@ from ..rules import RuleSpec
 from ..trace import places
 from .reading import Reading
 
+UNKNOWN_ASSAY = Doubt("the assay is not known")
+"""What is open in a family that is no more than a guess."""
+
+RIGHT_WELLS = "write, with the right wells only"
+
 _MOST_SHOWN = 3
 """Labware that are offered for one role."""
 
@@ -26,17 +31,27 @@ def missing_roles(rule: RuleSpec, case: Case, needs: Sequence[str]) -> Undecided
     names = [case.titles(need.split("|")) for need in needs]
     reason = f"nothing says which well is the {' and which the '.join(names)}"
     first = [need.split("|")[0] for need in needs]
-    return Undecided(rule.id, reason, pasted({role: _offered(role, case) for role in first}))
+    offered = pasted({role: _offered(role, case) for role in first})
+    return Undecided(rule.id, reason, offered, RIGHT_WELLS)
 
 
 def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
-    """What a check could not judge, with the levels to be given where those would decide it."""
-    wells: dict[str, dict[str, None]] = {}
+    """What a check could not judge, with the roles or levels that would decide it."""
+    if doubt is UNKNOWN_ASSAY:
+        guess = f'@guard(assay="{case.family.family}")'
+        return Undecided(rule.id, doubt.reason, guess, "write, if it is that")
+    if doubt.roles_of:
+        specs = case.family.roles.items()
+        sources = "|".join(role for role, spec in specs if spec.side != "destination")
+        how = RIGHT_WELLS if doubt.role else "write, with the right role and wells only"
+        wells = spelled(well.ref for well in doubt.roles_of)
+        return Undecided(rule.id, doubt.reason, pasted({doubt.role or sources: wells}), how)
+    leveled: dict[str, dict[str, None]] = {}
     for well in doubt.levels_of:
         assigned = case.roles.by_well.get(well.ref)
         if assigned is not None:
-            wells.setdefault(assigned.role, {})[f"{places([well.ref])} = ..."] = None
-    return Undecided(rule.id, doubt.reason, pasted(wells))
+            leveled.setdefault(assigned.role, {})[f"{places([well.ref])} = ..."] = None
+    return Undecided(rule.id, doubt.reason, pasted(leveled), "write, with their concentrations")
 
 
 def pasted(roles: Mapping[str, Iterable[str]]) -> str:

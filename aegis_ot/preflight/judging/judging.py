@@ -12,16 +12,18 @@ from ..evidence import Kind, unknown_places
 from ..roles import Roles
 from ..rules import RuleSpec
 from ..trace import Contact, Well, places
-from .doubts import missing_needs, missing_roles, undecided_by, unnamed_wells
+from .doubts import UNKNOWN_ASSAY, missing_needs, missing_roles, undecided_by, unnamed_wells
 from .findings import findings_of
 from .reading import Reading, uncollected
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
-_UNKNOWN_VOLUME = Doubt("how high the liquid stands is not known; say it with load_liquid")
+_UNKNOWN_VOLUME = Doubt(
+    "a tip came near a liquid, or nothing says how high it stands; load_liquid and names say more"
+)
+_IN_PROSE = "Only a comment or docstring says which assay this is ({})."
 _DOUBTFUL = "It rests on what is only read of a well: {}."
 _IDLE = Remark("It moves no liquid: there is nothing to judge.")
-_UNKNOWN_ASSAY = Doubt('the assay is not known; say it with assay="..."')
 
 
 @uncollected()
@@ -40,9 +42,11 @@ def judge(reading: Reading) -> Report:
 def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided | None]:
     """Where a rule is broken, or why that cannot be said (``None`` if it can)."""
     if missing := missing_needs(rule, case.roles):
+        if any(case.absent.issuperset(need.split("|")) for need in missing):
+            return [], None  # nothing is there that could break it
         return [], missing_roles(rule, case, missing)
     if not case.confident and not case.family.default:
-        return [], undecided_by(_UNKNOWN_ASSAY, rule, case)
+        return [], undecided_by(UNKNOWN_ASSAY, rule, case)
     violations: list[Violation] = []
     doubts: list[Doubt] = []
     for number, check in enumerate(rule.checks):
@@ -50,15 +54,19 @@ def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided 
             if isinstance(result, Doubt):
                 doubts.append(result)
             elif not case.confident and not _plain(result, case.roles):
-                doubts.append(_UNKNOWN_ASSAY)
-            elif case.left_over and result.contact is Contact.NEAR:
+                doubts.append(UNKNOWN_ASSAY)
+            elif (
+                case.left_over
+                and result.contact is Contact.NEAR
+                and not all(well.liquids for well in result.rests_on)
+            ):
                 doubts.append(_UNKNOWN_VOLUME)
             else:
                 warning = _why_warning(result, case)
                 cause = (number, warning, *result.cause)
                 violations.append(replace(result, cause=cause, warning=warning))
     if not case.confident and not violations:
-        doubts.append(_UNKNOWN_ASSAY)
+        doubts.append(UNKNOWN_ASSAY)
     return violations, undecided_by(doubts[0], rule, case) if doubts and not violations else None
 
 
@@ -85,6 +93,8 @@ def _why_warning(violation: Violation, case: Case) -> str:
     if violation.contact is Contact.NEAR:
         return "The tip came near the liquid there and may have stayed clear of it."
     roles = case.roles
+    if case.in_prose and all(one.kind is not Kind.GIVEN for one in roles.by_well.values()):
+        return _IN_PROSE.format(case.family.family)
     for well in violation.rests_on:
         if roles.is_doubtful(well.ref):
             return _DOUBTFUL.format(roles.by_well[well.ref].evidence[0].citation)

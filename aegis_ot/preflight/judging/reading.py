@@ -12,7 +12,7 @@ from ...vocabulary import WellRef
 from ..checks import Case
 from ..evidence import Deck, Evidence, gather
 from ..rehearsal import Recording
-from ..roles import Roles, assign_roles, derive, implied_contents, infer_families
+from ..roles import Inference, Roles, assign_roles, derive, implied_contents, infer_families
 from ..rules import Database, RuleSpec
 from ..source import lexicon_of, read_source
 from ..trace import build_trace
@@ -104,14 +104,14 @@ class Reading:
         applying = [inference for inference in self.families if inference.applies]
         known = {roles.family.family: roles for roles in self.roles}
         for inference, roles in zip(applying, self.roles, strict=True):
-            case = self._case(roles, inference.sure, inference.left_over)
+            case = self._case(roles, inference)
             for rule in roles.family.rules:
                 if rule.scope == "family":
                     yield rule, case
         for family in self.database.families:
             for rule in family.rules:
                 if rule.scope == "all":
-                    yield rule, self._case(known.get(family.family, Roles(family)), True)
+                    yield rule, self._case(known.get(family.family, Roles(family)))
 
     def with_evidence(self, more: Sequence[Evidence], assay: Sequence[str] = ()) -> Reading:
         """The same recording read with more evidence, and as another ``assay`` if one is named:
@@ -120,9 +120,18 @@ class Reading:
         options = replace(self.options, assay=tuple(assay)) if assay else self.options
         return Reading(self.recording, self.database, options, more)
 
-    def _case(self, roles: Roles, sure: bool, left_over: bool = False) -> Case:
-        common, waste, unsure = self.database.common, self.waste, self.unsure
-        return Case(self.trace, roles, common, sure, waste, unsure, left_over)
+    def _case(self, roles: Roles, inferred: Inference | None = None) -> Case:
+        return Case(
+            self.trace,
+            roles,
+            self.database.common,
+            confident=inferred is None or inferred.sure,
+            waste=self.waste,
+            unsure=self.unsure,
+            left_over=inferred is not None and inferred.left_over,
+            in_prose=inferred is not None and inferred.in_prose,
+            absent=frozenset(role for role, wells in self.options.roles.items() if not wells),
+        )
 
     def _called(self, words: Sequence[str]) -> frozenset[WellRef]:
         """Wells whose names, labels or liquids have one of these words."""

@@ -106,7 +106,7 @@ def _questions(
     for question in report.undecided:
         if question.rule in found:
             continue
-        reason, paste = question.reason, question.paste
+        reason, paste, to_write = question.reason, question.paste, question.to_write
         answer = answers.get(question.rule)
         if answer is not None:
             words = {"holds": "it holds", "violated": "it is violated"}
@@ -115,8 +115,9 @@ def _questions(
             reason += f": {answer.reason}" if answer.reason else ""
         if second is not None and question.rule in second.judged:
             reason += "; with the roles that it reads, the check finds nothing"
-            paste = given or paste
-        yield replace(question, reason=reason, paste=paste)
+            if given:
+                paste, to_write = given, "write, if it reads them right"
+        yield replace(question, reason=reason, paste=paste, to_write=to_write)
 
 
 def _roles(

@@ -44,6 +44,7 @@ class Inference:
         applies: Whether its rules are judged.
         sure: Whether it is more than a guess.
         left_over: Whether it is judged only because no other family fits.
+        in_prose: Whether it would be no more than a guess without comments and docstrings.
     """
 
     family: str
@@ -53,6 +54,7 @@ class Inference:
     applies: bool
     sure: bool
     left_over: bool = False
+    in_prose: bool = False
 
 
 def infer_families(
@@ -69,8 +71,8 @@ def infer_families(
     """
     texts = list(_texts(facts, evidence, trace))
     shapes = shapes_of(trace)
-    scored = []
-    for family in database.families:
+
+    def signals(family: Family, texts: Sequence[tuple[str, str]]) -> list[_Found]:
         found = _found(family, texts, database.common)
         found += _seen(family, shapes, bool(found))
         if family.known_by and found and not _is_known(found):
@@ -78,7 +80,15 @@ def infer_families(
             by_well = assigned(family.family).by_well.values()
             named = {one.role for one in by_well if in_texts or one.kind not in DOUBTFUL}
             found += _named(family, named, sum(one.worth for one in found if one.worth > 0))
-        found.sort(key=lambda one: -one.worth)
+        return sorted(found, key=lambda one: -one.worth)
+
+    def in_prose(family: Family) -> bool:
+        code = [(where, text) for where, text in texts if where != "text"]
+        return len(code) < len(texts) and not _is_known(signals(family, code))
+
+    scored = []
+    for family in database.families:
+        found = signals(family, texts)
         scored.append((max(_score(found), 0.0), family, found))
     scored.sort(key=lambda item: -item[0])
     total = sum(score for score, _, _ in scored) or 1.0
@@ -100,7 +110,10 @@ def infer_families(
             applies = applies and score == best and not outdone
             sure = sure if best else _nothing_against(found)
         confidence = 1.0 if given and applies else score / total * min(1.0, score / (2 * SURE))
-        inferences.append(Inference(name, score, round(confidence, 2), reasons, applies, sure))
+        told = applies and sure and not (given or family.default) and in_prose(family)
+        inferences.append(
+            Inference(name, score, round(confidence, 2), reasons, applies, sure, in_prose=told)
+        )
     if not given and not any(inference.applies for inference in inferences):
         inferences = [
             replace(i, reasons=(*i.reasons, "no other family fits"), applies=True, left_over=True)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Sequence
 
 from ..evidence import Evidence, Kind
 from ..rules import Common, Family
-from ..source import Lexicon, lexicon_of, tokens, without_concentrations
+from ..source import Lexicon, Match, lexicon_of, tokens, without_concentrations
 
 _SEVERAL = 3
 """Two wells may well hold one liquid that is called by a plural."""
@@ -53,8 +54,9 @@ class RoleNames:
             text = key  # `tubes["water"]` is water, whatever the dict is called
         # `REAGENTS["control RNA"]` is one of various ones, and no reagent of this family.
         various = text != key and any(map(str.isalpha, key))
-        named = list(dict.fromkeys(self._head(text, evidence.is_name)))
-        if self._speaks_of_several(evidence, text, named):
+        heads = self._head(text, evidence.is_name)
+        named = list(dict.fromkeys(match.topic for match in heads))
+        if self._speaks_of_several(evidence, text, heads):
             return []
         several = evidence.text.rstrip("]'\"").endswith("s") and len(evidence.wells) >= _SEVERAL
         if various or several or (evidence.whole and len(evidence.wells) > 1):
@@ -66,7 +68,7 @@ class RoleNames:
         words = self._lexicon.words(text)
         return any(match.end - match.start == len(words) for match in self._lexicon.find(text))
 
-    def _head(self, text: str, is_name: bool = True) -> list[str]:
+    def _head(self, text: str, is_name: bool = True) -> list[Match]:
         words = self._lexicon.words(text.replace("%", " percent "))
         ends = (at for at, word in enumerate(words) if word in self._joints)
         # "in lysis buffer" says what something is in; `for_ntc` is a name.
@@ -78,9 +80,9 @@ class RoleNames:
         ]
         telling = [match for match in found if words[match.start] not in self._sides]
         found = telling or found  # `SAMPLE_POS` is the place of a sample
-        return [match.topic for match in reversed(found) if not match.topic.startswith("!")]
+        return [match for match in reversed(found) if not match.topic.startswith("!")]
 
-    def _speaks_of_several(self, evidence: Evidence, text: str, named: Sequence[str]) -> bool:
+    def _speaks_of_several(self, evidence: Evidence, text: str, heads: Sequence[Match]) -> bool:
         """Whether a text joins things that differ: "samples and NTC" says of no well which.
 
         Nor does "MM / ctrl" on a rack, of which one part names nothing that is known.
@@ -88,10 +90,23 @@ class RoleNames:
         parts = [part for part in self._parts(text) if any(map(str.isalpha, part))]
         if len(parts) < 2 and evidence.is_name:
             return False
-        unlike = any(not self._family.are_kin(one, other) for one in named for other in named)
+        # A word may name a liquid and the wells for it: "standards".
+        words: dict[int, list[str]] = {}
+        for match in heads:
+            words.setdefault(match.start, []).append(match.topic)
+        unlike = any(not self._are_kin(*pair) for pair in itertools.combinations(words.values(), 2))
         found = map(self._lexicon.find, parts)
         told = [any(not match.topic.startswith("!") for match in one) for one in found]
         return unlike or (evidence.whole and any(told) and not all(told))
+
+    def _are_kin(self, some: Sequence[str], others: Sequence[str]) -> bool:
+        """Whether each role that the one word names has a kind or a general one in the other's."""
+        kin = self._family.are_kin
+        return all(
+            any(kin(one, other) for other in these)
+            for those, these in ((some, others), (others, some))
+            for one in those
+        )
 
     def _parts(self, text: str) -> list[str]:
         """The parts of a text between words and marks that join."""

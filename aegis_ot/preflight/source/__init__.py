@@ -11,11 +11,12 @@ from .concentrations import (
 )
 from .data_flow import Index
 from .facts import SourceFacts, read_source, source_lines
-from .lexicon import Lexicon, lexicon_of, tokens
+from .lexicon import Lexicon, Match, lexicon_of, tokens
 
 __all__ = [
     "Index",
     "Lexicon",
+    "Match",
     "SourceFacts",
     "comparable",
     "has_concentration",

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import groupby, takewhile
 from typing import TypeVar
 
@@ -29,8 +30,8 @@ _WORDS = {
 }
 _LONGEST_CYCLE = 8
 _LONGEST_MERGED = 16
-_LONGEST_LIST = 60
-"""So many characters of wells are told where there is little room."""
+_LONGEST_LISTS = (6000, 600, 240, 60)
+"""So many characters of wells are told in one row, by the room that there is."""
 
 Told = Callable[[Sequence[WellRef]], str]
 
@@ -85,21 +86,23 @@ def trace_table(trace: Trace, limit: int = 6000) -> tuple[str, ...]:
 
 def _foldings(sessions: Sequence[_Session]) -> Iterator[list[str]]:
     """The table in ever fewer words."""
-    for wells in (places, _in_short):
+    repeated = list(_repeated(sessions))
+    alike: dict[Hashable, list[_Session]] = {}
+    for session in sessions:
+        alike.setdefault(session.shape, []).append(session)
+    for longest in _LONGEST_LISTS:
+        wells = partial(_in_short, longest=longest)
         lines = []
-        for count, block in _repeated(sessions):
+        for count, block in repeated:
             told = [_told(same, wells) for same in block]
             many = f"{count} times in turn [{' | '.join(told)}]"
             lines.append(told[0] if len(told) == 1 else many)
         yield lines
-    alike: dict[Hashable, list[_Session]] = {}
-    for session in sessions:
-        alike.setdefault(session.shape, []).append(session)
-    yield [_summed(same, by_line=True) for same in alike.values()]
+        yield [_summed(same, wells, by_line=True) for same in alike.values()]
     together = 2
     while together < 2 * len(sessions):
         starts = range(0, len(sessions), together)
-        yield [_summed(sessions[at : at + together], by_line=False) for at in starts]
+        yield [_summed(sessions[at : at + together], wells, by_line=False) for at in starts]
         together *= 2
 
 
@@ -156,14 +159,16 @@ def _row(same: Sequence[_Row], wells: Told) -> str:
     return f"{line}{same[0].word}{volume} {wells([w for row in same for w in row.wells])}"
 
 
-def _summed(sessions: Sequence[_Session], by_line: bool) -> str:
-    """Several tip sessions in one line: what they did, each thing once with its wells."""
+def _summed(sessions: Sequence[_Session], wells: Told, by_line: bool) -> str:
+    """Several tip sessions in one line: what they did, each thing once with its wells, which stand
+    in the order of the sessions: the third drawn from goes into the third given to.
+    """
     rows: dict[Hashable, list[_Row]] = {}
     every = [row for session in sessions for row in session.rows]
     for row in every:
         line = row.line if by_line else None
         rows.setdefault((row.word, line), []).append(replace(row, line=line))
-    told = [_row(same, _in_short) for same in rows.values()]
+    told = [_row(same, wells) for same in rows.values()]
     if not by_line:
         lines = [row.line for row in every if row.line]
         told.insert(0, f"lines {min(lines, default=0)}-{max(lines, default=0)}")
@@ -180,7 +185,9 @@ def _tips(sessions: Sequence[_Session]) -> str:
     if len(sessions[0].tips) > 1:
         text += f" ({len(sessions[0].tips)} channels at once)"
     if len(sessions) > 1:
-        text += f", {len(sessions)} pick-ups one after the other"
+        in_turn = numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+        how = " one after the other" if in_turn else ", others in between"
+        text += f", {len(sessions)} pick-ups{how}"
     again = sum(session.again for session in sessions)
     if again:
         text += ", USED BEFORE" if again == len(sessions) else f", {again} of them USED BEFORE"
@@ -206,12 +213,12 @@ def _repeated(items: Sequence[_Told]) -> Iterator[tuple[int, list[Sequence[_Told
         at = end
 
 
-def _in_short(wells: Sequence[WellRef]) -> str:
+def _in_short(wells: Sequence[WellRef], longest: int) -> str:
     """Wells, the first of them where they are many: ``2:A1-H1,... (40 wells)``."""
     text = places(wells)
-    if len(text) <= _LONGEST_LIST:
+    if len(text) <= longest:
         return text
-    return f"{text[:_LONGEST_LIST].rpartition(',')[0]},... ({len(set(wells))} wells)"
+    return f"{text[:longest].rpartition(',')[0]},... ({len(set(wells))} wells)"
 
 
 def places(wells: Sequence[WellRef]) -> str:

@@ -53,3 +53,12 @@ def test_what_is_written_is_the_weakest_evidence_of_the_program() -> None:
     (roles,) = reading.roles
     assert roles_by_well(reading)["1:A1"] == "ntc"
     assert [ref.address for ref in roles.by_well if roles.is_doubtful(ref)] == ["1:A1"]
+
+
+def test_a_word_for_a_liquid_and_its_wells_alike_goes_by_what_the_run_does() -> None:
+    reading = read(
+        RUN.format(comment="# PCR plate: A1 positive control, H12: NTC"), label='"PCR plate"'
+    )
+    assert roles_by_well(reading)["1:A1"] == "positive_reaction"
+    reading = read(RUN.format(comment="# slot 2: A1: positive control"), label='"PCR plate"')
+    assert roles_by_well(reading)["2:A1"] == "positive_control"

@@ -168,4 +168,4 @@ def test_a_table_fits_and_leaves_no_tip_session_out(
     assert told == len(sessions)
 
 
-_HEAD = r"tips? [\d,.-]+(?:, (\d+) pick-ups one after the other)?(?:, [^:;]*USED BEFORE)?:"
+_HEAD = r"tips? [\d,.-]+(?:, (\d+) pick-ups[a-z, ]*)?(?:, [^:;]*USED BEFORE)?:"

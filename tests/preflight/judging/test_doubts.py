@@ -1,0 +1,133 @@
+"""What an undecided rule asks for, and that the answer decides it."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping, Sequence
+
+from aegis_ot.preflight import Options, Script, load_database, record
+from aegis_ot.preflight.judging import Reading, Report, judge
+from aegis_ot.vocabulary import VerdictWord
+
+DECK = """
+{head}
+metadata = {{"protocolName": "{title}", "apiLevel": "2.15"}}
+
+def run(protocol):
+    tips = [protocol.load_labware("opentrons_96_tiprack_300ul", slot) for slot in (7, 8)]
+    rack = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 2)
+    plate = protocol.load_labware("biorad_96_wellplate_200ul_pcr", 3)
+    trough = protocol.load_labware("nest_12_reservoir_15ml", 4)
+    p300 = protocol.load_instrument("p300_single_gen2", "left", tip_racks=tips)
+{body}
+"""
+PCR = """
+p300.transfer(40, rack["D6"], plate.columns()[0][:4], new_tip="once")
+p300.transfer(20, rack.columns()[0], plate.columns()[0][:4], new_tip="always")
+"""
+PCR_ROLES = {"template": ["2:A1-D1"], "master_mix": ["2:D6"], "reaction": ["3:A1-D1"]}
+ONE_TIP_FOR_TUBES = """
+p300.pick_up_tip()
+for n in range(6):
+    p300.aspirate(50, rack.rows()[0][n])
+    p300.dispense(50, plate.rows()[0][n])
+p300.drop_tip()
+"""
+
+
+def checked(
+    body: str,
+    title: str = "Set-up",
+    head: str = "",
+    assay: Sequence[str] = (),
+    roles: Mapping[str, Sequence[str]] | None = None,
+) -> Report:
+    text = DECK.format(head=head, title=title, body=textwrap.indent(body.strip("\n"), "    "))
+    options = Options(assay=tuple(assay), roles=roles or {})
+    return judge(Reading(record(Script(text, "protocol.py")), load_database(), options))
+
+
+def test_a_role_that_no_well_has_is_said_by_an_empty_list() -> None:
+    report = checked(PCR, assay=["pcr"], roles=PCR_ROLES)
+    assert {one.rule for one in report.undecided} == {"PCR-2", "PCR-4"}
+    report = checked(PCR, assay=["pcr"], roles={**PCR_ROLES, "ntc": []})
+    assert report.undecided == ()
+    assert report.verdict is VerdictWord.PASS
+    assert {"PCR-2", "PCR-4"} <= set(report.judged)
+
+
+def test_what_a_name_says_is_judged_even_where_the_guard_is_told_that_there_is_none() -> None:
+    into_the_ntc = 'ntc = plate["H12"]\np300.transfer(20, rack["A1"], ntc)\n'
+    report = checked(PCR + into_the_ntc, assay=["pcr"], roles={**PCR_ROLES, "ntc": []})
+    assert {one.rule for one in report.findings} == {"PCR-1", "PCR-4"}
+
+
+def test_tubes_that_nothing_names_share_no_tip_unasked() -> None:
+    named = """
+samples = rack.rows()[1][:3]
+p300.transfer(50, samples, plate.rows()[1][:3], new_tip="always")
+"""
+    report = checked(named + ONE_TIP_FOR_TUBES)
+    (asked,) = {one for one in report.undecided if one.rule == "GEN-1"}
+    assert "nothing says what A2 of " in asked.reason
+    assert "and the tip that met A1 of " in asked.reason
+    assert asked.paste == '@guard(roles={"source|material|stock": ["2:A1,A2"]})'
+    assert asked.to_write == "write, with the right role and wells only"
+    roles = {"material": ["2:A1-A6", "2:B1-B3"]}
+    report = checked(named + ONE_TIP_FOR_TUBES, roles=roles)
+    assert {one.rule for one in report.findings} == {"GEN-1"}
+    assert report.verdict is VerdictWord.FAIL
+    report = checked(named + ONE_TIP_FOR_TUBES, roles={"stock": ["2:A1-A6"]})
+    assert report.verdict is VerdictWord.PASS
+
+
+def test_an_unknown_end_of_a_series_is_offered_at_both() -> None:
+    body = """
+row = plate.rows()[0][:5]
+p300.transfer(50, trough["A1"], row, new_tip="once")
+p300.transfer(50, row[:-1], row[1:], new_tip="always", mix_after=(2, 20))
+"""
+    report = checked(body, title="Serial dilution")
+    asked = {one.rule: one for one in report.undecided}["SD-2"]
+    assert asked.reason == "nothing says which end of the series holds the stock"
+    assert asked.paste == '@guard(roles={"stock": ["3:A1,A5"]})'
+
+
+def test_an_assay_that_is_a_guess_is_asked_for() -> None:
+    report = checked(
+        """
+protocol.comment("magnetic module: wash, elute and incubate")
+p300.transfer(50, trough["A1"], plate.wells()[:3])
+"""
+    )
+    asked = [one for one in report.undecided if one.reason == "the assay is not known"]
+    assert {one.paste for one in asked} == {'@guard(assay="generic")'}
+    assert {one.to_write for one in asked} == {"write, if it is that"}
+
+
+NEAR_THE_SAMPLES = """
+samples = rack.rows()[1][:3]
+water = trough["A1"]
+{loads}
+p300.transfer(100, samples, plate.rows()[1][:3], new_tip="always")
+p300.pick_up_tip()
+for well in plate.rows()[1][:3]:
+    p300.aspirate(40, water)
+    p300.dispense(40, well.bottom(12))
+p300.drop_tip()
+"""
+LOADS = """
+for number, tube in enumerate(samples):
+    tube.load_liquid(protocol.define_liquid(f"Sample {number}", "", "#ffffff"), 500)
+water.load_liquid(protocol.define_liquid("Water", "", "#ffffff"), 10000)
+"""
+
+
+def test_a_tip_near_a_known_level_warns_where_liquids_are_declared() -> None:
+    report = checked(NEAR_THE_SAMPLES.format(loads=LOADS))
+    assert report.verdict is VerdictWord.WARN
+    (found,) = (one for one in report.findings if one.rule == "GEN-2")
+    assert found.message.endswith("came near the liquid there and may have stayed clear of it.")
+    report = checked(NEAR_THE_SAMPLES.format(loads=""))
+    assert report.verdict is VerdictWord.PASS
+    assert "a tip came near a liquid" in {o.rule: o for o in report.undecided}["GEN-2"].reason
