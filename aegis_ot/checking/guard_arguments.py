@@ -14,6 +14,7 @@ from ..vocabulary import Remark
 
 _JUDGING = ("assay", "roles", "select", "ignore", "rules")
 _NAMES = (*_JUDGING, "recover", "recover_limit", "recover_run_limit")
+_SECOND = "This is a second @guard, which counts for nothing: add what it says to that at line {}."
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class GuardArguments:
     Attributes:
         values: Those that are literals, as the settings hold them.
         unread: Those for judging that are none: the guard will know them, and a reader of the text
-            does not.
+            does not; and guards beside the first.
     """
 
     values: dict[str, Any] = field(default_factory=dict)
@@ -40,10 +41,12 @@ def guard_arguments(text: str) -> GuardArguments:
         tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return GuardArguments()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Call) and _is_guard(node.func):
-            return _read(node)
-    return GuardArguments()
+    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and _is_guard(n.func)]
+    if not calls:
+        return GuardArguments()
+    first = _read(calls[0])
+    more = [Remark(_SECOND.format(calls[0].lineno), call.lineno) for call in calls[1:]]
+    return GuardArguments(first.values, (*first.unread, *more))
 
 
 def _read(call: ast.Call) -> GuardArguments:

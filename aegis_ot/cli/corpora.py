@@ -161,11 +161,11 @@ def _times(what: str, seconds: Sequence[float]) -> str:
 def _compared(before: Results, after: Results, changed: Sequence[Change], against: Path) -> str:
     both = len(before.keys() & after.keys())
     lines = [f"Against {against}: {len(changed)} of {both} protocols changed."]
-    if len(after) > both:
-        lines.append(f"{counted(len(after) - both, 'protocol is', 'protocols are')} new.")
+    if new := [file for file in after if file not in before]:
+        lines.append(f"{counted(len(new), 'protocol is', 'protocols are')} new:")
+        lines += [f"    {after[file][0].verdict} {file}" for file in new]
     if len(before) > both:
-        count = counted(len(before) - both, "protocol", "protocols")
-        lines.append(f"{count} of then are not in this call.")
+        lines.append(f"Not in this call, of those then: {counted(len(before) - both, 'protocol')}.")
     for change in changed:
         lines.append(_headline(change))
         lines += [f"    - {_in_words(told)}" for told in change.gone]

@@ -7,6 +7,8 @@ import json
 from importlib import resources
 from pathlib import Path
 
+import pytest
+
 import aegis_ot
 from aegis_ot.training.sources import SOURCES, sources_digest
 
@@ -35,13 +37,14 @@ def test_no_module_that_decides_is_left_out() -> None:
     assert needed - listed - ONLY_TYPES == set()
 
 
-def _shipped() -> dict:
+@pytest.fixture(params=["tip_detector", "row_detector"])
+def described(request: pytest.FixtureRequest) -> dict:
+    """What the description of the shipped weights says: of single tips, and of rows."""
     folder = resources.files("aegis_ot.vision").joinpath("weights")
-    return json.loads(folder.joinpath("tip_detector.json").read_text(encoding="utf-8"))
+    return json.loads(folder.joinpath(f"{request.param}.json").read_text(encoding="utf-8"))
 
 
-def test_the_shipped_weights_were_measured_on_plates_they_did_not_learn() -> None:
-    described = _shipped()
+def test_the_shipped_weights_were_measured_on_plates_they_did_not_learn(described: dict) -> None:
     assert described["data"]["held_out_plates"]
     recommended = [
         figures
@@ -55,13 +58,13 @@ def test_the_shipped_weights_were_measured_on_plates_they_did_not_learn() -> Non
         assert figures["highest_empty"] < described["threshold"] < figures["lowest_tip"]
 
 
-def test_this_code_made_the_shipped_weights() -> None:
+def test_this_code_made_the_shipped_weights(described: dict) -> None:
     """If this fails, 'aegis-ot train detector' no longer gives them: train anew, or undo."""
-    made = _shipped()["made_with"]
+    made = described["made_with"]
     assert made["sources_sha256"] == sources_digest(without=made["changed_since"])
 
 
-def test_what_changed_since_is_a_module_that_decides() -> None:
+def test_what_changed_since_is_a_module_that_decides(described: dict) -> None:
     listed = {f"{room}/{name}" for room, names in SOURCES.items() for name in names}
-    assert set(_shipped()["made_with"]["changed_since"]) <= listed
+    assert set(described["made_with"]["changed_since"]) <= listed
     assert sources_digest(without=listed) != sources_digest()

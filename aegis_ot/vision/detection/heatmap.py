@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import hashlib
 import json
 from collections.abc import Sequence
@@ -20,7 +21,7 @@ from .session import check_image, open_session
 from .views import CLOSE_UP_TIP, CLOSE_UP_TOP, View, close_up, overview, row_view
 
 FORMAT = "aegis-ot-tip-detector/1"
-_WEIGHTS = "tip_detector.onnx"
+_SINGLE, _ROW = "tip_detector.onnx", "row_detector.onnx"
 _GLANCE = 0.05  # score from which a candidate of the overview is looked at closely
 _LOOKS = 3
 _LEAST_HEAT = 0.05  # of an end of one of several tips
@@ -30,20 +31,24 @@ _STRETCH = 0.05  # and the logarithm of its scale
 _MULTIPLE = 16  # px, of which both sides of a view are multiples
 
 
-def load_weights(path: str | Path | None = None) -> tuple[bytes, dict[str, Any]]:
+def load_weights(
+    path: str | Path | None = None, of_row: bool = False
+) -> tuple[bytes, dict[str, Any]]:
     """Network and description of a detector made by ``aegis-ot train detector``.
 
     Args:
         path: The ``.onnx`` file; its description is the ``.json`` beside it. The shipped
             detector if not given.
+        of_row: Of the shipped ones, that for the tips of a row.
 
     Raises:
         ModelError: A file is missing, damaged, or does not belong to the other.
     """
     folder = resources.files("aegis_ot.vision").joinpath("weights")
-    model = folder.joinpath(_WEIGHTS) if path is None else Path(path)
+    name = _ROW if of_row else _SINGLE
+    model = folder.joinpath(name) if path is None else Path(path)
     sidecar = (
-        folder.joinpath(_WEIGHTS.replace(".onnx", ".json"))
+        folder.joinpath(name.replace(".onnx", ".json"))
         if path is None
         else Path(path).with_suffix(".json")
     )
@@ -77,9 +82,14 @@ class HeatmapDetector:
     heat of collar and orifice in the close-up and of the overview's score, weighted 3 to 1.
 
     Args:
-        path: Weights made by ``aegis-ot train detector``; the shipped ones if not given.
+        path: Weights made by ``aegis-ot train detector``, for both; the shipped ones if not given.
         threshold: Least confidence of a detection; the trained file's own if not given.
         threads: Threads that onnxruntime may use.
+
+    Attributes:
+        of_rows: Finds the ends of the tips of a row with a network of the same shape that was
+            trained on with rows in sight: others than this one does. ``None`` where weights are
+            given.
 
     Raises:
         ModelError: The weights are missing, damaged or of another version.
@@ -96,6 +106,12 @@ class HeatmapDetector:
         self._session = open_session(weights, threads, "The tip detector")
         if [each.name for each in self._session.get_inputs()] != ["image"]:
             raise ModelError("The tip detector's file is no network of this kind.")
+        self._of_ends = self._session
+        self.of_rows: HeatmapDetector | None = None
+        if path is None:
+            weights, _ = load_weights(of_row=True)
+            self.of_rows = copy.copy(self)
+            self.of_rows._of_ends = open_session(weights, threads, "The detector of rows")
 
     def detect(self, image: Image) -> TipDetection | None:
         """The tip in a frame, ``None`` where there is none.
@@ -113,7 +129,7 @@ class HeatmapDetector:
         """The likeliest tip, however unlikely: what :meth:`detect` compares with its threshold."""
         check_image(image)
         first = overview(image)
-        places = candidates(self._maps([first])[0], _GLANCE, _LOOKS)
+        places = candidates(_maps(self._session, [first])[0], _GLANCE, _LOOKS)
         if not places:
             return None
         # A place much less likely than the best would not win in its close-up either.
@@ -122,7 +138,7 @@ class HeatmapDetector:
             close_up(image, first.to_frame(*c.collar), first.to_frame(*c.orifice)) for c in places
         ]
         seen: list[tuple[Candidate, View, float]] = []
-        for view, place, maps in zip(views, places, self._maps(views), strict=True):
+        for view, place, maps in zip(views, places, _maps(self._session, views), strict=True):
             seen += [(found, view, place.score) for found in candidates(maps, 0.01, 1)]
         if not seen:
             return None
@@ -161,7 +177,7 @@ class HeatmapDetector:
 
         return [
             Ends(found(view, maps, COLLAR), found(view, maps, ORIFICE))
-            for view, maps in zip(views, self._maps(views), strict=True)
+            for view, maps in zip(views, _maps(self._of_ends, views), strict=True)
         ]
 
     def _again(self, image: Image, found: Candidate, view: View) -> tuple[Candidate, View] | None:
@@ -173,12 +189,14 @@ class HeatmapDetector:
         stretch = abs(np.log(better.scale_y / view.scale_y))
         if off < _AIM and stretch < _STRETCH:
             return None
-        return next(((c, better) for c in candidates(self._maps([better])[0], 0.01, 1)), None)
+        (maps,) = _maps(self._session, [better])
+        return next(((each, better) for each in candidates(maps, 0.01, 1)), None)
 
-    def _maps(self, views: list[View]) -> NDArray[np.float32]:
-        batch = np.stack([view.image for view in views])
-        maps: NDArray[np.float32] = self._session.run(None, {"image": batch})[0]
-        return maps
+
+def _maps(session: Any, views: list[View]) -> NDArray[np.float32]:
+    batch = np.stack([view.image for view in views])
+    maps: NDArray[np.float32] = session.run(None, {"image": batch})[0]
+    return maps
 
 
 def _whole(image: Image, scale: float) -> View:

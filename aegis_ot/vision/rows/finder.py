@@ -55,7 +55,9 @@ class RowFinder:
         self._detector = detector
         self._tip: TipGeometry = tip_for(keyframe.pipette, keyframe.capacity_ul)
         self._count = len(keyframe.nozzles)
-        self._search = RowSearch(detector, self._tip, self._count)
+        others = filter(None, [getattr(detector, "of_rows", None)])
+        self._searches = [RowSearch(one, self._tip, self._count) for one in (detector, *others)]
+        self._search = self._searches[0]
         self._column = keyframe.nozzles[0][1:] == keyframe.nozzles[-1][1:]
         self._places = RowPlaces()
         self._left: bool | None = None if first == "auto" else first == "left"
@@ -73,7 +75,7 @@ class RowFinder:
             known = self._places.last
             row = None if known is None else self._search.row_in_wells(image, known)
             return self._nothing("Labware hides the row.") if row is None else self._seen(row, 0)
-        row = self._search.row(image, self._places.last)
+        row = self._row(image)
         if row is not None and row.span == self._count:
             self._places.note(keyframe.position, row)
             self._orient(row)
@@ -92,6 +94,17 @@ class RowFinder:
                 return self._nothing()
             return self._nothing(f"Most of the {self._count} tips are not seen.")
         return self._along(image)
+
+    def _row(self, image: Image) -> Row | None:
+        """The row of a frame, by the detector that sees more of its tips."""
+        found: Row | None = None
+        for search in self._searches:
+            row = search.row(image, self._places.last)
+            if row is not None and (found is None or len(row.heats) > len(found.heats)):
+                found, self._search = row, search
+            if found is not None and len(found.heats) == self._count:
+                break
+        return found
 
     def _orient(self, row: Row) -> None:
         """Settle from the first whole row which end is the first channel."""

@@ -107,12 +107,23 @@ def test_a_tiny_frame_is_no_error(detector: HeatmapDetector) -> None:
     assert detector.detect(np.zeros((3, 2, 3), np.uint8)) is None
 
 
-def test_weights_are_small_and_described() -> None:
+@pytest.mark.parametrize("name", ["tip_detector", "row_detector"])
+def test_weights_are_small_and_described(name: str) -> None:
     folder = resources.files("aegis_ot.vision").joinpath("weights")
-    assert len(folder.joinpath("tip_detector.onnx").read_bytes()) <= 2_000_000
-    described = json.loads(folder.joinpath("tip_detector.json").read_text(encoding="utf-8"))
+    assert len(folder.joinpath(f"{name}.onnx").read_bytes()) <= 1_000_000
+    described = json.loads(folder.joinpath(f"{name}.json").read_text(encoding="utf-8"))
     assert described["parameters"] < 200_000
     assert {"data", "settings", "seed", "sha256"} <= set(described)
+
+
+def test_rows_are_seen_by_a_network_of_their_own_unless_weights_are_given(weights: Path) -> None:
+    image = np.random.default_rng(3).integers(0, 255, (96, 64, 3), dtype=np.uint8)
+    axes = [((32.0, 10.0), (32.0, 80.0))]
+    shipped, given = HeatmapDetector(), HeatmapDetector(weights)
+    assert given.of_rows is None
+    assert shipped.of_rows is not None
+    assert shipped.of_rows.best_guess(image) == shipped.best_guess(image)
+    assert shipped.of_rows.ends_of_each(image, axes) != shipped.ends_of_each(image, axes)
 
 
 def test_damaged_weights_are_refused(weights: Path) -> None:

@@ -140,6 +140,7 @@ class Drawn:
     ends_of: Ends
     guessed: float = LENGTH
     close: Ends | None = None
+    of_rows: Drawn | None = None
     reaches: list[float] = field(default_factory=list)
 
     def detect(self, image: Image) -> TipDetection | None:
@@ -234,6 +235,19 @@ def test_a_row_is_found_elsewhere_than_where_a_tip_is_guessed() -> None:
 
     assert found(Misled(nothing, close=ends(ALL, ALL))).whole
     assert found(Misled(nothing, close=nothing)).tips == (None,) * 8
+
+
+def test_a_detector_of_rows_is_asked_where_the_other_misses_a_tip() -> None:
+    sharp, blind = ends(ALL, ALL), ends(ALL[:5], ALL[:5])
+    other = Drawn(sharp)
+    assert found(Drawn(blind, of_rows=other)).whole
+    assert other.reaches
+    untold = found(Drawn(blind))
+    assert untold.trouble == ("Only 5 of 8 tips are seen, and which are missing cannot be told.")
+    other = Drawn(blind)
+    assert found(Drawn(sharp, of_rows=other)).whole
+    assert not other.reaches
+    assert found(Drawn(blind, of_rows=Drawn(ends(ALL[:4], ALL[:4])))).trouble == untold.trouble
 
 
 def test_the_whole_frame_is_searched_no_more_where_it_shows_no_row() -> None:
