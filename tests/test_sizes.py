@@ -9,7 +9,7 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 9_601,
+    "preflight": 9_614,
     "preflight/checks": 2_149,
     "preflight/database": 252,
     "preflight/evidence": 698,
@@ -18,9 +18,9 @@ BUDGETS = {
     "preflight/rehearsal": 1_013,
     "preflight/roles": 1_020,
     "preflight/rules": 618,
-    "preflight/source": 677,
+    "preflight/source": 690,
     "preflight/trace": 1_505,
-    "": 66_337,
+    "": 66_350,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached: ``preflight`` is
 within its aim of 9,500, the package has 48,000 for an aim."""

@@ -15,6 +15,9 @@ _Placed = tuple[ast.AST, str, tuple[str, ...]]
 _SILENT_FIELDS = frozenset({"ctx", "op", "ops", "kind", "type_comment", "returns", "annotation"})
 """What holds operators and types: nearly half of all nodes, and nothing is read from them."""
 
+_FIELDS: dict[type[ast.AST], tuple[str, ...]] = {ast.Name: (), ast.Constant: ()}
+"""What may hold further nodes, by kind; most nodes are of these two, and nothing is below them."""
+
 
 class Nodes:
     """Every node that says something, in reading order within its kind.
@@ -51,8 +54,18 @@ class Nodes:
 
 def _children(node: ast.AST) -> list[ast.AST]:
     children: list[ast.AST] = []
-    for name, value in ast.iter_fields(node):
-        if name not in _SILENT_FIELDS:
-            parts = value if isinstance(value, list) else [value]
-            children += [part for part in parts if isinstance(part, ast.AST)]
+    for name in _telling_fields(type(node)):
+        value = getattr(node, name, None)
+        if isinstance(value, ast.AST):
+            children.append(value)
+        elif isinstance(value, list):
+            children += [part for part in value if isinstance(part, ast.AST)]
     return children
+
+
+def _telling_fields(kind: type[ast.AST]) -> tuple[str, ...]:
+    found = _FIELDS.get(kind)
+    if found is None:
+        found = tuple(name for name in kind._fields if name not in _SILENT_FIELDS)
+        _FIELDS[kind] = found
+    return found
