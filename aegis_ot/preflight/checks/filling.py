@@ -55,6 +55,13 @@ class SeriesFilledFrom(SeriesCheck):
     """What the wells of the series are filled with comes from the diluent's own reservoir."""
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
+        diluent = case.family.series.diluent
+        for source in case.wells(diluent):
+            if not case.roles.is_called(source.ref, (*diluent, *case.family.series.diluent_else)):
+                yield Doubt(
+                    f"nothing says that {source.ref}, which the series is filled from, is the diluent",
+                    roles_of=(source,),
+                )
         done: set[Well] = set()
         for step in series.steps:
             wrong = wrong_fill(case, series, step)

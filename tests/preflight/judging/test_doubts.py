@@ -131,3 +131,24 @@ def test_a_tip_near_a_known_level_warns_where_liquids_are_declared() -> None:
     report = checked(NEAR_THE_SAMPLES.format(loads=""))
     assert report.verdict is VerdictWord.PASS
     assert "a tip came near a liquid" in {o.rule: o for o in report.undecided}["GEN-2"].reason
+
+
+SERIES = """
+row = plate.rows()[0][:5]
+{filler} = trough["A2"]
+p300.transfer(50, {filler}, row[1:], new_tip="once")
+p300.transfer(100, rack["A1"], row[0])
+p300.transfer(50, row[:-1], row[1:], new_tip="always", mix_after=(3, 40))
+"""
+
+
+def test_a_diluent_that_use_alone_tells_may_be_the_wrong_reservoir() -> None:
+    report = checked(SERIES.format(filler="filler"), title="Serial dilution")
+    asked = {one.rule: one for one in report.undecided}["SD-4"]
+    assert asked.reason == (
+        "nothing says that A2 of NEST 12 Well Reservoir 15 mL (slot 4), which the series is filled "
+        "from, is the diluent"
+    )
+    assert '": ["4:A2"]' in asked.paste
+    report = checked(SERIES.format(filler="diluent"), title="Serial dilution")
+    assert "SD-4" not in {one.rule for one in report.undecided}
