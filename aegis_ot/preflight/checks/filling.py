@@ -59,7 +59,7 @@ class SeriesFilledFrom(SeriesCheck):
         for source in case.wells(diluent):
             if not case.roles.is_called(source.ref, (*diluent, *case.family.series.diluent_else)):
                 yield Doubt(
-                    f"nothing says that {source.ref}, which the series is filled from, is the diluent",
+                    f"nothing says that {source.ref}, which fills the series, is the diluent",
                     roles_of=(source,),
                 )
         done: set[Well] = set()

@@ -146,8 +146,8 @@ def test_a_diluent_that_use_alone_tells_may_be_the_wrong_reservoir() -> None:
     report = checked(SERIES.format(filler="filler"), title="Serial dilution")
     asked = {one.rule: one for one in report.undecided}["SD-4"]
     assert asked.reason == (
-        "nothing says that A2 of NEST 12 Well Reservoir 15 mL (slot 4), which the series is filled "
-        "from, is the diluent"
+        "nothing says that A2 of NEST 12 Well Reservoir 15 mL (slot 4), which fills the series, is "
+        "the diluent"
     )
     assert '": ["4:A2"]' in asked.paste
     report = checked(SERIES.format(filler="diluent"), title="Serial dilution")
