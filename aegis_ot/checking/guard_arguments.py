@@ -14,7 +14,6 @@ from ..vocabulary import Remark
 
 _JUDGING = ("assay", "roles", "select", "ignore", "rules")
 _NAMES = (*_JUDGING, "recover", "recover_limit", "recover_run_limit")
-_SECOND = "This is a second @guard, which counts for nothing: add what it says to that at line {}."
 
 
 @dataclass(frozen=True)
@@ -24,7 +23,7 @@ class GuardArguments:
     Attributes:
         values: Those that are literals, as the settings hold them.
         unread: Those for judging that are none: the guard will know them, and a reader of the text
-            does not; and guards beside the first.
+            does not.
     """
 
     values: dict[str, Any] = field(default_factory=dict)
@@ -42,11 +41,16 @@ def guard_arguments(text: str) -> GuardArguments:
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return GuardArguments()
     calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and _is_guard(n.func)]
-    if not calls:
-        return GuardArguments()
-    first = _read(calls[0])
-    more = [Remark(_SECOND.format(calls[0].lineno), call.lineno) for call in calls[1:]]
-    return GuardArguments(first.values, (*first.unread, *more))
+    for function in ast.walk(tree):
+        if isinstance(function, ast.FunctionDef):
+            above = [one for one in function.decorator_list if one in calls]
+            if above:  # several are one guard, and the outer one comes first
+                read = [_read(one) for one in above if isinstance(one, ast.Call)]
+                values = {
+                    name: value for one in reversed(read) for name, value in one.values.items()
+                }
+                return GuardArguments(values, tuple(said for one in read for said in one.unread))
+    return _read(calls[0]) if calls else GuardArguments()
 
 
 def _read(call: ast.Call) -> GuardArguments:

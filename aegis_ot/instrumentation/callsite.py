@@ -19,6 +19,10 @@ from .own_code import is_helper_file
 _MIXING = frozenset({"mix", "dynamic_mix", "pre_wet"})
 _API = os.sep + os.path.join("opentrons", "protocol_api", "")
 
+_NEAREST = 8
+"""So many of the protocol's functions, from the innermost, are met at each walk: a recursion may be
+hundreds deep."""
+
 _PROTOCOL, _HELPER, _CONTEXT, _INSIDE_API, _OTHER = range(5)
 
 
@@ -51,8 +55,7 @@ class ProtocolStack:
         file_name: ``co_filename`` of the protocol's code.
 
     Attributes:
-        met: Gets each such frame at each walk that meets it, innermost first; ``None`` while
-            nobody asks for them.
+        met: Gets the innermost of these frames at each walk; ``None`` while nobody asks for them.
         returned: Gets each such frame once its function has returned, innermost first.
     """
 
@@ -102,7 +105,7 @@ class ProtocolStack:
             del own[within:]
             self._now_running(own)
             if self.met is not None:
-                for frame in own:
+                for frame in own[:_NEAREST]:
                     self.met(frame)
         return CallSite(tuple(lines), call, mixing)
 

@@ -10,6 +10,7 @@ where another name holds what it gave back.
 
 from __future__ import annotations
 
+import inspect
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
@@ -188,11 +189,14 @@ class NameCollector:
             return
         well_type = self._reader.well_type
         function = None
-        for name, value in frame.f_locals.items():
+        names = frame.f_locals
+        for name, value in names.items():
             if type(value) is well_type:
                 function = function or self._function_of(frame)
                 if self._last.get((function[0], name)) is not value:
                     self.look({name: value}, *function)
+        if _SHARES_LOCALS:
+            names.clear()  # this copy would keep alive what the function lets go of
 
     def _function_of(self, frame: FrameType) -> tuple[str, int]:
         """Name and first line of a frame's function; see :class:`NameBinding`."""
@@ -206,6 +210,8 @@ def _may_be_read(code: CodeType) -> bool:
     """Whether a function's local names tell of a well's use, and can be read unnoticed."""
     if code.co_name.startswith("<"):
         return False  # comprehensions and lambdas; a module's names are looked at in the end
+    if not code.co_flags & inspect.CO_OPTIMIZED:
+        return False  # a class body, whose names may stand in a dict of its own making
     # To look would write into the dict that the protocol itself holds.
     return not _SHARES_LOCALS or _ASKS_FOR_LOCALS.isdisjoint(code.co_names)
 

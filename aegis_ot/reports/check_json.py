@@ -38,7 +38,8 @@ def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> di
         "verdict": checked.verdict.value,
         "findings": [_finding(finding) for finding in checked.findings],
         "undecided": [
-            {"rule": u.rule, "reason": u.reason, "paste": u.paste} for u in checked.undecided
+            {"rule": u.rule, "reason": u.reason, "paste": u.paste, "to_write": u.to_write}
+            for u in checked.undecided
         ],
     }
     if checked.problem is not None:

@@ -21,7 +21,7 @@ class Settings:
         rules_path: Folder or file of further rules.
         roles: What wells are for, the guard's own evidence: role to wells, each written
             ``"label-or-slot:well"``, as in ``{"ntc": ["plate:H12"]}``; with a concentration or
-            dose where one decides, ``{"standard": ["4:A1 = 2 mg/mL"]}``.
+            dose where one decides, ``{"standard": ["4:A1 = 2 mg/mL"]}``; ``[]`` if no well has it.
         sidecar: Address of the sidecar, ``"http://192.168.1.20:7645"``; ``None`` for Layer 1
             alone.
         token: Bearer token that the sidecar expects, or ``None``.

@@ -32,15 +32,15 @@ def test_the_command_line_comes_first() -> None:
     assert options.roles == {"ntc": ("2:H12",), "water": ("1:B1",)}
 
 
-def test_a_second_guard_is_told_not_to_count() -> None:
-    text = guarded('assay="pcr"').replace("def run", '@guard(roles={"ntc": ["1:A1"]})\ndef run')
-    read = guard_arguments(text)
-    assert read.values == {"assay": "pcr"}
-    (remark,) = read.unread
-    assert remark.message == (
-        "This is a second @guard, which counts for nothing: add what it says to that at line 3."
-    )
-    assert remark.line == 4
+def test_guards_above_one_another_are_one_and_the_outer_comes_first() -> None:
+    inner = '@guard(roles={"ntc": ["1:A1"]}, assay="generic", ignore="SD-5")\ndef run'
+    read = guard_arguments(guarded('assay="pcr"').replace("def run", inner))
+    assert read.unread == ()
+    assert read.values == {
+        "assay": "pcr",
+        "roles": {"ntc": ("1:A1",)},
+        "ignore": ("SD-5",),
+    }
 
 
 def test_what_is_worked_out_in_the_run_is_told() -> None:

@@ -185,6 +185,39 @@ def test_a_loop_tells_each_well_that_its_names_held():
     assert told["give", "source"] == ["A1", "A2", "A3"]
 
 
+def test_looking_at_a_running_function_keeps_nothing_alive_that_it_lets_go_of():
+    body = """
+    import weakref
+    class Kept: pass
+    well, kept = plate["A1"], Kept()
+    alive = weakref.ref(kept)
+    single.pick_up_tip()
+    del kept
+    protocol.comment(f"alive {alive() is not None}")
+    """
+    heard, _ = run(ot2(body))
+    assert heard.events[-1].text == "alive False"
+
+
+def test_a_class_body_with_names_of_its_own_making_is_left_alone():
+    body = """
+    class Names(dict):
+        def items(self):
+            raise RuntimeError("boom")
+    class Meta(type):
+        @classmethod
+        def __prepare__(mcs, name, bases):
+            return Names()
+        def __new__(mcs, name, bases, names):
+            return super().__new__(mcs, name, bases, {})
+    class Deck(metaclass=Meta):
+        ntc = plate["H12"]
+        single.pick_up_tip()
+    water = plate["A1"]
+    """
+    assert bound(body)["run", "water"] == ["A1"]
+
+
 def test_functions_in_functions_classes_and_tables_are_seen():
     body = """
     def inner():

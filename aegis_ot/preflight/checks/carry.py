@@ -109,8 +109,6 @@ class Carry(Check):
                 return True  # it was in the stock already
             if _serves_its_well_alone(case, well, origin):
                 return True
-            if self.pooled and _is_being_made(case, visit, origin):
-                return True
             return origin in case.meant.get(well, {}) and (
                 _on_purpose(well, origin, visit) or self._made_of(case, visit, origin)
             )
@@ -154,19 +152,19 @@ class Carry(Check):
             for origin, met in carried_liquids(visit) if met_before else ():
                 if origin not in met_before:
                     continue
-                if origin in case.meant.get(well, {}) or case.same_liquid(origin, well):
+                if origin in case.meant.get(well, {}) or self._let_be(case, visit, origin, met):
                     continue
                 if not case.of(well):
                     what = case.title(origin) if case.of(origin) else str(origin.ref)
                     return Doubt(
                         f"nothing says what {well.ref} holds, and the tip that met "
                         f"{what} {at(met.line)} enters it {at(visit.line)}",
-                        roles_of=(well,) if case.of(origin) else (origin, well),
+                        roles_of=tuple(sorted(drawn | {well}, key=unnamed.index)),
                     )
                 return Doubt(
                     f"nothing says what {origin.ref} holds, and its tip enters the "
                     f"{case.title(well)} {well.ref} {at(visit.line)}",
-                    roles_of=(origin,),
+                    roles_of=tuple(sorted(drawn, key=unnamed.index)),
                 )
         return None
 
@@ -281,18 +279,6 @@ def _serves_its_well_alone(case: Case, stock: Well, origin: Well) -> bool:
     """Whether all that is drawn from a stock goes to one well, which holds that liquid as well."""
     drawn_for = case.destinations.get(stock, {})
     return len(drawn_for) == 1 and all(origin in case.meant.get(dest, {}) for dest in drawn_for)
-
-
-def _is_being_made(case: Case, visit: Visit, origin: Well) -> bool:
-    """Whether a liquid is brought to a well that the run fills, and draws nothing from as yet."""
-    well = visit.well
-    if well.prefilled or case.is_drawn_first(well) or origin not in case.meant.get(well, {}):
-        return False
-    return all(
-        other.index > visit.index
-        for other in well.visits
-        if other.kind is OperationKind.ASPIRATE and not other.mixing
-    )
 
 
 def _on_purpose(stock: Well, origin: Well, visit: Visit) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -74,6 +74,10 @@ def microlitres(volume: float) -> str:
 @dataclass(frozen=True)
 class Check:
     """A predicate over trace and roles, with its parameters as fields."""
+
+    def demanded(self, case: Case) -> Collection[str]:
+        """Roles without which it does not hold; what else is not there cannot break it."""
+        return ()
 
     def find(self, case: Case) -> Iterable[Result]:
         """Places where it does not hold, and places that it cannot judge."""

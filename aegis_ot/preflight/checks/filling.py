@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from ...vocabulary import Site
@@ -18,6 +18,9 @@ _GUESSED = "Several buffers are used, and none of them is called the diluent."
 @dataclass(frozen=True)
 class SeriesFilledFirst(SeriesCheck):
     """Every well of the series holds its diluent before the more concentrated solution."""
+
+    def demanded(self, case: Case) -> Collection[str]:
+        return (*case.family.series.diluent, *case.family.series.diluent_else)
 
     def along(self, case: Case, series: Series) -> Iterator[Result]:
         done: set[Well] = set()
@@ -70,10 +73,8 @@ class SeriesFilledFrom(SeriesCheck):
             done.add(step.well)
             source = wrong.source
             if not case.has(source, case.family.series.stock) and not _is_diluent_known(case):
-                diluent = case.family.series.diluent[0]
-                yield Doubt(
-                    "nothing says which reservoir holds the diluent", (), (source,), diluent
-                )
+                why = "nothing says which reservoir holds the diluent"
+                yield Doubt(why, (), (source,), diluent[0])
                 return
             if not case.of(source):
                 yield Doubt(f"nothing says what {source.ref} holds", roles_of=(source,))

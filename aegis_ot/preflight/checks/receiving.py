@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
 from ...vocabulary import Site, WellRef
@@ -107,6 +107,9 @@ class Receives(Check):
     wells: tuple[str, ...] = role_names(required=True)
     liquid: tuple[str, ...] = role_names(required=True)
     always: tuple[str, ...] = role_names()
+
+    def demanded(self, case: Case) -> Collection[str]:
+        return self.liquid
 
     def find(self, case: Case) -> Iterator[Result]:
         liquid = self.liquid
@@ -239,7 +242,22 @@ class NeverReceives(Check):
                         )
                     elif case.has(origin, self.liquid) and not case.has(origin, self.wells):
                         seen.add(origin)
-                        yield _given(case, one, origin)
+                        if self._is_named_in_passing(case, origin):
+                            yield Doubt(
+                                f"only a name that held other wells too calls {origin.ref} "
+                                f"{case.title(origin)}, and it goes into {case.title(well)}s alone",
+                                roles_of=(origin,),
+                            )
+                        else:
+                            yield _given(case, one, origin)
+
+    def _is_named_in_passing(self, case: Case, origin: Well) -> bool:
+        """Whether a loop names one that only such wells get: their water, the dose 0."""
+        assigned = case.roles.by_well.get(origin.ref)
+        in_passing = assigned is not None and assigned.kind is Kind.PASSING_NAME
+        return in_passing and all(
+            case.has(well, self.wells) for well in case.destinations.get(origin, ())
+        )
 
     def _may_be(self, case: Case, source: Well, well: Well) -> bool:
         """Whether some other wells of a plate, but not most, get a source and no ``liquid``."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
 from ...instrumentation import NameBinding
@@ -20,6 +21,7 @@ def named_wells(
 ) -> Iterator[Evidence]:
     """What variables, keys and attributes were called that held wells or whole labware."""
     keyed, listed = levels_of_keys(names), _lists_of_levels(names, common)
+    bound = Counter((one.function, one.name) for one in names if one.wells)
     for binding in names:
         if not (binding.wells or binding.labware):
             continue
@@ -37,7 +39,9 @@ def named_wells(
         elif binding.wells and len(wells) > 1:
             levels = _listed_beside(binding, listed)
         yield Evidence(
-            Kind.PASSING_NAME if place in facts.passing else Kind.NAME,
+            Kind.PASSING_NAME
+            if place in facts.passing or bound[binding.function, binding.name] > 1
+            else Kind.NAME,
             text,
             wells,
             f"name `{binding.name}` at line {line}",

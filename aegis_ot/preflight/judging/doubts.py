@@ -43,7 +43,7 @@ def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
     if doubt.roles_of:
         specs = case.family.roles.items()
         sources = "|".join(role for role, spec in specs if spec.side != "destination")
-        how = RIGHT_WELLS if doubt.role else "write, with the right role and wells only"
+        how = RIGHT_WELLS if doubt.role else "write, with one of these roles and its wells only"
         wells = spelled(well.ref for well in doubt.roles_of)
         return Undecided(rule.id, doubt.reason, pasted({doubt.role or sources: wells}), how)
     leveled: dict[str, dict[str, None]] = {}
@@ -51,7 +51,8 @@ def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
         assigned = case.roles.by_well.get(well.ref)
         if assigned is not None:
             leveled.setdefault(assigned.role, {})[f"{places([well.ref])} = ..."] = None
-    return Undecided(rule.id, doubt.reason, pasted(leveled), "write, with their concentrations")
+    how = "write, with their concentrations" if leveled else "write"
+    return Undecided(rule.id, doubt.reason, pasted(leveled), how)
 
 
 def pasted(roles: Mapping[str, Iterable[str]]) -> str:

@@ -41,16 +41,19 @@ def judge(reading: Reading) -> Report:
 
 def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided | None]:
     """Where a rule is broken, or why that cannot be said (``None`` if it can)."""
+    checks = [make_check(check, rule.id) for check in rule.checks]
     if missing := missing_needs(rule, case.roles):
-        if any(case.absent.issuperset(need.split("|")) for need in missing):
-            return [], None  # nothing is there that could break it
+        demanded = {role for check in checks for role in check.demanded(case)}
+        cannot_break = case.absent - demanded
+        if any(cannot_break.issuperset(need.split("|")) for need in missing):
+            return [], None
         return [], missing_roles(rule, case, missing)
     if not case.confident and not case.family.default:
         return [], undecided_by(UNKNOWN_ASSAY, rule, case)
     violations: list[Violation] = []
     doubts: list[Doubt] = []
-    for number, check in enumerate(rule.checks):
-        for result in make_check(check, rule.id).find(case):
+    for number, check in enumerate(checks):
+        for result in check.find(case):
             if isinstance(result, Doubt):
                 doubts.append(result)
             elif not case.confident and not _plain(result, case.roles):

@@ -91,22 +91,20 @@ class RoleNames:
         if len(parts) < 2 and evidence.is_name:
             return False
         # A word may name a liquid and the wells for it: "standards".
-        words: dict[int, list[str]] = {}
-        for match in heads:
-            words.setdefault(match.start, []).append(match.topic)
-        unlike = any(not self._are_kin(*pair) for pair in itertools.combinations(words.values(), 2))
-        found = map(self._lexicon.find, parts)
-        told = [any(not match.topic.startswith("!") for match in one) for one in found]
+        told: list[set[str]] = [{match.topic for match in self._head(part)} for part in parts]
+        if len(parts) < 2:
+            words: dict[int, set[str]] = {}
+            for match in heads:
+                words.setdefault(match.start, set()).add(match.topic)
+            told = list(words.values())
+        unlike = any(
+            some != others and not self._are_kin(some, others)
+            for some, others in itertools.combinations(filter(None, told), 2)
+        )
         return unlike or (evidence.whole and any(told) and not all(told))
 
-    def _are_kin(self, some: Sequence[str], others: Sequence[str]) -> bool:
-        """Whether each role that the one word names has a kind or a general one in the other's."""
-        kin = self._family.are_kin
-        return all(
-            any(kin(one, other) for other in these)
-            for those, these in ((some, others), (others, some))
-            for one in those
-        )
+    def _are_kin(self, some: set[str], others: set[str]) -> bool:
+        return all(self._family.are_kin(one, other) for one in some for other in others)
 
     def _parts(self, text: str) -> list[str]:
         """The parts of a text between words and marks that join."""

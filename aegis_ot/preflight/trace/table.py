@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import groupby, takewhile
+from itertools import groupby, pairwise, takewhile
 from typing import TypeVar
 
 from ...instrumentation import OperationKind
@@ -161,7 +161,7 @@ def _row(same: Sequence[_Row], wells: Told) -> str:
 
 def _summed(sessions: Sequence[_Session], wells: Told, by_line: bool) -> str:
     """Several tip sessions in one line: what they did, each thing once with its wells, which stand
-    in the order of the sessions: the third drawn from goes into the third given to.
+    in the order of the sessions: of as many drawn from as given to, the third goes into the third.
     """
     rows: dict[Hashable, list[_Row]] = {}
     every = [row for session in sessions for row in session.rows]
@@ -185,7 +185,7 @@ def _tips(sessions: Sequence[_Session]) -> str:
     if len(sessions[0].tips) > 1:
         text += f" ({len(sessions[0].tips)} channels at once)"
     if len(sessions) > 1:
-        in_turn = numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+        in_turn = all(after - before in (0, 1) for before, after in pairwise(numbers))
         how = " one after the other" if in_turn else ", others in between"
         text += f", {len(sessions)} pick-ups{how}"
     again = sum(session.again for session in sessions)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import functools
 import hashlib
 import json
 from collections.abc import Sequence
@@ -86,11 +87,6 @@ class HeatmapDetector:
         threshold: Least confidence of a detection; the trained file's own if not given.
         threads: Threads that onnxruntime may use.
 
-    Attributes:
-        of_rows: Finds the ends of the tips of a row with a network of the same shape that was
-            trained on with rows in sight: others than this one does. ``None`` where weights are
-            given.
-
     Raises:
         ModelError: The weights are missing, damaged or of another version.
     """
@@ -107,11 +103,19 @@ class HeatmapDetector:
         if [each.name for each in self._session.get_inputs()] != ["image"]:
             raise ModelError("The tip detector's file is no network of this kind.")
         self._of_ends = self._session
-        self.of_rows: HeatmapDetector | None = None
-        if path is None:
-            weights, _ = load_weights(of_row=True)
-            self.of_rows = copy.copy(self)
-            self.of_rows._of_ends = open_session(weights, threads, "The detector of rows")
+        self._threads, self._is_shipped = threads, path is None
+
+    @functools.cached_property
+    def of_rows(self) -> HeatmapDetector | None:
+        """Finds the ends of the tips of a row with a network of the same shape that was trained on
+        with rows in sight: others than this one does. ``None`` where weights are given.
+        """
+        if not self._is_shipped:
+            return None
+        other = copy.copy(self)
+        weights, _ = load_weights(of_row=True)
+        other._of_ends = open_session(weights, self._threads, "The detector of rows")
+        return other
 
     def detect(self, image: Image) -> TipDetection | None:
         """The tip in a frame, ``None`` where there is none.

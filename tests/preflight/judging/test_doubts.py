@@ -5,6 +5,8 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Mapping, Sequence
 
+import pytest
+
 from aegis_ot.preflight import Options, Script, load_database, record
 from aegis_ot.preflight.judging import Reading, Report, judge
 from aegis_ot.vocabulary import VerdictWord
@@ -62,6 +64,58 @@ def test_what_a_name_says_is_judged_even_where_the_guard_is_told_that_there_is_n
     assert {one.rule for one in report.findings} == {"PCR-1", "PCR-4"}
 
 
+@pytest.mark.parametrize(
+    ("assay", "rule", "roles"),
+    [
+        ("pcr", "PCR-1", {"reaction": ["3:A1-D1"], "template": ["2:A1-D1"], "master_mix": []}),
+        ("bradford", "BRD-3", {"sample": ["2:A1-D1"], "dye": []}),
+        ("cell_treatment", "CELL-2", {"vehicle_control": ["3:A1-D1"], "vehicle": []}),
+    ],
+)
+def test_a_liquid_that_wells_must_get_is_missed_where_there_is_none(
+    assay: str, rule: str, roles: dict[str, list[str]]
+) -> None:
+    report = checked(PCR, assay=[assay], roles=roles)
+    assert rule in {one.rule for one in report.undecided}
+
+
+ZERO_DOSE = """
+vehicle_control = plate.columns()[0][:3]
+for dose, drug, column in zip([0, 1, 10], rack.rows()[0], plate.columns()):
+    for well in column[:3]:
+        p300.transfer(20, drug, well, new_tip="always")
+"""
+
+
+def test_a_loop_s_name_does_not_accuse_the_tube_that_controls_alone_are_given() -> None:
+    report = checked(ZERO_DOSE, title="Drug treatment of cells")
+    assert report.verdict is VerdictWord.PASS
+    asked = {one.rule: one for one in report.undecided}["CELL-1"]
+    assert asked.reason == (
+        "only a name that held other wells too calls A1 of Opentrons 24 Tube Rack with NEST 1.5 mL "
+        "Snapcap (slot 2) drug, and it goes into vehicle controls alone"
+    )
+    again = 'p300.transfer(20, rack["A2"], vehicle_control[0])\n'
+    (found,) = checked(ZERO_DOSE + again, title="Drug treatment of cells").findings
+    assert found.rule == "CELL-1"
+    assert "drawn from drug in A2 of " in found.message
+
+
+POURED = """
+samples, buffer, stock = rack.rows()[0][:4], trough["A1"], trough["A5"]
+p300.transfer(50, samples, plate.rows()[0][:4], new_tip="always")
+p300.transfer(200, buffer, stock)
+p300.transfer(30, plate["A1"], stock)
+p300.transfer(20, stock, plate.rows()[0][:4], new_tip="always")
+"""
+
+
+def test_a_sample_poured_into_a_stock_that_is_being_made_is_an_error() -> None:
+    report = checked(POURED, title="Transfer")
+    assert report.verdict is VerdictWord.FAIL
+    assert "GEN-2" in {one.rule for one in report.findings}
+
+
 def test_tubes_that_nothing_names_share_no_tip_unasked() -> None:
     named = """
 samples = rack.rows()[1][:3]
@@ -71,8 +125,8 @@ p300.transfer(50, samples, plate.rows()[1][:3], new_tip="always")
     (asked,) = {one for one in report.undecided if one.rule == "GEN-1"}
     assert "nothing says what A2 of " in asked.reason
     assert "and the tip that met A1 of " in asked.reason
-    assert asked.paste == '@guard(roles={"source|material|stock": ["2:A1,A2"]})'
-    assert asked.to_write == "write, with the right role and wells only"
+    assert asked.paste == '@guard(roles={"source|material|stock": ["2:A1-A6"]})'
+    assert asked.to_write == "write, with one of these roles and its wells only"
     roles = {"material": ["2:A1-A6", "2:B1-B3"]}
     report = checked(named + ONE_TIP_FOR_TUBES, roles=roles)
     assert {one.rule for one in report.findings} == {"GEN-1"}

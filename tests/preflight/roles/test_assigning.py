@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from aegis_ot.preflight import Options, Script, load_database, record
 from aegis_ot.preflight.judging import Reading
 
@@ -45,6 +47,23 @@ def test_the_last_word_is_the_head_of_a_name() -> None:
         """
     )
     assert roles_by_well(reading)["2:A1"] == "water"
+
+
+@pytest.mark.parametrize(
+    ("assay", "label"),
+    [
+        ("bradford", "Standards and blank"),
+        ("cell_treatment", "Compound / vehicle"),
+        ("pcr", "Samples and positive control"),
+    ],
+)
+def test_a_label_that_joins_a_kind_with_its_general_role_says_of_no_well_which(
+    assay: str, label: str
+) -> None:
+    reading = read(
+        'p20.transfer(2, plate.wells()[:2], tubes["A1"])', label=f'"{label}"', assay=assay
+    )
+    assert roles_by_well(reading) == {}
 
 
 def test_a_name_that_joins_several_things_says_of_no_well_which() -> None:
