@@ -122,9 +122,14 @@ class Receives(Check):
         if not plates and self._stands_unused(case):
             plates = {ref.labware for ref, used in case.trace.usage.items() if used.received}
             judged = [well for well in judged if case.has(well, self.always)]
-        if not plates or not judged:
+        if not plates:
             names = case.titles(liquid, ", ")
             yield Doubt(f"no well is seen to receive {names}; it may be added by hand")
+            return
+        if not judged:
+            there = [well for well in case.trace.wells.values() if well.ref.labware in plates]
+            why = f"nothing says which well is the {case.titles(self.wells)}"
+            yield Doubt(why, (), tuple(there), self.wells[0])
             return
         reported: set[WellRef] = set()
         given = [

@@ -206,3 +206,11 @@ def test_a_diluent_that_use_alone_tells_may_be_the_wrong_reservoir() -> None:
     assert '": ["4:A2"]' in asked.paste
     report = checked(SERIES.format(filler="diluent"), title="Serial dilution")
     assert "SD-4" not in {one.rule for one in report.undecided}
+
+
+def test_wells_that_get_the_mix_and_have_no_role_are_asked_for() -> None:
+    body = 'master_mix = rack["A1"]\np300.transfer(40, master_mix, plate.columns()[0][:3])\n'
+    report = checked(body, title="qPCR")
+    asked = {one.rule: one for one in report.undecided}["PCR-1"]
+    assert asked.reason == "nothing says which well is the reaction"
+    assert asked.paste == '@guard(roles={"reaction": ["3:A1-C1"]})'
