@@ -9,18 +9,18 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 9_601,
-    "preflight/checks": 2_149,
-    "preflight/database": 252,
-    "preflight/evidence": 698,
+    "preflight": 9_486,
+    "preflight/checks": 2_132,
+    "preflight/database": 210,
+    "preflight/evidence": 697,
     "preflight/judging": 824,
-    "preflight/opinion": 627,
-    "preflight/rehearsal": 1_013,
-    "preflight/roles": 1_020,
-    "preflight/rules": 618,
-    "preflight/source": 677,
-    "preflight/trace": 1_505,
-    "": 66_303,
+    "preflight/opinion": 625,
+    "preflight/rehearsal": 1_012,
+    "preflight/roles": 974,
+    "preflight/rules": 622,
+    "preflight/source": 668,
+    "preflight/trace": 1_504,
+    "": 66_222,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached: ``preflight`` is
 within its aim of 9,500, the package has 48,000 for an aim."""

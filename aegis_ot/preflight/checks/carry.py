@@ -99,7 +99,10 @@ class Carry(Check):
                 or (
                     bool(case.of(origin))
                     and not case.is_one_liquid(origin)
-                    and _brought_since(case, visit, origin)
+                    and any(
+                        case.meant.get(other, {}).get(origin, visit.index) < visit.index
+                        for other in islice(visit.tip.touched, visit.met)
+                    )
                 )
             )
             if filled != (self.via_destination == "only"):
@@ -107,8 +110,9 @@ class Carry(Check):
         if self.stock:
             if met.well is well:
                 return True  # it was in the stock already
-            if _serves_its_well_alone(case, well, origin):
-                return True
+            drawn_for = case.destinations.get(well, {})
+            if len(drawn_for) == 1 and all(origin in case.meant[dest] for dest in drawn_for):
+                return True  # all that is drawn from it goes to one well, which holds that as well
             if self.pooled and _is_being_made(case, visit, origin):
                 return True
             return origin in case.meant.get(well, {}) and (
@@ -267,20 +271,6 @@ def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
         if further:
             open_ += later
     return found
-
-
-def _brought_since(case: Case, visit: Visit, origin: Well) -> bool:
-    """Whether the tip has also touched a well that this liquid was brought to before."""
-    return any(
-        case.meant.get(other, {}).get(origin, visit.index) < visit.index
-        for other in islice(visit.tip.touched, visit.met)
-    )
-
-
-def _serves_its_well_alone(case: Case, stock: Well, origin: Well) -> bool:
-    """Whether all that is drawn from a stock goes to one well, which holds that liquid as well."""
-    drawn_for = case.destinations.get(stock, {})
-    return len(drawn_for) == 1 and all(origin in case.meant.get(dest, {}) for dest in drawn_for)
 
 
 def _is_being_made(case: Case, visit: Visit, origin: Well) -> bool:
