@@ -106,7 +106,7 @@ def test_it_is_refused_by_the_published_schema_as_well(
         ),
         (role(parents=["stop"]), "roles.stop: parents: they go in a circle: stop -> stop"),
         (role(words=["stop", "--"]), "roles.stop: words: '--' holds no letter or number to look"),
-        (role(feeds=["nobody"]), "roles.stop: feeds: there is no role 'nobody'"),
+        (role(receives=["nobody"]), "roles.stop: receives: there is no role 'nobody'"),
         (role(may_be=["nobody"]), "roles.stop: may_be: there is no role 'nobody'"),
         (
             lambda d: d.update(series={"stock": ["nobody"], "diluent": []}),

@@ -99,7 +99,10 @@ class Carry(Check):
                 or (
                     bool(case.of(origin))
                     and not case.is_one_liquid(origin)
-                    and _brought_since(case, visit, origin)
+                    and any(
+                        case.meant.get(other, {}).get(origin, visit.index) < visit.index
+                        for other in islice(visit.tip.touched, visit.met)
+                    )
                 )
             )
             if filled != (self.via_destination == "only"):
@@ -107,8 +110,9 @@ class Carry(Check):
         if self.stock:
             if met.well is well:
                 return True  # it was in the stock already
-            if _serves_its_well_alone(case, well, origin):
-                return True
+            drawn_for = case.destinations.get(well, {})
+            if len(drawn_for) == 1 and all(origin in case.meant[dest] for dest in drawn_for):
+                return True  # all that is drawn from it goes to one well, which holds that as well
             return origin in case.meant.get(well, {}) and (
                 _on_purpose(well, origin, visit) or self._made_of(case, visit, origin)
             )
@@ -137,8 +141,7 @@ class Carry(Check):
         """
         unnamed = [well for well in case.trace.wells.values() if not case.of(well)]
         drawn = {well for well in unnamed if case.is_drawn_first(well)}
-        sources: set[Well] = set()
-        stocks: set[Well] = set()
+        sources, stocks = set[Well](), set[Well]()
         if any(case.family.roles[role].side != "destination" for role in self.into):
             stocks = {well for well in unnamed if len(case.destinations.get(well, ())) > 1}
             sources = stocks & drawn if self.shared else drawn
@@ -154,18 +157,14 @@ class Carry(Check):
                     continue
                 if origin in case.meant.get(well, {}) or self._let_be(case, visit, origin, met):
                     continue
-                if not case.of(well):
+                if case.of(well):
+                    enters = f"its tip enters the {case.title(well)} {well.ref} {at(visit.line)}"
+                    why = f"nothing says what {origin.ref} holds, and {enters}"
+                else:
                     what = case.title(origin) if case.of(origin) else str(origin.ref)
-                    return Doubt(
-                        f"nothing says what {well.ref} holds, and the tip that met "
-                        f"{what} {at(met.line)} enters it {at(visit.line)}",
-                        roles_of=tuple(sorted(drawn | {well}, key=unnamed.index)),
-                    )
-                return Doubt(
-                    f"nothing says what {origin.ref} holds, and its tip enters the "
-                    f"{case.title(well)} {well.ref} {at(visit.line)}",
-                    roles_of=tuple(sorted(drawn, key=unnamed.index)),
-                )
+                    enters = f"that met {what} {at(met.line)} enters it {at(visit.line)}"
+                    why = f"nothing says what {well.ref} holds, and the tip {enters}"
+                return Doubt(why, roles_of=tuple(o for o in unnamed if o in drawn or o is well))
         return None
 
     def _rinses_before(self, case: Case, visit: Visit) -> int:
@@ -265,20 +264,6 @@ def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
         if further:
             open_ += later
     return found
-
-
-def _brought_since(case: Case, visit: Visit, origin: Well) -> bool:
-    """Whether the tip has also touched a well that this liquid was brought to before."""
-    return any(
-        case.meant.get(other, {}).get(origin, visit.index) < visit.index
-        for other in islice(visit.tip.touched, visit.met)
-    )
-
-
-def _serves_its_well_alone(case: Case, stock: Well, origin: Well) -> bool:
-    """Whether all that is drawn from a stock goes to one well, which holds that liquid as well."""
-    drawn_for = case.destinations.get(stock, {})
-    return len(drawn_for) == 1 and all(origin in case.meant.get(dest, {}) for dest in drawn_for)
 
 
 def _on_purpose(stock: Well, origin: Well, visit: Visit) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -111,7 +112,7 @@ class Case:
         return found
 
     @cached_property
-    def fillings(self) -> Mapping[Well, Mapping[Well, int]]:
+    def fillings(self) -> Mapping[Well, Counter[Well]]:
         """For each well, how often it is given each source at most before most of what it holds is
         drawn off: a wash is gone. A blow-out ends what a dispense began.
         """
@@ -176,9 +177,9 @@ class Case:
         return len(served & also) <= 1 and not _drawing_lines(one).isdisjoint(_drawing_lines(other))
 
 
-def _fillings(well: Well) -> dict[Well, int]:
-    most: dict[Well, int] = {}
-    times: dict[Well, int] = {}
+def _fillings(well: Well) -> Counter[Well]:
+    most: Counter[Well] = Counter()
+    times: Counter[Well] = Counter()
     left = given = well.declared or 0.0
     for visit in (visit for visit in well.visits if not visit.mixing):
         if visit.kind is OperationKind.ASPIRATE:
@@ -189,9 +190,8 @@ def _fillings(well: Well) -> dict[Well, int]:
             continue
         left, given = left + visit.volume, given + visit.volume
         if visit.kind is OperationKind.DISPENSE:
-            for source in {one.source for one in visit.brought}:
-                times[source] = times.get(source, 0) + 1
-                most[source] = max(most.get(source, 0), times[source])
+            times.update({one.source for one in visit.brought})
+            most |= times
     return most
 
 

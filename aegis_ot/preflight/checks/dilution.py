@@ -64,20 +64,18 @@ def dilutions(case: Case, series: Series) -> list[Transfer]:
         for step in series.steps
         if step.source in series.position
         or case.has(step.well, case.family.series.diluent)
-        or _is_filled_before_drawn(case, step)
+        or any(index < _drawn_at(step) for index in diluent_arrivals(case, step.well))
     ]
-
-
-def _is_filled_before_drawn(case: Case, step: Transfer) -> bool:
-    drawn = next_draw(step)
-    then = drawn.index if drawn else math.inf
-    return any(index < then for index in diluent_arrivals(case, step.well))
 
 
 def is_mixed(case: Case, step: Transfer) -> bool:
     """Whether a step's well is mixed before liquid is carried on from there."""
+    return case.trace.mixed_since(step.well, step.visit.index, _drawn_at(step))
+
+
+def _drawn_at(step: Transfer) -> float:
     drawn = next_draw(step)
-    return case.trace.mixed_since(step.well, step.visit.index, drawn.index if drawn else math.inf)
+    return drawn.index if drawn else math.inf
 
 
 def next_draw(step: Transfer) -> Visit | None:

@@ -39,20 +39,15 @@ class DoseOrder(Check):
             key = (visit.tip.number, id(visit.well))
             if key in seen:
                 continue
+            result: Result | None = None
             for origin, met in carried_liquids(visit):
-                if origin is visit.well or not case.has(origin, self.liquid):
-                    continue
-                if not any(case.same_liquid(origin, other) for other in here):
-                    result = self._other(case, visit, origin, met, here)
-                    if result is not None:
-                        seen.add(key)
-                        yield result
-                        break
-            else:
-                worse = self._higher(case, visit, here, doses)
-                if worse is not None:
-                    seen.add(key)
-                    yield worse
+                dosed = origin is not visit.well and case.has(origin, self.liquid)
+                if dosed and not any(case.same_liquid(origin, other) for other in here):
+                    result = result or self._other(case, visit, origin, met, here)
+            result = result or self._higher(case, visit, here, doses)
+            if result is not None:
+                seen.add(key)
+                yield result
 
     def _doses(self, case: Case) -> dict[Well, dict[Well, float]]:
         """For each well the µL of each dosed liquid that it is given in the whole run."""

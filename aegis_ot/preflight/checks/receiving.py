@@ -12,6 +12,9 @@ from ..trace import EMPTY_UL, Transfer, Usage, Well
 from .case import Case, RoleSet
 from .check import Check, Doubt, Result, Violation, at, microlitres
 
+_MOST_TUBES = 24
+"""Labware of no more wells is a rack or a reservoir, in which various things stand."""
+
 
 def received(case: Case, well: Well, liquid: RoleSet) -> tuple[float, int | None]:
     """µL of a liquid that a well receives in the run, and the line that first brought it."""
@@ -247,22 +250,27 @@ class NeverReceives(Check):
                         )
                     elif case.has(origin, self.liquid) and not case.has(origin, self.wells):
                         seen.add(origin)
-                        if self._is_named_in_passing(case, origin):
+                        if self._is_named_loosely(case, origin):
                             yield Doubt(
-                                f"only a name that held other wells too calls {origin.ref} "
-                                f"{case.title(origin)}, and it goes into {case.title(well)}s alone",
+                                f"only the name of its labware, or one that held other wells too, "
+                                f"calls {origin.ref} {case.title(origin)}, and it goes into "
+                                f"{case.title(well)}s alone",
                                 roles_of=(origin,),
                             )
                         else:
                             yield _given(case, one, origin)
 
-    def _is_named_in_passing(self, case: Case, origin: Well) -> bool:
-        """Whether a loop names one that only such wells get: their water, the dose 0."""
+    def _is_named_loosely(self, case: Case, origin: Well) -> bool:
+        """Whether a loop or a rack names one that only such wells get: their water, the dose 0.
+
+        Of a plate that is stamped each well serves one: that says nothing.
+        """
         assigned = case.roles.by_well.get(origin.ref)
-        in_passing = assigned is not None and assigned.kind is Kind.PASSING_NAME
-        return in_passing and all(
-            case.has(well, self.wells) for well in case.destinations.get(origin, ())
-        )
+        if assigned is None or not (assigned.whole or assigned.kind is Kind.PASSING_NAME):
+            return False
+        if assigned.whole and len(case.trace.labware[origin.ref.labware].wells) > _MOST_TUBES:
+            return False
+        return all(case.has(well, self.wells) for well in case.destinations.get(origin, ()))
 
     def _may_be(self, case: Case, source: Well, well: Well) -> bool:
         """Whether some other wells of a plate, but not most, get a source and no ``liquid``."""

@@ -123,11 +123,11 @@ def _is_filled_again(case: Case, visit: Visit) -> bool:
     times = case.fillings
     for source in {one.source for one in visit.brought}:
         others = sorted(
-            times[other].get(source, 0)
+            times[other][source]
             for other in case.destinations.get(source, ())
             if other is not visit.well and other.ref.labware == visit.well.ref.labware
         )
-        if others and times[visit.well].get(source, 0) > others[len(others) // 2]:
+        if others and times[visit.well][source] > others[len(others) // 2]:
             return True
     return False
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from ...errors import RuleError
 from ..rules import READABLE, SCHEMA_VERSION, Common, Database, Family, parse_json, read_dataclass
-from .validation import check_family, check_together, refuse_dropped
+from .validation import check_family, check_together
 
 
 def shipped_rules() -> Path:
@@ -46,8 +46,6 @@ def load_database(extra: Sequence[str | Path] = ()) -> Database:
             files.append(path)
         else:
             raise RuleError(f"{path}: no such file or folder of rules")
-    if not files:
-        return shipped
     families = [*shipped.families, *map(load_family, files)]
     check_together(families)
     return Database(tuple(families), shipped.common)
@@ -77,7 +75,6 @@ def load_family(path: Path) -> Family:
     data = _json(path)
     if isinstance(data, dict):
         data.pop("$schema", None)
-        refuse_dropped(data, path.name)
     family = read_dataclass(Family, data, path.name)
     if family.schema not in READABLE:
         raise RuleError(f"{path.name}: schema: expected {SCHEMA_VERSION}, found {family.schema}")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 from typing import Any
@@ -13,43 +13,7 @@ from ..checks import make_check
 from ..rules import Family
 from ..source import tokens
 
-_NAME = "name such wells in the protocol, load a liquid, or give them in the guard's `roles`"
-_BY_NAME = (
-    "single_with single_beside used_like gets in_place_of common_to called_alike_beside passed_on"
-)
-
-DROPPED: Mapping[str, str] = {
-    **dict.fromkeys(_BY_NAME.split(), _NAME),
-    "holds": "load the liquid, and list its role in `receives`",
-    "undosed": "give the wells of dose 0 a name of their own",
-    "replicated": "name the wells of each plate",
-    "receives_with": "leave it out: `receives` alone decides",
-    "feeds_beside": "leave it out: `feeds` alone decides",
-}
-"""Fields of schema 1 that are gone, each with what to write instead."""
-
 _WORDS = ("words", "never", "differing")
-
-
-def refuse_dropped(data: Mapping[str, Any], file: str) -> None:
-    """Refuse a family that uses what schema 2 no longer has.
-
-    Args:
-        data: The file, as it was parsed.
-        file: Its name, for the message.
-
-    Raises:
-        RuleError: With file, place, field, and what to write instead.
-    """
-    if isinstance(series := data.get("series"), dict) and "wells" in series:
-        raise RuleError(f"{file}: series: 'wells' is no field any more: leave it out")
-    roles = data.get("roles")
-    for name, role in roles.items() if isinstance(roles, dict) else ():
-        for field in role if isinstance(role, dict) else ():
-            if field in DROPPED:
-                raise RuleError(
-                    f"{file}: roles.{name}: {field!r} is no field since schema 2: {DROPPED[field]}"
-                )
 
 
 def check_family(family: Family, file: str) -> None:
@@ -69,7 +33,7 @@ def check_family(family: Family, file: str) -> None:
                         raise RuleError(f"{where}: {word!r} holds no letter or number to look for")
     parents = {name: role.parents for name, role in family.roles.items()}
     # What a role counts as is followed to the end.
-    _refuse_circle(parents, lambda name: f"{file}: roles.{name}: parents")
+    _refuse_circle(parents, {name: f"{file}: roles.{name}: parents" for name in parents})
 
 
 def _parts(family: Family, file: str) -> Iterator[tuple[str, Any]]:
@@ -130,24 +94,21 @@ def _refuse_doubles(families: Sequence[Family]) -> None:
 
 def _check_replaced(families: Sequence[Family]) -> None:
     """Of rules that give way to each other in a circle none would report anything."""
-    files = {rule.id: Path(family.path).name for family in families for rule in family.rules}
-    rules = {rule.id: rule for family in families for rule in family.rules}
-    for name, rule in rules.items():
+    rules = [(rule, Path(family.path).name) for family in families for rule in family.rules]
+    where = {rule.id: f"{file}: rule {rule.id}: unless_reported" for rule, file in rules}
+    for rule, _ in rules:
         for other in rule.unless_reported:
-            if other not in rules:
-                raise RuleError(
-                    f"{files[name]}: rule {name}: unless_reported: there is no rule {other!r}; "
-                    f"known are {', '.join(sorted(rules))}"
-                )
-    leads_to = {name: rule.unless_reported for name, rule in rules.items()}
-    _refuse_circle(leads_to, lambda name: f"{files[name]}: rule {name}: unless_reported")
+            if other not in where:
+                known = ", ".join(sorted(where))
+                raise RuleError(f"{where[rule.id]}: there is no rule {other!r}; known are {known}")
+    _refuse_circle({rule.id: rule.unless_reported for rule, _ in rules}, where)
 
 
-def _refuse_circle(leads_to: Mapping[str, Collection[str]], where: Callable[[str], str]) -> None:
+def _refuse_circle(leads_to: Mapping[str, Collection[str]], where: Mapping[str, str]) -> None:
     """Refuse a way that ends where it begins, ``a -> b -> a``, through names that name others."""
     try:
         TopologicalSorter(leads_to).prepare()
     except CycleError as error:
         circle = tuple(reversed(error.args[1]))
         told = f"they go in a circle: {' -> '.join(circle)}"
-        raise RuleError(f"{where(circle[0])}: {told}") from None
+        raise RuleError(f"{where[circle[0]]}: {told}") from None

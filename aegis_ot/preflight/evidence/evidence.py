@@ -30,7 +30,6 @@ class Kind(IntEnum):
 DOUBTFUL = frozenset({Kind.MODEL, Kind.WRITTEN})
 """Kinds that help to decide and never make an error."""
 
-
 LONGEST_QUOTE = 60
 """So many characters of a text are quoted in a citation."""
 

@@ -10,7 +10,7 @@ from ..database import load_database, shipped_rules
 from ..judging import Options, Reading, Report, RoleEvidence, judge, missing_needs
 from ..rehearsal import Recording, Script, record
 from ..rules import Database, RuleSpec
-from ..trace import Trace, places, row_column, trace_table
+from ..trace import places, row_column, trace_table
 from .exchange import DeckItem, Dossier, RoleLine, RuleBrief
 
 LONGEST_SOURCE = 40_000
@@ -32,7 +32,7 @@ def make_dossier(reading: Reading, report: Report) -> Dossier:
         family=report.family,
         family_known=reading.family_known,
         table=trace_table(trace),
-        deck=tuple(_deck(trace)),
+        deck=tuple(_deck(reading)),
         wells=tuple(dict.fromkeys(wells)),
         lines=_lines(recording),
         roles=_roles(report),
@@ -61,10 +61,8 @@ def check_with_dossier(
     return report, make_dossier(reading, report), reading
 
 
-def _deck(trace: Trace) -> Iterable[DeckItem]:
-    for info in trace.labware.values():
-        if not info.holds_liquid:
-            continue
+def _deck(reading: Reading) -> Iterable[DeckItem]:
+    for info in reading.deck.plates():
         places_ = [row_column(name) for name in info.wells]
         rows, columns = max(p[0] for p in places_) + 1, max(p[1] for p in places_) + 1
         label = info.label or info.display_name

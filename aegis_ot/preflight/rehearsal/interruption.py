@@ -17,7 +17,6 @@ _LOOK_S = 0.1
 _AGAIN_S = 1.0
 """When to interrupt once more what swallowed the first interruption, s."""
 
-
 Clock = Callable[[float], AbstractContextManager[None]]
 """Given the seconds that are allowed, a ``with`` block that ends what takes longer."""
 

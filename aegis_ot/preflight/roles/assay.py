@@ -108,7 +108,9 @@ def infer_families(
             applies = sure = name in given
         elif family.default:
             applies = applies and score == best and not outdone
-            sure = sure if best else _nothing_against(found)
+            # What is left over is sure where no more than one word speaks against it.
+            against = sum(one.worth < 0 for one in found)
+            sure = sure if best else against <= 1 or _score(found) >= SURE
         confidence = 1.0 if given and applies else score / total * min(1.0, score / (2 * SURE))
         told = applies and sure and not (given or family.default) and in_prose(family)
         inferences.append(
@@ -190,12 +192,6 @@ def _shown(found: Sequence[_Found]) -> bool:
     return any(one.shape and one.worth > 0 for one in found)
 
 
-def _nothing_against(found: Sequence[_Found]) -> bool:
-    """Whether no more than one word speaks against the family that is left over."""
-    against = [one.worth for one in found if one.worth < 0]
-    return len(against) <= 1 or _score(found) >= SURE
-
-
 def _seen(
     family: Family, shapes: Mapping[Shape, tuple[float, str]], spoken: bool
 ) -> Iterable[_Found]:
@@ -215,7 +211,7 @@ def _named(family: Family, named: set[str], said_by_words: float) -> Iterable[_F
         if all(named & set(either.split("|")) for either in signal.roles):
             titles = [family.roles[either.split("|")[0]].title for either in signal.roles]
             said = f"wells are named {', '.join(titles[:-1])} and {titles[-1]}"
-            yield _Found(max(signal.weight - said_by_words, 0.0), said, LONE, True)
+            yield _Found(max(SURE - said_by_words, 0.0), said, LONE, True)
             return
 
 
@@ -227,13 +223,12 @@ def _found(family: Family, texts: Iterable[tuple[str, str]], common: Common) -> 
         },
         common.aliases,
     )
-    best: dict[tuple[str, str], _Found] = {}
+    best: dict[str, _Found] = {}
     for where, text in texts:
         for match in lexicon.find(text):
             signal = family.signals[int(match.topic)]
             worth = signal.weight * PLACES[where]
-            key = (match.topic, "" if signal.once else match.phrase)
-            if key not in best or abs(worth) > abs(best[key].worth):
+            if match.topic not in best or abs(worth) > abs(best[match.topic].worth):
                 said = f"'{match.phrase}' in a {where}"
-                best[key] = _Found(worth, said, signal.weight, signal.defining)
+                best[match.topic] = _Found(worth, said, signal.weight, signal.defining)
     return list(best.values())

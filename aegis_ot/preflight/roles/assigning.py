@@ -14,7 +14,7 @@ from typing import NamedTuple
 from ...vocabulary import WellRef
 from ..evidence import Evidence, Kind
 from ..rules import Common, Family
-from ..source import has_concentration, level_in, name_without_level
+from ..source import level_in
 from ..trace import Trace
 from .naming import RoleNames
 from .roles import Assignment, Roles
@@ -56,7 +56,6 @@ def assign_roles(
         assigned = _chosen(roles, ref, found, is_filled=trace.sides(ref)[0] == "destination")
         if assigned is not None:
             roles.by_well[ref] = assigned
-    _add_dosed(roles, trace, common)
     _spread_over_channels(roles, trace)
     return roles
 
@@ -140,28 +139,6 @@ def _chosen(
     evidence = {id(one.evidence): one.evidence for one in agreeing}
     level = next((one.level for one in agreeing if one.level is not None), None)
     return Assignment(best.role, tuple(evidence.values()), level, conflict)
-
-
-def _add_dosed(roles: Roles, trace: Trace, common: Common) -> None:
-    """What is called by nothing but its concentration: "stauro 0.3 uM" beside "stauro 1 uM".
-
-    Two supplements with a concentration each are no doses.
-    """
-    told: list[tuple[WellRef, tuple[str, ...], Evidence, float]] = []
-    series: dict[tuple[str, tuple[str, ...]], set[float]] = {}
-    for one in roles.unread:
-        if one.whole or not has_concentration(one.text):
-            continue
-        of_what = name_without_level(one.text, common.noise)
-        for ref, dose in zip(one.wells, _levels(one, common), strict=True):
-            if dose is not None:
-                told.append((ref, of_what, one, dose))
-                series.setdefault((ref.labware, of_what), set()).add(dose)
-    for name, spec in roles.family.roles.items():
-        for ref, of_what, one, dose in told if spec.dosed else ():
-            several = len(series[ref.labware, of_what]) > 1
-            if several and trace.sides(ref)[0] == spec.side and ref not in roles.by_well:
-                roles.by_well[ref] = Assignment(name, (one,), dose)
 
 
 def _spread_over_channels(roles: Roles, trace: Trace) -> None:

@@ -12,8 +12,6 @@ from .roles import Roles
 
 _FEWEST_PAIRS = 3
 _SMALLEST_PLATE = 24
-_MOST_TUBES = 24
-"""Labware of no more wells is a rack or a reservoir, in which various things stand."""
 _SHARED = 3
 """A liquid that serves as many wells is a reagent for all rather than something of its own."""
 
@@ -26,14 +24,11 @@ def derive(roles: Roles, trace: Trace) -> None:
     """Give wells the roles that follow from what they give and receive.
 
     A reaction is what template goes into; wells that only pass liquid on (a dilution plate) are
-    none. A source without a name is what the wells that it feeds are named for.
+    none.
     """
     _settle_diluent(roles, trace)
-    _unsay_by_use(roles, trace)
     _unsay_ends(roles, trace)
     for name, spec in roles.family.roles.items():
-        if spec.feeds:
-            _derive_source(roles, name, spec, trace)
         if spec.one_to_one:
             _derive_one_to_one(roles, name, trace)
         if spec.loaded:
@@ -41,31 +36,6 @@ def derive(roles: Roles, trace: Trace) -> None:
     for name, spec in roles.family.roles.items():
         if spec.receives:
             _derive_receiving(roles, name, spec, trace)
-
-
-def _unsay_by_use(roles: Roles, trace: Trace) -> None:
-    """Forget what only the name of a labware says of a source, where its use speaks against it.
-
-    In a rack of "inhibitors" the vehicle stands beside them, and goes into controls alone; and so
-    does a stain, which goes into all wells.
-    """
-    specs = roles.family.roles
-    served = trace.stocks
-    named = {
-        ref
-        for ref, assigned in roles.by_well.items()
-        if assigned.whole and not specs[assigned.role].one_liquid and ref in served
-    }
-    fed = {well for ref in named for well in served[ref]}
-    controls = {well for well in fed if _is_control(roles, well)}
-    for ref in named:
-        into = served[ref]
-        # Of a plate that is stamped, each well serves one: that says nothing.
-        various = len(trace.labware[ref.labware].wells) <= _MOST_TUBES
-        alone = various and into <= controls
-        for_all = 2 * len(into - controls) > len(fed - controls)
-        if not controls.isdisjoint(into) and (alone or for_all):
-            del roles.by_well[ref]
 
 
 def _unsay_ends(roles: Roles, trace: Trace) -> None:
@@ -84,23 +54,6 @@ def _unsay_ends(roles: Roles, trace: Trace) -> None:
         if 2 * sum(_receives(roles, well, (role,), ()) for well in wells) > len(wells):
             for well in wells:
                 roles.by_well.pop(well.ref, None)
-
-
-def _is_control(roles: Roles, ref: WellRef) -> bool:
-    assigned = roles.by_well.get(ref)
-    return assigned is not None and roles.is_declared(assigned.role)
-
-
-def _derive_source(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
-    """A source without a name that mostly goes into named wells of ``spec.feeds``."""
-    for ref, wells in trace.stocks.items():
-        if roles.of(ref):
-            continue
-        if any(_is_control(roles, well) for well in wells):
-            continue  # a stain, a read-out: a reagent for all
-        right = [well for well in wells if roles.has(well, spec.feeds)]
-        if len(right) * 2 > len(wells) and not all(map(roles.is_doubtful, right)):
-            roles.derive(ref, name)
 
 
 def _derive_one_to_one(roles: Roles, name: str, trace: Trace) -> None:

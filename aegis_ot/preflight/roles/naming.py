@@ -93,18 +93,14 @@ class RoleNames:
         # A word may name a liquid and the wells for it: "standards".
         told: list[set[str]] = [{match.topic for match in self._head(part)} for part in parts]
         if len(parts) < 2:
-            words: dict[int, set[str]] = {}
-            for match in heads:
-                words.setdefault(match.start, set()).add(match.topic)
-            told = list(words.values())
+            starts = {match.start for match in heads}
+            told = [{match.topic for match in heads if match.start == start} for start in starts]
+        kin = self._family.are_kin
         unlike = any(
-            some != others and not self._are_kin(some, others)
+            some != others and not all(kin(one, other) for one in some for other in others)
             for some, others in itertools.combinations(filter(None, told), 2)
         )
         return unlike or (evidence.whole and any(told) and not all(told))
-
-    def _are_kin(self, some: set[str], others: set[str]) -> bool:
-        return all(self._family.are_kin(one, other) for one in some for other in others)
 
     def _parts(self, text: str) -> list[str]:
         """The parts of a text between words and marks that join."""

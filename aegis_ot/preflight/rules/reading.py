@@ -16,6 +16,7 @@ import types
 import typing
 from collections import Counter
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, TypeVar
 
@@ -102,6 +103,8 @@ def read_dataclass(cls: type[T], data: Any, where: str) -> T:
     fields = {f.name: f for f in public_fields(cls)}
     unknown = [key for key in data if key not in fields]
     if unknown:
+        if instead := getattr(cls, "DROPPED", {}).get(unknown[0]):
+            raise RuleError(f"{where}: {unknown[0]!r} is no field any more: {instead}")
         raise RuleError(f"{where}: unknown field {unknown[0]!r}; known are {', '.join(fields)}")
     values: dict[str, Any] = {}
     for name, f in fields.items():
@@ -171,7 +174,10 @@ def _read_plain(hint: type[Any], value: Any, where: str) -> Any:
     if isinstance(value, bool) and hint is not bool:
         raise RuleError(f"{where}: expected {_WORDS[hint]}, found true or false")
     if hint is float and isinstance(value, int | float):
-        return _number(value, where)
+        with suppress(OverflowError):
+            if math.isfinite(number := float(value)):
+                return number
+        raise RuleError(f"{where}: expected a finite number, found {json.dumps(value)}")
     if not isinstance(value, hint):
         raise RuleError(f"{where}: expected {_WORDS[hint]}, found {_kind(value)}")
     if hint is str and _HALF.search(value):
@@ -184,16 +190,6 @@ def _require_object(value: Any, where: str) -> None:
         raise RuleError(f"{where}: expected an object, found {_kind(value)}")
     if isinstance(value, JsonObject) and value.doubled:
         raise RuleError(f"{where}: field {value.doubled[0]!r} is written twice")
-
-
-def _number(value: float, where: str) -> float:
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    if not math.isfinite(number):
-        raise RuleError(f"{where}: expected a finite number, found {json.dumps(value)}")
-    return number
 
 
 def _item_place(where: str, item: Any, number: int) -> str:

@@ -9,13 +9,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field
 from functools import cached_property
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 from .reading import NOT_EMPTY, Name, Word
 
 SCHEMA_VERSION = 2
 READABLE = (1, SCHEMA_VERSION)
-"""Schema 1 without the fields that are gone is schema 2."""
+"""Schema 1 without the fields that are gone (``DROPPED``) is schema 2."""
+
+_NAME = "name such wells in the protocol, load a liquid, or give them in the guard's `roles`"
+_BY_NAME = (
+    "single_with single_beside used_like gets in_place_of common_to called_alike_beside passed_on "
+    "feeds feeds_beside"
+)
 
 
 def role_names(required: bool = False) -> Any:
@@ -31,8 +37,7 @@ class Signal:
     Attributes:
         words: Words and phrases, found in any spelling, in capitals or not, in the plural:
             "no template control" is in ``noTemplateControls``. ``#`` stands for any number.
-        weight: How much a mention counts; negative words speak against the family.
-        once: Whether the signal counts once, however often it is mentioned.
+        weight: How much it counts, once; negative words speak against the family.
         defining: Whether it can make the family known. Words that other assays use as well only
             add to what defines it.
         roles: Roles of the family whose words count as well.
@@ -40,9 +45,9 @@ class Signal:
 
     words: tuple[Word, ...] = ()
     weight: float = 1.0
-    once: bool = True
     defining: bool = True
     roles: tuple[str, ...] = role_names()
+    DROPPED: ClassVar[Mapping[str, str]] = {"once": "leave it out: each signal counts once"}
 
 
 Shape = Literal["chain", "pooling", "reactions"]
@@ -71,11 +76,10 @@ class RoleSignal:
 
     Attributes:
         roles: Roles of the family; ``"a|b"`` for either.
-        weight: The score that the family has at least then: what its words have added counts.
     """
 
     roles: tuple[str, ...] = role_names(required=True)
-    weight: float = 4.0
+    DROPPED: ClassVar[Mapping[str, str]] = {"weight": "leave it out: it makes the family known"}
 
 
 @dataclass(frozen=True)
@@ -98,11 +102,9 @@ class RoleSpec:
             those contents.
         level: Value on the scale of concentrations or doses that this role has by itself: 0 for
             a blank.
-        dosed: Derived: a well on its side of which a concentration is said and no role, beside
-            others. Such a well of dose 0 has another role, or none.
+        dosed: Whether its wells differ in dose. Such a well of dose 0 has another role, or none.
         may_be: Roles that a liquid of this one is used as, if that is said as well: "PBS
             (vehicle)".
-        feeds: Derived: an unnamed source that mostly feeds wells of these roles.
         receives: Derived: a destination that is given liquid of one of these roles.
         one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
         loaded: Derived: a well with a loaded liquid whose name says no role: ``shared`` where it
@@ -122,10 +124,16 @@ class RoleSpec:
     level: float | None = None
     dosed: bool = False
     may_be: tuple[str, ...] = role_names()
-    feeds: tuple[str, ...] = role_names()
     receives: tuple[str, ...] = role_names()
     one_to_one: bool = False
     loaded: Literal["", "shared", "single", "kept"] = ""
+    DROPPED: ClassVar[Mapping[str, str]] = {
+        **dict.fromkeys(_BY_NAME.split(), _NAME),
+        "holds": "load the liquid, and list its role in `receives`",
+        "undosed": "give the wells of dose 0 a name of their own",
+        "replicated": "name the wells of each plate",
+        "receives_with": "leave it out: `receives` alone decides",
+    }
 
 
 @dataclass(frozen=True)
@@ -142,6 +150,7 @@ class SeriesSpec:
     stock: tuple[str, ...] = role_names(required=True)
     diluent: tuple[str, ...] = role_names(required=True)
     diluent_else: tuple[str, ...] = role_names()
+    DROPPED: ClassVar[Mapping[str, str]] = {"wells": "leave it out"}
 
 
 @dataclass(frozen=True)
@@ -247,15 +256,14 @@ class Family:
 
     def closure(self, role: str) -> frozenset[str]:
         """A role and all roles above it."""
-        known = self._closures.get(role)
-        if known is None:
-            above = (self.closure(parent) for parent in self.roles[role].parents)
-            known = self._closures[role] = frozenset({role}).union(*above)
-        return known
+        return self._closures[role]
 
     @cached_property
-    def _closures(self) -> dict[str, frozenset[str]]:
-        return {}
+    def _closures(self) -> Mapping[str, frozenset[str]]:
+        def closed(role: str) -> frozenset[str]:
+            return frozenset({role}).union(*map(closed, self.roles[role].parents))
+
+        return {role: closed(role) for role in self.roles}
 
     def are_kin(self, one: str, other: str) -> bool:
         """Whether one of two roles counts as the other."""

@@ -2,7 +2,6 @@
 
 from .concentrations import (
     comparable,
-    has_concentration,
     level_in,
     level_of,
     name_without_level,
@@ -19,7 +18,6 @@ __all__ = [
     "Match",
     "SourceFacts",
     "comparable",
-    "has_concentration",
     "level_in",
     "level_of",
     "lexicon_of",

@@ -26,8 +26,6 @@ _UNITS = {
 }
 """Molar units in M, mass units in g/l, activities in U/ml."""
 
-_STRENGTHS = frozenset({"%", "x"})
-
 
 class Concentration(float):
     """A level that has a unit, in the units above; plain numbers are on a scale of their own."""
@@ -56,7 +54,7 @@ def level_in(text: str, words: Mapping[str, float], plain_numbers: bool = True) 
     plain = _with_u(text).lower()
     found = _WITH_UNIT.findall(plain)
     # "3 uM (100x)" is 3 uM, and "1 mM in 0.5 % DMSO" is 1 mM.
-    found = [(value, unit) for value, unit in found if unit not in _STRENGTHS] or found
+    found = [(value, unit) for value, unit in found if unit not in ("%", "x")] or found
     stated = {_concentration(value, unit) for value, unit in found}
     if stated:
         return stated.pop() if len(stated) == 1 else None
@@ -73,11 +71,6 @@ def level_of(text: str, words: Mapping[str, float]) -> float | None:
     except ValueError:
         return level_in(text, words)
     return number if 0 <= number < math.inf else None
-
-
-def has_concentration(text: str) -> bool:
-    """Whether a text states a concentration with a unit; per cent and "10x" are none."""
-    return any(unit not in _STRENGTHS for _, unit in _WITH_UNIT.findall(_with_u(text).lower()))
 
 
 def without_concentrations(text: str) -> str:

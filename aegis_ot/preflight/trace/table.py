@@ -77,7 +77,6 @@ _Told = TypeVar("_Told", _Row, _Session)
 
 def trace_table(trace: Trace, limit: int = 6000) -> tuple[str, ...]:
     """The lines of the table, of about ``limit`` characters in all."""
-    lines: list[str] = []
     for lines in _foldings(_sessions(trace)):
         if sum(len(line) + 1 for line in lines) <= limit:
             break
@@ -178,15 +177,16 @@ def _summed(sessions: Sequence[_Session], wells: Told, by_line: bool) -> str:
 def _tips(sessions: Sequence[_Session]) -> str:
     numbers = [number + 1 for session in sessions for number in session.tips]
     text = "tip " if len(numbers) == 1 else "tips "
-    if len(numbers) > 1 and numbers == list(range(numbers[0], numbers[0] + len(numbers))):
+    in_turn = numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+    if len(numbers) > 1 and in_turn:
         text += f"{numbers[0]}-{numbers[-1]}"
     else:
         text += ",".join(map(str, numbers[:8])) + (",..." if len(numbers) > 8 else "")
     if len(sessions[0].tips) > 1:
         text += f" ({len(sessions[0].tips)} channels at once)"
     if len(sessions) > 1:
-        in_turn = all(after - before in (0, 1) for before, after in pairwise(numbers))
-        how = " one after the other" if in_turn else ", others in between"
+        follow = all(after - before in (0, 1) for before, after in pairwise(numbers))
+        how = " one after the other" if follow else ", others in between"
         text += f", {len(sessions)} pick-ups{how}"
     again = sum(session.again for session in sessions)
     if again:

@@ -92,8 +92,8 @@ def test_a_loop_s_name_does_not_accuse_the_tube_that_controls_alone_are_given() 
     assert report.verdict is VerdictWord.PASS
     asked = {one.rule: one for one in report.undecided}["CELL-1"]
     assert asked.reason == (
-        "only a name that held other wells too calls A1 of Opentrons 24 Tube Rack with NEST 1.5 mL "
-        "Snapcap (slot 2) drug, and it goes into vehicle controls alone"
+        "only the name of its labware, or one that held other wells too, calls A1 of Opentrons 24 "
+        "Tube Rack with NEST 1.5 mL Snapcap (slot 2) drug, and it goes into vehicle controls alone"
     )
     again = 'p300.transfer(20, rack["A2"], vehicle_control[0])\n'
     (found,) = checked(ZERO_DOSE + again, title="Drug treatment of cells").findings
