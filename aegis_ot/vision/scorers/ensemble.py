@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from ...errors import ModelError
 from ..models import ModelFile
 from ..types import TrajectorySample
+from .aims import AIMS, aimed
 from .column import ColumnReport, ColumnScorer
 from .patches import PatchesScorer, describe
 from .surprise import NO_TIP
@@ -30,9 +32,9 @@ class EnsembleReport:
     """Why a trajectory has its score.
 
     Attributes:
-        score: ``-log p``.
-        column: What the column scorer found.
-        patches: Surprise of the patches, nats.
+        score: ``-log p``, the mean of three readings.
+        column: What the column scorer found in the first, where the detector saw the tip's end.
+        patches: Surprise of the patches there, nats.
     """
 
     score: float
@@ -49,6 +51,9 @@ class EnsembleScorer:
     that this run's normals, seen in the light of its first ones, are exchangeable with the
     normals of the fit, seen in the light of another normal of their own plate. So a score over 3
     is a p-value under 0.05 in any run: one threshold serves all plates.
+
+    Each trajectory is read three times, with the tip's end a pixel apart (:data:`~.aims.AIMS`), and
+    the mean counts: what one reading owes to the detector's error does not stand in all of them.
     """
 
     name = "ensemble"
@@ -57,6 +62,7 @@ class EnsembleScorer:
         self.column = ColumnScorer()
         self.patches = PatchesScorer()
         self.sums: dict[str, NDArray[np.float64]] = {}
+        self._beside: dict[float, tuple[ColumnScorer, PatchesScorer]] = {}
 
     def fit(self, normals: Sequence[TrajectorySample]) -> None:
         """Fit both scorers, then their sum on the normals as they will be used.
@@ -80,9 +86,14 @@ class EnsembleScorer:
         self.sums = {name: np.sort(values) for name, values in sums.items()}
 
     def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
-        """Adapt both scorers to a run or plate."""
+        """Adapt both scorers to a run or plate, for each reading by its own."""
         self.column.calibrate(normals)
         self.patches.calibrate(normals)
+        # What a fit has learned is shared; what they take from the run is not.
+        self._beside = {px: (copy.copy(self.column), copy.copy(self.patches)) for px in AIMS if px}
+        for px, scorers in self._beside.items():
+            for scorer in scorers:
+                scorer.calibrate([aimed(sample, px) for sample in normals])
 
     def score(self, sample: TrajectorySample) -> float:
         """``-log p`` of one trajectory, >= 0. Raises :class:`ValueError` if not fitted."""
@@ -96,16 +107,21 @@ class EnsembleScorer:
 
     def look_ahead(self, sample: TrajectorySample) -> None:
         """Work out what the first frames of a trajectory tell, while the last is still to come."""
-        self.column.report(sample)
-        describe(sample)
+        for px in AIMS:
+            self.column.report(aimed(sample, px))
+            describe(aimed(sample, px))
 
     def report(self, sample: TrajectorySample) -> EnsembleReport:
         """Score and what stands behind it."""
-        column = self.column.report(sample)
-        patches = self.patches.score_of_seen(sample)
-        total = column.score + _OVERLAP * patches
         name = sample.learned_as(self.sums)
-        return EnsembleReport(self._surprise(total, name), column, patches)
+        column, patches = self.column.report(sample), self.patches.score_of_seen(sample)
+        totals = [column.score + _OVERLAP * patches]
+        for px, (its_column, its_patches) in self._beside.items():
+            beside = aimed(sample, px)
+            found = its_column.report(beside).score, its_patches.score_of_seen(beside)
+            totals.append(found[0] + _OVERLAP * found[1])
+        score = float(np.mean([self._surprise(total, name) for total in totals]))
+        return EnsembleReport(score, column, patches)
 
     def p_value(self, sample: TrajectorySample) -> float:
         """How often a normal trajectory scores this high."""
@@ -157,6 +173,7 @@ class EnsembleScorer:
             }
         except (KeyError, TypeError, ValueError) as error:
             raise ModelError(f"the ensemble model lacks or garbles {error}; fit it anew") from error
+        scorer.calibrate([])
         return scorer
 
 

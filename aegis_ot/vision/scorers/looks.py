@@ -27,7 +27,7 @@ _SAME = 0.03
 """Lengths this close are the same: looking again would change nothing."""
 
 _Key = tuple[TipDetection, str]
-_Taken = tuple[weakref.ref[Image], _Key, dict[float | None, TipLook]]
+_Taken = tuple[weakref.ref[Image], dict[_Key, dict[float | None, TipLook]]]
 _taken: dict[int, _Taken] = {}
 
 
@@ -41,14 +41,15 @@ def look(
     key: _Key = (detection, tip.name)
     place = id(image)
     known = _taken.get(place)
-    if known is None or known[0]() is not image or known[1] != key:
+    if known is None or known[0]() is not image:
         reference = weakref.ref(image, lambda _: _taken.pop(place, None))
-        known = _taken[place] = (reference, key, {})
-    for other, taken in known[2].items():
+        known = _taken[place] = (reference, {})
+    of_tip = known[1].setdefault(key, {})
+    for other, taken in of_tip.items():
         if other == length or (other and length and abs(other / length - 1.0) < _SAME):
             return taken
-    known[2][length] = look_at_tip(image, detection, tip, length)
-    return known[2][length]
+    of_tip[length] = look_at_tip(image, detection, tip, length)
+    return of_tip[length]
 
 
 def looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
