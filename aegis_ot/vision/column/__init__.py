@@ -10,6 +10,7 @@ from .measure import (
     ceiling,
     expected_top,
     look_at_tip,
+    look_beside,
     measure_column,
 )
 from .pair import column_left
@@ -34,6 +35,7 @@ __all__ = [
     "learn_run",
     "learn_tip",
     "look_at_tip",
+    "look_beside",
     "mean_dye",
     "measure_column",
     "place",

@@ -24,7 +24,7 @@ from .evidence import (
     step_evidence,
 )
 from .profile import TipProfile, tip_profile, unroll
-from .strip import SHAPES, Array, TipShape
+from .strip import SHAPES, Array, Strip, TipShape, resample
 
 _SHORTEST = (0.08, 9.0)
 """Shortest column that is looked for, tip lengths and px: the orifice's own rim glints."""
@@ -152,6 +152,25 @@ def look_at_tip(
     cone = unroll(strip, shape)
     collar, orifice = ((x + left, y + top) for x, y in (strip.collar, strip.orifice))
     return TipLook(tip_profile(strip, shape, cone), cone, collar, orifice)
+
+
+def look_beside(
+    image: Image, detection: TipDetection, tip: TipGeometry, seen: TipLook, px: float
+) -> TipLook:
+    """The same look with the tip's end put ``px`` px further along the tip than it was seen."""
+    shape = shape_of(tip)
+    left, top = 0, 0
+    if detection.apart is not None:
+        image, _, (left, top) = alone(image, detection, shape)
+    collar, orifice = (np.subtract(end, (left, top)) for end in (seen.collar, seen.orifice))
+    along = orifice - collar
+    orifice = orifice + along * (px / max(float(np.hypot(*along)), 1.0))
+    pixels, u, v = resample(image, collar, orifice, shape.rows, shape.half_width)
+    upper, lower = ((float(x), float(y)) for x, y in (collar, orifice))
+    strip = Strip(pixels, u, v, upper, lower, seen.profile.clarity)
+    cone = unroll(strip, shape)
+    there = (lower[0] + left, lower[1] + top)
+    return TipLook(tip_profile(strip, shape, cone), cone, seen.collar, there)
 
 
 def measure_column(

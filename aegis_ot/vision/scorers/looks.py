@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 
 import numpy as np
 
 from ...vocabulary import KeyframeKind
-from ..column import TipLook, look_at_tip
+from ..column import TipLook, look_at_tip, look_beside
 from ..column.trajectory import LOADED
 from ..crops import remember
 from ..tips import TipGeometry
@@ -26,9 +26,17 @@ it by more than this."""
 _SAME = 0.03
 """Lengths this close are the same: looking again would change nothing."""
 
-_Key = tuple[TipDetection, str]
-_Taken = tuple[weakref.ref[Image], dict[_Key, dict[float | None, TipLook]]]
-_taken: dict[int, _Taken] = {}
+_Taken = dict[Hashable, dict[float | None, TipLook]]
+_taken: dict[int, tuple[weakref.ref[Image], _Taken]] = {}
+
+
+def _taken_in(image: Image) -> _Taken:
+    """All looks at a frame, for as long as it lives."""
+    place = id(image)
+    known = _taken.get(place)
+    if known is None or known[0]() is not image:
+        known = _taken[place] = (weakref.ref(image, lambda _: _taken.pop(place, None)), {})
+    return known[1]
 
 
 def look(
@@ -38,18 +46,25 @@ def look(
 
     A live run calls it as each frame arrives, so that little is left to do after the last one.
     """
-    key: _Key = (detection, tip.name)
-    place = id(image)
-    known = _taken.get(place)
-    if known is None or known[0]() is not image:
-        reference = weakref.ref(image, lambda _: _taken.pop(place, None))
-        known = _taken[place] = (reference, {})
-    of_tip = known[1].setdefault(key, {})
+    of_tip = _taken_in(image).setdefault((detection, tip.name), {})
     for other, taken in of_tip.items():
         if other == length or (other and length and abs(other / length - 1.0) < _SAME):
             return taken
     of_tip[length] = look_at_tip(image, detection, tip, length)
     return of_tip[length]
+
+
+def looks_beside(sample: TrajectorySample, px: float) -> Mapping[KeyframeKind, TipLook]:
+    """The looks of a sample with the tip's end put ``px`` px further along the tip in each."""
+    found: dict[KeyframeKind, TipLook] = {}
+    for kind, seen in looks(sample).items():
+        detection, image = sample.detections.get(kind), sample.frames[kind]
+        if detection is not None:
+            beside = _taken_in(image).setdefault((detection, seen.collar, seen.orifice), {})
+            if px not in beside:
+                beside[px] = look_beside(image, detection, sample.tip, seen, px)
+            found[kind] = beside[px]
+    return found
 
 
 def looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:

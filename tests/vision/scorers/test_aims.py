@@ -10,22 +10,35 @@ import pytest
 from aegis_ot.vision.models import ModelFile
 from aegis_ot.vision.scorers.aims import AIMS, aimed
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
-from aegis_ot.vision.types import TipDetection
-from aegis_ot.vocabulary import KeyframeKind
+from aegis_ot.vision.scorers.looks import looks
 
 from ..column.drawn import normals, trajectory
 
 
 def test_the_end_moves_along_the_tip_and_nothing_else_does() -> None:
     sample = trajectory("n", "new", seed=91)
-    leaning = TipDetection(100.0, 50.0, 40.0, 80.0, 0.9, (130.0, 130.0), (70.0, 50.0))
-    kind = KeyframeKind.TRANSIT
-    sample = replace(sample, detections={**sample.detections, kind: leaning})
-    moved = aimed(sample, 5.0).detections[kind]
-    assert moved is not None
-    assert moved.orifice == pytest.approx((133.0, 134.0))
-    assert (moved.collar, moved.h) == (leaning.collar, pytest.approx(84.0))
-    assert aimed(sample, 5.0).frames is sample.frames
+    for px in (-1.0, 1.0):
+        moved = looks(aimed(sample, px))
+        assert moved.keys() == looks(sample).keys()
+        for kind, seen in looks(sample).items():
+            along = np.subtract(seen.orifice, seen.collar)
+            expected = np.add(seen.orifice, px * along / np.hypot(*along))
+            assert moved[kind].orifice == pytest.approx(expected, abs=1e-3)
+            assert moved[kind].collar == seen.collar
+            assert moved[kind].profile.length == pytest.approx(seen.profile.length + px, abs=1e-3)
+            assert not np.array_equal(moved[kind].cone, seen.cone)
+
+
+def test_of_a_row_the_neighbours_stay_painted_over() -> None:
+    sample = trajectory("n", "new", seed=91)
+    (kind, tip), *_ = sample.detections.items()
+    assert tip is not None
+    beside = replace(tip, apart=2.0 * tip.w)
+    row = replace(sample, detections={**sample.detections, kind: beside})
+    seen, moved = looks(row)[kind], looks(aimed(row, 1.0))[kind]
+    assert np.hypot(*np.subtract(moved.orifice, seen.orifice)) == pytest.approx(1.0, abs=1e-3)
+    assert moved.cone.shape == seen.cone.shape
+    assert np.abs(moved.cone - seen.cone).mean() < 12  # grey levels: the same picture, a pixel off
 
 
 def test_a_reading_is_made_once_and_the_first_is_the_sample_itself() -> None:
@@ -35,12 +48,8 @@ def test_a_reading_is_made_once_and_the_first_is_the_sample_itself() -> None:
     assert aimed(sample, 1.0) is not aimed(sample, -1.0)
 
 
-def test_a_tip_that_is_not_seen_stays_unseen_and_a_speck_stays_as_it_is() -> None:
-    sample = trajectory("gone", tips=False)
-    assert not any(aimed(sample, 1.0).detections.values())
-    speck = TipDetection(5.0, 5.0, 1.0, 1.0, 0.9, (5.0, 6.0), (5.0, 5.0))
-    sample = replace(sample, detections={KeyframeKind.TRANSIT: speck})
-    assert aimed(sample, -1.0).detections[KeyframeKind.TRANSIT] == speck
+def test_a_tip_that_is_not_seen_stays_unseen() -> None:
+    assert not looks(aimed(trajectory("gone", tips=False), 1.0))
 
 
 def test_the_score_is_the_mean_of_all_readings_each_calibrated_by_its_own() -> None:
