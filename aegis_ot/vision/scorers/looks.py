@@ -55,11 +55,13 @@ def look(
 
 
 def looks_beside(sample: TrajectorySample, px: float) -> Mapping[KeyframeKind, TipLook]:
-    """The looks of a sample with the tip's end put ``px`` px further along the tip in each."""
-    found: dict[KeyframeKind, TipLook] = {}
-    for kind, seen in looks(sample).items():
-        detection, image = sample.detections.get(kind), sample.frames[kind]
-        if detection is not None:
+    """The looks of a sample with the tip's end put ``px`` px further along the tip in each; as they
+    are where the frames were not kept, as when a run is looked back at.
+    """
+    found = dict(looks(sample))
+    for kind, seen in found.items():
+        detection, image = sample.detections.get(kind), sample.frames.get(kind)
+        if detection is not None and image is not None:
             beside = _taken_in(image).setdefault((detection, seen.collar, seen.orifice), {})
             if px not in beside:
                 beside[px] = look_beside(image, detection, sample.tip, seen, px)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from aegis_ot.vision.crops import remember
 from aegis_ot.vision.models import ModelFile
 from aegis_ot.vision.scorers.aims import AIMS, aimed
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
@@ -50,6 +51,13 @@ def test_a_reading_is_made_once_and_the_first_is_the_sample_itself() -> None:
 
 def test_a_tip_that_is_not_seen_stays_unseen() -> None:
     assert not looks(aimed(trajectory("gone", tips=False), 1.0))
+
+
+def test_looks_whose_frames_are_gone_are_read_as_they_are() -> None:
+    sample = trajectory("n", "new", seed=91)
+    kept = replace(sample, frames={})
+    remember(kept, "looks", lambda _: looks(sample))
+    assert looks(aimed(kept, 1.0)) == looks(sample)
 
 
 def test_the_score_is_the_mean_of_all_readings_each_calibrated_by_its_own() -> None:
