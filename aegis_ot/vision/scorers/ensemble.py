@@ -89,6 +89,9 @@ class EnsembleScorer:
         """Adapt both scorers to a run or plate, for each reading by its own."""
         self.column.calibrate(normals)
         self.patches.calibrate(normals)
+        self._beside = {}
+        if normals and not any(sample.frames for sample in normals):
+            return  # a run that is looked back at: its frames are not kept, and not read anew
         # What a fit has learned is shared; what they take from the run is not.
         self._beside = {px: (copy.copy(self.column), copy.copy(self.patches)) for px in AIMS if px}
         for px, scorers in self._beside.items():

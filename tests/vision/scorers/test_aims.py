@@ -60,6 +60,21 @@ def test_looks_whose_frames_are_gone_are_read_as_they_are() -> None:
     assert looks(aimed(kept, 1.0)) == looks(sample)
 
 
+def test_a_run_that_is_looked_back_at_is_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    scorer = EnsembleScorer()
+    scorer.fit(normals())
+    first = trajectory("first", "new", seed=90)
+    gone = replace(first, frames={})
+    remember(gone, "looks", lambda _: looks(first))
+    scorer.calibrate([gone])
+    asked: list[float] = []
+    monkeypatch.setattr(
+        "aegis_ot.vision.scorers.ensemble.aimed", lambda s, px: asked.append(px) or s
+    )
+    assert scorer.score(trajectory("n", "new", seed=91)) >= 0.0
+    assert asked == []
+
+
 def test_the_score_is_the_mean_of_all_readings_each_calibrated_by_its_own() -> None:
     first = trajectory("first", "new", seed=90)
     failed = trajectory("f", "new", left=0.85, seed=92)
