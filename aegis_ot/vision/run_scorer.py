@@ -20,7 +20,7 @@ LEAST_ALARM = 3.5
 
 _ADAPT_AT = (1, 2, 4, 8)
 """Numbers of the run's own normal wells at which a world model adapts to them; more change
-little, and each time costs some 30 ms."""
+little, and each time costs up to 100 ms."""
 
 
 class RunScorer:

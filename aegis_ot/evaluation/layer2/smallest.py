@@ -19,6 +19,7 @@ from ...vision.column import Reference, TipLook, expected_top, learn_tip
 from ...vision.column.strip import Array
 from ...vision.column.trajectory import DELIVERED
 from ...vision.crops import remember
+from ...vision.scorers.aims import AIMS, aimed, read_as
 from ...vision.scorers.looks import looks
 from ...vision.types import Scorer, TrajectorySample
 from ...vocabulary import KeyframeKind
@@ -183,6 +184,8 @@ def with_retained(
         retained_fraction=share,
     )
     remember(failed, "looks", lambda _: _planted(sample, share, height_scale))
+    for px in filter(None, AIMS):
+        read_as(failed, px, _planted(aimed(sample, px), share, height_scale))
     return failed
 
 

@@ -107,8 +107,11 @@ class HeatmapDetector:
 
     @functools.cached_property
     def of_rows(self) -> HeatmapDetector | None:
-        """Finds the ends of the tips of a row with a network of the same shape that was trained on
-        with rows in sight: others than this one does. ``None`` where weights are given.
+        """The same with another network for the ends of a row's tips, trained on with rows in
+        sight: it sees some that this one does not. ``None`` where weights are given.
+
+        Raises:
+            ModelError: Its file is missing or damaged.
         """
         if not self._is_shipped:
             return None

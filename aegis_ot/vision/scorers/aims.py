@@ -6,13 +6,16 @@ the tip moves with it. The mean of three readings moves less than one.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
+from ...vocabulary import KeyframeKind
+from ..column import TipLook
 from ..crops import remember
 from ..types import TrajectorySample
 from .looks import looks_beside
 
-AIMS = (0.0, -1.0, 1.0)
+AIMS: tuple[float, ...] = (0.0, -1.0, 1.0)
 """Where the tip's end is put, px along the tip beyond where it was seen."""
 
 
@@ -23,11 +26,19 @@ def aimed(sample: TrajectorySample, px: float) -> TrajectorySample:
         sample: As it was detected.
         px: How far, px; 0 gives the sample itself.
     """
-    return remember(sample, f"aimed {px}", lambda seen: _aimed(seen, px)) if px else sample
+    if not px:
+        return sample
+    return remember(sample, f"aimed {px}", lambda _: _with(sample, looks_beside(sample, px)))
 
 
-def _aimed(sample: TrajectorySample, px: float) -> TrajectorySample:
+def read_as(sample: TrajectorySample, px: float, looks: Mapping[KeyframeKind, TipLook]) -> None:
+    """Let :func:`aimed` give a reading with these looks, not of the frames; for 0 it gives none."""
+    if px:
+        remember(sample, f"aimed {px}", lambda _: _with(sample, looks))
+
+
+def _with(sample: TrajectorySample, looks: Mapping[KeyframeKind, TipLook]) -> TrajectorySample:
     moved = replace(sample)
     # What every scorer asks for first: so it need not know.
-    remember(moved, "looks", lambda _: looks_beside(sample, px))
+    remember(moved, "looks", lambda _: looks)
     return moved

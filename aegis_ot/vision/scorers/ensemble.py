@@ -53,7 +53,11 @@ class EnsembleScorer:
     is a p-value under 0.05 in any run: one threshold serves all plates.
 
     Each trajectory is read three times, with the tip's end a pixel apart (:data:`~.aims.AIMS`), and
-    the mean counts: what one reading owes to the detector's error does not stand in all of them.
+    the mean counts: what one reading owes to the detector's error does not stand in all of them. A
+    mean scatters less than one, so that a normal well passes 3 a little more seldom than said.
+
+    Attributes:
+        aims: The readings; ``(0.0,)`` for wells whose frames are gone.
     """
 
     name = "ensemble"
@@ -62,6 +66,7 @@ class EnsembleScorer:
         self.column = ColumnScorer()
         self.patches = PatchesScorer()
         self.sums: dict[str, NDArray[np.float64]] = {}
+        self.aims: tuple[float, ...] = AIMS
         self._beside: dict[float, tuple[ColumnScorer, PatchesScorer]] = {}
 
     def fit(self, normals: Sequence[TrajectorySample]) -> None:
@@ -82,18 +87,16 @@ class EnsembleScorer:
                 self.column.calibrate([other] if other is not sample else [])
                 column = self.column.report(sample).score
                 sums[name].append(column + _OVERLAP * self.patches.left_out(sample))
-        self.column.calibrate([])
         self.sums = {name: np.sort(values) for name, values in sums.items()}
+        self.calibrate([])
 
     def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
         """Adapt both scorers to a run or plate, for each reading by its own."""
         self.column.calibrate(normals)
         self.patches.calibrate(normals)
-        self._beside = {}
-        if normals and not any(sample.frames for sample in normals):
-            return  # a run that is looked back at: its frames are not kept, and not read anew
         # What a fit has learned is shared; what they take from the run is not.
-        self._beside = {px: (copy.copy(self.column), copy.copy(self.patches)) for px in AIMS if px}
+        beside = (px for px in self.aims if px)
+        self._beside = {px: (copy.copy(self.column), copy.copy(self.patches)) for px in beside}
         for px, scorers in self._beside.items():
             for scorer in scorers:
                 scorer.calibrate([aimed(sample, px) for sample in normals])
@@ -110,7 +113,7 @@ class EnsembleScorer:
 
     def look_ahead(self, sample: TrajectorySample) -> None:
         """Work out what the first frames of a trajectory tell, while the last is still to come."""
-        for px in AIMS:
+        for px in self.aims:
             self.column.report(aimed(sample, px))
             describe(aimed(sample, px))
 

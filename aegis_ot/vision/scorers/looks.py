@@ -62,7 +62,9 @@ def looks_beside(sample: TrajectorySample, px: float) -> Mapping[KeyframeKind, T
     for kind, seen in found.items():
         detection, image = sample.detections.get(kind), sample.frames.get(kind)
         if detection is not None and image is not None:
-            beside = _taken_in(image).setdefault((detection, seen.collar, seen.orifice), {})
+            beside = _taken_in(image).setdefault(
+                (detection, sample.tip.name, seen.collar, seen.orifice), {}
+            )
             if px not in beside:
                 beside[px] = look_beside(image, detection, sample.tip, seen, px)
             found[kind] = beside[px]
