@@ -6,6 +6,7 @@ Read from the text, because in a rehearsal the guard stands aside. Only literals
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -40,17 +41,17 @@ def guard_arguments(text: str) -> GuardArguments:
         tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return GuardArguments()
-    calls = [n for n in ast.walk(tree) if isinstance(n, ast.Call) and _is_guard(n.func)]
-    for function in ast.walk(tree):
-        if isinstance(function, ast.FunctionDef):
-            above = [one for one in function.decorator_list if one in calls]
-            if above:  # several are one guard, and the outer one comes first
-                read = [_read(one) for one in above if isinstance(one, ast.Call)]
-                values = {
-                    name: value for one in reversed(read) for name, value in one.values.items()
-                }
-                return GuardArguments(values, tuple(said for one in read for said in one.unread))
-    return _read(calls[0]) if calls else GuardArguments()
+    nodes = list(ast.walk(tree))
+    decorators = (node.decorator_list for node in nodes if isinstance(node, ast.FunctionDef))
+    # Several above one function are one guard, and the outer one comes first.
+    calls = next(filter(None, map(_guards, decorators)), _guards(nodes)[:1])
+    read = [_read(call) for call in calls]
+    values = {name: value for one in reversed(read) for name, value in one.values.items()}
+    return GuardArguments(values, tuple(said for one in read for said in one.unread))
+
+
+def _guards(nodes: Iterable[ast.AST]) -> list[ast.Call]:
+    return [one for one in nodes if isinstance(one, ast.Call) and _is_guard(one.func)]
 
 
 def _read(call: ast.Call) -> GuardArguments:

@@ -190,8 +190,9 @@ def _fillings(well: Well) -> Counter[Well]:
             continue
         left, given = left + visit.volume, given + visit.volume
         if visit.kind is OperationKind.DISPENSE:
-            times.update({one.source for one in visit.brought})
-            most |= times
+            for source in {one.source for one in visit.brought}:
+                times[source] += 1
+                most[source] = max(most[source], times[source])
     return most
 
 

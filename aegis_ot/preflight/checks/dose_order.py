@@ -42,8 +42,9 @@ class DoseOrder(Check):
             result: Result | None = None
             for origin, met in carried_liquids(visit):
                 dosed = origin is not visit.well and case.has(origin, self.liquid)
-                if dosed and not any(case.same_liquid(origin, other) for other in here):
-                    result = result or self._other(case, visit, origin, met, here)
+                if result or not dosed or any(case.same_liquid(origin, other) for other in here):
+                    continue
+                result = self._other(case, visit, origin, met, here)
             result = result or self._higher(case, visit, here, doses)
             if result is not None:
                 seen.add(key)

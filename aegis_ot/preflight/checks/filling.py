@@ -74,7 +74,7 @@ class SeriesFilledFrom(SeriesCheck):
             source = wrong.source
             if not case.has(source, case.family.series.stock) and not _is_diluent_known(case):
                 why = "nothing says which reservoir holds the diluent"
-                yield Doubt(why, (), (source,), diluent[0])
+                yield Doubt(why, roles_of=(source,), role=diluent[0])
                 return
             if not case.of(source):
                 yield Doubt(f"nothing says what {source.ref} holds", roles_of=(source,))

@@ -132,7 +132,7 @@ class Receives(Check):
         if not judged:
             there = [well for well in case.trace.wells.values() if well.ref.labware in plates]
             why = f"nothing says which well is the {case.titles(self.wells)}"
-            yield Doubt(why, (), tuple(there), self.wells[0])
+            yield Doubt(why, roles_of=tuple(there), role=self.wells[0])
             return
         reported: set[WellRef] = set()
         given = [

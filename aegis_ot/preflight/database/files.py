@@ -46,6 +46,8 @@ def load_database(extra: Sequence[str | Path] = ()) -> Database:
             files.append(path)
         else:
             raise RuleError(f"{path}: no such file or folder of rules")
+    if not files:
+        return shipped
     families = [*shipped.families, *map(load_family, files)]
     check_together(families)
     return Database(tuple(families), shipped.common)

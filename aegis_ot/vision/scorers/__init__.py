@@ -64,7 +64,8 @@ def make_scorer(name: str) -> Scorer:
 
 def signs_of(scorer: Scorer, sample: TrajectorySample) -> dict[str, float]:
     """Surprises of the signs behind a score, by sign, nats; none where the scorer has no report."""
-    report = scorer.report(sample) if hasattr(scorer, "report") else None
+    read = getattr(scorer, "read", getattr(scorer, "report", None))  # one reading tells the signs
+    report = None if read is None else read(sample)
     column = getattr(report, "column", report)
     signs = {str(sign): float(value) for sign, value in getattr(column, "surprises", {}).items()}
     patches = getattr(report, "patches", None)

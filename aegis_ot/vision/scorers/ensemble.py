@@ -6,7 +6,7 @@ import copy
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +42,18 @@ class EnsembleReport:
     patches: float
 
 
+class Reading(NamedTuple):
+    """What both scorers find where the tip's end is put in one place."""
+
+    column: ColumnReport
+    patches: float
+
+    @property
+    def total(self) -> float:
+        """Both surprises, nats."""
+        return self.column.score + _OVERLAP * self.patches
+
+
 class EnsembleScorer:
     """``-log p`` of column and patches together: surprises add up, as in Fisher's method.
 
@@ -67,7 +79,7 @@ class EnsembleScorer:
         self.patches = PatchesScorer()
         self.sums: dict[str, NDArray[np.float64]] = {}
         self.aims: tuple[float, ...] = AIMS
-        self._beside: dict[float, tuple[ColumnScorer, PatchesScorer]] = {}
+        self._by_aim = {0.0: (self.column, self.patches)}
 
     def fit(self, normals: Sequence[TrajectorySample]) -> None:
         """Fit both scorers, then their sum on the normals as they will be used.
@@ -92,12 +104,14 @@ class EnsembleScorer:
 
     def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
         """Adapt both scorers to a run or plate, for each reading by its own."""
-        self.column.calibrate(normals)
-        self.patches.calibrate(normals)
         # What a fit has learned is shared; what they take from the run is not.
-        beside = (px for px in self.aims if px)
-        self._beside = {px: (copy.copy(self.column), copy.copy(self.patches)) for px in beside}
-        for px, scorers in self._beside.items():
+        self._by_aim = {
+            px: (copy.copy(self.column), copy.copy(self.patches))
+            if px
+            else (self.column, self.patches)
+            for px in self.aims
+        }
+        for px, scorers in self._by_aim.items():
             for scorer in scorers:
                 scorer.calibrate([aimed(sample, px) for sample in normals])
 
@@ -120,14 +134,15 @@ class EnsembleScorer:
     def report(self, sample: TrajectorySample) -> EnsembleReport:
         """Score and what stands behind it."""
         name = sample.learned_as(self.sums)
-        column, patches = self.column.report(sample), self.patches.score_of_seen(sample)
-        totals = [column.score + _OVERLAP * patches]
-        for px, (its_column, its_patches) in self._beside.items():
-            beside = aimed(sample, px)
-            found = its_column.report(beside).score, its_patches.score_of_seen(beside)
-            totals.append(found[0] + _OVERLAP * found[1])
-        score = float(np.mean([self._surprise(total, name) for total in totals]))
-        return EnsembleReport(score, column, patches)
+        readings = [self.read(sample, px) for px in self._by_aim]
+        score = float(np.mean([self._surprise(one.total, name) for one in readings]))
+        return EnsembleReport(score, readings[0].column, readings[0].patches)
+
+    def read(self, sample: TrajectorySample, px: float = 0.0) -> Reading:
+        """One reading, without its ``-log p``."""
+        column, patches = self._by_aim[px]
+        moved = aimed(sample, px)
+        return Reading(column.report(moved), patches.score_of_seen(moved))
 
     def p_value(self, sample: TrajectorySample) -> float:
         """How often a normal trajectory scores this high."""

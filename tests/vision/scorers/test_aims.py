@@ -91,7 +91,7 @@ def test_a_fitted_scorer_reads_as_a_saved_one_and_a_second_fit_forgets_the_first
     again = EnsembleScorer.from_model(_model_of(scorer))
     assert scorer.score(failed) == pytest.approx(again.score(failed), rel=1e-4)
     scorer.fit(normals())
-    assert all(column.models is scorer.column.models for column, _ in scorer._beside.values())
+    assert all(column.models is scorer.column.models for column, _ in scorer._by_aim.values())
 
 
 def test_what_is_planted_is_planted_in_all_readings() -> None:
@@ -114,7 +114,7 @@ def test_the_score_is_the_mean_of_all_readings_each_calibrated_by_its_own() -> N
         alone = EnsembleScorer.from_model(_model_of(scorer))
         alone.column.calibrate([aimed(first, px)])
         alone.patches.calibrate([aimed(first, px)])
-        alone._beside = {}
+        alone._by_aim = {0.0: (alone.column, alone.patches)}
         single.append(alone.report(aimed(failed, px)).score)
     assert len({round(score, 6) for score in single}) == len(AIMS)
     assert scorer.score(failed) == pytest.approx(np.mean(single), rel=1e-4)
