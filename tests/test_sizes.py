@@ -9,8 +9,8 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
-    "preflight": 9_501,
-    "preflight/checks": 2_158,
+    "preflight": 9_500,
+    "preflight/checks": 2_157,
     "preflight/database": 212,
     "preflight/evidence": 701,
     "preflight/judging": 828,
@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 622,
     "preflight/source": 681,
     "preflight/trace": 1_505,
-    "": 66_388,
+    "": 66_387,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached: ``preflight`` is
 within its aim of 9,500, the package has 48,000 for an aim."""

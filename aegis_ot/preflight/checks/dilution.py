@@ -126,9 +126,8 @@ def _left_to_hand(case: Case, steps: Sequence[Transfer]) -> set[Well]:
 
 def _unknown_direction(case: Case, series: Series) -> Doubt:
     ends = tuple(sorted(series.position, key=series.position.__getitem__))
-    stock = case.family.series.stock[0]
     why = "nothing says which end of the series holds the stock"
-    return Doubt(why, roles_of=(ends[0], ends[-1]), role=stock)
+    return Doubt(why, roles_of=(ends[0], ends[-1]), role=case.family.series.stock[0])
 
 
 @dataclass(frozen=True)
