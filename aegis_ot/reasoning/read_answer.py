@@ -5,11 +5,13 @@ A schema (:mod:`.answer`) cannot carry these bounds. What does not fit is left o
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from ..preflight.evidence import wells_in
 from ..preflight.evidence.deck import without_slot
+from ..preflight.evidence.well_names import WELL
 from ..preflight.judging import MODEL
 from ..preflight.opinion import Citation, Dossier, Opinion, RoleProposal, RuleAnswer, is_known
 from ..preflight.source import source_lines
@@ -20,6 +22,9 @@ LONGEST_TEXT = 400
 LONGEST_NAME = 60
 MOST_FINDINGS = 12
 MOST_PROPOSALS = 24
+
+_CITED_WELL = re.compile(rf"(?:\b\w+:|\b){WELL}")
+_CITED_LINES = re.compile(r"\b(?:lines?\s+|L)(\d+)(?:\s*(?:-|–|,|and|to)\s*(\d+))?", re.IGNORECASE)
 
 
 def read_opinion(
@@ -45,11 +50,10 @@ def read_opinion(
         if given["rule"] in asked:
             answers.append(RuleAnswer(given["rule"], given["answer"], _text(given["reason"])))
     violated = [  # of a rule that the checks decided, too: a disagreement is told as such
-        {"rule": given["rule"], "message": given["reason"] or "The model reads that it is broken.",
-         "wells": given["wells"], "lines": given["lines"]}
+        _violated(given)
         for given in value.get("answers", ())
         if given["rule"] in bounds.severity and given["answer"] == "violated"
-    ]  # fmt: skip
+    ]
     more, problems = _findings(violated, bounds)
     findings += [one for one in more if not is_known(one, findings)]
     return Opinion(
@@ -77,6 +81,13 @@ class _Bounds:
         count = len(source_lines(dossier.source))
         self.lines = set(range(1, count + 1)) if blind else set(dossier.lines)
         self.severity = {brief.id: brief.severity for brief in dossier.rules}
+        by_name: dict[str, set[WellRef]] = {}
+        for names in self._known.values():
+            for name, refs in names.items():
+                by_name.setdefault(name, set()).update(refs)
+        self._of_one_labware = {
+            name: list(refs) for name, refs in by_name.items() if len(refs) == 1
+        }
 
     def wells(self, given: Iterable[str]) -> list[WellRef]:
         """The wells that are meant and exist: ``"4:H12"``, ``"4:A1-H1"``, ``"PCR plate:A1"``."""
@@ -84,6 +95,8 @@ class _Bounds:
         for place in given:
             labware, _, spec = place.strip().rpartition(":")
             known = self._known.get(without_slot(labware).strip().lower(), {})
+            if not labware:
+                known = self._of_one_labware
             for name in wells_in(spec.upper(), known) if spec.strip() else ():
                 found.update(dict.fromkeys(known[name]))
         return list(found)
@@ -96,6 +109,18 @@ def _on_deck(dossier: Dossier) -> Iterable[tuple[WellRef, str]]:
             for row in range(item.rows):
                 name = f"{chr(ord('A') + row)}{column + 1}"
                 yield WellRef(item.key, name, item.label, item.slot), item.load_name
+
+
+def _violated(given: Mapping[str, Any]) -> dict[str, Any]:
+    """An answer that a rule is broken as a finding, in wells and lines that it gives or cites."""
+    reason = str(given["reason"])
+    lines = (int(line) for cited in _CITED_LINES.findall(reason) for line in cited if line)
+    return {
+        "rule": given["rule"],
+        "message": reason or "The model reads that it is broken.",
+        "wells": given["wells"] or _CITED_WELL.findall(reason),
+        "lines": given["lines"] or list(lines),
+    }
 
 
 def _findings(

@@ -12,8 +12,8 @@ class Settings:
     """All that can be set, with its defaults.
 
     Attributes:
-        assay: Assay family, or ``None`` to let the guard find out. Families of your own rule
-            files are accepted as well.
+        assay: Assay family, several as ``"serial_dilution, generic"``, or ``None`` to let the
+            guard find out. Families of your own rule files are accepted as well.
         rules: ``"on"``: errors refuse the run; ``"strict"``: warnings are errors; ``"warn"``:
             findings are reported and the run goes on; ``"off"``.
         select: Rule ids to use; empty for all.

@@ -58,7 +58,7 @@ def test_a_finding_of_the_models_own_is_marked() -> None:
     [
         (["4:B7"], [15], "no well"),
         (["9:A1"], [15], "no well"),
-        (["H12"], [15], "no well"),
+        (["A1"], [15], "no well"),
         (["4:H12"], [1], "no line"),
         (["4:H12"], [999], "no line"),
         (["4:H12"], [-3], "no line"),
@@ -146,6 +146,16 @@ def test_an_answer_violated_is_a_warning_with_its_wells_and_lines() -> None:
     assert found.lines == (13, 15)
     assert found.message == "Its tip mixes H12."
     assert "PCR-2" not in {undecided.rule for undecided in after.undecided}
+
+
+def test_an_answer_violated_may_cite_its_wells_and_lines_in_its_reason() -> None:
+    told = "Tip 2 goes from 2:A2 into H12 at lines 13 and 15."
+    after = judged(SILENT, answer(answers=[reading_of("PCR-2", "violated", [], [], told)])).report
+    (found,) = after.findings
+    assert (found.source, found.severity) == ("model", Severity.WARNING)
+    assert [well.address for well in found.wells] == ["2:A2", "4:H12"]
+    assert found.lines == (13, 15)
+    assert found.message == told
 
 
 def test_an_answer_violated_that_stands_under_findings_too_is_told_once() -> None:

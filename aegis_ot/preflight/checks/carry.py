@@ -13,7 +13,7 @@ from ...vocabulary import Site
 from ..rules import role_names
 from ..trace import Contact, Met, Tip, Visit, Well
 from .case import Case, carried_liquids
-from .check import Check, Doubt, Result, Violation, at
+from .check import Check, Doubt, Result, Violation, at, surest
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
 _RINSED = "The tip was rinsed in between: what is left on it is a trace."
@@ -56,7 +56,9 @@ class Carry(Check):
             carriers.update(well for well in case.destinations if not case.of(well))
         once = not (self.stock or self.pooled)  # later visits are judged as the first
         judged: dict[tuple[Tip, Well], int] = {}
-        let_be: dict[tuple[Tip, Well], list[tuple[Well, Met]]] = {}
+        # What the tip carries may do harm at a later visit to the well, or surely do it then.
+        open_: dict[tuple[Tip, Well], list[tuple[Well, Met]]] = {}
+        found: dict[tuple[Tip, Well, Well], Violation] = {}
         for visit in case.trace.visits:
             if not visit.contact or not visit.carried:
                 continue
@@ -74,16 +76,21 @@ class Carry(Check):
             if self.stock and not drawn_for:
                 continue  # tips are rinsed in it; nothing is made of it
             key = (visit.tip, well)
-            again = let_be.pop(key, [])
-            for origin, met in (*again, *carried_liquids(visit, judged.get(key, 0))):
+            carried = (*open_.pop(key, ()), *carried_liquids(visit, judged.get(key, 0)))
+            for origin, met in carried:
                 if origin not in carriers or origin is well:
                     continue
-                if not self._let_be(case, visit, origin, met):
-                    yield self._violation(case, visit, origin, met)
-                elif not once:
-                    let_be.setdefault(key, []).append((origin, met))
+                if self._let_be(case, visit, origin, met):
+                    again = not once
+                else:
+                    violation = self._violation(case, visit, origin, met)
+                    surest(found, (*key, origin), violation)
+                    again = violation.contact is Contact.NEAR
+                if again:
+                    open_.setdefault(key, []).append((origin, met))
             judged[key] = visit.carried
-        if doubt := self._unnamed_contact(case, carriers):
+        yield from found.values()
+        if doubt := self._unnamed_contact(case, carriers) or self._mixed_contact(case):
             yield doubt
 
     def _let_be(self, case: Case, visit: Visit, origin: Well, met: Met) -> bool:
@@ -118,6 +125,12 @@ class Carry(Check):
             )
         if case.is_given(well, origin):
             return True
+        if self.pooled and origin.ref not in case.roles.by_well:
+            # Of wells of which no more is known than numbers beside them, the lower goes first.
+            here = (case.roles.level(one.ref) for one in (well, *case.meant.get(well, ())))
+            mine = case.roles.level(origin.ref)
+            if mine is not None and any(level is not None and mine < level for level in here):
+                return True
         if self.pooled:
             # Water and then sample, drawn for one well, spoils no sample for its other uses.
             clean = case.is_one_liquid(origin)
@@ -167,6 +180,31 @@ class Carry(Check):
                 return Doubt(why, roles_of=tuple(o for o in unnamed if o in drawn or o is well))
         return None
 
+    def _mixed_contact(self, case: Case) -> Doubt | None:
+        """The first return to a stock of a tip that mixed it, and nothing else as far as is known,
+        in wells of which nobody says that they were empty: one mixes what is not one liquid.
+        """
+        mixed: dict[Well, str] = {}
+        for visit in case.trace.visits if self.via_destination == "only" else ():
+            stock, tip = visit.well, visit.tip
+            if not visit.contact or not case.has(stock, self.into):
+                continue
+            if len(case.destinations.get(stock, ())) < 2:
+                continue
+            if not all(case.same_liquid(origin, stock) for origin, _ in carried_liquids(visit)):
+                continue
+            for one in tip.visits:
+                if one.index >= visit.index:
+                    break
+                if one.mixing and not (one.well is stock or one.well in mixed):
+                    enters = f"that mixed in it {at(one.line)} enters {stock.ref} {at(visit.line)}"
+                    why = f"nothing says what {one.well.ref} held before, and the tip {enters}"
+                    mixed[one.well] = why
+        open_ = [one for one in mixed if not (one.prefilled or case.roles.is_given(one.ref))]
+        if not open_:
+            return None
+        return Doubt(mixed[open_[0]], roles_of=tuple(open_), side="destination")
+
     def _rinses_before(self, case: Case, visit: Visit) -> int:
         """How often a shared liquid was drawn into the tip and given to the waste just before."""
         rinses = 0
@@ -211,7 +249,9 @@ class Carry(Check):
             began = f"The tip that met {what} in {where}"
         else:
             held = f"{what} from" if case.of(origin) else "the liquid of"
-            began = f"The tip that touched {where}, which holds {held} {origin.ref.name},"
+            beside = origin.ref.labware == met.well.ref.labware
+            source = origin.ref.name if beside else origin.ref
+            began = f"The tip that touched {where}, which holds {held} {source},"
         message = f"{began} entered the {case.title(well)} {well.ref} {at(visit.line)}."
         contact = min(met.contact(visit.index), visit.contact)
         return Violation(

@@ -49,16 +49,24 @@ class Doubt:
         reason: Why, in a sentence.
         levels_of: Wells whose concentration or dose would decide it.
         roles_of: Wells whose role would decide it.
-        role: The role that one of these has; ``""`` for any that a source has.
+        role: The role that one of these has; ``""`` for any on their ``side``.
     """
 
     reason: str
     levels_of: tuple[Well, ...] = ()
     roles_of: tuple[Well, ...] = ()
     role: str = ""
+    side: str = "source"
 
 
 Result = Violation | Doubt
+
+
+def surest(found: dict[Any, Any], key: object, result: Result) -> None:
+    """Keep the result of one place, the first of those with the surest contact."""
+    told = found.setdefault(key, result)
+    if getattr(told, "contact", Contact.WET) < getattr(result, "contact", Contact.CLEAR):
+        found[key] = result
 
 
 def at(line: int | None) -> str:

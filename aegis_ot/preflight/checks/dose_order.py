@@ -10,9 +10,9 @@ from itertools import islice
 from ...vocabulary import Site
 from ..rules import role_names
 from ..source import comparable, lexicon_of
-from ..trace import Met, Visit, Well
+from ..trace import Contact, Met, Visit, Well
 from .case import Case, carried_liquids
-from .check import Check, Doubt, Result, Violation, at
+from .check import Check, Doubt, Result, Violation, at, surest
 
 
 @dataclass(frozen=True)
@@ -31,13 +31,14 @@ class DoseOrder(Check):
 
     def find(self, case: Case) -> Iterator[Result]:
         doses = self._doses(case)
-        seen: set[tuple[int, int]] = set()
+        found: dict[tuple[int, int], Result] = {}
         for visit in case.trace.visits:
             if not visit.contact or not visit.carried or not case.has(visit.well, self.wells):
                 continue
             here = doses.get(visit.well, {})
             key = (visit.tip.number, id(visit.well))
-            if key in seen:
+            seen = found.get(key)
+            if seen and not (isinstance(seen, Violation) and seen.contact is Contact.NEAR):
                 continue
             result: Result | None = None
             for origin, met in carried_liquids(visit):
@@ -47,8 +48,8 @@ class DoseOrder(Check):
                 result = self._other(case, visit, origin, met, here)
             result = result or self._higher(case, visit, here, doses)
             if result is not None:
-                seen.add(key)
-                yield result
+                surest(found, key, result)
+        yield from found.values()
 
     def _doses(self, case: Case) -> dict[Well, dict[Well, float]]:
         """For each well the µL of each dosed liquid that it is given in the whole run."""

@@ -42,10 +42,11 @@ def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
         return Undecided(rule.id, doubt.reason, guess, "write, if it is that")
     if doubt.roles_of:
         specs = case.family.roles.items()
-        sources = "|".join(role for role, spec in specs if spec.side != "destination")
+        fitting = [role for role, spec in specs if spec.side in (doubt.side, "any")]
+        role = doubt.role or "|".join(fitting)
         how = RIGHT_WELLS if doubt.role else "write, with one of these roles and its wells only"
         wells = spelled(well.ref for well in doubt.roles_of)
-        return Undecided(rule.id, doubt.reason, pasted({doubt.role or sources: wells}), how)
+        return Undecided(rule.id, doubt.reason, pasted({role: wells}), how)
     leveled: dict[str, dict[str, None]] = {}
     for well in doubt.levels_of:
         assigned = case.roles.by_well.get(well.ref)

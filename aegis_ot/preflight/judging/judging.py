@@ -18,9 +18,7 @@ from .reading import Reading, uncollected
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
-_UNKNOWN_VOLUME = Doubt(
-    "a tip came near a liquid, or nothing says how high it stands; load_liquid and names say more"
-)
+_NOT_SURELY = "{}, or only came near: nothing says how high the liquid stands (load_liquid does)"
 _IN_PROSE = "Only a comment or docstring says which assay this is ({})."
 _DOUBTFUL = "It rests on what is only read of a well: {}."
 _IDLE = Remark("It moves no liquid: there is nothing to judge.")
@@ -36,7 +34,18 @@ def judge(reading: Reading) -> Report:
     }
     violations = {rule: found for rule, (found, _) in judged.items()}
     undecided = [open_ for _, open_ in judged.values() if open_]
-    return _report(reading, violations, undecided)
+    return _report(reading, violations, [*undecided, *_beside(reading)])
+
+
+def _beside(reading: Reading) -> Iterable[Undecided]:
+    """What a rule would find beside the series that alone are judged."""
+    for rule, case in reading.cases_beside():
+        found, _ = _judge_rule(rule, case)
+        if found and reading.options.severity_of(rule) != "off":
+            both = ", ".join([*(one.family.family for one in reading.roles), case.family.family])
+            said = _begun(found[0].message)
+            told = f"beside the dilution series, which is judged, {said}"
+            yield Undecided(rule.id, told, f'@guard(assay="{both}")', "write, to have that judged")
 
 
 def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided | None]:
@@ -63,7 +72,7 @@ def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided 
                 and result.contact is Contact.NEAR
                 and not all(well.liquids for well in result.rests_on)
             ):
-                doubts.append(_UNKNOWN_VOLUME)
+                doubts.append(Doubt(_NOT_SURELY.format(_begun(result.message))))
             else:
                 warning = _why_warning(result, case)
                 cause = (number, warning, *result.cause)
@@ -71,6 +80,11 @@ def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided 
     if not case.confident and not violations:
         doubts.append(UNKNOWN_ASSAY)
     return violations, undecided_by(doubts[0], rule, case) if doubts and not violations else None
+
+
+def _begun(message: str) -> str:
+    """A sentence as the start of a longer one."""
+    return message[0].lower() + message[1:].rstrip(".")
 
 
 def _plain(violation: Violation, roles: Roles) -> bool:

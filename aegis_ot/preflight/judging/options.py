@@ -34,7 +34,7 @@ class Options:
     def from_settings(cls, settings: Settings) -> Options:
         """The part of the guard's settings that concerns judging."""
         return cls(
-            assay=(settings.assay,) if settings.assay else (),
+            assay=tuple(filter(None, map(str.strip, (settings.assay or "").split(",")))),
             roles=settings.roles,
             select=settings.select,
             ignore=settings.ignore,

@@ -113,6 +113,20 @@ class Reading:
                 if rule.scope == "all":
                     yield rule, self._case(known.get(family.family, Roles(family)))
 
+    def cases_beside(self) -> Iterator[tuple[RuleSpec, Case]]:
+        """The rules of the fallback family, with their case, where all that is judged are rules of
+        dilution series: those say nothing of what else the run moves.
+        """
+        if self.options.assay or not all(one.family.series.stock for one in self.roles):
+            return
+        for inference in self.families:
+            family = self.database.family(inference.family)
+            if family.default and self.roles:
+                roles = self._assigned(family.family)
+                derive(roles, self.trace)
+                case = self._case(roles, inference)
+                yield from ((rule, case) for rule in family.rules if rule.scope == "family")
+
     def with_evidence(self, more: Sequence[Evidence], assay: Sequence[str] = ()) -> Reading:
         """The same recording read with more evidence, and as another ``assay`` if one is named:
         nothing is rehearsed again.

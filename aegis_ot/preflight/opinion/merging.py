@@ -9,15 +9,14 @@ in a protocol that talks a model round can change what the checks found.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from ...vocabulary import Finding, Severity, Undecided, VerdictWord, WellRef
+from ...vocabulary import Finding, Severity, Undecided, VerdictWord
 from ..evidence import Evidence
 from ..judging import (
     Reading,
     Report,
-    RoleEvidence,
     apply_waivers,
     judge,
     pasted,
@@ -71,13 +70,13 @@ def merge(report: Report, opinion: Opinion, reading: Reading) -> Report:
         undecided=tuple(_questions(report, opinion, standing, accepted, second)),
         waived=(*report.waived, *waived),
         notes=(*report.notes, *notes),
-        roles=(*report.roles, *_roles(report, accepted, second)),
+        roles=tuple(dict.fromkeys((*report.roles, *(second.roles if second else ())))),
     )
 
 
 def _judged_again(
     reading: Reading, opinion: Opinion
-) -> tuple[list[Evidence], list[str], Report | None]:
+) -> tuple[Mapping[Evidence, Sequence[str]], list[str], Report | None]:
     """The roles that stand, why others do not, and what the checks say with them."""
     # The family that the model reads, where the checks only guess.
     known = {family.family for family in reading.database.families if not family.default}
@@ -86,23 +85,24 @@ def _judged_again(
     accepted, rejected = verify_proposals(opinion.proposals, seen, opinion.model)
     if not assay and not accepted:
         return accepted, rejected, None
-    return accepted, rejected, judge(reading.with_evidence(accepted, assay))
+    return accepted, rejected, judge(reading.with_evidence(tuple(accepted), assay))
 
 
 def _questions(
     report: Report,
     opinion: Opinion,
     standing: Sequence[Finding],
-    accepted: Sequence[Evidence],
+    accepted: Mapping[Evidence, Sequence[str]],
     second: Report | None,
 ) -> Iterable[Undecided]:
     """What stays open, with the model's reading; and the roles to paste, if they are right."""
     found = {finding.rule for finding in standing}
     answers = {answer.rule: answer for answer in opinion.answers}
-    wells: dict[str, list[WellRef]] = {}
-    for one in accepted:
-        wells.setdefault(one.role, []).extend(one.wells)
-    given = pasted({role: spelled(refs) for role, refs in wells.items()})
+    roles: dict[str, list[str]] = {}
+    for one, levels in accepted.items():
+        leveled = [f"{ref.address} = {lv}" for ref, lv in zip(one.wells, levels, strict=False)]
+        roles.setdefault(one.role, []).extend(leveled or spelled(one.wells))
+    given = pasted(roles)
     for question in report.undecided:
         if question.rule in found:
             continue
@@ -118,15 +118,3 @@ def _questions(
             if given:
                 paste, to_write = given, "write, if it reads them right"
         yield replace(question, reason=reason, paste=paste, to_write=to_write)
-
-
-def _roles(
-    report: Report, accepted: Sequence[Evidence], second: Report | None
-) -> Iterable[RoleEvidence]:
-    """The roles that the model's evidence decided."""
-    citations = {one.citation for one in accepted}
-    known = {(item.family, item.well, item.role) for item in report.roles}
-    for item in second.roles if second else ():
-        new = (item.family, item.well, item.role) not in known
-        if new and not citations.isdisjoint(item.evidence):
-            yield item

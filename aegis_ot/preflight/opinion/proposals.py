@@ -22,17 +22,20 @@ class Rejected(Exception):
 
 def verify_proposals(
     proposals: Sequence[RoleProposal], reading: Reading, model: str
-) -> tuple[list[Evidence], list[str]]:
-    """The proposals that stand, as evidence; and the others, each with the reason in a sentence.
+) -> tuple[dict[Evidence, tuple[str, ...]], list[str]]:
+    """The proposals that stand, as evidence, with the level of each well as it was told, if any;
+    and the others, each with the reason in a sentence.
 
     ``reading`` is the protocol in the eyes of the families that are to be judged.
     """
     verifier = _Verifier(reading, model)
-    accepted: list[Evidence] = []
+    accepted: dict[Evidence, tuple[str, ...]] = {}
     rejected: list[str] = []
     for proposal in proposals:
         try:
-            accepted.append(verifier.evidence(proposal))
+            evidence = verifier.evidence(proposal)
+            told = tuple(filter(str.strip, proposal.levels))
+            accepted[evidence] = told * len(evidence.wells) if len(told) == 1 else told
         except Rejected as reason:
             wells = ", ".join(proposal.wells) or "no well"
             rejected.append(f"{wells} as {proposal.role or 'nothing'}, not accepted: {reason}")
@@ -140,10 +143,16 @@ class _Verifier:
 
 
 def _stands_in(quote: str, level: str) -> bool:
-    """Whether a level is in a quote as it is written: not the 125 of "A125" or "1250"."""
-    written = re.escape(_plain(level).casefold())
-    pattern = rf"(?<![a-z\d.]){written}(?!\d|\.\d)"
-    return re.search(pattern, _plain(quote).casefold()) is not None
+    """Whether a level is in a quote as it is written: not the 125 of "A125" or "1250". Its number
+    and its unit may stand apart: "0, 0.5 and 1 mg/mL".
+    """
+    inside = _plain(quote).casefold()
+    return all(
+        re.search(rf"(?<![a-z\d.]){re.escape(part)}(?!\d|\.\d)", inside)
+        if part[0].isdigit()
+        else re.search(rf"(?<![a-z]){re.escape(part)}", inside)
+        for part in _plain(level).casefold().split()
+    )
 
 
 def _plain(text: str) -> str:

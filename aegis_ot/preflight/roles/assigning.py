@@ -45,6 +45,8 @@ def assign_roles(
         placed = False
         for ref, level in zip(one.wells, _levels(one, common), strict=True) if named else ():
             role = _fitting(named, roles, trace.sides(ref), one)
+            if role and level and family.roles[role].level == 0:
+                role = next(iter(family.roles[role].parents), None)  # `standards[0]` is no blank
             if role is not None and not (family.roles[role].dosed and level == 0):
                 placed = True
                 candidates.setdefault(ref, []).append(Candidate(worth, role, one, level))

@@ -87,6 +87,10 @@ class Roles:
         assigned = self.by_well.get(ref)
         return assigned is not None and not self.family.closure(assigned.role).isdisjoint(wanted)
 
+    def is_given(self, ref: WellRef) -> bool:
+        """Whether the guard's arguments say what a well is for."""
+        return ref in self.by_well and self.by_well[ref].kind is Kind.GIVEN
+
     def is_doubtful(self, ref: WellRef) -> bool:
         """Whether nothing but written wells or a model's reading says what a well is for."""
         assigned = self.by_well.get(ref)

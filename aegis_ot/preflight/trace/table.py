@@ -151,25 +151,39 @@ def _told(same: Sequence[_Session], wells: Told) -> str:
 
 def _row(same: Sequence[_Row], wells: Told) -> str:
     """Rows of one word, told together."""
-    line = f"L{same[0].line} " if same[0].line is not None else ""
-    most = max(row.volume for row in same)
-    low, high = (f"{volume:.4g}" for volume in (min(row.volume for row in same), most))
+    return _rows([same], wells)
+
+
+def _rows(parts: Sequence[Sequence[_Row]], wells: Told) -> str:
+    """The same, with a border between the wells of one part and of the next: of each session."""
+    rows = [row for part in parts for row in part]
+    line = f"L{rows[0].line} " if rows[0].line is not None else ""
+    most = max(row.volume for row in rows)
+    low, high = (f"{volume:.4g}" for volume in (min(row.volume for row in rows), most))
     volume = f" {high if low == high else f'{low}-{high}'}" if most else ""
-    return f"{line}{same[0].word}{volume} {wells([w for row in same for w in row.wells])}"
+    places = " | ".join(wells([well for row in part for well in row.wells]) for part in parts)
+    return f"{line}{rows[0].word}{volume} {places}"
 
 
 def _summed(sessions: Sequence[_Session], wells: Told, by_line: bool) -> str:
     """Several tip sessions in one line: what they did, each thing once with its wells, which stand
     in the order of the sessions: of as many drawn from as given to, the third goes into the third.
     """
-    rows: dict[Hashable, list[_Row]] = {}
-    every = [row for session in sessions for row in session.rows]
-    for row in every:
-        line = row.line if by_line else None
-        rows.setdefault((row.word, line), []).append(replace(row, line=line))
-    told = [_row(same, wells) for same in rows.values()]
+    rows: dict[Hashable, list[list[_Row]]] = {}
+    for session in sessions:
+        mine: dict[Hashable, list[_Row]] = {}
+        for row in session.rows:
+            line = row.line if by_line else None
+            mine.setdefault((row.word, line), []).append(replace(row, line=line))
+        for what, same in mine.items():
+            rows.setdefault(what, []).append(same)
+    told = []
+    for parts in rows.values():
+        # Where one tip did it several times, it is told which.
+        bordered = by_line and len({len(part) for part in parts}) > 1
+        told.append(_rows(parts if bordered else [[one for part in parts for one in part]], wells))
     if not by_line:
-        lines = [row.line for row in every if row.line]
+        lines = [row.line for session in sessions for row in session.rows if row.line]
         told.insert(0, f"lines {min(lines, default=0)}-{max(lines, default=0)}")
     return f"{_tips(sessions)}: {'; '.join(told)}"
 

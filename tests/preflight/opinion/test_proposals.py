@@ -46,7 +46,8 @@ def read(text: str) -> Reading:
 
 
 def verified(*proposals: RoleProposal, text: str = PROTOCOL) -> tuple[list[Evidence], list[str]]:
-    return verify_proposals(proposals, read(text), "m")
+    accepted, rejected = verify_proposals(proposals, read(text), "m")
+    return list(accepted), rejected
 
 
 def said(
@@ -75,7 +76,7 @@ def test_a_well_may_be_named_by_slot_or_by_the_labwares_name(place: str) -> None
     accepted, _ = verify_proposals(
         [RoleProposal("template", (place,), (), (Citation(2, "genomic DNA"),))], read(PROTOCOL), "m"
     )
-    assert [ref.address for ref in accepted[0].wells] == ["2:A2"]
+    assert [ref.address for one in accepted for ref in one.wells] == ["2:A2"]
 
 
 def test_blanks_in_a_quote_do_not_matter() -> None:
@@ -176,6 +177,13 @@ def test_one_level_is_of_all_wells() -> None:
     (one,), _ = verified(levels("250 ug/mL"), text=STANDARDS)
     assert len(one.levels) == 4
     assert len(set(one.levels)) == 1
+
+
+def test_a_unit_may_stand_once_for_all() -> None:
+    (one,), _ = verified(
+        levels("2000 ug/mL", "1000 ug/mL", "500 ug/mL", "250 ug/mL"), text=STANDARDS
+    )
+    assert one.levels == (2.0, 1.0, 0.5, 0.25)
 
 
 def test_a_level_may_be_a_word() -> None:
