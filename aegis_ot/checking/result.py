@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..preflight import Database, Report
 from ..preflight.judging import RoleEvidence, Waived, unanswered, verdict_of
-from ..preflight.opinion import Dossier
-from ..vocabulary import Finding, Remark, Undecided, VerdictWord
+from ..vocabulary import Dossier, Finding, Remark, Undecided, VerdictWord
 
 if TYPE_CHECKING:
     from ..reasoning import Judgement

@@ -19,7 +19,7 @@ from ..preflight import (
     load_database,
     record,
 )
-from ..preflight.opinion import Dossier, check_with_dossier
+from ..preflight.opinion import check_with_dossier
 from ..preflight.rehearsal import (
     Parameter,
     Recording,
@@ -28,6 +28,7 @@ from ..preflight.rehearsal import (
     interrupted_after,
     load,
 )
+from ..vocabulary import Dossier
 from .rule_examples import ExampleResult, run_examples
 
 RulePaths = tuple[str, ...]

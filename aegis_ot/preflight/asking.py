@@ -17,9 +17,9 @@ from typing import Any
 
 from ..http_client import HttpClient
 from ..settings import Settings
-from ..vocabulary import Undecided, from_json, to_json
+from ..vocabulary import Dossier, Opinion, Undecided, from_json, to_json
 from .judging import MODEL, Reading, Report
-from .opinion import Dossier, Opinion, make_dossier, merge
+from .opinion import make_dossier, merge
 
 LIVE_WAIT_S = 1.0
 """How long a live run waits for an opinion that should be remembered already, s."""

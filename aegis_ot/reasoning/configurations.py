@@ -18,8 +18,8 @@ from enum import Enum
 
 from ..preflight import Database, Report
 from ..preflight.judging import MODEL, Reading, verdict_of
-from ..preflight.opinion import Dossier, Opinion, merge, no_answer
-from ..vocabulary import Severity, Undecided, VerdictWord
+from ..preflight.opinion import merge, no_answer
+from ..vocabulary import Dossier, Opinion, Severity, Undecided, VerdictWord
 from .backend import Backend, Reply, Request, State, Usage
 from .layer1_prompt import blind_request, hybrid_request, llm_only_request
 from .read_answer import read_opinion

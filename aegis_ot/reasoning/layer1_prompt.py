@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import hashlib
 
-from ..preflight.opinion import Dossier, rule_text
+from ..preflight.opinion import rule_text
 from ..preflight.rules import Database, Family
 from ..preflight.source import source_lines
-from ..vocabulary import one_line
+from ..vocabulary import Dossier, one_line
 from .answer import ANSWER_SCHEMA, BLIND_SCHEMA
 from .backend import Message, Passage, Request
 from .prompts_text import prompt

@@ -16,8 +16,7 @@ import threading
 from pathlib import Path
 
 from ..preflight import Database, load_database
-from ..preflight.opinion import Dossier, Opinion
-from ..vocabulary import from_json, to_json
+from ..vocabulary import Dossier, Opinion, from_json, to_json
 from .backend import Backend, State
 from .configurations import Configuration, give_opinion, request_in
 

@@ -13,9 +13,20 @@ from ..preflight.evidence import wells_in
 from ..preflight.evidence.deck import without_slot
 from ..preflight.evidence.well_names import WELL
 from ..preflight.judging import MODEL
-from ..preflight.opinion import Citation, Dossier, Opinion, RoleProposal, RuleAnswer, is_known
 from ..preflight.source import source_lines
-from ..vocabulary import Finding, Severity, Site, WellRef, one_line
+from ..vocabulary import (
+    Citation,
+    Dossier,
+    Finding,
+    Opinion,
+    RoleProposal,
+    RuleAnswer,
+    Severity,
+    Site,
+    WellRef,
+    is_known,
+    one_line,
+)
 from .backend import State
 
 LONGEST_TEXT = 400

@@ -14,11 +14,10 @@ from fastapi import APIRouter, Query, Request
 from starlette.concurrency import run_in_threadpool
 
 from ..errors import ConfigurationError
-from ..preflight.opinion import Dossier, Opinion
 from ..reasoning import Backend, Opinions, load_prices, make_backend
 from ..reasoning.gate_tiers import Budget, VlmTiers
 from ..vision.gates import ConfirmingGate
-from ..vocabulary import from_json, to_json
+from ..vocabulary import Dossier, Opinion, from_json, to_json
 from .bodies import read_body
 from .config import SidecarConfig
 from .wire import MAX_WAIT, WireError

@@ -6,6 +6,17 @@ these. They carry no behaviour beyond naming themselves and turning into plain J
 
 from .channels import is_row, named_wells, unobserved, with_places
 from .findings import Finding, Remark, Severity, Site, Undecided, VerdictWord
+from .opinions import (
+    Citation,
+    DeckItem,
+    Dossier,
+    Opinion,
+    RoleLine,
+    RoleProposal,
+    RuleAnswer,
+    RuleBrief,
+    is_known,
+)
 from .sentences import counted, one_line
 from .trajectories import (
     ChannelOutcome,
@@ -24,14 +35,22 @@ from .wire import from_json, to_json
 __all__ = [
     "ChannelOutcome",
     "ChannelVerdict",
+    "Citation",
+    "DeckItem",
+    "Dossier",
     "FailureType",
     "Finding",
     "Gate",
     "Keyframe",
     "KeyframeKind",
+    "Opinion",
     "Outcome",
     "Remark",
+    "RoleLine",
+    "RoleProposal",
     "Route",
+    "RuleAnswer",
+    "RuleBrief",
     "Severity",
     "Site",
     "Undecided",
@@ -40,6 +59,7 @@ __all__ = [
     "WellRef",
     "counted",
     "from_json",
+    "is_known",
     "is_row",
     "named_wells",
     "one_line",

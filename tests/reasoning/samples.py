@@ -8,11 +8,12 @@ from typing import Any
 
 from aegis_ot.preflight import Database, Options, Report, load_database
 from aegis_ot.preflight.judging import Reading
-from aegis_ot.preflight.opinion import Dossier, check_with_dossier
+from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reasoning import Message, Passage, Picture, Request
 from aegis_ot.reasoning.answer import strict_object
 from aegis_ot.reasoning.backends import Clock
+from aegis_ot.vocabulary import Dossier
 
 SCHEMA: dict[str, Any] = strict_object(
     verdict={"type": "string", "enum": ["pass", "fail"]},

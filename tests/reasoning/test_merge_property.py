@@ -10,9 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from aegis_ot.preflight import Report
-from aegis_ot.preflight.opinion import Dossier
 from aegis_ot.reasoning import ScriptedBackend, State, judge_in
-from aegis_ot.vocabulary import Severity, VerdictWord
+from aegis_ot.vocabulary import Dossier, Severity, VerdictWord
 
 from .samples import CONTAMINATED, PROSE, SILENT, database, examined
 

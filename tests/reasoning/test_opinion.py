@@ -8,10 +8,10 @@ import pytest
 
 from aegis_ot.preflight import Options
 from aegis_ot.preflight.judging import unanswered
-from aegis_ot.preflight.opinion import Dossier, merge
+from aegis_ot.preflight.opinion import merge
 from aegis_ot.reasoning import Judgement, ScriptedBackend, State, judge_in
 from aegis_ot.reasoning.read_answer import read_opinion
-from aegis_ot.vocabulary import Severity, VerdictWord, from_json, to_json
+from aegis_ot.vocabulary import Dossier, Severity, VerdictWord, from_json, to_json
 
 from .samples import (
     CONTAMINATED,

@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 import textwrap
 
-from aegis_ot.preflight.opinion import Dossier
 from aegis_ot.preflight.trace import places
-from aegis_ot.vocabulary import WellRef
+from aegis_ot.vocabulary import Dossier, WellRef
 
 from .samples import checked
 

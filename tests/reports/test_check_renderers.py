@@ -12,12 +12,12 @@ import pytest
 from syrupy.assertion import SnapshotAssertion
 
 from aegis_ot.checking import CheckedProtocol, CheckRun
-from aegis_ot.preflight.opinion import Opinion, no_answer
+from aegis_ot.preflight.opinion import no_answer
 from aegis_ot.reasoning import Configuration, Judgement, Reply, State, Usage
 from aegis_ot.reports import RENDERERS, check_github, check_html, check_json, check_sarif
 from aegis_ot.reports.check_junit import check_junit
 from aegis_ot.reports.check_text import check_text
-from aegis_ot.vocabulary import Finding, Severity, Site
+from aegis_ot.vocabulary import Finding, Opinion, Severity, Site
 
 from .sample import CARRY, DATABASE, LINES, RUN, report, well
 from .sarif_constraints import SARIF

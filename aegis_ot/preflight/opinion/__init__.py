@@ -1,22 +1,16 @@
 """A model's part in Layer 1: what it gets to know, what of its answer counts.
 
-In this order: a :class:`Dossier` is made from the kept reading, the model is asked elsewhere
-(:mod:`aegis_ot.reasoning`), the proposals for roles of its :class:`Opinion` are verified against
-source and trace, and what is left is merged into the report. Standard library only.
+In this order: a :class:`~aegis_ot.vocabulary.Dossier` is made from the kept reading, the model is
+asked elsewhere (:mod:`aegis_ot.reasoning`), the proposals for roles of its
+:class:`~aegis_ot.vocabulary.Opinion` are verified against source and trace, and what is left is
+merged into the report. Standard library only.
 """
 
-from .exchange import Citation, Dossier, Opinion, RoleProposal, RuleAnswer, is_known, no_answer
 from .making import check_with_dossier, make_dossier, rule_text
-from .merging import merge
+from .merging import merge, no_answer
 
 __all__ = [
-    "Citation",
-    "Dossier",
-    "Opinion",
-    "RoleProposal",
-    "RuleAnswer",
     "check_with_dossier",
-    "is_known",
     "make_dossier",
     "merge",
     "no_answer",

@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Sequence
 
-from ...vocabulary import Severity, WellRef
+from ...vocabulary import DeckItem, Dossier, RoleLine, RuleBrief, Severity, WellRef
 from ..database import load_database, shipped_rules
 from ..judging import Options, Reading, Report, RoleEvidence, judge, missing_needs
 from ..rehearsal import Recording, Script, record
 from ..rules import Database, RuleSpec
 from ..trace import places, row_column, trace_table
-from .exchange import DeckItem, Dossier, RoleLine, RuleBrief
 
 LONGEST_SOURCE = 40_000
 """Characters of source that are shown; what is cut is said."""

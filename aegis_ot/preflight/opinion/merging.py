@@ -12,9 +12,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from ...vocabulary import Finding, Severity, Undecided, VerdictWord
+from ...vocabulary import Finding, Opinion, Severity, Undecided, VerdictWord, is_known
 from ..evidence import Evidence
 from ..judging import (
+    MODEL,
     Reading,
     Report,
     apply_waivers,
@@ -24,8 +25,12 @@ from ..judging import (
     spelled,
     verdict_of,
 )
-from .exchange import Opinion, is_known, no_answer
 from .proposals import verify_proposals
+
+
+def no_answer(opinion: Opinion) -> Undecided:
+    """What a report says of a model that was asked in vain."""
+    return Undecided(MODEL, f"{opinion.model} gave no answer ({opinion.state}): {opinion.detail}")
 
 
 def merge(report: Report, opinion: Opinion, reading: Reading) -> Report:

@@ -8,12 +8,11 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from ...vocabulary import WellRef, one_line
+from ...vocabulary import Citation, RoleProposal, WellRef, one_line
 from ..evidence import Evidence, Kind
 from ..judging import Reading
 from ..roles import Roles
 from ..source import level_of, source_lines
-from .exchange import Citation, RoleProposal
 
 
 class Rejected(Exception):

@@ -9,9 +9,9 @@ import pytest
 from aegis_ot.preflight import Options, load_database, record
 from aegis_ot.preflight.evidence import Evidence, Kind
 from aegis_ot.preflight.judging import Reading
-from aegis_ot.preflight.opinion import Citation, RoleProposal
 from aegis_ot.preflight.opinion.proposals import verify_proposals
 from aegis_ot.preflight.rehearsal import Script
+from aegis_ot.vocabulary import Citation, RoleProposal
 
 PROTOCOL = """metadata = {"apiLevel": "2.15", "protocolName": "PCR set-up"}
 # In the rack: first comes the   polymerase mix, then genomic DNA,

@@ -1,4 +1,4 @@
-"""What crosses the wire: what a model gets to know of one protocol, and what it answers.
+"""What a model gets to know of one protocol, and what it answers.
 
 A dossier (source, trace, roles, open questions) is put together where the rehearsal is (the robot,
 or a workstation), and read where the model is. It holds plain values only, so it crosses the wire
@@ -12,8 +12,9 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ...vocabulary import Finding, Severity, Undecided, WellRef, to_json
-from ..judging import MODEL
+from .findings import Finding, Severity, Undecided
+from .wells import WellRef
+from .wire import to_json
 
 
 @dataclass(frozen=True)
@@ -161,11 +162,6 @@ class Opinion:
     def answered(self) -> bool:
         """Whether the model gave an answer."""
         return self.state == "answered"
-
-
-def no_answer(opinion: Opinion) -> Undecided:
-    """What a report says of a model that was asked in vain."""
-    return Undecided(MODEL, f"{opinion.model} gave no answer ({opinion.state}): {opinion.detail}")
 
 
 def is_known(finding: Finding, others: Sequence[Finding]) -> bool:
