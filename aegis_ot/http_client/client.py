@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import http.client
 import json
+from collections.abc import Mapping
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -23,15 +24,26 @@ class HttpClient:
         token: Bearer token, or ``None``.
         check_stop: Called at least every 0.15 s during every wait; whatever it raises ends the
             request and reaches the caller.
+        headers: Sent with each request.
     """
 
-    def __init__(self, url: str, token: str | None, check_stop: CheckStop = lambda: None) -> None:
+    def __init__(
+        self,
+        url: str,
+        token: str | None,
+        check_stop: CheckStop = lambda: None,
+        headers: Mapping[str, str] | None = None,
+    ) -> None:
         parts = urlsplit(url)
         self._host = parts.hostname or ""
         self._tls = parts.scheme == "https"
         self._port = parts.port or (443 if self._tls else 80)
         self._path = parts.path.rstrip("/")
-        self._headers = {"Accept": "application/json", "Connection": "keep-alive"}
+        self._headers = {
+            "Accept": "application/json",
+            "Connection": "keep-alive",
+            **(headers or {}),
+        }
         if token:
             self._headers["Authorization"] = f"Bearer {token}"
         self._waiter = Waiter(check_stop)
@@ -84,7 +96,10 @@ class HttpClient:
             payload = json.dumps(body).encode()
             headers["Content-Type"] = "application/json"
         connection.request(method, self._path + path, body=payload, headers=headers)
-        response = connection.getresponse()
+        # Not by the connection: it closes the socket of an answer that is the last one at once, and
+        # the body may still be on its way.
+        response = http.client.HTTPResponse(self._sock, method=method)  # type: ignore[arg-type]
+        response.begin()
         data = response.read(_LONGEST_ANSWER + 1)
         if len(data) > _LONGEST_ANSWER:
             raise http.client.HTTPException("endless answer")

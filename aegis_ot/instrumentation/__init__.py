@@ -5,6 +5,7 @@ from .names import NameBinding, NameCollector
 from .operation import Event, EventKind, Listener, Operation, OperationKind, Pipette
 from .repeating import is_repeatable
 from .tap import Tap, tapped
+from .tip_layers import expel
 from .value_reader import Row, is_spot
 
 __all__ = [
@@ -20,6 +21,7 @@ __all__ = [
     "Row",
     "Tap",
     "WellInfo",
+    "expel",
     "is_repeatable",
     "is_spot",
     "tapped",

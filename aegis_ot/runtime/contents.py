@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from typing import NamedTuple
 
+from ..instrumentation import expel
 from ..vocabulary import WellRef
 
 TRACE_UL = 1e-3
 """Less than this is rounding, not liquid, µL."""
 
 
-@dataclass(frozen=True)
-class Layer:
+class Layer(NamedTuple):
     """One draw.
 
     Attributes:
@@ -62,27 +63,14 @@ class Contents:
 
     def peek(self, volume: float | None = None) -> tuple[Layer, ...]:
         """What would leave if ``volume`` µL were dispensed; everything for ``None``."""
-        left = float("inf") if volume is None else volume
-        leaving: list[Layer] = []
-        for layer in reversed(self._layers):
-            if left <= 0:
-                break
-            leaving.append(replace(layer, volume=min(layer.volume, left)))
-            left -= layer.volume
-        return tuple(leaving)
+        return tuple(expel(list(self._layers), math.inf if volume is None else volume))
 
     def expel(self, volume: float | None = None) -> tuple[Layer, ...]:
         """Let ``volume`` µL leave and say what it was; everything for ``None``."""
-        leaving = self.peek(volume)
-        left = sum(layer.volume for layer in leaving)
-        while self._layers and left > 0:
-            last = self._layers.pop()
-            if last.volume > left + TRACE_UL / 1000:
-                self._layers.append(replace(last, volume=last.volume - left))
-            left -= last.volume
+        leaving = expel(self._layers, math.inf if volume is None else volume)
         if not self.holds_liquid and any(layer.liquid for layer in self._layers):
             self._layers = [layer for layer in self._layers if not layer.liquid]
-        return leaving
+        return tuple(leaving)
 
     def clear(self) -> None:
         """The tip is gone, or a new one is there."""

@@ -14,11 +14,10 @@ from collections.abc import Callable
 from typing import Any
 
 from ..errors import LinkError
-from ..http_client import CheckStop
+from ..http_client import CheckStop, HttpClient
 from .link import SidecarLink
 
-ROBOT_SERVER = ("127.0.0.1", 31950)
-_HEADERS = {"Opentrons-Version": "*", "Content-Type": "application/json"}
+ROBOT_SERVER = "http://127.0.0.1:31950"
 _TIMEOUT_S = 5.0
 _EVERY_S = 0.5
 _ASK_S = 2.0
@@ -94,23 +93,20 @@ def act_on_current_run(action: str) -> bool:
     Returns:
         Whether it took the order.
     """
-    connection = http.client.HTTPConnection(*ROBOT_SERVER, timeout=_TIMEOUT_S)
+    robot = HttpClient(ROBOT_SERVER, None, headers={"Opentrons-Version": "*"})
     try:
-        current = _ask(connection, "GET", "/runs?pageLength=1")
+        current = _ask(robot, "GET", "/runs?pageLength=1")
         href = current["links"]["current"]["href"]
-        _ask(connection, "POST", f"{href}/actions", {"data": {"actionType": action}})
+        _ask(robot, "POST", f"{href}/actions", {"data": {"actionType": action}})
     except (OSError, http.client.HTTPException, ValueError, KeyError, TypeError):
         return False
     finally:
-        connection.close()
+        robot.close()
     return True
 
 
-def _ask(connection: http.client.HTTPConnection, method: str, path: str, body: Any = None) -> Any:
-    payload = None if body is None else json.dumps(body)
-    connection.request(method, path, payload, _HEADERS)
-    answer = connection.getresponse()
-    data = answer.read(1_000_000)
-    if answer.status not in (200, 201):
-        raise ValueError(f"status {answer.status}")
-    return json.loads(data)
+def _ask(robot: HttpClient, method: str, path: str, body: Any = None) -> Any:
+    status, answer = robot.request(method, path, body, _TIMEOUT_S)
+    if status not in (200, 201):
+        raise ValueError(f"status {status}")
+    return json.loads(answer)

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 
 from aegis_ot.errors import LinkError, SidecarGarbled, SidecarRefused, SidecarUnreachable
+from aegis_ot.http_client import HttpClient
 from aegis_ot.runtime.link import CameraSilent, RunUnknown, SequenceGap, SidecarLink
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, Outcome, WellRef
 
@@ -211,6 +212,26 @@ def test_an_answer_that_drips_byte_by_byte_still_ends_in_time(
         link.health(0.3)
     release.set()
     assert time.monotonic() - began < 1.0
+
+
+def test_the_last_answer_of_a_connection_is_read_to_its_end(sidecar: FakeSidecar) -> None:
+    told, wanted = threading.Event(), threading.Event()
+
+    def fault(handler: Handler) -> bool:
+        handler.wfile.write(b"HTTP/1.1 200 OK\r\nConnection: close\r\nContent-Length: 4\r\n\r\n")
+        told.set()
+        assert wanted.wait(5)
+        handler.raw(b"late")
+        return True
+
+    def check_stop() -> None:
+        if told.is_set():
+            wanted.set()
+
+    sidecar.fault = fault
+    client = HttpClient(sidecar.url, None, check_stop)
+    assert client.request("GET", "/", None, 5.0) == (200, b"late")
+    client.close()
 
 
 @pytest.mark.parametrize(

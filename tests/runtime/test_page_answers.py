@@ -56,7 +56,8 @@ class RobotServer:
 def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[RobotServer]:
     robot = RobotServer()
     threading.Thread(target=robot.server.serve_forever, args=(0.02,), daemon=True).start()
-    monkeypatch.setattr(page_answers, "ROBOT_SERVER", robot.server.server_address[:2])
+    host, port = robot.server.server_address[:2]
+    monkeypatch.setattr(page_answers, "ROBOT_SERVER", f"http://{host}:{port}")
     yield robot
     robot.server.shutdown()
     robot.server.server_close()

@@ -163,7 +163,7 @@ class _Builder:
         if draws and well is not None and not (step.is_air or self._draws_air(step, tip, well)):
             self._aspirate(step, tip, well)
         elif draws or kind is OperationKind.AIR_GAP:
-            tip.layers.append((None, step.volume, {}, step.line))
+            tip.layers.append(Layer(None, step.volume, {}, step.line))
         elif kind is OperationKind.DISPENSE or kind is OperationKind.BLOW_OUT:
             parts = tip.pop(step.volume if kind is OperationKind.DISPENSE else math.inf)
             if well is not None:
@@ -215,7 +215,7 @@ class _Builder:
         visit.air = missing if well.declared is not None else 0.0
         if missing > _slack(step.volume):
             self._trace.imbalances.append(Imbalance(visit, False, step.volume, held))
-        tip.layers.append((well, step.volume, liquid, step.line))
+        tip.layers.append(Layer(well, step.volume, liquid, step.line))
         self._last[tip] = visit
 
     def _give(self, step: Operation, tip: Tip, well: Well, parts: list[Layer]) -> None:

@@ -17,8 +17,15 @@ if TYPE_CHECKING:
 Composition = Mapping["Well", float]
 """Shares of a liquid by the well each part stood in before the run; they sum to 1."""
 
-Layer = tuple["Well | None", float, Composition, "int | None"]
-"""Liquid in a tip: well it was drawn from (``None``: air), µL, what it is, source line."""
+
+class Layer(NamedTuple):
+    """Liquid in a tip: well it was drawn from (``None``: air), µL, what it is, source line."""
+
+    source: Well | None
+    volume: float
+    liquid: Composition
+    line: int | None
+
 
 EMPTY_UL = 1e-6
 

@@ -6,9 +6,10 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
+from ...instrumentation import expel
 from ...vocabulary import WellRef
 from .geometry import Contact
-from .model import EMPTY_UL, Layer, Visit, Well
+from .model import Layer, Visit, Well
 
 
 @dataclass(eq=False, slots=True)
@@ -59,21 +60,8 @@ class Tip:
             known.wet = min(known.wet, wet)
 
     def pop(self, volume: float = math.inf) -> list[Layer]:
-        """Give off ``volume`` µL: what was drawn last leaves first; air is given off unlisted.
-
-        The volume that a protocol commands includes the air it drew.
-        """
-        given: list[Layer] = []
-        layers = self.layers
-        while layers and volume > EMPTY_UL:
-            source, held, liquid, line = layers.pop()
-            out = held if held <= volume + EMPTY_UL else volume
-            if held - out > EMPTY_UL:
-                layers.append((source, held - out, liquid, line))
-            if source is not None and out > 0:
-                given.append((source, out, liquid, line))
-            volume -= out
-        return given
+        """Give off ``volume`` µL, air included; the air is not listed."""
+        return [one for one in expel(self.layers, volume) if one.source is not None]
 
 
 class TipBox:

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from aegis_ot.instrumentation import WellInfo
 from aegis_ot.preflight.trace import Contact, Tip, Well, trace_table
 from aegis_ot.preflight.trace.geometry import Geometry
+from aegis_ot.preflight.trace.model import Layer
 from aegis_ot.vocabulary import WellRef
 from tests.support.bench import Bench
 
@@ -93,11 +94,11 @@ def test_what_leaves_a_tip_had_been_drawn(moves: list[tuple[bool, float]]) -> No
     drawn = given_off = 0.0
     for draws, volume in moves:
         if draws:
-            tip.layers.append((source, volume, source.liquid(), 1))
+            tip.layers.append(Layer(source, volume, source.liquid(), 1))
             drawn += volume
         else:
-            given_off += sum(part[1] for part in tip.pop(volume))
-    given_off += sum(part[1] for part in tip.pop())
+            given_off += sum(part.volume for part in tip.pop(volume))
+    given_off += sum(part.volume for part in tip.pop())
     assert given_off == pytest.approx(drawn, abs=1e-3)
     assert not tip.layers
 
