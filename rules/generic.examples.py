@@ -189,3 +189,18 @@ for well in sample_plate.rows()[0][:3]:
     p300.dispense(20, well)
     p300.touch_tip()
 p300.drop_tip()
+
+# deck
+cells = protocol.load_labware("corning_24_wellplate_3.4ml_flat", 9, "HeLa cells").wells()[:4]
+medium, waste = reservoir["A1"], reservoir["A12"]
+
+# GEN-2 fails: the tip that drew the old medium off the cells goes into the fresh one
+p300.pick_up_tip()
+for well in cells:
+    p300.transfer(200, well, waste.top(), new_tip="never")
+    p300.transfer(200, medium, well.top(), new_tip="never")
+p300.drop_tip()
+
+# GEN-2 passes: a tip for the old medium, another one for the fresh one
+p300.transfer(200, cells, waste.top(), new_tip="always")
+p300.transfer(200, medium, [well.top() for well in cells], new_tip="once")

@@ -60,6 +60,10 @@ class Bench:
     def give(self, well: str, volume: float, top: float = -9.0, mixing: bool = False) -> None:
         self._do(OperationKind.DISPENSE, _ref(well), volume, top, mixing=mixing)
 
+    def mix(self, well: str, volume: float, top: float = -9.5) -> None:
+        self.draw(well, volume, top, mixing=True)
+        self.give(well, volume, top, mixing=True)
+
     def air(self, volume: float) -> None:
         self._do(OperationKind.AIR_GAP, None, volume)
 

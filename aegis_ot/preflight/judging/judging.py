@@ -140,7 +140,8 @@ def _report(
 ) -> Report:
     recording, options, database = reading.recording, reading.options, reading.database
     waivers = read_waivers(reading.facts)
-    standing, waived = apply_waivers(findings_of(violations, database, options), waivers)
+    found = findings_of(violations, database, options, reading.trace)
+    standing, waived = apply_waivers(found, waivers)
     open_ = {question.rule for question in undecided}
     judged = [rule for rule in violations if rule not in open_]
     known = [rule.id for rule in database.rules]

@@ -179,6 +179,9 @@ class _Builder:
 
     def _visit(self, step: Operation, tip: Tip, well: Well) -> Visit:
         visit = Visit(step.kind, tip, well, self._index, step.line, step.mixing)
+        if len(step.lines) > 1:
+            by_well = self._trace.calls.setdefault(step.lines[0], {})
+            by_well.setdefault(well.ref, {})[step.lines[-1]] = None
         well.visits.append(visit)
         tip.visits.append(visit)
         self._trace.visits.append(visit)

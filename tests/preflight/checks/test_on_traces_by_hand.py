@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 
 from aegis_ot.instrumentation import OperationKind
-from aegis_ot.preflight.evidence import Kind
+from aegis_ot.preflight.evidence import Evidence, Kind
 from aegis_ot.preflight.roles import derive
 from aegis_ot.preflight.trace import Contact
 from aegis_ot.vocabulary import WellRef
@@ -62,6 +62,19 @@ def test_template_on_a_tip_gets_into_an_ntc_by_contact_alone(
     if found:
         assert wells(found) == {"plate:H1"}
         assert [site.line for site in found[0].sites] == [2, 5]
+
+
+def test_a_wet_contact_behind_a_near_one_counts() -> None:
+    bench = Bench()
+    bench.load("plate:H1", 20)
+    bench.pick()
+    transfer(bench, "source:A1", "plate:A1", fresh=False)
+    transfer(bench, "source:D1", "plate:H1", top=NEAR, fresh=False)
+    bench.mix("plate:H1", 10)
+    bench.drop()
+    (found,) = broken(case_of(bench.trace(), "pcr", PCR), "PCR-2")
+    assert found.contact is Contact.WET
+    assert [site.line for site in found.sites] == [2, 6]
 
 
 def test_a_fresh_tip_carries_nothing() -> None:
@@ -276,6 +289,33 @@ def test_one_tip_doses_from_low_to_high(order: str, found: set[str]) -> None:
     assert wells(broken(case_of(bench.trace(), "cell_treatment", roles, levels), "CELL-4")) == found
 
 
+def test_a_wet_contact_behind_a_near_one_counts_in_the_order_of_doses() -> None:
+    roles = {"drug": "source:A1 source:B1", "treated": "plate:A1 plate:B1"}
+    bench = Bench()
+    for row in "AB":
+        bench.load(f"plate:{row}1", 10)
+    bench.pick()
+    transfer(bench, "source:A1", "plate:A1", fresh=False)
+    transfer(bench, "source:B1", "plate:B1", top=-7.0, fresh=False)
+    bench.mix("plate:B1", 10)
+    levels = {"source:A1": 100.0, "source:B1": 1.0}
+    (found,) = broken(case_of(bench.trace(), "cell_treatment", roles, levels), "CELL-4")
+    assert (wells([found]), found.contact) == ({"plate:B1"}, Contact.WET)
+
+
+@pytest.mark.parametrize(("second", "found"), [(9.0, {"plate:B1"}), (10.0, set())])
+def test_more_of_one_drug_is_the_higher_dose(second: float, found: set[str]) -> None:
+    roles = {"drug": "source:A1", "treated": "plate:A1 plate:B1"}
+    bench = Bench()
+    for row in "AB":
+        bench.load(f"plate:{row}1", 100)
+    bench.pick()
+    transfer(bench, "source:A1", "plate:A1", 10.0, fresh=False)
+    transfer(bench, "source:A1", "plate:B1", second, fresh=False)
+    case = case_of(bench.trace(), "cell_treatment", roles, {"source:A1": 5.0})
+    assert wells(broken(case, "CELL-4")) == found
+
+
 # -- dilution series
 
 
@@ -389,6 +429,61 @@ def test_one_tip_through_several_sources() -> None:
         transfer(bench, f"source:{row}1", f"plate:{row}1", fresh=False)
     found = broken(case_of(bench.trace(), "generic", roles), "GEN-1")
     assert wells(found) == {"source:B1", "plate:B1"}
+
+
+def medium_exchange(fresh: bool) -> Bench:
+    bench = Bench()
+    for well in ("plate:A1", "plate:B1"):
+        bench.load(well, 150)
+    for well in ("plate:A1", "plate:B1"):
+        bench.pick()
+        transfer(bench, well, "waste:A1", 50, top=HIGH, fresh=False)
+        if fresh:
+            bench.drop()
+            bench.pick()
+        transfer(bench, "source:A1", well, 50, top=HIGH, fresh=False)
+        bench.drop()
+    return bench
+
+
+@pytest.mark.parametrize("kind", ["cell_well", "destination", "sample_well"])
+def test_what_was_drawn_off_a_well_gets_into_the_stock_that_refills_it(kind: str) -> None:
+    roles = {"stock": "source:A1", kind: "plate:A1 plate:B1"}
+    found = broken(case_of(medium_exchange(False).trace(), "generic", roles), "GEN-2")
+    assert wells(found) == {"source:A1"}
+    assert [[site.line for site in one.sites] for one in found] == [[2, 4], [8, 10]]
+    assert not broken(case_of(medium_exchange(False).trace(), "generic", roles), "GEN-1")
+    assert not broken(case_of(medium_exchange(True).trace(), "generic", roles), "GEN-2")
+
+
+def test_a_mix_in_wells_of_which_nothing_is_said_leaves_the_return_open() -> None:
+    bench = Bench()
+    bench.pick()
+    for well in ("plate:A1", "plate:B1"):
+        transfer(bench, "source:A1", well, 50, fresh=False)
+        bench.mix(well, 30)
+    bench.drop()
+    roles = {"stock": "source:A1"}
+    (told,) = doubts(case_of(bench.trace(), "generic", roles), "GEN-2")
+    assert "held before, and the tip that mixed in it at line 4 enters" in told
+    given = {**roles, "destination": "plate:A1 plate:B1"}
+    assert not doubts(case_of(bench.trace(), "generic", given), "GEN-2")
+
+
+@pytest.mark.parametrize(("order", "found"), [("AB", {"source:B1", "plate:B1"}), ("BA", set())])
+def test_of_wells_with_nothing_but_a_number_the_lower_goes_first(
+    order: str, found: set[str]
+) -> None:
+    bench = Bench()
+    bench.pick()
+    for row in order:
+        transfer(bench, f"source:{row}1", f"plate:{row}1", fresh=False)
+    case = case_of(bench.trace(), "generic", {"destination": "plate:A1 plate:B1"})
+    for row, level in (("A", 100.0), ("B", 1.0)):
+        ref = WellRef("source", f"{row}1")
+        case.roles.derive(ref, "source")
+        case.roles.unread.append(Evidence(Kind.NAME, "STD", (ref,), "", levels=(level,)))
+    assert wells(broken(case, "GEN-1")) == found
 
 
 def test_back_into_the_pool_that_the_tip_comes_from() -> None:

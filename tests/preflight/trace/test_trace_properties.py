@@ -68,6 +68,14 @@ def test_shapes_hold_what_their_formulas_say() -> None:
     assert Geometry(box).volume_below(6) == pytest.approx(2 * 6 / 3 * (16 + 64 + 32))
 
 
+def test_a_v_bottom_of_which_no_more_is_known_narrows_as_pcr_wells_do() -> None:
+    v, flat = (
+        Geometry(WellInfo(200, 10, diameter=6, bottom=bottom)).volume_below(2)
+        for bottom in ("v", "flat")
+    )
+    assert v / flat == pytest.approx(0.33, abs=0.01)
+
+
 @pytest.mark.parametrize("shape", SHAPES)
 @settings(deadline=None)
 @given(
