@@ -33,7 +33,9 @@ def roles_template(checked: CheckedProtocol, database: Database) -> str:
     families = [one.family for one in report.families if one.applies] or [report.family]
     known = _by_role(report)
     lines = [_HOW, "@guard("]
-    if len(families) == 1:  # a guard that names one of several would not judge by the others
+    asked = (database.rule(one.rule) for one in report.undecided)
+    beside = {family.family for family, rule in asked if rule.scope == "family"} - {*families}
+    if len(families) == 1 and not beside:  # one that names one of several judges by no other
         lines.append(f'    assay="{families[0]}",')
     lines.append("    roles={")
     titles = {

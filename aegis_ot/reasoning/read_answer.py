@@ -34,8 +34,10 @@ LONGEST_NAME = 60
 MOST_FINDINGS = 12
 MOST_PROPOSALS = 24
 
-_CITED_WELL = re.compile(rf"(?:\b\w+:|\b){WELL}")
-_CITED_LINES = re.compile(r"\b(?:lines?\s+|L)(\d+)(?:\s*(?:-|–|,|and|to)\s*(\d+))?", re.IGNORECASE)
+_CITED_WELL = re.compile(rf"(?:\b\w+:|\b){WELL}(?:-{WELL})?(?!\w)")
+_CITED_LINES = re.compile(
+    r"\b(?:lines?\s+|L)(\d+(?:(?:\s*[,&–-]\s*|\s+)(?:and\s+|to\s+|L)?\d+)*)", re.I
+)
 
 
 def read_opinion(
@@ -125,7 +127,7 @@ def _on_deck(dossier: Dossier) -> Iterable[tuple[WellRef, str]]:
 def _violated(given: Mapping[str, Any]) -> dict[str, Any]:
     """An answer that a rule is broken as a finding, in wells and lines that it gives or cites."""
     reason = str(given["reason"])
-    lines = (int(line) for cited in _CITED_LINES.findall(reason) for line in cited if line)
+    lines = (int(n) for cited in _CITED_LINES.findall(reason) for n in re.findall(r"\d+", cited))
     return {
         "rule": given["rule"],
         "message": reason or "The model reads that it is broken.",

@@ -97,6 +97,7 @@ def act_on_current_run(action: str) -> bool:
     try:
         current = _ask(robot, "GET", "/runs?pageLength=1")
         href = current["links"]["current"]["href"]
+        robot.close()  # on a kept connection that is gone the order would be sent again
         _ask(robot, "POST", f"{href}/actions", {"data": {"actionType": action}})
     except (OSError, http.client.HTTPException, ValueError, KeyError, TypeError):
         return False

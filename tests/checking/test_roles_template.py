@@ -80,3 +80,40 @@ def test_what_only_follows_is_not_written_as_if_it_were_known(tmp_path: Path) ->
     assert "#   2:A1-D1" in template
     after = _checked(tmp_path, _pasted(NOTHING_NAMED, template))
     assert _told(after) == _told(before)
+
+
+BESIDE_A_SERIES = """
+metadata = {"protocolName": "Serial dilution", "apiLevel": "2.15"}
+
+def run(protocol):
+    tips = protocol.load_labware("opentrons_96_tiprack_300ul", 1)
+    trough = protocol.load_labware("nest_12_reservoir_15ml", 2)
+    plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 3)
+    assay = protocol.load_labware("corning_96_wellplate_360ul_flat", 4)
+    tubes = protocol.load_labware("opentrons_24_tuberack_nest_1.5ml_snapcap", 5)
+    pipette = protocol.load_instrument("p300_single_gen2", "left", tip_racks=[tips])
+    diluent, stock = trough["A1"], trough["A2"]
+    series = plate.rows()[0][:7]
+    sera = tubes.wells()[:4]
+    pipette.transfer(100, diluent, series[1:], new_tip="once")
+    pipette.transfer(200, stock, series[0])
+    pipette.transfer(100, series[:-1], series[1:], mix_after=(3, 50), new_tip="always")
+    pipette.transfer(20, sera, assay.rows()[0][:4], new_tip="once")
+"""
+
+
+def test_what_is_open_beside_a_series_stays_open_with_the_roles_pasted(tmp_path: Path) -> None:
+    before = _checked(tmp_path, BESIDE_A_SERIES)
+    assert before.verdict is VerdictWord.PASS
+    (asked,) = before.report.undecided
+    assert asked.rule == "GEN-1"
+    assert asked.reason.startswith("beside the dilution series, which is judged, the tip that met")
+    assert "at line 17" in asked.reason
+    assert asked.paste == '@guard(assay="serial_dilution, generic")'
+    template = roles_template(before, load_database())
+    assert "assay=" not in template
+    after = _checked(tmp_path, _pasted(BESIDE_A_SERIES, template))
+    assert [one.rule for one in after.report.undecided] == ["GEN-1"]
+    both = _checked(tmp_path, _pasted(BESIDE_A_SERIES, f"{asked.paste}\n"))
+    assert both.verdict is VerdictWord.FAIL
+    assert {one.rule for one in both.findings} == {"GEN-1"}

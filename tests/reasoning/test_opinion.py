@@ -137,6 +137,26 @@ def test_open_questions_stay_listed_with_the_models_reading() -> None:
     assert "it holds: H12 is no NTC." in reasons["PCR-2"]
 
 
+def test_levels_that_the_model_reads_are_offered_with_its_roles() -> None:
+    text = """
+    # The tubes A1, B1 and C1 hold the BSA standards: 0.5, 1 and 2 mg/mL.
+    metadata = {"apiLevel": "2.15", "protocolName": "Bradford assay"}
+    def run(protocol):
+        tips = protocol.load_labware("opentrons_96_tiprack_20ul", 1)
+        rack = protocol.load_labware("opentrons_24_tuberack_nest_2ml_snapcap", 2)
+        plate = protocol.load_labware("corning_96_wellplate_360ul_flat", 4)
+        p20 = protocol.load_instrument("p20_single_gen2", "left", tip_racks=[tips])
+        p20.transfer(10, rack.columns()[0][:3], plate.columns()[0][:3], new_tip="always")
+    """
+    quote = "The tubes A1, B1 and C1 hold the BSA standards: 0.5, 1 and 2 mg/mL."
+    told = ["0.5 mg/mL", "1 mg/mL", "2 mg/mL"]
+    said = proposal("standard", ["2:A1", "2:B1", "2:C1"], 2, quote, told)
+    after = judged(text, answer(family="bradford", roles=[said])).report
+    asked = {one.rule: one for one in after.undecided}["BRD-1"]
+    assert '"2:A1 = 0.5 mg/mL", "2:B1 = 1 mg/mL", "2:C1 = 2 mg/mL"' in asked.paste
+    assert asked.to_write == "write, if it reads them right"
+
+
 def test_an_answer_violated_is_a_warning_with_its_wells_and_lines() -> None:
     said = reading_of("PCR-2", "violated", ["2:A2", "4:H12"], [13, 15], "Its tip mixes H12.")
     after = judged(SILENT, answer(answers=[said])).report

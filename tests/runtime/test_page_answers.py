@@ -24,9 +24,12 @@ class RobotServer:
         self.run: LiveRun | None = None
         self.told: list[tuple[str, str]] = []
         self.status = 201
+        self.hangs_up = False
         owner = self
 
         class Answers(BaseHTTPRequestHandler):
+            protocol_version = "HTTP/1.1"
+
             def do_GET(self) -> None:
                 assert self.headers["Opentrons-Version"] == "*"
                 self.say(200, {"links": {"current": {"href": "/runs/abc"}}})
@@ -34,6 +37,9 @@ class RobotServer:
             def do_POST(self) -> None:
                 body = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
                 owner.told.append((self.path, body["data"]["actionType"]))
+                if owner.hangs_up:
+                    self.close_connection = True
+                    return
                 assert owner.run is not None
                 self.say(owner.status, {})
                 if owner.status == 201:
@@ -117,3 +123,9 @@ def test_a_robot_that_refuses_is_asked_again(
     robot.status = 201
     run.join()
     assert run.error is None
+
+
+def test_an_order_that_was_taken_without_an_answer_is_not_given_twice(robot: RobotServer) -> None:
+    robot.hangs_up = True
+    assert not page_answers.act_on_current_run("play")
+    assert robot.told == [("/runs/abc/actions", "play")]

@@ -11,12 +11,14 @@ from typing import Literal
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..rules import role_names
+from ..source import comparable
 from ..trace import Contact, Met, Tip, Visit, Well
 from .case import Case, carried_liquids
-from .check import Check, Doubt, Result, Violation, at, surest
+from .check import Check, Doubt, Result, Violation, surest
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
 _RINSED = "The tip was rinsed in between: what is left on it is a trace."
+_UNSAID = "Nothing in the protocol says what these wells held."
 _RINSES = 2
 """So many times a tip is rinsed to be taken for clean, where nothing amplifies a trace."""
 
@@ -59,37 +61,43 @@ class Carry(Check):
         # What the tip carries may do harm at a later visit to the well, or surely do it then.
         open_: dict[tuple[Tip, Well], list[tuple[Well, Met]]] = {}
         found: dict[tuple[Tip, Well, Well], Violation] = {}
+        rising: dict[Well, Well] = {}
         for visit in case.trace.visits:
             if not visit.contact or not visit.carried:
                 continue
             well = visit.well
             if not case.has(well, self.into) or case.has(well, self.not_into):
                 continue
-            drawn_for = case.destinations.get(well, {})
-            if self.shared and len(drawn_for) < 2:
+            made = case.made_of(well)
+            if self.shared and len(made) < 2:
                 continue
-            if well.ref in case.waste and (
-                visit.kind is not OperationKind.ASPIRATE
-                or all(dest.ref in case.waste for dest in drawn_for)
-            ):
+            if well.ref in case.waste and not (made and visit.kind is OperationKind.ASPIRATE):
                 continue  # it is meant for all
-            if self.stock and not drawn_for:
+            if self.stock and not made:
                 continue  # tips are rinsed in it; nothing is made of it
             key = (visit.tip, well)
             carried = (*open_.pop(key, ()), *carried_liquids(visit, judged.get(key, 0)))
             for origin, met in carried:
                 if origin not in carriers or origin is well:
                     continue
-                if self._let_be(case, visit, origin, met):
+                near = min(met.contact(visit.index), visit.contact) is Contact.NEAR
+                if near and (*key, origin) in found:
+                    again = True  # nothing new
+                elif self._let_be(case, visit, origin, met):
                     again = not once
+                elif case.left_over and self.pooled and _is_rising(case, origin, well):
+                    rising.setdefault(origin, well)
+                    again = False
                 else:
-                    violation = self._violation(case, visit, origin, met)
-                    surest(found, (*key, origin), violation)
-                    again = violation.contact is Contact.NEAR
+                    again = near
+                    surest(found, (*key, origin), self._violation(case, visit, origin, met))
                 if again:
                     open_.setdefault(key, []).append((origin, met))
             judged[key] = visit.carried
         yield from found.values()
+        for origin, well in islice(rising.items(), 1):
+            why = f"{origin.ref} and {well.ref} may hold rising standards, or two samples"
+            yield Doubt(why, roles_of=tuple(rising))
         if doubt := self._unnamed_contact(case, carriers) or self._mixed_contact(case):
             yield doubt
 
@@ -115,8 +123,8 @@ class Carry(Check):
             if filled != (self.via_destination == "only"):
                 return True
         if self.stock:
-            if met.well is well:
-                return True  # it was in the stock already
+            if met.well is well or (origin.liquids and origin.liquids == well.liquids):
+                return True  # it was in the stock already, or is loaded as the same
             drawn_for = case.destinations.get(well, {})
             if len(drawn_for) == 1 and all(origin in case.meant[dest] for dest in drawn_for):
                 return True  # all that is drawn from it goes to one well, which holds that as well
@@ -125,12 +133,6 @@ class Carry(Check):
             )
         if case.is_given(well, origin):
             return True
-        if self.pooled and origin.ref not in case.roles.by_well:
-            # Of wells of which no more is known than numbers beside them, the lower goes first.
-            here = (case.roles.level(one.ref) for one in (well, *case.meant.get(well, ())))
-            mine = case.roles.level(origin.ref)
-            if mine is not None and any(level is not None and mine < level for level in here):
-                return True
         if self.pooled:
             # Water and then sample, drawn for one well, spoils no sample for its other uses.
             clean = case.is_one_liquid(origin)
@@ -156,11 +158,13 @@ class Carry(Check):
         drawn = {well for well in unnamed if case.is_drawn_first(well)}
         sources, stocks = set[Well](), set[Well]()
         if any(case.family.roles[role].side != "destination" for role in self.into):
-            stocks = {well for well in unnamed if len(case.destinations.get(well, ())) > 1}
+            stocks = {well for well in unnamed if len(case.made_of(well)) > 1}
             sources = stocks & drawn if self.shared else drawn
         for visit in case.trace.visits if drawn or stocks else ():
             well = visit.well
             if not visit.contact or not visit.carried or well.ref in case.waste:
+                continue
+            if self.stock and not case.made_of(well):
                 continue
             met_before = (carriers if well in stocks else set()) | (
                 drawn if well in sources or case.has(well, self.into) else set()
@@ -171,11 +175,11 @@ class Carry(Check):
                 if origin in case.meant.get(well, {}) or self._let_be(case, visit, origin, met):
                     continue
                 if case.of(well):
-                    enters = f"its tip enters the {case.title(well)} {well.ref} {at(visit.line)}"
+                    enters = f"its tip enters the {case.title(well)} {well.ref} {case.at(visit)}"
                     why = f"nothing says what {origin.ref} holds, and {enters}"
                 else:
                     what = case.title(origin) if case.of(origin) else str(origin.ref)
-                    enters = f"that met {what} {at(met.line)} enters it {at(visit.line)}"
+                    enters = f"that met {what} {case.at(met)} enters it {case.at(visit)}"
                     why = f"nothing says what {well.ref} holds, and the tip {enters}"
                 return Doubt(why, roles_of=tuple(o for o in unnamed if o in drawn or o is well))
         return None
@@ -189,7 +193,7 @@ class Carry(Check):
             stock, tip = visit.well, visit.tip
             if not visit.contact or not case.has(stock, self.into):
                 continue
-            if len(case.destinations.get(stock, ())) < 2:
+            if len(case.made_of(stock)) < 2:
                 continue
             if not all(case.same_liquid(origin, stock) for origin, _ in carried_liquids(visit)):
                 continue
@@ -197,10 +201,14 @@ class Carry(Check):
                 if one.index >= visit.index:
                     break
                 if one.mixing and not (one.well is stock or one.well in mixed):
-                    enters = f"that mixed in it {at(one.line)} enters {stock.ref} {at(visit.line)}"
+                    enters = f"that mixed in it {case.at(one)} enters {stock.ref} {case.at(visit)}"
                     why = f"nothing says what {one.well.ref} held before, and the tip {enters}"
                     mixed[one.well] = why
-        open_ = [one for one in mixed if not (one.prefilled or case.roles.is_given(one.ref))]
+        open_ = [
+            one
+            for one in mixed
+            if not (one.prefilled or one.liquids or case.roles.is_given(one.ref))
+        ]
         if not open_:
             return None
         return Doubt(mixed[open_[0]], roles_of=tuple(open_), side="destination")
@@ -244,7 +252,7 @@ class Carry(Check):
     def _violation(self, case: Case, visit: Visit, origin: Well, met: Met) -> Violation:
         well = visit.well
         what = case.title(origin)
-        where = f"{met.well.ref} {at(met.line)}"
+        where = f"{met.well.ref} {case.at(met)}"
         if met.well is origin:
             began = f"The tip that met {what} in {where}"
         else:
@@ -252,7 +260,7 @@ class Carry(Check):
             beside = origin.ref.labware == met.well.ref.labware
             source = origin.ref.name if beside else origin.ref
             began = f"The tip that touched {where}, which holds {held} {source},"
-        message = f"{began} entered the {case.title(well)} {well.ref} {at(visit.line)}."
+        message = f"{began} entered the {case.title(well)} {well.ref} {case.at(visit)}."
         contact = min(met.contact(visit.index), visit.contact)
         return Violation(
             message,
@@ -277,6 +285,8 @@ class Carry(Check):
             return ""
         if case.family.default and self._rinses_before(case, visit) >= _RINSES:
             return _RINSED
+        if self.shared and self.via_destination == "not" and not case.is_said_to_hold(origin):
+            return _UNSAID
         if self.via_destination != "only" or met.well.prefilled:
             return ""
         made = _made_after(case, visit.well, visit.index, further=True) - {visit.well}
@@ -291,6 +301,17 @@ class Carry(Check):
             case.is_given(dest, one) for dest in ends for one in stood.difference(case.meant[dest])
         )
         return _IN_ALL if ends and told else ""
+
+
+def _is_rising(case: Case, origin: Well, well: Well) -> bool:
+    """Whether a well, or what it is given, has a greater number beside it than the liquid that is
+    carried there, of which no more is known than its number.
+    """
+    mine = None if origin.ref in case.roles.by_well else case.roles.level(origin.ref)
+    levels = [case.roles.level(one.ref) for one in (well, *case.meant.get(well, ()))]
+    return mine is not None and any(
+        level is not None and mine < level and comparable(mine, level) for level in levels
+    )
 
 
 def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:

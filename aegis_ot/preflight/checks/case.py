@@ -111,6 +111,23 @@ class Case:
             found.setdefault(one.source, {})[one.well] = one.visit.index
         return found
 
+    def made_of(self, well: Well) -> list[Well]:
+        """The wells that it was drawn for, but for the waste."""
+        return [one for one in self.destinations.get(well, ()) if one.ref not in self.waste]
+
+    def is_said_to_hold(self, well: Well) -> bool:
+        """Whether a loaded liquid, or the role that it has, says that a well holds something."""
+        roles = self.family.roles
+        return bool(well.liquids) or any(roles[one].implies_contents for one in self.of(well))
+
+    def at(self, one: Visit | Met) -> str:
+        """Where in the protocol it happened, in words: the line, and of a function that several
+        lines call, which one did.
+        """
+        callers = self.trace.callers.get(one.line or 0, ())
+        called = f" (called at line {one.caller})" if one.caller and len(callers) > 1 else ""
+        return at(one.line) + called
+
     @cached_property
     def fillings(self) -> Mapping[Well, Counter[Well]]:
         """For each well, how often it is given each source at most before most of what it holds is
@@ -198,6 +215,11 @@ def _fillings(well: Well) -> Counter[Well]:
 
 def _drawing_lines(well: Well) -> set[int | None]:
     return {visit.line for visit in well.visits if visit.kind is OperationKind.ASPIRATE}
+
+
+def at(line: int | None) -> str:
+    """ "at line 14", or nothing."""
+    return f"at line {line}" if line else "somewhere in the protocol"
 
 
 def carried_liquids(visit: Visit, after: int = 0) -> Iterator[tuple[Well, Met]]:

@@ -50,6 +50,7 @@ class Doubt:
         levels_of: Wells whose concentration or dose would decide it.
         roles_of: Wells whose role would decide it.
         role: The role that one of these has; ``""`` for any on their ``side``.
+        side: ``source`` or ``destination``.
     """
 
     reason: str
@@ -67,11 +68,6 @@ def surest(found: dict[Any, Any], key: object, result: Result) -> None:
     told = found.setdefault(key, result)
     if getattr(told, "contact", Contact.WET) < getattr(result, "contact", Contact.CLEAR):
         found[key] = result
-
-
-def at(line: int | None) -> str:
-    """ "at line 14", or nothing."""
-    return f"at line {line}" if line else "somewhere in the protocol"
 
 
 def microlitres(volume: float) -> str:

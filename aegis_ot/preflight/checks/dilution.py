@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Tip, Transfer, Visit, Well
-from .case import Case
-from .check import Check, Doubt, Result, Violation, at
+from .case import Case, at
+from .check import Check, Doubt, Result, Violation
 from .series import Series, branching
 
 _BY_HAND = "None of the wells in which this series ends is mixed; that may be done by hand."

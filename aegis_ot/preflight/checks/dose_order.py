@@ -12,7 +12,7 @@ from ..rules import role_names
 from ..source import comparable, lexicon_of
 from ..trace import Contact, Met, Visit, Well
 from .case import Case, carried_liquids
-from .check import Check, Doubt, Result, Violation, at, surest
+from .check import Check, Doubt, Result, Violation, surest
 
 
 @dataclass(frozen=True)
@@ -40,15 +40,14 @@ class DoseOrder(Check):
             seen = found.get(key)
             if seen and not (isinstance(seen, Violation) and seen.contact is Contact.NEAR):
                 continue
-            result: Result | None = None
             for origin, met in carried_liquids(visit):
                 dosed = origin is not visit.well and case.has(origin, self.liquid)
-                if result or not dosed or any(case.same_liquid(origin, other) for other in here):
+                if not dosed or any(case.same_liquid(origin, other) for other in here):
                     continue
-                result = self._other(case, visit, origin, met, here)
-            result = result or self._higher(case, visit, here, doses)
-            if result is not None:
-                surest(found, key, result)
+                if result := self._other(case, visit, origin, met, here):
+                    surest(found, key, result)
+            for violation in self._higher(case, visit, here, doses):
+                surest(found, key, violation)
         yield from found.values()
 
     def _doses(self, case: Case) -> dict[Well, dict[Well, float]]:
@@ -86,8 +85,8 @@ class DoseOrder(Check):
         else:
             harm = "a treated well that is not meant for it"
         return Violation(
-            f"The tip that met {what} {at(met.line)} entered {visit.well.ref}, {harm}, "
-            f"{at(visit.line)}.",
+            f"The tip that met {what} {case.at(met)} entered {visit.well.ref}, {harm}, "
+            f"{case.at(visit)}.",
             (
                 Site(met.line, met.well.ref, f"met {case.title(origin)}"),
                 Site(visit.line, visit.well.ref, f"entered {harm}"),
@@ -103,7 +102,7 @@ class DoseOrder(Check):
         visit: Visit,
         here: dict[Well, float],
         doses: dict[Well, dict[Well, float]],
-    ) -> Violation | None:
+    ) -> Iterator[Violation]:
         """The tip has touched a well that gets more of the same liquid."""
         for other, met in islice(visit.tip.touched.items(), visit.met):
             there = doses.get(other, {})
@@ -116,9 +115,9 @@ class DoseOrder(Check):
             if first > met.index and not any(first <= at < visit.index for at in touched):
                 continue
             if any(volume > here[origin] * 1.01 for origin, volume in there.items()):
-                return Violation(
+                yield Violation(
                     f"The tip that touched {other.ref}, a well of a higher dose, "
-                    f"{at(met.line)} entered {visit.well.ref} {at(visit.line)}.",
+                    f"{case.at(met)} entered {visit.well.ref} {case.at(visit)}.",
                     (
                         Site(met.line, other.ref, "touched a well of a higher dose"),
                         Site(visit.line, visit.well.ref, "entered a well of a lower dose"),
@@ -127,7 +126,6 @@ class DoseOrder(Check):
                     (other, visit.well),
                     contact=min(met.contact(visit.index), visit.contact),
                 )
-        return None
 
 
 def _in_one_list(case: Case, one: Well, other: Well) -> bool:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from ...vocabulary import Site
 from ..trace import Transfer, Well
-from .case import Case
-from .check import Doubt, Result, Violation, at
+from .case import Case, at
+from .check import Doubt, Result, Violation
 from .dilution import SeriesCheck, diluent_arrivals, dilutions
 from .series import Series, first_of, wells_of
 

@@ -10,8 +10,8 @@ from ...vocabulary import Site
 from ..rules import role_names
 from ..source import comparable
 from ..trace import Transfer, Visit, Well
-from .case import Case, RoleSet
-from .check import Check, Doubt, Result, Violation, at
+from .case import Case, RoleSet, at
+from .check import Check, Doubt, Result, Violation
 
 
 def arrivals(case: Case, well: Well, liquid: RoleSet) -> list[Transfer]:

@@ -9,8 +9,8 @@ from ...vocabulary import Site, WellRef
 from ..evidence import Kind
 from ..rules import role_names
 from ..trace import EMPTY_UL, Transfer, Usage, Well
-from .case import Case, RoleSet
-from .check import Check, Doubt, Result, Violation, at, microlitres
+from .case import Case, RoleSet, at
+from .check import Check, Doubt, Result, Violation, microlitres
 
 _MOST_TUBES = 24
 """Labware of no more wells is a rack or a reservoir, in which various things stand."""

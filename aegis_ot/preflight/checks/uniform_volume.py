@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from ...vocabulary import Site
 from ..rules import role_names
 from ..trace import Well
-from .case import Case
-from .check import Check, Result, Violation, at, microlitres
+from .case import Case, at
+from .check import Check, Result, Violation, microlitres
 from .receiving import came_from, filled, is_made_of, received
 
 Member = tuple[Well, float, float]

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from ...instrumentation import OperationKind
 from ...vocabulary import Site
 from ..trace import Imbalance, Visit, Well
-from .case import Case
-from .check import Check, Doubt, Result, Violation, at, microlitres
+from .case import Case, at
+from .check import Check, Doubt, Result, Violation, microlitres
 
 _FEWEST_ALIKE = 3
 _FAR_SHORT = 2.0

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
-from ...vocabulary import Finding, Severity, Site, WellRef
+from ...vocabulary import Finding, Severity, WellRef
 from ..checks import Violation
 from ..rules import Database, RuleSpec
-from ..trace import Trace
 from .options import Options
 
 
 def findings_of(
-    violations: Mapping[str, Sequence[Violation]],
-    database: Database,
-    options: Options,
-    trace: Trace,
+    violations: Mapping[str, Sequence[Violation]], database: Database, options: Options
 ) -> list[Finding]:
     """The findings on one protocol, in the order of its lines; ``violations`` by rule."""
     wells = {rule: {one.well for one in found} for rule, found in violations.items()}
@@ -28,11 +24,11 @@ def findings_of(
         for violation in found:
             if violation.well not in replaced:
                 groups.setdefault(violation.cause, []).append(violation)
-        findings += [_joined(group, rule, options, trace) for group in groups.values()]
+        findings += [_joined(group, rule, options) for group in groups.values()]
     return sorted(findings, key=lambda finding: (min(finding.lines, default=0), finding.rule))
 
 
-def _joined(group: Sequence[Violation], rule: RuleSpec, options: Options, trace: Trace) -> Finding:
+def _joined(group: Sequence[Violation], rule: RuleSpec, options: Options) -> Finding:
     """The finding on violations of one cause, with all the wells that they spoil."""
     first = group[0]
     wells = list(dict.fromkeys(violation.well for violation in group))
@@ -40,18 +36,9 @@ def _joined(group: Sequence[Violation], rule: RuleSpec, options: Options, trace:
     severity = Severity.WARNING if first.warning else Severity(options.severity_of(rule))
     if options.strict:
         severity = Severity.ERROR
-    sites = dict.fromkeys(site for one in group for site in one.sites)
-    sites.update(dict.fromkeys(call for site in list(sites) for call in _calls(site, trace)))
+    sites = tuple(dict.fromkeys(site for one in group for site in one.sites))
     told = f"{first.message}{likewise} {first.warning}".rstrip()
-    return Finding(rule.id, severity, told, tuple(sites), why=rule.rationale, fix=rule.fix)
-
-
-def _calls(site: Site, trace: Trace) -> Iterator[Site]:
-    """The calls of the function that a line stands in, where not all have it do this."""
-    by_well = trace.calls.get(site.line or 0, {})
-    mine = by_well.get(site.well, {}) if site.well else {}
-    if mine and any(mine.keys() != calls.keys() for calls in by_well.values()):
-        yield from (Site(line, site.well, "called here") for line in mine)
+    return Finding(rule.id, severity, told, sites, why=rule.rationale, fix=rule.fix)
 
 
 _MOST_SHOWN = 6

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from ...instrumentation import OperationKind
-from ...vocabulary import Remark, Undecided, WellRef
+from ...vocabulary import Remark, Site, Undecided, WellRef
 from ..checks import Case, Doubt, Violation, make_check
 from ..evidence import Kind, unknown_places
 from ..roles import Roles
@@ -18,7 +18,7 @@ from .reading import Reading, uncollected
 from .report import Report, RoleEvidence, verdict_of
 from .waivers import apply_waivers, read_waivers, waiver_remarks
 
-_NOT_SURELY = "{}, or only came near: nothing says how high the liquid stands (load_liquid does)"
+_NOT_SURELY = "{}, or only came near the liquid: it is not sure how high that stands"
 _IN_PROSE = "Only a comment or docstring says which assay this is ({})."
 _DOUBTFUL = "It rests on what is only read of a well: {}."
 _IDLE = Remark("It moves no liquid: there is nothing to judge.")
@@ -40,8 +40,8 @@ def judge(reading: Reading) -> Report:
 def _beside(reading: Reading) -> Iterable[Undecided]:
     """What a rule would find beside the series that alone are judged."""
     for rule, case in reading.cases_beside():
-        found, _ = _judge_rule(rule, case)
-        if found and reading.options.severity_of(rule) != "off":
+        found = _judge_rule(rule, case)[0] if reading.options.severity_of(rule) != "off" else []
+        if found:
             both = ", ".join([*(one.family.family for one in reading.roles), case.family.family])
             said = _begun(found[0].message)
             told = f"beside the dilution series, which is judged, {said}"
@@ -61,6 +61,7 @@ def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided 
         return [], undecided_by(UNKNOWN_ASSAY, rule, case)
     violations: list[Violation] = []
     doubts: list[Doubt] = []
+    told: set[tuple[str, tuple[Site, ...]]] = set()
     for number, check in enumerate(checks):
         for result in check.find(case):
             if isinstance(result, Doubt):
@@ -73,7 +74,8 @@ def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided 
                 and not all(well.liquids for well in result.rests_on)
             ):
                 doubts.append(Doubt(_NOT_SURELY.format(_begun(result.message))))
-            else:
+            elif (result.message, result.sites) not in told:  # two checks may see the same
+                told.add((result.message, result.sites))
                 warning = _why_warning(result, case)
                 cause = (number, warning, *result.cause)
                 violations.append(replace(result, cause=cause, warning=warning))
@@ -140,8 +142,7 @@ def _report(
 ) -> Report:
     recording, options, database = reading.recording, reading.options, reading.database
     waivers = read_waivers(reading.facts)
-    found = findings_of(violations, database, options, reading.trace)
-    standing, waived = apply_waivers(found, waivers)
+    standing, waived = apply_waivers(findings_of(violations, database, options), waivers)
     open_ = {question.rule for question in undecided}
     judged = [rule for rule in violations if rule not in open_]
     known = [rule.id for rule in database.rules]

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from ...vocabulary import WellRef
 from ..checks import Case
-from ..evidence import Deck, Evidence, gather
+from ..evidence import Deck, Evidence, Kind, gather
 from ..rehearsal import Recording
 from ..roles import Inference, Roles, assign_roles, derive, implied_contents, infer_families
 from ..rules import Database, RuleSpec
@@ -115,14 +115,16 @@ class Reading:
 
     def cases_beside(self) -> Iterator[tuple[RuleSpec, Case]]:
         """The rules of the fallback family, with their case, where all that is judged are rules of
-        dilution series: those say nothing of what else the run moves.
+        dilution series: those say nothing of what else the run moves. Roles that the guard gives
+        are meant in the sense of the series' family: its stock may be a row of samples.
         """
         if self.options.assay or not all(one.family.series.stock for one in self.roles):
             return
         for inference in self.families:
             family = self.database.family(inference.family)
             if family.default and self.roles:
-                roles = self._assigned(family.family)
+                told = [one for one in self.evidence if one.kind is not Kind.GIVEN]
+                roles = assign_roles(family, self.database.common, told, self.trace)
                 derive(roles, self.trace)
                 case = self._case(roles, inference)
                 yield from ((rule, case) for rule in family.rules if rule.scope == "family")

@@ -18,6 +18,7 @@ from ..judging import (
     MODEL,
     Reading,
     Report,
+    RoleEvidence,
     apply_waivers,
     judge,
     pasted,
@@ -75,7 +76,7 @@ def merge(report: Report, opinion: Opinion, reading: Reading) -> Report:
         undecided=tuple(_questions(report, opinion, standing, accepted, second)),
         waived=(*report.waived, *waived),
         notes=(*report.notes, *notes),
-        roles=tuple(dict.fromkeys((*report.roles, *(second.roles if second else ())))),
+        roles=(*report.roles, *_further_roles(report, second)),
     )
 
 
@@ -123,3 +124,11 @@ def _questions(
             if given:
                 paste, to_write = given, "write, if it reads them right"
         yield replace(question, reason=reason, paste=paste, to_write=to_write)
+
+
+def _further_roles(report: Report, second: Report | None) -> Iterable[RoleEvidence]:
+    """The roles that wells have with what the model read, and had not."""
+    known = {(item.family, item.well, item.role) for item in report.roles}
+    for item in second.roles if second else ():
+        if (item.family, item.well, item.role) not in known:
+            yield item

@@ -142,16 +142,14 @@ class _Verifier:
 
 
 def _stands_in(quote: str, level: str) -> bool:
-    """Whether a level is in a quote as it is written: not the 125 of "A125" or "1250". Its number
-    and its unit may stand apart: "0, 0.5 and 1 mg/mL".
+    """Whether a level is in a quote as it is written: not the 125 of "A125" or "1250". Its unit may
+    stand once behind several numbers: "0, 0.5 and 1 mg/mL".
     """
-    inside = _plain(quote).casefold()
-    return all(
-        re.search(rf"(?<![a-z\d.]){re.escape(part)}(?!\d|\.\d)", inside)
-        if part[0].isdigit()
-        else re.search(rf"(?<![a-z]){re.escape(part)}", inside)
-        for part in _plain(level).casefold().split()
-    )
+    number, _, unit = _plain(level).casefold().partition(" ")
+    pattern = rf"(?<![a-z\d.]){re.escape(number)}(?!\d|\.\d)"
+    if unit:
+        pattern += rf"(?:[\s\d.,;-]|\band\b|\bto\b|\bor\b)*{re.escape(unit)}(?![a-z])"
+    return re.search(pattern, _plain(quote).casefold()) is not None
 
 
 def _plain(text: str) -> str:

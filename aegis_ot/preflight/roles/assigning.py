@@ -46,7 +46,10 @@ def assign_roles(
         for ref, level in zip(one.wells, _levels(one, common), strict=True) if named else ():
             role = _fitting(named, roles, trace.sides(ref), one)
             if role and level and family.roles[role].level == 0:
-                role = next(iter(family.roles[role].parents), None)  # `standards[0]` is no blank
+                if one.levels:  # `standards[0]` is no blank
+                    role = next(iter(family.roles[role].parents), None)
+                else:  # "blank (5 mg/mL sucrose)" holds none of what is measured
+                    level = 0.0
             if role is not None and not (family.roles[role].dosed and level == 0):
                 placed = True
                 candidates.setdefault(ref, []).append(Candidate(worth, role, one, level))

@@ -180,8 +180,8 @@ class _Builder:
     def _visit(self, step: Operation, tip: Tip, well: Well) -> Visit:
         visit = Visit(step.kind, tip, well, self._index, step.line, step.mixing)
         if len(step.lines) > 1:
-            by_well = self._trace.calls.setdefault(step.lines[0], {})
-            by_well.setdefault(well.ref, {})[step.lines[-1]] = None
+            visit.caller = step.lines[1]
+            self._trace.callers.setdefault(step.lines[0], set()).add(step.lines[1])
         well.visits.append(visit)
         tip.visits.append(visit)
         self._trace.visits.append(visit)
@@ -189,7 +189,7 @@ class _Builder:
 
     def _touch(self, visit: Visit) -> None:
         if visit.touches:
-            visit.tip.touch(visit.well, visit.line, visit.index, visit.contact)
+            visit.tip.touch(visit, visit.contact)
 
     def _draws_air(self, step: Operation, tip: Tip, well: Well) -> bool:
         """Whether a tip that drew from a well draws on from above the liquid: an air gap."""
@@ -208,7 +208,7 @@ class _Builder:
         visit = self._visit(step, tip, well)
         visit.volume = step.volume
         visit.contact = Contact.WET
-        tip.touch(well, step.line, self._index)
+        tip.touch(visit)
         if step.from_bottom is not None:
             self._heights[tip] = (well, step.from_bottom)
         liquid, held, least = well.liquid(), well.volume, well.least

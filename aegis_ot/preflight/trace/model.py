@@ -199,6 +199,7 @@ class Visit:
         well: The well.
         index: Position in the run; channels that act together share it.
         line: Source line.
+        caller: Of a function of the protocol, the line that called it.
         volume: µL of liquid drawn or given, air left out.
         brought: What was given of other wells' liquid.
         air: µL of what was drawn that a declared volume left no liquid for, and not given back.
@@ -216,6 +217,7 @@ class Visit:
     index: int
     line: int | None = None
     mixing: bool = False
+    caller: int | None = None
     volume: float = 0.0
     contact: Contact = Contact.CLEAR
     brought: list[Transfer] = field(default_factory=list)

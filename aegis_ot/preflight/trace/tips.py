@@ -18,6 +18,7 @@ class Met:
 
     well: Well
     line: int | None
+    caller: int | None
     index: int
     wet: float
 
@@ -48,15 +49,14 @@ class Tip:
     visits: list[Visit] = field(default_factory=list)
     unsure: float = 0.0
 
-    def touch(
-        self, well: Well, line: int | None, index: int, contact: Contact = Contact.WET
-    ) -> None:
-        """The tip's outside met ``well``: it now carries all that the well holds."""
+    def touch(self, visit: Visit, contact: Contact = Contact.WET) -> None:
+        """The tip's outside met the well: it now carries all that the well holds."""
+        well, line, caller, index = visit.well, visit.line, visit.caller, visit.index
         wet = index if contact is Contact.WET else math.inf
-        met = self.touched.setdefault(well, Met(well, line, index, wet))
+        met = self.touched.setdefault(well, Met(well, line, caller, index, wet))
         met.wet = min(met.wet, wet)
         for origin in well.contents:
-            known = self.origins.setdefault(origin, Met(well, line, index, wet))
+            known = self.origins.setdefault(origin, Met(well, line, caller, index, wet))
             known.wet = min(known.wet, wet)
 
     def pop(self, volume: float = math.inf) -> list[Layer]:

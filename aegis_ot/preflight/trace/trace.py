@@ -71,7 +71,7 @@ class Trace:
         imbalances: Volumes that do not add up.
         shaken: Index, labware keys (``None``: any) of each time a plate was shaken.
         descriptions: What the run says of a liquid, by the liquid's name.
-        calls: By line of a function, and well: the lines outside it that had it act on the well.
+        callers: By line of a function that did something, the lines that called the function.
     """
 
     labware: Mapping[str, LabwareInfo]
@@ -84,7 +84,7 @@ class Trace:
     descriptions: dict[str, str] = field(default_factory=dict)
     groups: dict[WellRef, tuple[WellRef, ...]] = field(default_factory=dict)
     singles: set[WellRef] = field(default_factory=set)
-    calls: dict[int, dict[WellRef, dict[int, None]]] = field(default_factory=dict)
+    callers: dict[int, set[int]] = field(default_factory=dict)
 
     @cached_property
     def links(self) -> Sequence[Transfer]:

@@ -9,6 +9,7 @@ import pytest
 
 from aegis_ot.preflight import Options, Script, load_database, record
 from aegis_ot.preflight.judging import Reading, Report, judge
+from aegis_ot.settings import Settings
 from aegis_ot.vocabulary import VerdictWord
 
 DECK = """
@@ -185,7 +186,7 @@ def test_a_tip_near_a_known_level_warns_where_liquids_are_declared() -> None:
     report = checked(NEAR_THE_SAMPLES.format(loads=""))
     assert report.verdict is VerdictWord.PASS
     reason = {one.rule: one for one in report.undecided}["GEN-2"].reason
-    assert "line 17, or only came near: nothing says how high the liquid stands" in reason
+    assert "line 17, or only came near the liquid: it is not sure how high that stands" in reason
 
 
 SERIES = """
@@ -215,3 +216,19 @@ def test_wells_that_get_the_mix_and_have_no_role_are_asked_for() -> None:
     asked = {one.rule: one for one in report.undecided}["PCR-1"]
     assert asked.reason == "nothing says which well is the reaction"
     assert asked.paste == '@guard(roles={"reaction": ["3:A1-C1"]})'
+
+
+def test_an_assay_may_be_several() -> None:
+    options = Options.from_settings(Settings(assay="serial_dilution, generic"))
+    assert options.assay == ("serial_dilution", "generic")
+    assert Options.from_settings(Settings()).assay == ()
+
+
+def test_with_the_assay_given_nothing_is_asked_beside_it() -> None:
+    beside = SERIES.format(filler="diluent") + (
+        'p300.transfer(20, rack.rows()[3][:4], plate.rows()[7][:4], new_tip="once")\n'
+    )
+    report = checked(beside, title="Serial dilution")
+    assert [one.rule for one in report.undecided] == ["GEN-1"]
+    report = checked(beside, title="Serial dilution", assay=["serial_dilution"])
+    assert report.undecided == ()
