@@ -15,12 +15,11 @@ from ..source import comparable
 from ..trace import Contact, Met, Tip, Visit, Well
 from .case import Case, carried_liquids
 from .check import Check, Doubt, Result, Violation, surest
+from .practice import is_given_to_all, made_after, was_rinsed
 
 _IN_ALL = "All that is still made of it is given that liquid too: the tip brought nothing new."
 _RINSED = "The tip was rinsed in between: what is left on it is a trace."
 _UNSAID = "Nothing in the protocol says what these wells held."
-_RINSES = 2
-"""So many times a tip is rinsed to be taken for clean, where nothing amplifies a trace."""
 
 
 @dataclass(frozen=True)
@@ -138,7 +137,7 @@ class Carry(Check):
             clean = case.is_one_liquid(origin)
             held = [
                 dest is origin or case.is_given(dest, origin)
-                for dest in _made_after(case, well, visit.index, further=clean)
+                for dest in made_after(case, well, visit.index, further=clean)
                 # What is washed is kept; what is drawn off to the waste is not.
                 if visit.kind is OperationKind.ASPIRATE or dest.ref not in case.waste
             ]
@@ -213,20 +212,6 @@ class Carry(Check):
             return None
         return Doubt(mixed[open_[0]], roles_of=tuple(open_), side="destination")
 
-    def _rinses_before(self, case: Case, visit: Visit) -> int:
-        """How often a shared liquid was drawn into the tip and given to the waste just before."""
-        rinses = 0
-        visits = visit.tip.visits
-        for other in reversed(visits[: visits.index(visit)]):
-            if other.kind is OperationKind.ASPIRATE:
-                if not case.is_one_liquid(other.well):
-                    break
-            elif other.well.ref not in case.waste:
-                break
-            elif other.kind is OperationKind.DISPENSE:
-                rinses += 1
-        return rinses
-
     def _made_of(self, case: Case, visit: Visit, origin: Well) -> bool:
         """Whether the liquid is brought as a measured volume to make what the well is drawn for.
 
@@ -271,36 +256,20 @@ class Carry(Check):
             (visit.line, met.line, what),
             (origin, well),
             contact=contact,
-            warning=self._practice(case, visit, origin, met),
+            warning=self._why_warning(case, visit, origin, met) if self.pooled else "",
             # A liquid that stands in all wells may be meant to come along.
             in_any_assay=contact is Contact.WET and not case.is_one_liquid(origin),
         )
 
-    def _practice(self, case: Case, visit: Visit, origin: Well, met: Met) -> str:
-        """Why it is practice: the tip was rinsed, and no trace is amplified; or it goes back into a
-        shared stock of which all that is made from now on, at last, is given whatever stood in the
-        well that the tip comes from.
-        """
-        if not self.pooled:
-            return ""
-        if case.family.default and self._rinses_before(case, visit) >= _RINSES:
+    def _why_warning(self, case: Case, visit: Visit, origin: Well, met: Met) -> str:
+        """Why it is a warning at most, in a sentence; empty for what is surely wrong."""
+        if case.family.default and was_rinsed(case, visit):
             return _RINSED
-        if self.shared and self.via_destination == "not" and not case.is_said_to_hold(origin):
-            return _UNSAID
-        if self.via_destination != "only" or met.well.prefilled:
-            return ""
-        made = _made_after(case, visit.well, visit.index, further=True) - {visit.well}
-        ends = [dest for dest in made if not _made_after(case, dest, visit.index, further=False)]
-        brought = case.meant.get(met.well, {}).items()
-        stood = {origin, *(liquid for liquid, first in brought if first < visit.index)}
-        stock = case.meant.get(visit.well, {})
-        if any(stock.get(one) == visit.index for one in stood):
-            return ""  # poured in, not clinging: what comes to hold it may have it from here
-        # On a plate that is pooled nearly all is plainly there, and need not be compared.
-        told = all(
-            case.is_given(dest, one) for dest in ends for one in stood.difference(case.meant[dest])
-        )
-        return _IN_ALL if ends and told else ""
+        if self.via_destination == "not":
+            told = not self.shared or case.is_said_to_hold(origin)
+            return "" if told else _UNSAID
+        back = self.via_destination == "only" and not met.well.prefilled
+        return _IN_ALL if back and is_given_to_all(case, visit, origin, met) else ""
 
 
 def _is_rising(case: Case, origin: Well, well: Well) -> bool:
@@ -312,19 +281,6 @@ def _is_rising(case: Case, origin: Well, well: Well) -> bool:
     return mine is not None and any(
         level is not None and mine < level and comparable(mine, level) for level in levels
     )
-
-
-def _made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
-    """The wells that liquid of ``well`` goes to from now on; ``further``: and on from there."""
-    found: set[Well] = set()
-    open_ = [well]
-    while open_:
-        drawn_for = case.destinations.get(open_.pop(), {})
-        later = {dest for dest, last in drawn_for.items() if last >= index} - found
-        found |= later
-        if further:
-            open_ += later
-    return found
 
 
 def _on_purpose(stock: Well, origin: Well, visit: Visit) -> bool:

@@ -1,0 +1,56 @@
+"""What a tip brings along by its letter only: accepted practice, which warns."""
+
+from __future__ import annotations
+
+from ...instrumentation import OperationKind
+from ..trace import Met, Visit, Well
+from .case import Case
+
+_RINSES = 2
+"""So many times a tip is rinsed to be taken for clean, where nothing amplifies a trace."""
+
+
+def is_given_to_all(case: Case, visit: Visit, origin: Well, met: Met) -> bool:
+    """Whether the tip goes back into a stock of which all that is made from now on, at last, is
+    given whatever stood in the well that the tip comes from.
+    """
+    made = made_after(case, visit.well, visit.index, further=True) - {visit.well}
+    ends = [dest for dest in made if not made_after(case, dest, visit.index, further=False)]
+    brought = case.meant.get(met.well, {}).items()
+    stood = {origin, *(liquid for liquid, first in brought if first < visit.index)}
+    stock = case.meant.get(visit.well, {})
+    if any(stock.get(one) == visit.index for one in stood):
+        return False  # poured in, not clinging: what comes to hold it may have it from here
+    # On a plate that is pooled nearly all is plainly there, and need not be compared.
+    told = all(
+        case.is_given(dest, one) for dest in ends for one in stood.difference(case.meant[dest])
+    )
+    return bool(ends) and told
+
+
+def made_after(case: Case, well: Well, index: int, further: bool) -> set[Well]:
+    """The wells that liquid of ``well`` goes to from now on; ``further``: and on from there."""
+    found: set[Well] = set()
+    open_ = [well]
+    while open_:
+        drawn_for = case.destinations.get(open_.pop(), {})
+        later = {dest for dest, last in drawn_for.items() if last >= index} - found
+        found |= later
+        if further:
+            open_ += later
+    return found
+
+
+def was_rinsed(case: Case, visit: Visit) -> bool:
+    """Whether a shared liquid was drawn into the tip and given to the waste often enough before."""
+    rinses = 0
+    visits = visit.tip.visits
+    for other in reversed(visits[: visits.index(visit)]):
+        if other.kind is OperationKind.ASPIRATE:
+            if not case.is_one_liquid(other.well):
+                break
+        elif other.well.ref not in case.waste:
+            break
+        elif other.kind is OperationKind.DISPENSE:
+            rinses += 1
+    return rinses >= _RINSES
