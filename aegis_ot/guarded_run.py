@@ -262,7 +262,7 @@ def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
     Raises:
         ProtocolRejected: It found errors, and ``rules`` is ``"on"`` or ``"strict"``.
     """
-    from .preflight.checking import errors_of, read_for_guard, rejection, summary
+    from .preflight.check_protocol import errors_of, read_for_guard, rejection, summary
     from .preflight.judging import judge, uncollected
 
     try:

@@ -38,7 +38,7 @@ def main() -> None:
 
     imported = time.process_time()
     import aegis_ot.guarded_run
-    import aegis_ot.preflight.checking
+    import aegis_ot.preflight.check_protocol
     import aegis_ot.preflight.rehearsal  # noqa: F401
 
     loaded = time.process_time()

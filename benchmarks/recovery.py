@@ -124,7 +124,7 @@ def _contaminations(
     case: Case, faults: Sequence[str], steps: list[Any]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     from aegis_ot.instrumentation import Event
-    from aegis_ot.preflight.checking import check_recording
+    from aegis_ot.preflight.check_protocol import check_recording
     from aegis_ot.preflight.rehearsal import Script, record
     from aegis_ot.settings import load_settings
 

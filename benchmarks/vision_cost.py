@@ -58,8 +58,8 @@ def main(folder: str, scorer: str) -> None:
     import cv2
 
     from aegis_ot.evaluation.layer2.fitting import fit_model
+    from aegis_ot.sidecar.analysers import make_analyser
     from aegis_ot.sidecar.config import CascadeSettings
-    from aegis_ot.sidecar.judging import make_analyser
     from aegis_ot.vision.dataset import load_dataset
 
     cv2.setNumThreads(1)

@@ -14,10 +14,10 @@ from ..vision.types import Detector, TrajectorySample
 from ..vocabulary import Outcome, Route, counted
 from .measures import Measures, measure
 from .patterns import drifts, no_liquid
+from .reasons import SPEAKS, drift_words, liquid_words, neighbour_words, no_liquid_words, reasons
 from .result import Audit, Suspect
 from .surprise import Standing, standings
 from .wells import RunWell, by_liquid, run_wells
-from .words import SPEAKS, drift_words, liquid_words, neighbour_words, no_liquid_words, reasons
 
 STANDS_OUT = 8.0
 """Score from which a person should look, nats, if more than one sign speaks. On simulated

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..sidecar.judging import load_scorer
+from ..sidecar.analysers import load_scorer
 from ..vision.models import SHIPPED
 from ..vision.scorers.ensemble import EnsembleScorer
 

@@ -19,8 +19,7 @@ from ..errors import ConfigurationError
 from ..reports import RENDERERS, SHOW_ROLES, check_text
 from ..vocabulary import VerdictWord, counted
 from .app import BROKEN, CLEAN, app
-from .counting import Counting
-from .judging import (
+from .check_settings import (
     Assay,
     CsvParameters,
     Files,
@@ -35,6 +34,7 @@ from .judging import (
     settings_of,
     spared,
 )
+from .counting import Counting
 from .models import ModelName, RecordFolder, backend_of
 
 

@@ -29,7 +29,7 @@ from ..errors import ConfigurationError
 from ..preflight import load_database
 from ..vocabulary import counted
 from .app import CLEAN, FINDINGS, app
-from .judging import Rules
+from .check_settings import Rules
 
 _TELLING = ("fail", "crash")
 """Verdicts that are told at once, while the others are counted."""

@@ -14,7 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from ..dryrun import UNATTENDED, DryRun, DryRunSettings, Progress, WellRow, dry_run
-from ..preflight.checking import summary
+from ..preflight.check_protocol import summary
 from ..reports.run_html import run_report_html
 from ..sidecar import Judged, make_analyser
 from ..vocabulary import Outcome, counted

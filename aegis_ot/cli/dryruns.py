@@ -10,7 +10,7 @@ import typer
 
 from ..settings import load_settings
 from .app import app
-from .judging import Timeout, one_of, seconds_of
+from .check_settings import Timeout, one_of, seconds_of
 
 
 @app.command()

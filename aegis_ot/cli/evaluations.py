@@ -22,10 +22,10 @@ from ..evaluation.layer1 import (
 from ..preflight import load_database
 from ..reasoning import Configuration, load_prices
 from .app import BROKEN, CLEAN, app
+from .check_settings import Labware, Rules, one_of, split
 from .checks import write_text
 from .counting import Counting
 from .datasets import writable_folder
-from .judging import Labware, Rules, one_of, split
 from .models import ModelNames, RecordFolder, backend_of
 
 evaluate = typer.Typer(no_args_is_help=True, help="Score a layer on labelled data.")

@@ -10,9 +10,9 @@ import typer
 from ..errors import ConfigurationError
 from ..vocabulary import counted
 from .app import app
+from .check_settings import one_of
 from .checks import write_text
 from .datasets import open_dataset, tip_finder
-from .judging import one_of
 
 if TYPE_CHECKING:
     from ..evaluation.layer2 import Progress
@@ -78,7 +78,7 @@ def _dataset(
     folder: Path, scorer: str, world_model: Path | None, boxes: str, most: int, shown: Progress
 ) -> Inspection:
     from ..inspection import inspect_dataset
-    from ..sidecar.judging import load_scorer
+    from ..sidecar.analysers import load_scorer
     from ..vision.scorers import SCORERS
 
     one_of("--scorer", scorer, [name.replace("_", "-") for name in SCORERS])

@@ -11,10 +11,10 @@ import typer
 
 from ..errors import ConfigurationError
 from .app import CLEAN
+from .check_settings import one_of, split
 from .checks import write_text
 from .datasets import open_dataset, tip_finder, writable_folder
 from .evaluations import evaluate
-from .judging import one_of, split
 from .models import ModelName, RecordFolder, backend_of
 
 if TYPE_CHECKING:

@@ -12,7 +12,7 @@ from ..checking import Asking, check_files, configurations_of
 from ..reasoning import ScriptedBackend, export_requests, import_answers, request_in
 from ..vocabulary import counted
 from .app import BROKEN, app
-from .judging import (
+from .check_settings import (
     Assay,
     CsvParameters,
     Files,

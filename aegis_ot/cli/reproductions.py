@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from .app import BROKEN, CLEAN, app
+from .check_settings import one_of, split
 from .checks import write_text
 from .datasets import open_dataset, writable_folder
-from .judging import one_of, split
 from .models import ModelNames, RecordFolder, backend_of
 
 if TYPE_CHECKING:

@@ -116,7 +116,7 @@ def watch(
     from ..robot.running import RobotRun
     from ..robot.verdicts import VerdictReader
     from ..robot.watching import WatchPolicies, await_run, name_of_watch, watch_run
-    from .judging import one_of
+    from .check_settings import one_of
     from .robot_screen import TerminalScreen, show_end
 
     choices = ("pause", "continue")
@@ -170,7 +170,7 @@ def _show_analysis(
 def _fails_here(protocol: Path, labware: Sequence[Path], parameters: Sequence[str]) -> bool:
     from ..dryrun import read_script
     from ..errors import RehearsalError
-    from ..preflight.checking import check_script, errors_of, rejection, summary
+    from ..preflight.check_protocol import check_script, errors_of, rejection, summary
 
     try:
         found = check_script(read_script(protocol, labware, parameters))

@@ -17,8 +17,8 @@ from ..preflight.database import shipped_rules
 from ..reports import rule_list, rule_pages, rule_text
 from ..vocabulary import counted
 from .app import CLEAN, FINDINGS, app
+from .check_settings import known_rule, one_of, split
 from .checks import write_text
-from .judging import known_rule, one_of, split
 
 RulesOption = Annotated[list[Path] | None, typer.Option(help="File or folder of further rules.")]
 

@@ -11,8 +11,8 @@ import typer
 from ..errors import ConfigurationError
 from ..vocabulary import counted
 from .app import app
+from .check_settings import one_of
 from .datasets import open_dataset, tip_finder
-from .judging import one_of
 
 if TYPE_CHECKING:
     from ..vision.models import ModelFile
@@ -63,7 +63,7 @@ def show_model(
 
     Exit codes: 0 it can be used, 2 it is missing, damaged or of another version.
     """
-    from ..sidecar.judging import load_scorer
+    from ..sidecar.analysers import load_scorer
     from ..vision.models import load_model
 
     load_scorer(file)

@@ -20,11 +20,11 @@ from ..checking.problems import problem_of
 from ..errors import AegisError, ConfigurationError, RehearsalError, RunAborted
 from ..guard import guard
 from ..instrumentation import Operation
-from ..preflight.checking import check_recording, errors_of, rejection
+from ..preflight.check_protocol import check_recording, errors_of, rejection
 from ..preflight.rehearsal import Script, play, record
 from ..reports.run_html import report_run
 from ..runtime import Planner
-from ..runtime.words import about_layer1
+from ..runtime.descriptions import about_layer1
 from ..settings import load_settings
 from ..sidecar import Analyser, Judged, RunAnalyser, SidecarConfig, running_sidecar
 from ..sidecar.config import CascadeSettings

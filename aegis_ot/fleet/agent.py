@@ -12,10 +12,10 @@ from academy.agent import Agent, action
 
 from ..checking.guard_arguments import guard_arguments
 from ..errors import ConfigurationError, RunAborted
-from ..preflight.checking import check_recording, errors_of, rejection
+from ..preflight.check_protocol import check_recording, errors_of, rejection
 from ..preflight.judging import Report
 from ..preflight.rehearsal import Script, record
-from ..runtime.words import about_layer1
+from ..runtime.descriptions import about_layer1
 from ..settings import load_settings
 from .config import RobotConfig
 from .jobs import Job

@@ -17,7 +17,7 @@ Each step is a room of its own, and imports run down this list only (a contract 
     rehearsal   the protocol run in the simulator, and recorded
 """
 
-from .checking import check_script
+from .check_protocol import check_script
 from .database import load_database
 from .judging import Options, Reading, Report, judge
 from .rehearsal import Script, record

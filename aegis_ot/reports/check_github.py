@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from ..checking import CheckedProtocol, CheckRun
 from ..vocabulary import Severity
-from .words import by_model, listed, summary_line
+from .wording import by_model, listed, summary_line
 
 
 def check_github(run: CheckRun) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..checking import CheckedProtocol, CheckRun
 from ..vocabulary import Finding
 from .html_page import Filters, html_page
-from .words import (
+from .wording import (
     by_model,
     listed,
     listed_wells,

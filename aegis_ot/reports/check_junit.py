@@ -11,7 +11,7 @@ from ..checking import CheckedProtocol, CheckRun
 from ..preflight.judging import MODEL
 from ..preflight.rules import RuleSpec
 from ..vocabulary import Finding
-from .words import by_model, location
+from .wording import by_model, location
 
 # What XML 1.0 cannot hold, even escaped.
 _UNWRITABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

@@ -17,7 +17,7 @@ from urllib.parse import quote
 from ..checking import CheckedProtocol, CheckRun
 from ..preflight.rules import RuleSpec
 from ..vocabulary import Finding, Severity, Site
-from .words import by_model, site_label, sites_by_line
+from .wording import by_model, site_label, sites_by_line
 
 SCHEMA = (
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"

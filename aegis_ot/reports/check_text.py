@@ -13,7 +13,7 @@ from rich.cells import cell_len
 from ..checking import CheckedProtocol, CheckRun, Exploration, Problem
 from ..preflight.judging import RoleEvidence
 from ..vocabulary import Finding, Severity, VerdictWord, counted
-from .words import (
+from .wording import (
     by_model,
     listed,
     listed_wells,

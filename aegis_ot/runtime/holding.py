@@ -12,6 +12,7 @@ from ..instrumentation import Operation
 from ..settings import Settings
 from ..vocabulary import Gate, Outcome, Verdict, unobserved
 from .courier import Courier
+from .descriptions import tell_unobserved, tell_verdict
 from .link import SidecarLink
 from .linkloss import LinkLoss
 from .operator import Answer, Operator
@@ -21,7 +22,6 @@ from .runstate import RunState, can_be_resumed
 from .steps import Hold
 from .stopping import Waits
 from .summary import WatchSummary
-from .words import tell_unobserved, tell_verdict
 
 _STOP_S = 5.0
 """How long the robot's server may take to stop the run that it was told to stop, s."""

@@ -13,6 +13,7 @@ from ..instrumentation import Event, Operation, Tap
 from ..settings import Settings
 from ..vocabulary import Keyframe, KeyframeKind
 from .courier import Courier
+from .descriptions import about_guard, about_layer1, about_run, working_volume
 from .holding import Holding
 from .link import SidecarLink
 from .linkloss import LinkLoss
@@ -25,7 +26,6 @@ from .steps import Abandon, Capture, Hold, Lift, Step
 from .stopping import LAST_WORDS_S, Stopping, Waits
 from .summary import WatchSummary
 from .tracker import Tracker
-from .words import about_guard, about_layer1, about_run, working_volume
 
 LiftMove = Callable[[Operation], None]
 _GOODBYE_S = 3.0

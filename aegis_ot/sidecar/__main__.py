@@ -5,9 +5,9 @@ from __future__ import annotations
 import sys
 
 from ..errors import AegisError
+from .analysers import make_analyser, make_detector
 from .config import SidecarConfig
 from .journal import event, set_up
-from .judging import make_analyser, make_detector
 from .reasoning_routes import gates_of
 from .server import serve
 from .token_file import kept_token

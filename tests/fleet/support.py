@@ -13,7 +13,7 @@ from aegis_ot.fleet.agent import AegisAgent
 from aegis_ot.fleet.jobs import Needs
 from aegis_ot.fleet.report import Entry
 from aegis_ot.fleet.sessions import Watch
-from aegis_ot.preflight.checking import check_script
+from aegis_ot.preflight.check_protocol import check_script
 from aegis_ot.preflight.rehearsal import Script
 
 RESULT = {

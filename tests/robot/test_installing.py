@@ -202,7 +202,8 @@ def test_the_wheel_is_pure_and_complete(tmp_path: Path) -> None:
     assert all(name.endswith((".py", ".json", "METADATA", "WHEEL", "RECORD")) for name in names)
     assert not any(name.startswith(("aegis_ot/sidecar", "aegis_ot/vision")) for name in names)
     tried = (
-        "import aegis_ot.guarded_run, aegis_ot.preflight.checking as c; print(c.load_database())"
+        "import aegis_ot.guarded_run, aegis_ot.preflight.check_protocol as check\n"
+        "print(check.load_database())"
     )
     subprocess.run([sys.executable, "-c", tried], cwd=tmp_path / "site", check=True,
                    capture_output=True, env={"PYTHONPATH": str(tmp_path / "site")})  # fmt: skip

@@ -12,8 +12,8 @@ from ...dryrun import UNATTENDED, DryRunSettings, dry_run
 from ...preflight.rehearsal import Script
 from ...reasoning import Backend, Reply, Request, State, load_prices, request_size
 from ...sidecar import Analyser, RunAnalyser, make_analyser
+from ...sidecar.analysers import make_detector
 from ...sidecar.config import CascadeSettings
-from ...sidecar.judging import make_detector
 from ...vision.camera import Frame
 from ...vision.types import Detector, Image, TipDetection
 from ...vocabulary import Keyframe, Outcome, Route, Verdict

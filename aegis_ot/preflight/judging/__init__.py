@@ -1,10 +1,10 @@
 """From a recording to a verdict: every rule judged, its findings joined, waivers applied."""
 
 from .doubts import missing_needs, pasted, spelled
-from .judging import judge
 from .options import Options
 from .reading import Reading, uncollected
 from .report import Report, RoleEvidence, unanswered, verdict_of
+from .rule_judging import judge
 from .waivers import MODEL, Waived, Waiver, apply_waivers, read_waivers
 
 __all__ = [

@@ -5,7 +5,7 @@ checks that they name, in :mod:`aegis_ot.preflight.database`.
 """
 
 from .database import Common, Database
-from .reading import hints_of, is_required, parse_json, public_fields, read_dataclass
+from .dataclass_reader import hints_of, is_required, parse_json, public_fields, read_dataclass
 from .specs import (
     READABLE,
     SCHEMA_VERSION,

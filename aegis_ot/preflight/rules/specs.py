@@ -11,7 +11,7 @@ from dataclasses import MISSING, dataclass, field
 from functools import cached_property
 from typing import Annotated, Any, ClassVar, Literal
 
-from .reading import NOT_EMPTY, Name, Word
+from .dataclass_reader import NOT_EMPTY, Name, Word
 
 SCHEMA_VERSION = 2
 READABLE = (1, SCHEMA_VERSION)

@@ -11,7 +11,7 @@ from aegis_ot.errors import ConfigurationError, DatasetError, ModelError
 from aegis_ot.evaluation.layer2 import fit_model
 from aegis_ot.evaluation.layer2.exporting import export_runs
 from aegis_ot.evaluation.layer2.recorded import open_store, recorded_runs
-from aegis_ot.sidecar.judging import load_scorer
+from aegis_ot.sidecar.analysers import load_scorer
 from aegis_ot.sidecar.store import Store
 from aegis_ot.sidecar.wire import Decision
 from aegis_ot.vision.dataset import load_dataset

@@ -9,7 +9,7 @@ import textwrap
 import pytest
 
 from aegis_ot.preflight import Options, Reading, Report, Script, judge, load_database, record
-from aegis_ot.preflight.checking import summary
+from aegis_ot.preflight.check_protocol import summary
 from aegis_ot.preflight.rehearsal import Recording
 
 PROTOCOL = """

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from aegis_ot.audit.patterns import Drift
-from aegis_ot.audit.words import drift_words, neighbour_words, no_liquid_words
+from aegis_ot.audit.reasons import drift_words, neighbour_words, no_liquid_words
 
 
 def well(number: int, outcome: str = "pass", tip: str = "", source: str = "A1") -> Any:
