@@ -135,13 +135,13 @@ class Carry(Check):
         if self.pooled:
             # Water and then sample, drawn for one well, spoils no sample for its other uses.
             clean = case.is_one_liquid(origin)
-            held = [
+            given = [
                 dest is origin or case.is_given(dest, origin)
                 for dest in made_after(case, well, visit.index, further=clean)
                 # What is washed is kept; what is drawn off to the waste is not.
                 if visit.kind is OperationKind.ASPIRATE or dest.ref not in case.waste
             ]
-            if any(held) if clean else held and all(held):
+            if any(given) if clean else given and all(given):
                 return True
         return False
 

@@ -90,9 +90,9 @@ class UniformVolume(Check):
             )
 
 
-def _differs(volume: float, usual: float) -> bool:
-    """Whether a volume is off the usual one, µL, by more than 1 % and more than rounding is."""
-    return abs(volume - usual) > max(0.01 * usual, 0.01)
+def _differs(volume: float, typical: float) -> bool:
+    """Whether a volume is off the typical one, µL, by more than 1 % and more than rounding is."""
+    return abs(volume - typical) > max(0.01 * typical, 0.01)
 
 
 def _usual(values: list[float]) -> float:

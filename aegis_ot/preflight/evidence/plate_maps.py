@@ -60,7 +60,7 @@ def _indexed(
     """
     keys: set[str] = set()
     for use in uses:
-        for origin in (use.held, *facts.flow.comes_from.get(use.held, ())):
+        for origin in (use.indexed, *facts.flow.comes_from.get(use.indexed, ())):
             keys |= deck.by_name.get(origin, set())
     in_each = [deck.refs(key, spots) for key in deck.trace.labware if key in keys]
     if len(in_each) > 1:

@@ -193,11 +193,11 @@ def _shown(found: Sequence[_Found]) -> bool:
 
 
 def _seen(
-    family: Family, shapes: Mapping[Shape, tuple[float, str]], spoken: bool
+    family: Family, shapes: Mapping[Shape, tuple[float, str]], has_words: bool
 ) -> Iterable[_Found]:
     """What the shapes of the run say of a family; most of them only beside words."""
     for signal in family.shapes:
-        if not (spoken or signal.defining):
+        if not (has_words or signal.defining):
             continue
         if signal.shape in shapes and shapes.keys().isdisjoint(signal.unless):
             clear, said = shapes[signal.shape]

@@ -31,7 +31,7 @@ _WELL_GETTERS = frozenset(
 class Index(NamedTuple):
     """``rack[row["tube"]]``: what is indexed, with values of which names and fields."""
 
-    held: str
+    indexed: str
     names: frozenset[str]
     fields: frozenset[str]
 
@@ -138,10 +138,10 @@ def _note_index(flow: Flow, base: ast.expr, index: ast.expr) -> None:
         base = base.func.value
     if isinstance(index, (ast.BinOp, ast.JoinedStr)):
         return  # `plate[well[0] + "3"]` is another well than the name says
-    held = _last_name(base)
+    indexed = _last_name(base)
     names = frozenset(_held_names(index))
-    if held and names:
-        flow.indexed.append(Index(held, names, frozenset(_fields_in(index))))
+    if indexed and names:
+        flow.indexed.append(Index(indexed, names, frozenset(_fields_in(index))))
 
 
 def _fields_in(index: ast.expr) -> Iterator[str]:

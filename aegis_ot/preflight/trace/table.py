@@ -191,8 +191,8 @@ def _summed(sessions: Sequence[_Session], wells: Told, by_line: bool) -> str:
 def _tips(sessions: Sequence[_Session]) -> str:
     numbers = [number + 1 for session in sessions for number in session.tips]
     text = "tip " if len(numbers) == 1 else "tips "
-    in_turn = numbers == list(range(numbers[0], numbers[0] + len(numbers)))
-    if len(numbers) > 1 and in_turn:
+    consecutive = numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+    if len(numbers) > 1 and consecutive:
         text += f"{numbers[0]}-{numbers[-1]}"
     else:
         text += ",".join(map(str, numbers[:8])) + (",..." if len(numbers) > 8 else "")

@@ -11,7 +11,7 @@ from aegis_ot.preflight.source.nodes import Nodes
 
 
 def indexed(text: str, name: str) -> set[str]:
-    return {use.held for use in read_flow(Nodes(ast.parse(text))).indexed_with.get(name, [])}
+    return {use.indexed for use in read_flow(Nodes(ast.parse(text))).indexed_with.get(name, [])}
 
 
 @pytest.mark.parametrize(
