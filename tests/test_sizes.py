@@ -10,7 +10,7 @@ PACKAGE = Path(__file__).parents[1] / "aegis_ot"
 
 BUDGETS = {
     "preflight": 9_500,
-    "preflight/checks": 2_255,
+    "preflight/checks": 2_259,
     "preflight/database": 212,
     "preflight/evidence": 701,
     "preflight/judging": 861,
@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 622,
     "preflight/source": 681,
     "preflight/trace": 1_521,
-    "": 66_638,
+    "": 66_642,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached: ``preflight`` is
 within its aim of 9,500, the package has 48,000 for an aim."""

@@ -67,7 +67,7 @@ class Carry(Check):
             well = visit.well
             if not case.has(well, self.into) or case.has(well, self.not_into):
                 continue
-            made = case.made_of(well)
+            made = case.made_of.get(well, ())
             if self.shared and len(made) < 2:
                 continue
             if well.ref in case.waste and not (made and visit.kind is OperationKind.ASPIRATE):
@@ -157,13 +157,13 @@ class Carry(Check):
         drawn = {well for well in unnamed if case.is_drawn_first(well)}
         sources, stocks = set[Well](), set[Well]()
         if any(case.family.roles[role].side != "destination" for role in self.into):
-            stocks = {well for well in unnamed if len(case.made_of(well)) > 1}
+            stocks = {well for well in unnamed if len(case.made_of.get(well, ())) > 1}
             sources = stocks & drawn if self.shared else drawn
         for visit in case.trace.visits if drawn or stocks else ():
             well = visit.well
             if not visit.contact or not visit.carried or well.ref in case.waste:
                 continue
-            if self.stock and not case.made_of(well):
+            if self.stock and not case.made_of.get(well, ()):
                 continue
             met_before = (carriers if well in stocks else set()) | (
                 drawn if well in sources or case.has(well, self.into) else set()
@@ -192,7 +192,7 @@ class Carry(Check):
             stock, tip = visit.well, visit.tip
             if not visit.contact or not case.has(stock, self.into):
                 continue
-            if len(case.made_of(stock)) < 2:
+            if len(case.made_of.get(stock, ())) < 2:
                 continue
             if not all(case.same_liquid(origin, stock) for origin, _ in carried_liquids(visit)):
                 continue

@@ -111,9 +111,13 @@ class Case:
             found.setdefault(one.source, {})[one.well] = one.visit.index
         return found
 
-    def made_of(self, well: Well) -> list[Well]:
-        """The wells that it was drawn for, but for the waste."""
-        return [one for one in self.destinations.get(well, ()) if one.ref not in self.waste]
+    @cached_property
+    def made_of(self) -> Mapping[Well, Sequence[Well]]:
+        """For each well the wells that it was drawn for, but for the waste."""
+        return {
+            well: [one for one in drawn_for if one.ref not in self.waste]
+            for well, drawn_for in self.destinations.items()
+        }
 
     def is_said_to_hold(self, well: Well) -> bool:
         """Whether a loaded liquid, or the role that it has, says that a well holds something."""
