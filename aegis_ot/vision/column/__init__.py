@@ -12,9 +12,11 @@ from .measure import (
     look_at_tip,
     look_beside,
     measure_column,
+    shapes_of,
 )
 from .pair import column_left
 from .profile import TipProfile
+from .strip import TipShape
 from .trajectory import RunReference, Signs, TipModel, place, weigh
 
 __all__ = [
@@ -26,6 +28,7 @@ __all__ = [
     "TipLook",
     "TipModel",
     "TipProfile",
+    "TipShape",
     "WetAndDry",
     "Wetness",
     "ceiling",
@@ -40,5 +43,6 @@ __all__ = [
     "measure_column",
     "place",
     "rectify",
+    "shapes_of",
     "weigh",
 ]

@@ -8,6 +8,8 @@ shows through the tip as a sharp step in every frame, and the orifice, where the
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 
@@ -20,6 +22,9 @@ lower end of a real tip's sleeve, which is a sharper step."""
 
 _CLEAR = 4.0
 """What a step must be to stand out, times the noise."""
+
+_COARSE, _FINE = (0.06, 1.0), (0.02, 0.25)
+"""How far both ends are shifted across the axis, tip lengths, and in what steps, rows."""
 
 _SIDEWAYS = 0.03
 """Standard deviation of a detection's ends across the axis, tip lengths (a box has no axis, and a
@@ -74,6 +79,15 @@ def _of_length(
     return choices[best][0] + step, choices[best][1] + step
 
 
+def clarities(
+    image: Image, detection: TipDetection, shapes: Sequence[TipShape]
+) -> tuple[float, ...]:
+    """How much of the steep steps lies on each of the outlines that a kind of tip may have."""
+    collar, orifice = np.array(detection.collar), np.array(detection.orifice)
+    widest = max(shape.half_width for shape in shapes)
+    return tuple(_shifted(image, collar, orifice, shape, widest, *_COARSE)[2] for shape in shapes)
+
+
 def onto_outline(
     image: Image,
     collar: Point,
@@ -81,44 +95,57 @@ def onto_outline(
     shape: TipShape,
 ) -> tuple[Point, Point, float]:
     """Shift both ends across the axis until the tip's outline lies on the steepest steps."""
-    clarity = 0.0
-    for reach, fine in ((0.06, 1.0), (0.02, 0.25)):
-        rows = 96
-        pixels, u, v = resample(image, collar, orifice, rows, shape.half_width + 2 * reach)
-        grey = cv2.GaussianBlur(pixels.mean(axis=2), (1, 5), 0)
-        step = np.abs(np.gradient(grey, axis=1))
-        noise = np.median(step) + 1e-3
-        step = np.minimum(step / noise, 12.0)
-        inside = (u > 0.0) & (u < 1.0)
-        grid = np.arange(-reach, reach + 1e-9, fine / rows)
-        rows_u = u[inside].astype(np.float64)
-        radius = shape.radius(u[inside]).astype(np.float64)
-        table = step[inside]
-        height, width = table.shape
-        # (height, grid, grid): centre of the axis per row for every shift of upper and lower end
-        centre = (
-            grid[None, :, None] * (1 - rows_u)[:, None, None]
-            + grid[None, None, :] * rows_u[:, None, None]
-        )
-        values = np.ascontiguousarray(table).ravel()
-        first = np.arange(0, height * width, width)[:, None, None]
-        total = np.zeros((grid.size, grid.size))
-        for side in (-1.0, 1.0):
-            at = (centre + (side * radius - v[0])[:, None, None]) * rows
-            low = np.clip(at.astype(np.intp), 0, width - 2)
-            part = np.clip(at - low, 0.0, 1.0)
-            low += first
-            here = values.take(low)
-            total += (here + (values.take(low + 1) - here) * part).sum(axis=0)
-        off = 0.25 * (grid / _SIDEWAYS) ** 2
-        total -= 2 * height * (off[:, None] + off[None, :])
-        best = np.unravel_index(int(np.argmax(total)), total.shape)
-        along = orifice - collar
-        across = np.array([along[1], -along[0]])
-        collar = collar + across * grid[best[0]]
-        orifice = orifice + across * grid[best[1]]
-        clarity = float(total[best] / (2 * height))
-    return collar, orifice, clarity
+    collar, orifice, _ = _shifted(image, collar, orifice, shape, shape.half_width, *_COARSE)
+    return _shifted(image, collar, orifice, shape, shape.half_width, *_FINE)
+
+
+def _shifted(
+    image: Image,
+    collar: Point,
+    orifice: Point,
+    shape: TipShape,
+    half_width: float,
+    reach: float,
+    fine: float,
+) -> tuple[Point, Point, float]:
+    """The ends where the outline fits best, up to ``reach`` tip lengths aside, and how well.
+
+    ``half_width``: of the strip on which steps are looked for; ``fine``: of the shifts, rows.
+    """
+    rows = 96
+    pixels, u, v = resample(image, collar, orifice, rows, half_width + 2 * reach)
+    grey = cv2.GaussianBlur(pixels.mean(axis=2), (1, 5), 0)
+    step = np.abs(np.gradient(grey, axis=1))
+    noise = np.median(step) + 1e-3
+    step = np.minimum(step / noise, 12.0)
+    inside = (u > 0.0) & (u < 1.0)
+    grid = np.arange(-reach, reach + 1e-9, fine / rows)
+    rows_u = u[inside].astype(np.float64)
+    radius = shape.radius(u[inside]).astype(np.float64)
+    table = step[inside]
+    height, width = table.shape
+    # (height, grid, grid): centre of the axis per row for every shift of upper and lower end
+    centre = (
+        grid[None, :, None] * (1 - rows_u)[:, None, None]
+        + grid[None, None, :] * rows_u[:, None, None]
+    )
+    values = np.ascontiguousarray(table).ravel()
+    first = np.arange(0, height * width, width)[:, None, None]
+    total = np.zeros((grid.size, grid.size))
+    for side in (-1.0, 1.0):
+        at = (centre + (side * radius - v[0])[:, None, None]) * rows
+        low = np.clip(at.astype(np.intp), 0, width - 2)
+        part = np.clip(at - low, 0.0, 1.0)
+        low += first
+        here = values.take(low)
+        total += (here + (values.take(low + 1) - here) * part).sum(axis=0)
+    off = 0.25 * (grid / _SIDEWAYS) ** 2
+    total -= 2 * height * (off[:, None] + off[None, :])
+    best = np.unravel_index(int(np.argmax(total)), total.shape)
+    along = orifice - collar
+    across = np.array([along[1], -along[0]])
+    clarity = float(total[best] / (2 * height))
+    return collar + across * grid[best[0]], orifice + across * grid[best[1]], clarity
 
 
 def _nozzle_shift(image: Image, collar: Point, orifice: Point, shape: TipShape) -> float | None:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..tips import TipGeometry, tip_for
 from ..types import Image, TipDetection
 from .alone import alone
-from .axis import rectify
+from .axis import clarities, rectify
 from .breaks import Break, find_break
 from .evidence import (
     ELSEWHERE,
@@ -98,10 +98,26 @@ def shape_of(tip: TipGeometry) -> TipShape:
     """Outline of a kind of tip."""
     if tip.name.startswith("ot2_"):
         return SHAPES[_MEASURED.get(tip.name, "p20")]
+    return _of_geometry(tip, 240 if tip.nominal_ul >= 500 else 160)
+
+
+def shapes_of(tip: TipGeometry) -> tuple[TipShape, ...]:
+    """Outlines that a kind of tip may have.
+
+    Makers differ: some of an OT-2's smaller tips taper straight, others have a narrow lower part,
+    as the geometry has it. By the wrong outline a tip is laid beside its place.
+    """
+    shape = shape_of(tip)
+    if tip.name == "ot2_1000" or not tip.name.startswith("ot2_"):
+        return (shape,)
+    return shape, _of_geometry(tip, shape.rows)
+
+
+def _of_geometry(tip: TipGeometry, rows: int) -> TipShape:
     collar = (max(tip.profile[-1][1], tip.nozzle_radius_mm) + tip.wall_mm) / tip.length_mm
     return TipShape(
         tip.name,
-        240 if tip.nominal_ul >= 500 else 160,
+        rows,
         collar,
         (tip.profile[0][1] + tip.wall_mm) / tip.length_mm,
         tip.overlap_mm / tip.length_mm,
@@ -121,12 +137,16 @@ class TipLook:
         cone: ``(rows, lanes, 3)`` the tip with its outline made straight, see
             :func:`~.profile.unroll`.
         collar, orifice: Ends of the refined axis, px of the frame.
+        shape: The outline by which it was laid straight.
+        clarities: How well each of :func:`shapes_of` fits; empty where that is one, or was given.
     """
 
     profile: TipProfile
     cone: Array = field(repr=False)
     collar: tuple[float, float]
     orifice: tuple[float, float]
+    shape: TipShape
+    clarities: tuple[float, ...] = ()
 
     @property
     def washed_out(self) -> bool:
@@ -139,29 +159,35 @@ def look_at_tip(
     detection: TipDetection,
     tip: TipGeometry,
     length: float | None = None,
+    shape: TipShape | None = None,
 ) -> TipLook:
     """Straighten the tip and read its signals: all that takes time, done once per frame.
 
-    ``length``: of the tip in px, where other frames of the trajectory show it better.
+    ``length`` of the tip in px, and ``shape`` of its outline: where other frames of the trajectory
+    show them better.
     """
-    shape = shape_of(tip)
     left, top = 0, 0
     if detection.apart is not None:
-        image, detection, (left, top) = alone(image, detection, shape)
+        image, detection, (left, top) = alone(image, detection, shape_of(tip))
+    clear: tuple[float, ...] = ()
+    if shape is None:
+        shapes = shapes_of(tip)
+        clear = clarities(image, detection, shapes) if len(shapes) > 1 else ()
+        shape = shapes[int(np.argmax(clear))] if clear else shapes[0]
     strip = rectify(image, detection, shape, length=length)
     cone = unroll(strip, shape)
     collar, orifice = ((x + left, y + top) for x, y in (strip.collar, strip.orifice))
-    return TipLook(tip_profile(strip, shape, cone), cone, collar, orifice)
+    return TipLook(tip_profile(strip, shape, cone), cone, collar, orifice, shape, clear)
 
 
 def look_beside(
     image: Image, detection: TipDetection, tip: TipGeometry, seen: TipLook, px: float
 ) -> TipLook:
     """The same look with the tip's end put ``px`` px further along the tip than it was seen."""
-    shape = shape_of(tip)
+    shape = seen.shape
     left, top = 0, 0
     if detection.apart is not None:
-        image, _, (left, top) = alone(image, detection, shape)
+        image, _, (left, top) = alone(image, detection, shape_of(tip))
     collar, orifice = (np.subtract(end, (left, top)) for end in (seen.collar, seen.orifice))
     along = orifice - collar
     orifice = orifice + along * (px / max(float(np.hypot(*along)), 1.0))
@@ -170,7 +196,7 @@ def look_beside(
     strip = Strip(pixels, u, v, upper, lower, seen.profile.clarity)
     cone = unroll(strip, shape)
     there = (lower[0] + left, lower[1] + top)
-    return TipLook(tip_profile(strip, shape, cone), cone, seen.collar, there)
+    return TipLook(tip_profile(strip, shape, cone), cone, seen.collar, there, shape)
 
 
 def measure_column(

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import weakref
 from collections.abc import Hashable, Mapping
+from typing import Any
 
 import numpy as np
 
 from ...vocabulary import KeyframeKind
-from ..column import TipLook, look_at_tip, look_beside
+from ..column import TipLook, TipShape, look_at_tip, look_beside, shapes_of
 from ..column.trajectory import LOADED
 from ..crops import remember
 from ..tips import TipGeometry
@@ -26,7 +27,7 @@ it by more than this."""
 _SAME = 0.03
 """Lengths this close are the same: looking again would change nothing."""
 
-_Taken = dict[Hashable, dict[float | None, TipLook]]
+_Taken = dict[Hashable, dict[Any, TipLook]]
 _taken: dict[int, tuple[weakref.ref[Image], _Taken]] = {}
 
 
@@ -40,17 +41,21 @@ def _taken_in(image: Image) -> _Taken:
 
 
 def look(
-    image: Image, detection: TipDetection, tip: TipGeometry, length: float | None = None
+    image: Image,
+    detection: TipDetection,
+    tip: TipGeometry,
+    length: float | None = None,
+    shape: TipShape | None = None,
 ) -> TipLook:
     """:func:`look_at_tip`, once for as long as the frame lives.
 
     A live run calls it as each frame arrives, so that little is left to do after the last one.
     """
-    of_tip = _taken_in(image).setdefault((detection, tip.name), {})
+    of_tip = _taken_in(image).setdefault((detection, tip.name, shape), {})
     for other, taken in of_tip.items():
         if other == length or (other and length and abs(other / length - 1.0) < _SAME):
             return taken
-    of_tip[length] = look_at_tip(image, detection, tip, length)
+    of_tip[length] = look_at_tip(image, detection, tip, length, shape)
     return of_tip[length]
 
 
@@ -74,9 +79,9 @@ def looks_beside(sample: TrajectorySample, px: float) -> Mapping[KeyframeKind, T
 def looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
     """Looks of all frames in which a tip was found and can be seen, computed once per sample.
 
-    One tip is about as long in all four frames. A frame that disagrees with those in which the
-    tip hangs free shows a part of it, for labware hides the rest, or was detected badly; it is
-    looked at again with their length.
+    One tip is about as long in all four frames, and has one outline. A frame that disagrees with
+    those in which the tip hangs free shows a part of it, for labware hides the rest, or was
+    detected badly; it is looked at again with their length, and with their outline.
     """
     return remember(sample, "looks", _looks)
 
@@ -92,14 +97,25 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
             if not seen.washed_out:
                 images[kind], taken[kind] = frame, seen
     usual = _usual_length({kind: seen.profile.length for kind, seen in taken.items()})
+    shape = _usual_outline(sample.tip, taken)
     for kind, seen in list(taken.items()):
         detection = sample.detections[kind]
         if usual is None or detection is None:
             continue
         sure = detection.confidence >= _SURE and kind in LOADED
-        if abs(seen.profile.length / usual - 1.0) > (_SURELY_OFF if sure else _PERSPECTIVE):
-            taken[kind] = look(images[kind], detection, sample.tip, usual)
+        off = abs(seen.profile.length / usual - 1.0) > (_SURELY_OFF if sure else _PERSPECTIVE)
+        other = None if shape == seen.shape else shape
+        if off or other is not None:
+            length = usual if off else None
+            taken[kind] = look(images[kind], detection, sample.tip, length, other)
     return taken
+
+
+def _usual_outline(tip: TipGeometry, taken: Mapping[KeyframeKind, TipLook]) -> TipShape:
+    """The outline that fits the tip where it hangs free: labware has edges of its own."""
+    shapes = shapes_of(tip)
+    told = [taken[kind].clarities for kind in FREE if kind in taken and taken[kind].clarities]
+    return shapes[int(np.argmax(np.sum(told, axis=0)))] if told else shapes[0]
 
 
 def _usual_length(lengths: Mapping[KeyframeKind, float]) -> float | None:
