@@ -23,6 +23,9 @@ _LEAST_RANGE = 24.0
 
 _BAR_PX = 8
 
+_ABOVE = 0.02
+"""Shown above a tip, tip lengths."""
+
 Floats = NDArray[np.float32]
 
 
@@ -33,12 +36,15 @@ class CropSettings:
     Attributes:
         margin: Shown on both sides of the tip and below its orifice, tip lengths. Above the collar
             hardly anything is: the shaft tells nothing and is the brightest thing in the picture.
+        lost: Shown beside, and above and below, the place where a tip was not found: from one well
+            to the next it moves by up to its length, mostly sideways.
         side: Longer side of the picture that is sent, px.
         saturation: How much colours are strengthened: a dye in a fine bore is faint.
         quality: Of the JPEG, 1 to 100.
     """
 
     margin: float = 0.15
+    lost: tuple[float, float] = (1.0, 0.4)
     side: int = 550
     saturation: float = 2.0
     quality: int = 90
@@ -50,7 +56,10 @@ def picture_of(
     crop: CropSettings,
     normal: tuple[Image, TipDetection] | None = None,
 ) -> Picture:
-    """The tip cut out with a margin and brought to size; without a tip, the whole frame.
+    """The tip cut out with a margin and brought to size.
+
+    Where none was found, the place is shown where the normal well's is, at the same moment; without
+    one, the whole frame.
 
     Args:
         frame: ``(height, width, 3)``, BGR.
@@ -58,12 +67,16 @@ def picture_of(
         crop: How it is cut.
         normal: The same moment of a normal well, and the tip in it: stands on the left.
     """
-    if detection is None:
-        return _encoded(_sized(frame.astype(np.float32), crop.side), crop)
-    shown = [_sized(_cut(frame, detection, crop.margin), crop.side)]
+    place = detection or (normal[1] if normal else None)
+    if place is None:
+        side = min(max(frame.shape[:2]), 2 * crop.side)
+        whole = _sized(frame.astype(np.float32), side)
+        return _encoded(_stretched(whole, crop.saturation), crop)
+    beside, below = (crop.margin, crop.margin) if detection else crop.lost
+    around = beside, _ABOVE if detection else below, below
+    shown = [_sized(_cut(frame, place, around), crop.side)]
     if normal is not None:
-        beside = _cut(*normal, crop.margin)
-        shown.insert(0, _sized(beside, crop.side))
+        shown.insert(0, _sized(_cut(*normal, around), crop.side))
     height = max(one.shape[0] for one in shown)
     shown = [
         cv2.copyMakeBorder(one, 0, height - one.shape[0], 0, 0, cv2.BORDER_REPLICATE)
@@ -76,13 +89,15 @@ def picture_of(
     return _encoded(stretched, crop)
 
 
-def _cut(frame: Image, detection: TipDetection, margin: float) -> Floats:
+def _cut(frame: Image, detection: TipDetection, around: tuple[float, float, float]) -> Floats:
+    """``around``: what is shown beside, above and below the tip, tip lengths."""
     length = max(detection.w, detection.h)
+    beside, above, below = (margin * length for margin in around)
     height, width = frame.shape[:2]
-    left = int(max(detection.x - margin * length, 0))
-    right = int(detection.x + detection.w + margin * length)
-    top = int(max(detection.y - 0.02 * length, 0))
-    bottom = int(detection.y + detection.h + margin * length)
+    left = int(max(detection.x - beside, 0))
+    right = int(detection.x + detection.w + beside)
+    top = int(max(detection.y - above, 0))
+    bottom = int(detection.y + detection.h + below)
     cut = frame[top : min(bottom, height), left : min(right, width)]
     return (cut if cut.size else frame).astype(np.float32)
 

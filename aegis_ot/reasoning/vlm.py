@@ -43,13 +43,15 @@ _ASSESSMENT = strict_object(
 GATE_SCHEMA: dict[str, Any] = strict_object(**dict.fromkeys(LENSES, _ASSESSMENT))
 
 _ROUTES = {
-    Route.GREY_ZONE: "its anomaly score is outside the band of this run's normal wells",
+    Route.GREY_ZONE: "it looks unlike this run's normal wells",
     Route.BLANK_FLOOR: "no tip was found in one of the pictures, or the view is blank",
-    Route.UNCALIBRATED: "the run has no calibration yet",
+    Route.UNCALIBRATED: "the run could not be calibrated on its first wells",
     Route.ALWAYS_GATE: "every well is looked at in this run",
     Route.CALIBRATION: "it is one of the run's first wells",
-    Route.SILENT_PASS: "it is a spot check: nothing speaks against it",
+    Route.SILENT_PASS: "it is a spot check of the wells that pass",
 }
+_NEAR_BAND = "its anomaly score, though inside the band of this run's normal wells, is near its end"
+_UNSCORED = "no anomaly score could be computed"
 
 _SIGNS = {
     "retained": "a column that is left after the dispense (pictures 3 and 4)",
@@ -63,7 +65,7 @@ _SIGNS = {
 }
 
 _SPOKE = 1.0
-"""Surprise of a sign, nats, from which it is named."""
+"""Surprise of a sign, nats, from which it is named: one normal well of three shows as much."""
 
 
 class VlmGate:
@@ -154,10 +156,13 @@ def gate_request(case: Case, crop: CropSettings | None = None) -> Request:
         expected = sample.expected_ul.get(kind)
         told = "" if expected is None else f"; {expected:g} µL should be in the tip"
         detection = sample.detections.get(kind)
-        lost = "" if detection is not None else "; no tip was found in it, so it is the whole frame"
-        normal = None if detection is None else _normal(case, kind)
+        normal = _normal(case, kind)
         beside = "; left: a normal well of this run, right: the well in question" if normal else ""
-        parts.append(f"Picture {number}, {kind.value}{told}{lost}{beside}:")
+        lost = ""
+        if detection is None:
+            shown = "both show where the normal well's hangs" if normal else "it is the whole frame"
+            lost = f"; no tip was found in it, so {shown}"
+        parts.append(f"Picture {number}, {kind.value}{told}{beside}{lost}:")
         parts.append(picture_of(frame, detection, crop, normal))
     return Request(
         PURPOSE,
@@ -173,7 +178,7 @@ def _facts(case: Case) -> list[str]:
     reagent = sample.reagent.strip()
     lines = [
         f"Pipette {sample.pipette}, commanded volume {sample.volume_ul:g} µL.",
-        f"Flagged because {_ROUTES.get(case.route, case.route.value)}.",
+        f"Asked because {_why(case)}.",
     ]
     if reagent:
         # A name from the protocol: data, not a word to the model.
@@ -187,15 +192,29 @@ def _facts(case: Case) -> list[str]:
     spoke = sorted(case.signs.items(), key=lambda sign: -sign[1])
     named = [_SIGNS[sign] for sign, nats in spoke if nats >= _SPOKE and sign in _SIGNS]
     if named:
-        lines.append(f"What spoke against it, strongest first: {'; '.join(named)}.")
+        lines.append(f"What the measurement noticed, strongest first: {'; '.join(named)}.")
     for kind, reading in case.readings.items():
         if _tells(reading, sample.expected_ul.get(kind)):
             lines.append(
-                f"Measured in {kind.value}: about {reading.volume_ul:.0f} ± "
-                f"{reading.sigma_ul:.0f} µL"
+                f"Measured in {kind.value}: about {_volume(reading)}"
                 + ("." if case.calibrated else ", not calibrated on this run yet.")
             )
     return lines
+
+
+def _why(case: Case) -> str:
+    if case.near_band:
+        return _NEAR_BAND
+    if case.route is Route.GREY_ZONE and case.score is None:
+        return _UNSCORED
+    return _ROUTES[case.route]
+
+
+def _volume(reading: ColumnReading) -> str:
+    """``2.4 ± 0.3 µL``: as many decimals as the uncertainty is worth."""
+    sigma = max(reading.sigma_ul, 0.01)
+    digits = max(-math.floor(math.log10(sigma)), 0)
+    return f"{reading.volume_ul:.{digits}f} ± {sigma:.{digits}f} µL"
 
 
 def _tells(reading: ColumnReading, expected_ul: float | None) -> bool:

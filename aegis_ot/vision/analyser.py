@@ -125,10 +125,9 @@ class RunAnalyser:
         triage = stream.cascade.triage(case.score, case.missing, against)
         case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
-        if not triage.to_gate:
-            band = stream.cascade.calibration.band
-            limit = None if band is None else band[1]
-            decision = self._second.on(case, decision, stream.learned + 1, limit)
+        band = stream.cascade.calibration.band
+        limit = None if band is None else band[1]
+        decision = self._second.on(case, decision, stream.learned + 1, limit)
         left = None
         if decision.outcome is not Outcome.PASS:
             delivery = partial(self._delivery, seen, last)

@@ -1,9 +1,10 @@
-"""A vision model's look at wells that nothing flagged: the only way in which it can raise recall.
+"""A vision model's look at wells that passed: the only way in which it can raise recall.
 
-It costs, so not every well goes to it: the first wells of each liquid, on which the run is
-calibrated and which nothing else can judge; wells that come near the band; and a share of all
-others. What it says against an unflagged well is one voice alone, so it stops nothing: it asks the
-operator.
+All wells go to it that triage sent to the gates and an earlier gate passed: volumes say nothing of
+a bubble or a film. It costs, so of the others only some do: the first wells of each liquid, on
+which the run is calibrated and which nothing else can judge; wells that come near the band; and a
+share of the rest. What it says against a well that passed is one voice alone, so it stops nothing:
+it asks the operator.
 """
 
 from __future__ import annotations
@@ -17,10 +18,10 @@ from .gates import Case, GateDecision, Gates, in_sentences
 
 @dataclass(frozen=True)
 class SpotCheck:
-    """Which unflagged wells a vision model sees.
+    """Which wells that no gate was asked about a vision model sees.
 
     Attributes:
-        share: Of the silent passes, 0 to 1; 0: no unflagged well at all.
+        share: Of the silent passes, 0 to 1; 0: none of these wells at all.
         near: Those whose score is over this share of the band's upper end.
         first: How many of the first wells of each liquid.
     """
@@ -35,11 +36,11 @@ class SecondOpinion:
 
     Args:
         gates: The run's gates.
-        spot_check: Which wells.
+        spot_check: Which wells, of those that no gate was asked about.
     """
 
     def __init__(self, gates: Gates, spot_check: SpotCheck | None = None) -> None:
-        self._model = gates.model
+        self._gates = gates
         self._spot_check = spot_check or SpotCheck()
 
     def on(
@@ -53,24 +54,38 @@ class SecondOpinion:
             first_wells: How many wells of its liquid have calibrated the run, with this one.
             limit: Upper end of the band; ``None`` without one.
         """
-        if self._model is None or passed.outcome is not Outcome.PASS:
+        model = self._gates.model_after(passed.gate)
+        if model is None or passed.outcome is not Outcome.PASS:
             return passed
-        if not self._wanted(case, first_wells, limit):
+        routed = case.route not in (Route.SILENT_PASS, Route.CALIBRATION)
+        near = not routed and self._near(case, limit)
+        if not (routed or near or self._drawn(case, first_wells)):
             return passed
-        said = self._model.examine(case)
+        said = model.examine(replace(case, near_band=near))
         if said.outcome is not Outcome.FAIL:
             return replace(passed, costs=passed.costs + said.costs, trouble=said.trouble)
-        unflagged = "Nothing flagged this well, but a vision model fails it."
-        reason = in_sentences(unflagged, said.reason)
-        return replace(said, outcome=Outcome.UNDECIDED, reason=reason)
+        if routed:
+            reason = in_sentences(passed.reason, "But a vision model fails it.", said.reason)
+        else:
+            unflagged = "Nothing flagged this well, but a vision model fails it."
+            reason = in_sentences(unflagged, said.reason)
+        return replace(
+            said,
+            outcome=Outcome.UNDECIDED,
+            reason=reason,
+            measured_ul=passed.measured_ul,
+            expected_ul=passed.expected_ul,
+        )
 
-    def _wanted(self, case: Case, first_wells: int, limit: float | None) -> bool:
+    def _near(self, case: Case, limit: float | None) -> bool:
         wanted = self._spot_check
-        if wanted.share <= 0:
+        if wanted.share <= 0 or case.route is Route.CALIBRATION:
             return False
+        return limit is not None and case.score is not None and case.score > wanted.near * limit
+
+    def _drawn(self, case: Case, first_wells: int) -> bool:
+        wanted = self._spot_check
         if case.route is Route.CALIBRATION:
-            return first_wells <= wanted.first
-        near = limit is not None and case.score is not None and case.score > wanted.near * limit
+            return wanted.share > 0 and first_wells <= wanted.first
         # The same wells every time: a replayed run asks nothing new.
-        drawn = zlib.crc32(case.sample.id.encode()) / 2**32
-        return near or drawn < wanted.share
+        return zlib.crc32(case.sample.id.encode()) / 2**32 < wanted.share

@@ -22,6 +22,9 @@ from .types import FREE, Detector, Image, Scorer, TipDetection, TrajectorySample
 _MODEL_WEIGHT = 4.0
 """How many of the run's own wells above their median the model's scale, one nat, is worth."""
 
+_SHOWN = 2
+"""First wells whose frames are kept to compare others with: one may turn out to be suspect."""
+
 _LEAST_SCALE = 1.0, 0.3
 """Smallest scale, nats, and as a share of the median. Wells of one run are more alike than those of
 a model's many runs, but for the rare one whose tip was found badly; and where all wells look
@@ -110,8 +113,12 @@ class Stream:
         self.learned = 0
         self.vouched = False
         self.doubt = ""
-        self.normal: TrajectorySample | None = None
         self._first: list[tuple[Mapping[KeyframeKind, object], TrajectorySample]] = []
+
+    @property
+    def normal(self) -> TrajectorySample | None:
+        """The first normal well that no later one cast doubt on: others are shown beside it."""
+        return next((sample for _, sample in self._first if sample.frames), None)
 
     def p_value(self, score: float | None) -> float | None:
         """How often a normal well of this run looks this unusual; ``None``: cannot be told.
@@ -173,13 +180,13 @@ class Stream:
             return
         self.reader.learn(looks, sample.expected_ul)
         self.learned += 1
-        if self.normal is None:
-            # Kept with its frames: a person, or a model, compares other wells with it.
-            self.normal = replace(sample, frames=dict(sample.frames))
         if scored:
             self.scorer.accept(sample)
         if len(self._first) < self.settings.wells:
-            self._first.append((dict(looks), sample))
+            shown = sum(bool(first.frames) for _, first in self._first)
+            # The trajectory gives its own frames up.
+            kept = replace(sample, frames=dict(sample.frames) if shown < _SHOWN else {})
+            self._first.append((dict(looks), kept))
 
     def catch_up(self) -> None:
         """What can be done while the robot moves: adapt, and look at the first wells again.

@@ -81,7 +81,7 @@ def test_three_passes_pass() -> None:
 
 
 def test_three_passes_do_not_clear_what_alarms_the_scorer() -> None:
-    alarming = replace(case(), p_value=1e-5, alarm_p=3e-4)
+    alarming = replace(case(), p_value=1e-5)
     gates = Gates([VlmGate(ScriptedBackend([said("pass", "pass", "pass")])), OperatorGate()])
     decision = gates.confirm(alarming)
     assert (decision.outcome, decision.gate) == (Outcome.UNDECIDED, Gate.OPERATOR)
@@ -144,7 +144,7 @@ def test_what_the_model_is_shown() -> None:
     text = "\n".join(str(p) for p in request.messages[0].parts if not isinstance(p, Picture))
     assert "100 µL" in text
     assert "'red dye'" in text
-    assert "outside the band" in text
+    assert "Asked because it looks unlike" in text
     assert "0 µL should be in the tip" in text
     assert "A7" not in text, "where the well is says nothing about the tip"
     assert request.system[0].cached
@@ -171,10 +171,63 @@ def test_a_normal_well_stands_beside_the_well_in_question_and_signs_are_named() 
     assert "Measured" not in text, "the expected volume is no measurement, nor is ± inf"
 
 
+def facts(asked: Case) -> str:
+    return str(gate_request(asked).messages[0].parts[0])
+
+
+@pytest.mark.parametrize(
+    ("asked", "why"),
+    [
+        (replace(case(), route=Route.SILENT_PASS), "it is a spot check of the wells that pass"),
+        (replace(case(), route=Route.SILENT_PASS, near_band=True), "inside the band"),
+        (replace(case(), route=Route.CALIBRATION), "it is one of the run's first wells"),
+        (replace(case(), score=None), "no anomaly score could be computed"),
+    ],
+)
+def test_why_a_well_is_asked_about_is_not_contradicted_by_what_was_noticed(
+    asked: Case, why: str
+) -> None:
+    text = facts(replace(asked, signs={"retained": 3.3}))
+    assert f"Asked because {why}" in text or f"{why} of this run" in text
+    assert "noticed, strongest first: a column that is left" in text
+    assert "Flagged" not in text
+    assert "against it" not in text
+
+
+@pytest.mark.parametrize(
+    ("volume", "sigma", "told"),
+    [(2.4, 0.36, "2.4 ± 0.4"), (0.42, 0.04, "0.42 ± 0.04"), (152.3, 6.1, "152 ± 6"),
+     (7.0, 0.0, "7.00 ± 0.01")],
+)  # fmt: skip
+def test_a_volume_has_the_decimals_that_its_uncertainty_is_worth(
+    volume: float, sigma: float, told: str
+) -> None:
+    readings = {KeyframeKind.TRANSIT: ColumnReading(volume, sigma)}
+    assert f"about {told} µL" in facts(replace(case(), readings=readings))
+
+
+def test_a_tip_that_was_not_found_is_sought_where_the_normal_wells_is() -> None:
+    lost = replace(case(tips=["transit"]), normal=case().sample)
+    lost.sample.frames[KeyframeKind.TRANSIT][:] = 40  # type: ignore[index]
+    lost.sample.frames[KeyframeKind.TRANSIT][100:300, 450:490] = 180  # type: ignore[index]
+    request = gate_request(lost)
+    text = "\n".join(str(p) for p in request.messages[0].parts if not isinstance(p, Picture))
+    assert "no tip was found in it, so both show where the normal well's hangs" in text
+    data = np.frombuffer(request.pictures[1].data, np.uint8)
+    left, right = np.array_split(cv2.imdecode(data, cv2.IMREAD_GRAYSCALE), 2, axis=1)
+    assert left.max() > 200, "the normal well's tip"
+    assert right[:, right.shape[1] // 2 :].max() > 200, "a tip that hangs less than a length beside"
+
+
 def test_lost_tips_and_missing_frames_are_told() -> None:
     request = gate_request(case(tips=["transit"], frames=["dispense"]))
     text = "\n".join(str(p) for p in request.messages[0].parts if not isinstance(p, Picture))
-    assert "transit; 100 µL should be in the tip; no tip was found" in text
+    assert (
+        "transit; 100 µL should be in the tip; no tip was found in it, so it is the whole" in text
+    )
+    whole = cv2.imdecode(np.frombuffer(request.pictures[1].data, np.uint8), cv2.IMREAD_COLOR)
+    assert whole.shape[:2] == (480, 640), "not made smaller"
+    assert whole.max() > 240, "the contrast is stretched"
     assert "dispense: no picture was taken" in text
     assert len(request.pictures) == 3
     nothing = case(frames=[kind.value for kind in KeyframeKind])

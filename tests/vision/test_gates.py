@@ -139,6 +139,17 @@ def test_gates_are_asked_in_turn_until_one_decides() -> None:
     assert Gates([]).confirm(case()).outcome is Outcome.UNDECIDED
 
 
+def test_a_model_counts_as_not_asked_only_if_it_stands_after_the_gate_that_decided() -> None:
+    class Model(OperatorGate):
+        gate = Gate.VLM
+
+    volumes, model, operator = VolumetricGate(), Model(), OperatorGate()
+    assert Gates([volumes, model, operator]).model_after(Gate.VOLUMETRIC) is model
+    assert Gates([model, volumes, operator]).model_after(Gate.VOLUMETRIC) is None
+    assert Gates([model, volumes]).model_after(Gate.NONE) is model
+    assert Gates([volumes, operator]).model_after(Gate.NONE) is None
+
+
 def test_no_reason_is_said_twice() -> None:
     odd, look = "The tip looks odd.", "Please look at it."
     assert in_sentences(odd, odd) == odd

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -16,7 +16,9 @@ from aegis_ot.simulation.render import render_jpeg
 from aegis_ot.simulation.scene import place_tip
 from aegis_ot.simulation.session import SessionParameters
 from aegis_ot.vision.camera import Frame
-from aegis_ot.vision.monitor import Judged, RunMonitor
+from aegis_ot.vision.gates import Case, GateDecision, OperatorGate, VolumetricGate
+from aegis_ot.vision.monitor import Judged, MonitorSettings, RunMonitor
+from aegis_ot.vision.second_opinion import SpotCheck
 from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import Image, TipDetection
 from aegis_ot.vocabulary import (
@@ -80,11 +82,12 @@ def judge_run(
     operator: bool = False,
     probed: Mapping[int, bool] | None = None,
     lights: Mapping[int, float] | None = None,
+    monitor: Callable[[Told], RunMonitor] = RunMonitor,
 ) -> list:
     """``lights``: how much brighter a well's frame after the dispense is, by number from 1."""
     parameters = SessionParameters.webcam(seed)
     plan, rng, detector = FaultPlan(faults), np.random.default_rng(seed), Told()
-    analyser = RunMonitor(detector).begin("run", history)
+    analyser = monitor(detector).begin("run", history)
     judged = []
     for plain in keyframes(wells, reagent=reagent, volumes=volumes, pipette=pipette, tip=tip):
         keyframe = replace(plain, liquid_found=(probed or {}).get(plain.trajectory))
@@ -146,6 +149,33 @@ def test_planted_faults_are_caught_and_confirmed_by_the_gate(run, number, failur
     assert verdict.gate is Gate.VOLUMETRIC
     assert verdict.failure in failures
     assert verdict.reason
+
+
+@pytest.mark.parametrize("outcome", [Outcome.PASS, Outcome.FAIL])
+def test_a_model_sees_what_triage_sent_and_the_volumes_passed(outcome: Outcome) -> None:
+    seen: list[Route] = []
+
+    class Model:
+        gate = Gate.VLM
+        screens = False
+
+        def examine(self, case: Case) -> GateDecision:
+            seen.append(case.route)
+            return GateDecision(outcome, self.gate, "A bubble.", FailureType.AIR_BUBBLE)
+
+    def monitor(detector: Told, *gates: Model) -> RunMonitor:
+        settings = MonitorSettings(always_gate=True, spot_check=SpotCheck(0.0))
+        return RunMonitor(detector, None, settings, [VolumetricGate(), *gates, OperatorGate()])
+
+    alone = [verdict for verdict, _ in judge_run(9, monitor=monitor)]
+    heard = [v for v, _ in judge_run(9, monitor=lambda told: monitor(told, Model()))]
+    assert {(v.outcome, v.gate) for v in alone[6:]} == {(Outcome.PASS, Gate.VOLUMETRIC)}
+    assert seen == [Route.ALWAYS_GATE] * 3
+    if outcome is Outcome.PASS:
+        assert heard == alone, "it clears nothing, and changes nothing"
+    else:
+        assert heard[:6] == alone[:6]
+        assert {(v.outcome, v.gate) for v in heard[6:]} == {(Outcome.UNDECIDED, Gate.VLM)}
 
 
 @pytest.mark.parametrize("light", [0.45, 2.2])

@@ -1,4 +1,4 @@
-"""A vision model's look at wells that nothing flagged."""
+"""A vision model's look at wells that passed."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.vision.gates import Case, GateDecision, Gates, OperatorGate
+from aegis_ot.vision.gates import Case, GateDecision, Gates, OperatorGate, VolumetricGate
 from aegis_ot.vision.second_opinion import SecondOpinion, SpotCheck
 from aegis_ot.vocabulary import Gate, Outcome, Route
 from tests.vision.samples import sample
@@ -19,10 +19,15 @@ class Model:
     screens = False
 
     def __init__(self, outcome: Outcome) -> None:
-        self.outcome, self.asked = outcome, 0
+        self.outcome = outcome
+        self.seen: list[Case] = []
+
+    @property
+    def asked(self) -> int:
+        return len(self.seen)
 
     def examine(self, case: Case) -> GateDecision:
-        self.asked += 1
+        self.seen.append(case)
         return GateDecision(self.outcome, self.gate, "A column is left in picture 4.")
 
 
@@ -53,6 +58,48 @@ def test_alone_it_asks_the_operator() -> None:
     decision = SecondOpinion(Gates([Model(Outcome.FAIL)])).on(well(3.0), PASSED, 6, 3.5)
     assert decision.outcome is Outcome.UNDECIDED
     assert "column is left" in decision.reason
+
+
+MEASURED = GateDecision(
+    Outcome.PASS, Gate.VOLUMETRIC, "Above the band. The volumes agree.", None, 0.1, 0.0
+)
+ROUTED = [Route.GREY_ZONE, Route.ALWAYS_GATE, Route.UNCALIBRATED, Route.BLANK_FLOOR]
+
+
+@pytest.mark.parametrize("route", ROUTED)
+def test_what_the_volumes_alone_cleared_it_sees_without_any_spot_check(route: Route) -> None:
+    model = Model(Outcome.FAIL)
+    second = SecondOpinion(Gates([VolumetricGate(), model, OperatorGate()]), SpotCheck(share=0.0))
+    decision = second.on(well(0.1, route=route), MEASURED, 6, 3.5)
+    assert (model.asked, decision.outcome, decision.gate) == (1, Outcome.UNDECIDED, Gate.VLM)
+    assert decision.reason == (
+        "Above the band. The volumes agree. But a vision model fails it. A column is left in "
+        "picture 4."
+    )
+    assert (decision.measured_ul, decision.expected_ul) == (0.1, 0.0)
+    second.on(well(3.0), PASSED, 6, 3.5)
+    assert model.asked == 1, "of the silent passes none is wanted"
+
+
+def test_a_model_that_stands_before_the_volumes_is_not_asked_twice() -> None:
+    model = Model(Outcome.FAIL)
+    second = SecondOpinion(Gates([model, VolumetricGate(), OperatorGate()]))
+    assert second.on(well(9.0, route=Route.GREY_ZONE), MEASURED, 6, 3.5) == MEASURED
+    assert not model.asked
+
+
+@pytest.mark.parametrize("outcome", [Outcome.PASS, Outcome.UNDECIDED])
+def test_where_the_model_finds_nothing_the_volumes_word_stands(outcome: Outcome) -> None:
+    gates = Gates([VolumetricGate(), Model(outcome), OperatorGate()])
+    assert SecondOpinion(gates).on(well(9.0, route=Route.GREY_ZONE), MEASURED, 6, 3.5) == MEASURED
+
+
+def test_the_model_is_told_which_wells_are_near_the_band() -> None:
+    model = Model(Outcome.PASS)
+    second = SecondOpinion(Gates([model]), SpotCheck(share=1.0))
+    for one in (well(3.0), well(0.1), well(3.0, route=Route.GREY_ZONE)):
+        second.on(one, PASSED, 6, 3.5)
+    assert [case.near_band for case in model.seen] == [True, False, False]
 
 
 def test_a_well_that_was_flagged_is_not_its_business_and_without_a_model_nothing_is() -> None:

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import pytest
 
 from aegis_ot.vision.calibration import CalibrationSettings
 from aegis_ot.vision.column_reader import MeasuredColumns
+from aegis_ot.vision.gates import Case, GateDecision, Gates
+from aegis_ot.vision.measuring import ColumnReading
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vision.stream import Stream
+from aegis_ot.vision.types import TrajectorySample
+from aegis_ot.vocabulary import Gate, KeyframeKind, Outcome
+from tests.vision.samples import sample
 
 
 def stream(*normals: float) -> Stream:
@@ -47,3 +53,53 @@ def test_without_a_world_model_there_is_no_p_value() -> None:
     plain = Stream(None, MeasuredColumns(), CalibrationSettings())
     plain.cascade.learn(1.0, normal=True)
     assert plain.p_value(9.0) is None
+
+
+class Unread(MeasuredColumns):
+    """Measures nothing: the gate below knows which well is suspect."""
+
+    def learn(self, *_: object) -> None:
+        pass
+
+    def read_beside(self, *_: object) -> Mapping[KeyframeKind, ColumnReading]:
+        return {}
+
+    def forget(self, *_: object) -> None:
+        pass
+
+
+class Suspecting:
+    gate = Gate.VOLUMETRIC
+    screens = True
+
+    def __init__(self, *wells: str) -> None:
+        self.wells = wells
+
+    def examine(self, case: Case) -> GateDecision:
+        odd = case.sample.id in self.wells
+        return GateDecision(Outcome.FAIL if odd else Outcome.PASS, self.gate, "Liquid is left.")
+
+
+def learning(gate: Suspecting, *wells: TrajectorySample) -> Stream:
+    made = Stream(None, Unread(), CalibrationSettings(wells=6), gates=Gates([gate]))
+    for one in wells:
+        made.learn(one, dict.fromkeys(KeyframeKind, object()), scored=False)
+        one.frames.clear()  # type: ignore[attr-defined]
+    return made
+
+
+def test_the_normal_well_is_one_that_nothing_speaks_against_and_its_frames_are_kept() -> None:
+    assert learning(Suspecting()).normal is None
+    wells = [sample(f"w{number}") for number in range(4)]
+    suspecting = learning(Suspecting("w0", "w1"), *wells)
+    assert suspecting.normal is not None
+    assert suspecting.normal.id == "w0"
+    suspecting.catch_up()
+    assert "look at well" in suspecting.doubt
+    assert suspecting.normal.id == "w1"
+    assert set(suspecting.normal.frames) == set(KeyframeKind)
+    suspecting.catch_up()
+    assert suspecting.normal is None, "no frames are kept of w2 and w3: too many"
+    suspecting.learn(sample("w4"), dict.fromkeys(KeyframeKind, object()), scored=False)
+    assert suspecting.normal is not None
+    assert suspecting.normal.id == "w4"

@@ -35,6 +35,7 @@ class Case:
             earlier wells; ``None`` if it was not looked at.
         signs: What the scorer found, by sign, nats; empty if it cannot say.
         normal: A normal well of this run, to compare with.
+        near_band: Whether it is asked about because its score, inside the band, is near the end.
     """
 
     sample: TrajectorySample
@@ -49,6 +50,7 @@ class Case:
     delivery: Delivery | None = None
     signs: Mapping[str, float] = field(default_factory=dict)
     normal: TrajectorySample | None = None
+    near_band: bool = False
 
     @property
     def alarming(self) -> bool:

@@ -19,10 +19,11 @@ class Gates:
     def __init__(self, gates: Sequence[ConfirmingGate]) -> None:
         self._gates = tuple(gates)
 
-    @property
-    def model(self) -> ConfirmingGate | None:
-        """The vision model among them, if there is one."""
-        return next((gate for gate in self._gates if gate.gate is Gate.VLM), None)
+    def model_after(self, decided: Gate) -> ConfirmingGate | None:
+        """The vision model, where it was not asked because an earlier gate, or none, decided."""
+        names = [gate.gate for gate in self._gates]
+        later = names.index(decided) + 1 if decided in names else 0
+        return next((gate for gate in self._gates[later:] if gate.gate is Gate.VLM), None)
 
     def screen(self, case: Case) -> GateDecision:
         """What the gates say that may be asked about every well; ``UNDECIDED`` if there is none."""
