@@ -25,7 +25,7 @@ def doctor(
     data: Annotated[Path | None, typer.Option(help="As for aegis-ot sidecar.")] = None,
     config: Annotated[Path | None, typer.Option(help="Settings file, JSON or TOML.")] = None,
 ) -> None:
-    """Look at camera, light, detector, disk, store, token, model, clock and robot.
+    """Look at camera, light, detector, disk, store, token, models, clock and robot.
 
     Nothing is changed. Exit codes: 0 all is well, 1 a run is possible but something should be
     better, 2 something must be mended first.

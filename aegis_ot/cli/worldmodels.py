@@ -9,16 +9,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ConfigurationError
-from ..vocabulary import counted
 from .app import app
 from .check_settings import one_of
 from .datasets import open_dataset, tip_finder
 
 if TYPE_CHECKING:
     from ..vision.models import ModelFile
-
-ENOUGH = 20
-"""Normal wells from which a model can say that a well looks as one normal in twenty does."""
 
 
 @app.command()
@@ -71,28 +67,17 @@ def show_model(
 
 
 def _describe(path: Path, model: ModelFile) -> str:
-    from ..evaluation.layer2.smallest import Smallest
+    from ..vision.reach import recordings_of, shortcomings, smallest_in
 
     lines = [
         f"{path}: {model.kind}, {path.stat().st_size / 1e6:.2f} MB, made by aegis_ot "
         f"{model.package}, sha256 {model.checksum[:16]}..."
     ]
-    recordings = model.data.get("recordings")
-    for used in recordings if isinstance(recordings, list) else []:
+    for used in recordings_of(model):
         left_out = f", {used['left_out']} without a tip left out" if used.get("left_out") else ""
         lines.append(
             f"  {used.get('name')} ({used.get('source')}): {used.get('normals')} normal wells"
             f"{left_out}"
         )
-    told = recordings if isinstance(recordings, list) else []
-    normals = sum(int(used.get("normals") or 0) for used in told)
-    if told and normals < ENOUGH:
-        lines.append(
-            f"  Few: {counted(normals, 'normal well')} cannot tell one in twenty from the rest. "
-            f"Record {ENOUGH} or more."
-        )
-    if len(told) == 1 and not told[0].get("plates"):
-        lines.append("  What it would catch is not known: that takes wells of two runs or plates.")
-    seen = model.data.get("smallest")
-    lines += [f"  {Smallest(**one)}" for one in (seen if isinstance(seen, list) else [])]
+    lines += [f"  {said}" for said in (*shortcomings(model), *smallest_in(model))]
     return "\n".join(lines)

@@ -112,7 +112,7 @@ class CascadeSettings(Section):
         gates: Asked in this order, the operator after them: ``volumetric``, ``vlm``.
         spot_check: Share of the wells that pass silently that the gate ``vlm`` sees all the same,
             0 to 1; with any of it, it also sees the first wells of each liquid and those near the
-            band. 0: only what was flagged, so that it can only clear.
+            band. 0: only what was flagged.
         first_channel: On which side of the frame a multi-channel pipette's first channel (``A1``)
             is: ``left``, ``right``, or ``auto``: a column's is the far one, and the left one where
             the row is seen squarely.

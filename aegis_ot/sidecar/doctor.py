@@ -19,7 +19,11 @@ from ..errors import AegisError, CameraError, StoreError
 from ..reasoning import make_backend
 from ..reasoning.backends.service import ServiceBackend
 from ..vision.camera import Camera
+from ..vision.models import load_model
+from ..vision.reach import Smallest, normals_in, shortcomings, smallest_in
+from ..vocabulary import counted
 from .aiming import Aim
+from .analysers import load_scorer
 from .cameras import FreeRunning, open_camera
 from .config import CameraSettings, SidecarConfig, is_loopback
 from .notifications import Notifier
@@ -64,7 +68,8 @@ def examine(config: SidecarConfig, robot: str | None = None) -> Iterator[Check]:
     yield _store(config, working is not None)
     yield _token(config)
     yield from _camera_checks(config, working)
-    yield _model(config)
+    yield from _world_model(config)
+    yield _language_model(config)
     yield _notifications(config)
     yield _robot(robot) if robot else _clock()
 
@@ -176,17 +181,47 @@ def _look(config: SidecarConfig, settings: CameraSettings, camera: Camera) -> It
     yield Check("detector", state, f"on a live frame: {found}", " ".join(about_tip))
 
 
-def _model(config: SidecarConfig) -> Check:
-    if config.model.name is None:
-        return Check("model", "ok", "none is set: the volumetric gate and the operator decide")
+def _world_model(config: SidecarConfig) -> Iterator[Check]:
+    name, path = "world model", config.cascade.model
+    if path is None and config.cascade.preset == "paper":
+        yield Check(name, "ok", "none: every run learns from its own first wells")
+        return
+    if path is None:
+        said = "the shipped one, of simulated wells: what it would catch here is not known"
+        yield Check(name, "ok", said, "aegis-ot fit makes one of your own wells, which tells it.")
+        return
     try:
-        model = make_backend(config.model.name)
+        load_scorer(path)
+        model = load_model(path)
     except AegisError as error:
-        return Check("model", "bad", str(error), "Mend model.name.")
+        todo = "Name another file in cascade.model, or leave it out; until then no sidecar starts."
+        yield Check(name, "bad", str(error), todo)
+        return
+    lacks = " ".join(shortcomings(model))
+    said = f"{path}: {model.kind}, of {counted(normals_in(model), 'normal well')}"
+    yield Check(name, "warning" if lacks else "ok", said, lacks)
+    yield from (_smallest(one) for one in smallest_in(model))
+
+
+def _smallest(one: Smallest) -> Check:
+    if one.smallest_ul is None:
+        todo = "Bring the camera closer, or dye the liquid."
+        return Check("smallest volume", "warning", str(one), todo)
+    return Check("smallest volume", "ok", str(one))
+
+
+def _language_model(config: SidecarConfig) -> Check:
+    name, chosen = "language model", config.model.name
+    if chosen is None:
+        return Check(name, "ok", "none is set: the volumetric gate and the operator decide")
+    try:
+        model = make_backend(chosen)
+    except AegisError as error:
+        return Check(name, "bad", str(error), "Mend model.name.")
     problem = model.key_problem() if isinstance(model, ServiceBackend) else ""
     if problem:
-        return Check("model", "bad", f"{config.model.name} cannot be asked", problem)
-    return Check("model", "ok", f"{config.model.name} can be asked (it was not)")
+        return Check(name, "bad", f"{chosen} cannot be asked", problem)
+    return Check(name, "ok", f"{chosen} can be asked (it was not)")
 
 
 def _notifications(config: SidecarConfig) -> Check:

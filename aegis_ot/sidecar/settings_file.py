@@ -62,15 +62,32 @@ def merge(into: dict[str, Any], new: Mapping[str, Any]) -> None:
 def explain(error: ValidationError, model: type[BaseModel]) -> str:
     """What is wrong with the settings of ``model``, for people."""
     lines = []
-    for problem in error.errors(include_url=False, include_input=False):
+    for problem in error.errors(include_url=False):
         place = ".".join(str(part) for part in problem["loc"])
         text = problem["msg"].removeprefix("Value error, ")
         if problem["type"] == "extra_forbidden":
-            text = f"there is no such setting{_meant(problem['loc'], model)}"
+            hint = _elsewhere(problem, model) or _meant(problem["loc"], model)
+            text = f"there is no such setting{hint}"
         elif problem["type"] == "model_type":
             text = f"is a section of settings: [{place}] in TOML, an object in JSON"
+        elif problem["type"] == "tuple_type":
+            given = problem["input"]
+            text = "must be a list" + (f', as ["{given}"]' if isinstance(given, str) else "")
         lines.append(f"{place}: {text}" if place else text)
     return "Sidecar settings: " + "; ".join(lines)
+
+
+def _elsewhere(problem: Mapping[str, Any], model: type[BaseModel]) -> str:
+    """In which section an unknown setting is known, or what an unknown section holds."""
+    given = problem["input"]
+    names = list(given) if isinstance(given, Mapping) else [problem["loc"][-1]]
+    known = [
+        f"{section}.{name}"
+        for section, field in model.model_fields.items()
+        for name in names
+        if name in getattr(field.annotation, "model_fields", ())
+    ]
+    return f"; did you mean {' or '.join(known)}?" if known else ""
 
 
 def _meant(place: tuple[int | str, ...], model: type[BaseModel]) -> str:

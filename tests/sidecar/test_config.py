@@ -53,6 +53,11 @@ def test_toml(tmp_path: Path) -> None:
         ('{"token": ""}', "token"),
         ('{"token": "a b"}', "token"),
         ('{"cascade": {"gates": ["oracle"]}}', "oracle"),
+        ('{"cascade": {"gates": "vlm"}}', r'cascade.gates: must be a list, as \["vlm"\]'),
+        ('{"cameras": 3}', "cameras: must be a list"),
+        ('{"gate": {"spot_check": 0.1}}', "gate: there is no such .* mean cascade.spot_check?"),
+        ('{"camera": {"spot_check": 0.1}}', "did you mean cascade.spot_check?"),
+        ('{"gate": {"zzz": 1}}', "there are host, port"),
         ('{"camera": 7}', r"camera: is a section of settings: \[camera\] in TOML"),
     ],
 )

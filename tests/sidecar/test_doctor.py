@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import threading
 from collections.abc import Iterator
+from dataclasses import replace
 from email.utils import formatdate
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
@@ -14,12 +15,14 @@ import pytest
 
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.aiming import measure
-from aegis_ot.sidecar.config import CameraSettings, ModelSettings
+from aegis_ot.sidecar.config import CameraSettings, CascadeSettings, ModelSettings
 from aegis_ot.sidecar.doctor import Check, examine
 from aegis_ot.sidecar.store import DATABASE
 from aegis_ot.simulation import SimulatedCamera
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vision.detection import load_detector
+from aegis_ot.vision.models import SHIPPED, load_model, save_model
+from aegis_ot.vision.reach import Smallest
 
 from .helpers import StubCamera, make_keyframe
 
@@ -72,8 +75,8 @@ def robot() -> Iterator[tuple[str, list[float]]]:
 def test_everything_is_looked_at(sound: SidecarConfig, robot: tuple[str, list[float]]) -> None:
     checks = found(sound, robot[0])
     assert list(checks) == [
-        "versions", "disk", "store", "token", "camera", "sharpness and light", "detector", "model",
-        "notifications", "robot",
+        "versions", "disk", "store", "token", "camera", "sharpness and light", "detector",
+        "world model", "language model", "notifications", "robot",
     ]  # fmt: skip
     assert {name for name, check in checks.items() if check.state == "bad"} == set()
     assert checks["detector"].state == "warning"  # a test pattern shows no tip
@@ -86,7 +89,9 @@ def test_everything_is_looked_at(sound: SidecarConfig, robot: tuple[str, list[fl
     assert "NTP" in late.todo
 
 
-def test_what_is_wrong_is_said(sound: SidecarConfig, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_wrong_is_said(
+    sound: SidecarConfig, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
     for name in ("ANTHROPIC_API_KEY",):
         monkeypatch.delenv(name, raising=False)
     sound.data.mkdir()
@@ -94,14 +99,46 @@ def test_what_is_wrong_is_said(sound: SidecarConfig, monkeypatch: pytest.MonkeyP
     wrong = sound.model_copy(
         update={
             "camera": CameraSettings(spec="folder:/nowhere"),
+            "cascade": CascadeSettings(model=tmp_path / "nofile.model"),
             "model": ModelSettings(name="anthropic:some-model"),
         }
     )
     checks = found(wrong, "http://127.0.0.1:9")
     bad = {name for name, check in checks.items() if check.state == "bad"}
-    assert bad == {"store", "camera", "model", "robot"}
-    assert "ANTHROPIC_API_KEY" in checks["model"].todo
+    assert bad == {"store", "camera", "world model", "language model", "robot"}
+    assert "nofile.model" in checks["world model"].said
+    assert "ANTHROPIC_API_KEY" in checks["language model"].todo
     assert all(checks[name].todo for name in bad)
+
+
+def test_it_says_what_the_world_model_would_catch(sound: SidecarConfig, tmp_path: Path) -> None:
+    def told(cascade: CascadeSettings) -> list[Check]:
+        checks = list(examine(sound.model_copy(update={"cascade": cascade})))
+        return [check for check in checks if check.name in ("world model", "smallest volume")]
+
+    (shipped,) = told(CascadeSettings())
+    assert "the shipped one" in shipped.said
+    assert "aegis-ot fit" in shipped.todo
+    (none,) = told(CascadeSettings(preset="paper"))
+    assert "its own first wells" in none.said
+
+    seen = Smallest("p20", "red", 10.0, 2.5, {"0.25": 1.0}, 6, 12.0, 2.4, 3.5)
+    blind = replace(seen, reagent="water", smallest_ul=None)
+    made = load_model(SHIPPED)
+    data = {
+        "recordings": [{"name": "a", "normals": 30}],
+        "smallest": [seen.to_json(), blind.to_json()],
+    }
+    own = tmp_path / "own.model"
+    save_model(own, made.kind, made.arrays, made.settings, data)
+    model, dye, water = told(CascadeSettings(model=own))
+    assert (model.state, dye.state, water.state) == ("ok", "ok", "warning")
+    assert "30 normal wells" in model.said
+    assert (dye.said, water.said) == (str(seen), str(blind))
+    save_model(own, made.kind, made.arrays, made.settings, {"recordings": [{"normals": 3}]})
+    (few,) = told(CascadeSettings(model=own))
+    assert few.state == "warning"
+    assert "3 normal wells" in few.todo
 
 
 def test_a_sidecar_at_work_is_asked_and_not_disturbed(sound: SidecarConfig) -> None:

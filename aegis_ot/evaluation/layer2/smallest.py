@@ -9,9 +9,8 @@ judged as any other well is, its plate held out.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from typing import Any
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from ...vision.column import Reference, TipLook, expected_top, learn_tip
 from ...vision.column.strip import Array
 from ...vision.column.trajectory import DELIVERED
 from ...vision.crops import remember
+from ...vision.reach import Smallest
 from ...vision.scorers.aims import AIMS, aimed, read_as
 from ...vision.scorers.looks import looks
 from ...vision.types import Scorer, TrajectorySample
@@ -38,55 +38,6 @@ PLATES = 12
 """Plates in which columns are planted at most."""
 
 _MENISCUS_ROWS = 5
-
-
-@dataclass(frozen=True)
-class Smallest:
-    """What one camera sees of one pipette and liquid.
-
-    Attributes:
-        pipette: Short class, ``"p20"``.
-        reagent: What the liquid is called; empty if not known.
-        volume_ul: Commanded volume, median, µL.
-        smallest_ul: Smallest retained volume that is caught nine times in ten, µL; ``None``: not
-            even the whole volume is.
-        caught: Share caught of each planted share of the volume.
-        wells: Normal wells in which columns were planted.
-        false_alarms: Normal wells flagged, of a plate of 96.
-        px_per_mm: Of the tips in the frames.
-        px_per_mm_for_half: What would show half of that volume as long as this one shows.
-    """
-
-    pipette: str
-    reagent: str
-    volume_ul: float
-    smallest_ul: float | None
-    caught: Mapping[str, float]
-    wells: int
-    false_alarms: float
-    px_per_mm: float
-    px_per_mm_for_half: float | None
-
-    def __str__(self) -> str:
-        liquid = self.reagent or "liquid of unknown name"
-        head = f"{self.pipette}, {liquid}, {self.volume_ul:g} µL: "
-        rate = (
-            f"{self.false_alarms:.0f} false alarms on a plate of 96; the camera gives "
-            f"{self.px_per_mm:.1f} px/mm"
-        )
-        if self.smallest_ul is None:
-            return (
-                head + "not even the whole volume left in the tip is caught 9 times in 10 "
-                f"({self.wells} wells planted); {rate}."
-            )
-        return (
-            head + f"{self.smallest_ul:.1f} µL left in the tip are caught 9 times in 10 "
-            f"({self.wells} wells planted), {rate}; "
-            f"for half of that, about {self.px_per_mm_for_half:.1f} px/mm would be needed."
-        )
-
-    def to_json(self) -> dict[str, Any]:
-        return asdict(self)
 
 
 def smallest_caught(

@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.evaluation.layer2.smallest import Smallest, smallest_caught, with_retained
+from aegis_ot.evaluation.layer2.smallest import smallest_caught, with_retained
+from aegis_ot.vision.reach import Smallest
 from aegis_ot.vision.scorers import make_scorer
 from aegis_ot.vision.scorers.column import ColumnScorer
 from aegis_ot.vision.scorers.looks import looks
