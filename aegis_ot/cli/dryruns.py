@@ -34,7 +34,7 @@ def simulate(
         str, typer.Option(help="continue: report a pause and go on; stop: end the run there.")
     ] = "continue",
     rules: Annotated[str, typer.Option(help="Layer 1: on, warn or off.")] = "on",
-    seed: Annotated[int, typer.Option(help="Seed of the simulated camera.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the simulated camera.")] = 0,
     labware: Annotated[
         list[Path] | None, typer.Option(help="Folder or file with custom labware definitions.")
     ] = None,

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..errors import ConfigurationError
-from .app import CLEAN
+from ..vocabulary import counted
+from .app import BROKEN, CLEAN
 from .check_settings import one_of, split
 from .checks import write_text
 from .datasets import open_dataset, tip_finder, writable_folder
@@ -18,7 +20,8 @@ from .evaluations import evaluate
 from .models import ModelName, RecordFolder, backend_of
 
 if TYPE_CHECKING:
-    from ..vision.gates import ConfirmingGate
+    from ..evaluation.layer2 import Layer2Result
+    from ..reasoning import Backend
 
 _SCORERS = (
     "pca, isolation-forest, one-class-svm, autoencoder, single-frame-pca, mahalanobis (the "
@@ -73,9 +76,10 @@ def layer2(
     Each plate is scored by a model fitted on the normal wells of all other plates. The plate's
     own first normal well sets the threshold, and is not scored. With several scorers the five
     figures at the top of the JSON are those of the first. A model is asked, in the cascade, about
-    the wells that the volumetric gate leaves open.
+    the flagged wells that the volumetric gate does not fail, and about a share of the others.
 
-    Exit codes: 0 scored, 2 the data set or a setting is no good.
+    Exit codes: 0 scored, 2 the data set or a setting is no good, or a model that was asked gave no
+    answer (export:FILE, which gives none, is no fault).
     """
     from ..evaluation.layer2 import LEAVE_OUT, PROTOCOLS, THRESHOLDS, evaluate_layer2, find_tips
     from ..vision.scorers import SCORERS
@@ -87,7 +91,12 @@ def layer2(
     one_of("--protocol", protocol, PROTOCOLS)
     one_of("--threshold", threshold, ("", *THRESHOLDS))
     one_of("--leave-out", leave_out, LEAVE_OUT)
-    gates = _model_gates(protocol, model, record)
+    backend = _model_of(protocol, model, record)
+    gates = []
+    if backend is not None:
+        from ..reasoning.vlm import VlmGate
+
+        gates = [VlmGate(backend)]
     if figures is not None:
         writable_folder(figures)
     data = open_dataset(dataset)
@@ -122,20 +131,35 @@ def layer2(
         typer.echo(f"Figures as JSON: {json_out}", err=True)
     if figures is not None:
         typer.echo(f"{len(drawn)} figures in {figures}", err=True)
-    raise typer.Exit(CLEAN)
+    raise typer.Exit(_answered(backend, results))
 
 
-def _model_gates(protocol: str, model: str | None, record: Path | None) -> list[ConfirmingGate]:
-    """The model as a gate of the cascade, if the command line names one.
+def _model_of(protocol: str, model: str | None, record: Path | None) -> Backend | None:
+    """The model that the cascade asks, if the command line or the environment names one.
 
     Raises:
         ConfigurationError: One is named where none is asked.
     """
     if protocol == "cascade":
-        from ..reasoning.vlm import VlmGate
-
-        backend = backend_of(model, record)
-        return [] if backend is None else [VlmGate(backend)]
+        return backend_of(model, record)
     if model is not None or record is not None:
         raise ConfigurationError("A model is a gate of the cascade: add --protocol cascade.")
-    return []
+    return None
+
+
+def _answered(backend: Backend | None, results: Sequence[Layer2Result]) -> int:
+    """The exit code, by how the model answered; says where its questions were written to instead.
+
+    Raises:
+        ConfigurationError: They could not be written.
+    """
+    if all(result.model is None or not result.model.trouble for result in results):
+        return CLEAN
+    kind, _, file = ("" if backend is None else backend.name).partition(":")
+    if kind != "export":
+        return BROKEN
+    from ..reasoning.backends.exporting import read_requests
+
+    written = counted(len(read_requests(Path(file))), "question")
+    typer.echo(f"{written} in {file}; the figures above are without a model.")
+    return CLEAN

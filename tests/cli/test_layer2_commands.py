@@ -85,6 +85,29 @@ def test_a_model_looks_at_what_the_volumes_leave_open_and_can_be_replayed(
     assert "--protocol cascade" in wrong.err
 
 
+def test_a_model_without_an_answer_is_told_and_exported_questions_are_counted(
+    aegis: Command, drawn: Path
+) -> None:
+    command = (
+        "evaluate", "layer2", drawn, "--scorer", "pca", "--boxes", "true", "--json", "o.json",
+        "--protocol", "cascade",
+    )  # fmt: skip
+    Path("empty").mkdir()
+    silent = aegis(*command, "--model", "replay:empty")
+    assert silent.code == 2
+    told = json.loads(Path("o.json").read_text(encoding="utf-8"))["model"]
+    assert told["asked"] > told["answered"] == 0
+    assert f"{told['asked']} of {told['asked']} questions to the model got no answer" in silent.out
+    assert "not_recorded" in silent.out
+    exported = aegis(*command, "--model", "export:q.jsonl")
+    assert exported.code == 0
+    lines = Path("q.jsonl").read_text(encoding="utf-8").count("\n")
+    assert f"{lines} questions in q.jsonl; the figures above are without a model" in exported.out
+    unwritable = aegis(*command, "--model", f"export:{drawn / 'meta.json' / 'q.jsonl'}")
+    assert unwritable.code == 2
+    assert "cannot be read" in unwritable.err
+
+
 def _edited(drawn: Path, to: Path, keep) -> Path:
     shutil.copytree(drawn, to)
     lines = (to / "manifest.csv").read_text(encoding="utf-8").splitlines()
@@ -127,6 +150,7 @@ def test_fit_writes_a_model_that_can_be_verified(aegis: Command, drawn: Path) ->
     assert shown.code == 0
     assert "set (synthetic): 5 normal wells" in shown.out
     assert "Few: 5 normal wells" in shown.out
+    assert "What it would catch is not known" in shown.out
     Path("lab.model").write_bytes(Path("lab.model").read_bytes()[:-40])
     broken = aegis("world-model", "lab.model")
     assert broken.code == 2

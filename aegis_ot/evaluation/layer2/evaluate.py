@@ -13,7 +13,8 @@ from ...vision.dataset import Dataset, TrueBoxes, load_dataset
 from ...vision.gates import ConfirmingGate
 from ...vision.scorers import BASELINES, make_scorer
 from ...vision.types import Detector, Scorer, TrajectorySample
-from ...vocabulary import KeyframeKind
+from ...vocabulary import Gate, KeyframeKind
+from .answers import Counted, ModelAnswers
 from .cascade import run_cascade
 from .lopo import hold_out
 from .progress import Progress
@@ -82,15 +83,17 @@ def evaluate_layer2(
     wells = list(held.wells)
     routed = flagged = [well.flagged for well in wells]
     settled: Counter[str] = Counter()
+    model: ModelAnswers | None = None
     if protocol == "cascade":
-        finder = tips.finder
-        judged = [well for well in run_cascade(held, gates, finder) if not well.calibration]
+        counting = [Counted(gate) for gate in gates]
+        judged = [well for well in run_cascade(held, counting, tips.finder) if not well.calibration]
+        model = next((gate.answers for gate in counting if gate.gate is Gate.VLM), None)
         wells = [well.scored for well in judged]
         routed = [well.to_gate for well in judged]
         flagged = [well.flagged for well in judged]
         settled.update(
             f"{well.verdict.gate.value}_{well.verdict.outcome.value}"
-            if well.to_gate
+            if well.verdict.gate is not Gate.NONE
             else well.verdict.route.value
             for well in judged
         )
@@ -103,6 +106,7 @@ def evaluate_layer2(
         settled=settled,
         leave_out=leave_out,
         cameras=data.cameras,
+        model=model,
         dataset=data.name,
         source=data.source,
         scorer=scorer,

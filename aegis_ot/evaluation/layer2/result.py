@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...vocabulary import KeyframeKind
+from .answers import ModelAnswers
 from .lopo import HeldOut, ScoredWell
 from .metrics import Interval, bootstrap
 
@@ -49,6 +50,7 @@ class Layer2Result:
         settled: For the cascade: how many wells each gate settled and how.
         leave_out: What the model that judged a plate never saw: that ``"plate"``, its ``"camera"``.
         cameras: Kind of camera by plate, where the set names them.
+        model: How the cascade's model answered; ``None`` if there was none.
     """
 
     dataset: str
@@ -68,6 +70,7 @@ class Layer2Result:
     settled: Mapping[str, int] = field(default_factory=dict)
     leave_out: str = "plate"
     cameras: Mapping[str, str] = field(default_factory=dict)
+    model: ModelAnswers | None = None
 
     @property
     def flagged_normals(self) -> Share:
@@ -121,6 +124,8 @@ class Layer2Result:
             )
         if failures and not any(self.flagged):
             notes.append("No well was flagged: precision is not defined.")
+        if self.model is not None and self.model.note:
+            notes.append(self.model.note)
         return notes
 
     def to_json(self) -> dict[str, Any]:
@@ -155,6 +160,7 @@ class Layer2Result:
                 for name, value in self.routed.items()
             },
             "settled": dict(self.settled),
+            "model": None if self.model is None else self.model.to_json(),
             "notes": self.notes(),
             **{
                 name: {group: share.to_json() for group, share in shares.items()}
@@ -208,6 +214,8 @@ class Layer2Result:
                 f"{how.replace('_', ' ')} {count}" for how, count in sorted(self.settled.items())
             )
             lines.append(f"  {'settled by':18} {parts}")
+        if self.model is not None:
+            lines.append(f"  {'asked of a model':18} {self.model}")
         return "\n".join([*lines, *(f"  Note: {note}" for note in self.notes())])
 
 
@@ -231,6 +239,7 @@ def summarise(
     seed: int,
     settled: Mapping[str, int] | None = None,
     cameras: Mapping[str, str] | None = None,
+    model: ModelAnswers | None = None,
     **names: str,
 ) -> Layer2Result:
     """Turn decisions on wells into a result; ``no_tip`` wells are counted apart."""
@@ -266,5 +275,6 @@ def summarise(
         untipped=[anchor.sample.plate for anchor in held.anchors if anchor.tips_missing],
         settled=settled or {},
         cameras=cameras or {},
+        model=model,
         **names,
     )
