@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ..vision.tips import TipGeometry, tip_for
 from ..vocabulary import KeyframeKind
-from .levels import axis_of, mark_at, share_of
-from .wells import Axis, Box, Level, Picture, SeenFrame, SeenWell
+from .levels import axis_of, expected_level, measured_level
+from .scores import signs_in
+from .wells import Box, Picture, SeenFrame, SeenWell
 
 Pictures = Callable[[int, "Box | None"], "tuple[Picture | None, Picture | None, str]"]
 """From a keyframe's number and the tip's box: the whole frame, the tip close up, and what there
@@ -47,13 +47,19 @@ def state_of(trajectory: Mapping[str, Any]) -> str:
     return "waiting" if KeyframeKind.POST_DISPENSE.value in kinds else "running"
 
 
-def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictures) -> SeenWell:
+def seen_well(
+    run: str,
+    entry: Mapping[str, Any],
+    pictures: Pictures = no_pictures,
+    limit: float | None = None,
+) -> SeenWell:
     """Gather one delivery.
 
     Args:
         run: Identifier of the run.
         entry: The delivery in the run's overview.
         pictures: Where its frames come from.
+        limit: Score up to which it could pass silently, see :func:`~.scores.limits_in`.
     """
     verdict: Mapping[str, Any] = entry["verdict"] or {}
     evidence: Mapping[str, Any] = entry["evidence"]
@@ -64,7 +70,6 @@ def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictur
     state = state_of(entry)
     if entry["abandoned"] is not None:
         reason = f"Given up: {entry['abandoned']}"
-    band = evidence.get("band")
     return SeenWell(
         id=f"{run}-{entry['trajectory']}",
         group=", ".join(filter(None, (f"{last.get('mount', '')} {pipette}".strip(), reagent))),
@@ -79,9 +84,10 @@ def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictur
         truth="",
         agreement="",
         score=verdict.get("score"),
-        limit=band[1] if band else None,
+        limit=limit,
         frames=_frames(entry, pictures),
-        band=_band(band),
+        signs=signs_in(evidence),
+        band=_band(evidence.get("band")),
     )
 
 
@@ -90,12 +96,10 @@ def _frames(entry: Mapping[str, Any], pictures: Pictures) -> dict[KeyframeKind, 
     frames = {}
     for keyframe in entry["keyframes"]:
         kind = KeyframeKind(keyframe["kind"])
-        tip = tip_for(keyframe["pipette"], keyframe["capacity_ul"])
         box = _box(evidence.get("boxes", {}).get(kind.value))
         whole, close, missing = pictures(int(keyframe["sequence"]), box)
         # The store keeps no axes: an upright tip is drawn, which is a pixel or two off.
         axis = None if box is None else axis_of(box)
-        measured = evidence.get("measured_ul", {}).get(kind.value)
         frames[kind] = SeenFrame(
             whole,
             close,
@@ -103,8 +107,8 @@ def _frames(entry: Mapping[str, Any], pictures: Pictures) -> dict[KeyframeKind, 
             evidence.get("confidence", {}).get(kind.value),
             None,
             axis,
-            _level(tip, float(keyframe["expected_ul"]), axis, box),
-            None if not measured else _measured(tip, measured, axis, box),
+            expected_level(evidence, kind, float(keyframe["expected_ul"]), axis, box),
+            measured_level(evidence, kind, axis, box),
             missing,
         )
     return frames
@@ -122,30 +126,3 @@ def _box(found: Any) -> Box | None:
         return None
     x, y, w, h = map(float, found)
     return x, y, w, h
-
-
-def _measured(
-    tip: TipGeometry, reading: Mapping[str, Any], axis: Axis | None, box: Box | None
-) -> Level:
-    return _level(
-        tip,
-        float(reading["volume"]),
-        axis,
-        box,
-        float(reading["uncertainty"] or 0.0),
-        float(reading["air"] or 0.0),
-    )
-
-
-def _level(
-    tip: TipGeometry,
-    volume: float,
-    axis: Axis | None,
-    box: Box | None,
-    sigma: float = 0.0,
-    air: float = 0.0,
-) -> Level:
-    mark = None
-    if axis is not None and box is not None:
-        mark = mark_at(axis, box, share_of(tip, volume + air))
-    return Level(volume, sigma, air, mark)

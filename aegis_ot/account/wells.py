@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from ..vision.signs import Sign
 from ..vocabulary import KeyframeKind
 
 Box = tuple[float, float, float, float]
@@ -88,9 +89,11 @@ class SeenWell:
         reason: One sentence.
         truth: The label, ``"normal"`` or ``"partial_50, 48 % retained"``; empty where unknown.
         agreement: ``"caught"``, ``"missed"``, ``"false alarm"``, ``"passed"``, or empty.
-        score, limit: Anomaly score, and where it counts; ``None`` without.
-        band: From where to where a score passes silently; ``None`` without.
-        parts: What the score is made of, largest first.
+        score: Anomaly score; ``None`` without.
+        limit: Score up to which this well could pass silently; ``None`` without.
+        band: From where to where a score passes silently since; ``None`` without.
+        signs: What speaks against the well, nats, the strongest first; empty for a scorer that
+            names none.
         frames: By keyframe.
     """
 
@@ -108,7 +111,7 @@ class SeenWell:
     score: float | None
     limit: float | None
     frames: Mapping[KeyframeKind, SeenFrame]
-    parts: Sequence[tuple[str, float]] = ()
+    signs: Sequence[tuple[Sign, float]] = ()
     band: tuple[float, float] | None = None
 
     @property

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
-import numpy as np
-
-from ..account.levels import mark_at, share_of
+from ..account.levels import expected_level, measured_level
 from ..account.pictures import close_up, whole_frame
-from ..account.wells import Axis, Box, Inspection, Level, SeenFrame, SeenWell
+from ..account.scores import limits_in, signs_in
+from ..account.wells import Box, Inspection, SeenFrame, SeenWell
 from ..evaluation.layer2 import Progress, find_tips
 from ..evaluation.layer2.cascade import JudgedWell, run_cascade
 from ..evaluation.layer2.evaluate import own_threshold
 from ..evaluation.layer2.lopo import HeldOut, ScoredWell, hold_out, score_with
 from ..vision.dataset import Dataset, first_normals
-from ..vision.measuring import ColumnReading
 from ..vision.scorers import make_scorer
-from ..vision.tips import TipGeometry
 from ..vision.types import Scorer, TipDetection, TrajectorySample
 from ..vocabulary import KeyframeKind
 from .choosing import pictured
@@ -59,7 +56,6 @@ def inspect_dataset(
             lambda: make_scorer(scorer),
             own_threshold(scorer, lambda: make_scorer(scorer)),
             progress,
-            explain=True,
         )
         how = f"{scorer}, fitted on the other plates' normals"
     else:
@@ -70,13 +66,15 @@ def inspect_dataset(
             "are judged by their measured columns. Name a world model (aegis-ot fit) to score them."
         )
     judged = run_cascade(held, detector=tips.finder)
+    limits = _limits(judged)
     order = {record.id: place for place, record in enumerate(data.records)}
     judged.sort(key=lambda well: order[well.sample.id])
     chosen = pictured([(well.flagged, well.flagged != well.scored.failed) for well in judged], most)
     progress.begin("Cutting pictures", len(judged))
     wells = []
     for well, show in zip(judged, chosen, strict=True):
-        wells.append(_well(data, well, show, scored=how != "none"))
+        limit = limits[well.sample.id]
+        wells.append(_well(data, well, show, limit, scored=how != "none"))
         progress.step()
     facts = [
         ("frames", data.source),
@@ -114,11 +112,23 @@ class _Unscored:
         return 1.0
 
 
-def _well(data: Dataset, judged: JudgedWell, show: bool, scored: bool) -> SeenWell:
-    sample, well = judged.sample, judged.scored
-    verdict = judged.verdict
+def _limits(judged: Sequence[JudgedWell]) -> dict[str, float | None]:
+    """By well, up to which score it could pass silently. Each plate is a run of its own."""
+    plates: dict[str, list[JudgedWell]] = {}
+    for well in judged:
+        plates.setdefault(well.sample.plate, []).append(well)
+    return {
+        well.sample.id: limit
+        for wells in plates.values()
+        for well, limit in zip(wells, limits_in(one.evidence for one in wells), strict=True)
+    }
+
+
+def _well(
+    data: Dataset, judged: JudgedWell, show: bool, limit: float | None, scored: bool
+) -> SeenWell:
+    sample, verdict = judged.sample, judged.verdict
     outcome = "calibration" if judged.calibration else verdict.outcome.value
-    limit = well.limit if np.isfinite(well.limit) else None
     return SeenWell(
         id=sample.id,
         group=sample.plate,
@@ -130,11 +140,11 @@ def _well(data: Dataset, judged: JudgedWell, show: bool, scored: bool) -> SeenWe
         failure=verdict.failure.value if verdict.failure else "",
         reason=verdict.reason,
         truth=_truth(sample),
-        agreement="" if judged.calibration else _agreement(well.failed, judged.flagged),
-        score=well.score if scored else None,
+        agreement="" if judged.calibration else _agreement(judged.scored.failed, judged.flagged),
+        score=verdict.score if scored else None,
         limit=limit if scored else None,
         frames=_frames(data, judged, show),
-        parts=sorted(well.parts.items(), key=lambda part: -part[1]),
+        signs=signs_in(judged.evidence),
     )
 
 
@@ -152,53 +162,26 @@ def _agreement(failed: bool, flagged: bool) -> str:
 
 
 def _frames(data: Dataset, judged: JudgedWell, show: bool) -> dict[KeyframeKind, SeenFrame]:
-    sample = judged.sample
-    tip = sample.tip
-    readings = judged.readings
-    stretch = _stretch(readings, tip)
+    sample, evidence = judged.sample, judged.evidence
     paths = next(record.frames for record in data.records if record.id == sample.id)
     frames = {}
     for kind in KeyframeKind:
         found = sample.detections[kind]
         image = sample.frames[kind] if show else None
-        labelled = data.boxes.get(paths[kind])
-        reading = readings.get(kind)
-        expected = sample.expected_ul[kind]
-        whole = None if image is None else whole_frame(image)
-        if found is None:
-            frames[kind] = SeenFrame(whole, labelled=labelled, expected=Level(expected))
-            continue
-        box, axis = _box(found), (found.orifice, found.collar)
+        box = None if found is None else _box(found)
+        axis = None if found is None else (found.orifice, found.collar)
         frames[kind] = SeenFrame(
-            whole,
-            None if image is None else close_up(image, box),
+            None if image is None else whole_frame(image),
+            None if image is None or box is None else close_up(image, box),
             box,
-            found.confidence,
-            labelled,
+            None if found is None else found.confidence,
+            data.boxes.get(paths[kind]),
             axis,
-            Level(expected, mark=mark_at(axis, box, stretch * share_of(tip, expected))),
-            None if reading is None else _measured(reading, axis, box),
+            expected_level(evidence, kind, sample.expected_ul[kind], axis, box),
+            None if found is None else measured_level(evidence, kind, axis, box),
         )
     return frames
 
 
 def _box(found: TipDetection) -> Box:
     return found.x, found.y, found.w, found.h
-
-
-def _measured(reading: ColumnReading, axis: Axis, box: Box) -> Level:
-    mark = mark_at(axis, box, reading.top)
-    return Level(reading.volume_ul, reading.sigma_ul, reading.gap_ul, mark)
-
-
-def _stretch(readings: Mapping[KeyframeKind, ColumnReading], tip: TipGeometry) -> float:
-    """How much higher columns stand in this run than the tip's nominal geometry says.
-
-    The reader learns it from the run, and its volumes have it taken off; a mark at the expected
-    height must have it put back, or every column would seem to stand wrong.
-    """
-    for reading in readings.values():
-        nominal = share_of(tip, reading.volume_ul + reading.gap_ul)
-        if reading.top > 0.05 and nominal > 0.05:
-            return reading.top / nominal
-    return 1.0

@@ -23,5 +23,6 @@ def inspection_html(inspection: Inspection) -> str:
         flagged=sum(well.flagged for well in wells),
         outcomes=Counter(well.outcome or "no verdict" for well in wells),
         agreements=Counter(well.agreement for well in wells if well.agreement),
+        in_nats=any(well.signs for well in wells),
         unpictured=sum(not well.pictured for well in wells),
     )

@@ -8,11 +8,13 @@ from typing import Any
 
 from ..vocabulary import KeyframeKind, Outcome
 from .cascade import Triage
+from .column_reader import MeasuredColumns
 from .delivery import Delivery, Shown
 from .gates import Case, GateDecision
 from .leftover import Leftover
 from .measuring import ColumnReading
 from .stream import OpenTrajectory, Stream
+from .tip_scale import TipScale
 
 
 def evidence_of(
@@ -24,7 +26,8 @@ def evidence_of(
     decision: GateDecision,
     left: Leftover | None = None,
 ) -> dict[str, Any]:
-    """Boxes, scores, signs (nats), band, volumes, and what restores the calibration."""
+    """Boxes, scores, signs (nats), band, volumes, columns' ends (fractions of the tip's length
+    above the orifice), and what restores the calibration."""
     emptied = _emptied(case)
     channels = max(keyframe.channels for keyframe in seen.keyframes.values())
     band = stream.cascade.calibration.band
@@ -39,6 +42,7 @@ def evidence_of(
         "triage": triage.reason,
         "measured_ul": dict(_readings(case.readings)),
         "expected_ul": {kind.value: v for kind, v in case.sample.expected_ul.items()},
+        "expected_top": dict(_expected_tops(stream, case)),
         "unusable_frames": [kind.value for kind in seen.unusable],
         "p_value": case.p_value,
         "costs": [asdict(cost) for cost in decision.costs],
@@ -79,3 +83,15 @@ def _readings(
                 "top": round(reading.top, 4),
             },
         )
+
+
+def _expected_tops(stream: Stream, case: Case) -> Iterator[tuple[str, float]]:
+    """Where the columns should end in this run's frames, as far as anything has shown it."""
+    reader, tip = stream.reader, case.sample.tip
+    if not isinstance(reader, MeasuredColumns):
+        return
+    for kind, volume in case.sample.expected_ul.items():
+        top = reader.place(tip, volume)
+        learned = tip.name in stream.scorer.height_factors or top != TipScale().place(tip, volume)
+        if volume > 0 and learned:
+            yield kind.value, round(1.0 - max(top, 0.0), 4)

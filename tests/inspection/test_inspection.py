@@ -4,13 +4,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from aegis_ot.account.levels import mark_at
+from aegis_ot.account import SeenWell
+from aegis_ot.evaluation.layer2 import find_tips
+from aegis_ot.evaluation.layer2.cascade import run_cascade
+from aegis_ot.evaluation.layer2.lopo import score_with
 from aegis_ot.evaluation.layer2.recorded import open_store
 from aegis_ot.inspection import inspect_dataset, inspect_run, inspection_html
 from aegis_ot.inspection.choosing import pictured
 from aegis_ot.vision.dataset import load_dataset
+from aegis_ot.vision.models import SHIPPED, load_model
+from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vocabulary import KeyframeKind
 from tests.sidecar.browser import CHROMIUM, chromium
 
@@ -37,6 +43,42 @@ def test_one_plate_alone_is_shown_without_scores(drawn: Path, tmp_path: Path) ->
     assert any("One plate alone" in note for note in seen.notes)
 
 
+def test_scores_signs_limits_and_expected_columns_are_those_of_the_live_run(drawn: Path) -> None:
+    data = load_dataset(drawn)
+    shipped = EnsembleScorer.from_model(load_model(SHIPPED, "ensemble"))
+    seen = {well.id: well for well in inspect_dataset(data, fitted=shipped, most=0).wells}
+    tips = find_tips(data, "default")
+    judged = run_cascade(score_with(tips.samples, shipped), detector=tips.finder)
+    band: dict[str, float] = {}
+    for well in judged:
+        shown, evidence, plate = seen[well.sample.id], well.evidence, well.sample.plate
+        assert shown.score == well.verdict.score
+        assert {sign.name: nats for sign, nats in shown.signs} == evidence["signs"]
+        assert shown.limit == band.get(plate)
+        band[plate] = evidence["band"] and evidence["band"][1]
+        marked = {kind.value for kind, frame in shown.frames.items() if frame.expected.mark}
+        assert marked == {"aspirate", "transit"} & set(evidence["boxes"])
+        for kind in marked:
+            assert evidence["expected_top"][kind] == pytest.approx(_share(shown, kind), abs=1e-3)
+    assert len(set(band.values())) > 1
+
+
+def _share(shown: SeenWell, kind: str) -> float:
+    """Where the expected column is marked, as a fraction of the tip above its orifice."""
+    frame = shown.frames[KeyframeKind(kind)]
+    (orifice, collar), mark = frame.axis, np.mean(frame.expected.mark, axis=0)
+    return float(np.hypot(*np.subtract(mark, orifice)) / np.hypot(*np.subtract(collar, orifice)))
+
+
+def test_where_columns_stand_is_not_made_up(drawn: Path) -> None:
+    seen = inspect_dataset(load_dataset(drawn), "pca", most=0)
+    first = seen.wells[0].frames[KeyframeKind.TRANSIT].expected
+    assert first is not None
+    assert first.volume_ul > 0
+    assert first.mark is None, "nothing has shown yet how high columns stand"
+    assert "nats" not in inspection_html(seen), "a reconstruction error has no unit"
+
+
 def test_a_run_is_shown_as_it_was_judged(store: Path) -> None:
     kept = open_store(store)
     seen = inspect_run(kept, "run-1")
@@ -47,6 +89,23 @@ def test_a_run_is_shown_as_it_was_judged(store: Path) -> None:
     assert after.measured is not None
     assert after.measured.volume_ul > 75
     assert after.measured.mark is not None
+    transit = last.frames[KeyframeKind.TRANSIT].expected
+    assert transit is not None
+    assert transit.mark is not None
+
+
+def test_which_sign_spoke_stands_with_a_runs_well_where_and_in_what_unit(store: Path) -> None:
+    seen = inspect_run(open_store(store), "run-1", most=0)
+    assert seen.wells[0].limit is None
+    assert seen.wells[-1].limit == pytest.approx(seen.wells[-2].band[1])
+    page = inspection_html(seen)
+    assert "surprises in nats" in page
+    *_, last = page.split("<article")
+    sign, nats = seen.wells[-1].signs[0]
+    assert (sign.name, nats > 3) == ("retained", True)
+    told = f"{nats:.1f} nats: a column that is left after the dispense (dispense, post-dispense)"
+    assert told in last.split("<li>")[1]
+    assert f"up to {seen.wells[-1].limit:.3g} passes silently" in last
 
 
 def test_a_lost_frame_is_said_in_its_place(store: Path, tmp_path: Path) -> None:
@@ -73,13 +132,6 @@ def test_wrong_wells_get_pictures_first() -> None:
     wells = [(False, False), (True, False), (False, True), (False, False)]
     assert pictured(wells, 2) == [False, True, True, False]
     assert pictured(wells, 9) == [True] * 4
-
-
-def test_a_mark_stands_across_the_tip() -> None:
-    mark = mark_at(((50.0, 100.0), (50.0, 0.0)), (40, 0, 20, 100), 0.25)
-    assert mark is not None
-    assert mark[0][1] == mark[1][1] == pytest.approx(75)
-    assert mark_at(((50.0, 100.0), (50.0, 0.0)), (40, 0, 20, 100), 0) is None
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here")

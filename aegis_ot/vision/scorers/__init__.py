@@ -64,7 +64,7 @@ def make_scorer(name: str) -> Scorer:
 
 def signs_of(scorer: Scorer, sample: TrajectorySample) -> dict[str, float]:
     """Surprises of the signs behind a score, by sign, nats; none where the scorer has no report."""
-    read = getattr(scorer, "read", getattr(scorer, "report", None))  # one reading tells the signs
+    read = getattr(scorer, "report", None)
     report = None if read is None else read(sample)
     column = getattr(report, "column", report)
     signs = {str(sign): float(value) for sign, value in getattr(column, "surprises", {}).items()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,12 +29,13 @@ _OVERLAP = 0.5
 
 @dataclass(frozen=True)
 class EnsembleReport:
-    """Why a trajectory has its score.
+    """Why a trajectory has its score, as the mean of three readings.
 
     Attributes:
-        score: ``-log p``, the mean of three readings.
-        column: What the column scorer found in the first, where the detector saw the tip's end.
-        patches: Surprise of the patches there, nats.
+        score: ``-log p``.
+        column: Surprises of the column, nats; the measurements are of the first reading, where the
+            detector saw the tip's end.
+        patches: Surprise of the patches, nats.
     """
 
     score: float
@@ -136,7 +137,8 @@ class EnsembleScorer:
         name = sample.learned_as(self.sums)
         readings = [self.read(sample, px) for px in self._by_aim]
         score = float(np.mean([self._surprise(one.total, name) for one in readings]))
-        return EnsembleReport(score, readings[0].column, readings[0].patches)
+        column = _mean([one.column for one in readings])
+        return EnsembleReport(score, column, float(np.mean([one.patches for one in readings])))
 
     def read(self, sample: TrajectorySample, px: float = 0.0) -> Reading:
         """One reading, without its ``-log p``."""
@@ -196,6 +198,15 @@ class EnsembleScorer:
             raise ModelError(f"the ensemble model lacks or garbles {error}; fit it anew") from error
         scorer.calibrate([])
         return scorer
+
+
+def _mean(columns: Sequence[ColumnReport]) -> ColumnReport:
+    """What several readings say together. A column may glow in one alone, so signs differ."""
+    names = {name: None for one in columns for name in one.surprises}
+    surprises = {
+        name: float(np.mean([one.surprises.get(name, 0.0) for one in columns])) for name in names
+    }
+    return replace(columns[0], score=sum(surprises.values()), surprises=surprises)
 
 
 def _part(model: ModelFile, name: str) -> ModelFile:

@@ -9,6 +9,8 @@ import pytest
 
 from aegis_ot.errors import ModelError
 from aegis_ot.vision.models import ModelFile, load_model, save_model
+from aegis_ot.vision.scorers import signs_of
+from aegis_ot.vision.scorers.aims import AIMS
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vision.scorers.surprise import MOST, NO_TIP, Tail, fit_tail
 
@@ -41,6 +43,20 @@ def test_one_bad_normal_in_the_fit_does_not_blind_it() -> None:
     scorer.fit([*normals(), trajectory("bad", "plate0", left=0.6, seed=94)])
     scorer.calibrate([trajectory("first", "new", seed=90)])
     assert scorer.score(trajectory("f", "new", left=0.7, seed=92)) > 3
+
+
+def test_the_signs_are_of_the_readings_that_the_score_is_of(scorer: EnsembleScorer) -> None:
+    failed = trajectory("f", "new", left=0.85, seed=93)
+    readings = [scorer.read(failed, px) for px in AIMS]
+    signs = signs_of(scorer, failed)
+    patches = signs.pop("patches")
+    assert patches == pytest.approx(np.mean([one.patches for one in readings]))
+    for sign, nats in signs.items():
+        told = [one.column.surprises.get(sign, 0.0) for one in readings]
+        assert nats == pytest.approx(np.mean(told))
+    totals = [one.total for one in readings]
+    assert sum(signs.values()) + 0.5 * patches == pytest.approx(np.mean(totals))
+    assert max(totals) - min(totals) > 0.05, "else one reading would do"
 
 
 def test_no_tip(scorer: EnsembleScorer) -> None:
