@@ -10,7 +10,8 @@ from typing import TypeVar
 import numpy as np
 
 from ..vision.column import Wetness, ceiling
-from ..vision.column_reader import Look, MeasuredColumns, Well
+from ..vision.column_look import Look
+from ..vision.column_reader import MeasuredColumns, Well
 from ..vision.delivery import Shown
 from ..vision.first_wells import FirstWells
 from ..vision.gates import Case, VolumetricGate

@@ -197,7 +197,7 @@ class RunAnalyser:
         p_value = stream.p_value(score)
         return Case(
             sample, Route.GREY_ZONE, score, readings, missing, stream.learned > 0, p_value,
-            alarm_p=stream.settings.alarm_p, clearly_absent=seen.clearly_absent,
+            clearly_absent=seen.clearly_absent,
             delivery=self._delivery(seen, last),
             signs={} if score is None else stream.scorer.signs(sample), normal=stream.normal,
         )  # fmt: skip

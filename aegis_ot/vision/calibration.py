@@ -34,8 +34,6 @@ class CalibrationSettings:
         widest: Largest MAD, as a fraction of the median, at which the first wells agree.
         streaming: Whether accepted wells after the calibration update the band.
         memory: Number of latest wells that a streaming band remembers.
-        alarm_p: A well that looks more unusual than this is not passed for want of proof. In a run
-            of a hundred wells it has to be small: three in a hundred runs have such a normal well.
     """
 
     wells: int = 6
@@ -47,7 +45,6 @@ class CalibrationSettings:
     widest: float = 0.8
     streaming: bool = True
     memory: int = 48
-    alarm_p: float = 3e-4
 
     def __post_init__(self) -> None:
         wrong = [
@@ -59,7 +56,6 @@ class CalibrationSettings:
                 ("least_spread", self.least_spread >= 0),
                 ("outlier", self.outlier > 0),
                 ("widest", self.widest > 0),
-                ("alarm_p", 0 < self.alarm_p < 1),
                 ("memory", self.memory >= self.wells),
             )
             if not good

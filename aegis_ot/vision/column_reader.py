@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import replace
 
 import numpy as np
 
 from ..vocabulary import KeyframeKind
-from .column import TipProfile, WetAndDry, Wetness, ceiling, column_left
-from .measuring import ColumnReading, TipView
+from .column import WetAndDry, Wetness, ceiling, column_left
+from .column_look import Look
+from .drawn import drawn_top
+from .measuring import ColumnReading, SeenColumn, TipView
 from .scorers.looks import look
 from .tip_scale import NEAR, TipScale
 from .tips import TipGeometry
@@ -22,9 +24,6 @@ Well = tuple[Mapping[KeyframeKind, object], Mapping[KeyframeKind, float]]
 
 _EVIDENCE = 5.0
 """Log-likelihood ratio from which rows are believed to be wet, or dry, against expectation."""
-
-_ORIFICE = (0.06, 8.0)
-"""What is left out next to the orifice, tip lengths and px: its rim glints, and a drop hangs."""
 
 _SHORTEST = 0.05
 """Fewest rows that are believed against expectation, tip lengths."""
@@ -39,39 +38,11 @@ _GAP_BORE_PX = 3.0
 """Narrowest bore in which a break is looked for, px: a tip that is laid down one pixel beside its
 place shows wall for liquid in a narrower one."""
 
+_REACH = (0.05, 0.15)
+"""How far from its expected place a normal column may end, before the run has shown how high its
+columns stand: tip lengths, and share of the column's own."""
+
 _FIRST_VAGUE = ColumnReading(0.0, math.inf, vague=True)
-
-
-@dataclass(frozen=True)
-class Look:
-    """Signals of one frame.
-
-    Attributes:
-        profile: Of the tip.
-        tip: Its geometry.
-        light: Median brightness of the whole frame: the pipette covers little of it.
-    """
-
-    profile: TipProfile
-    tip: TipGeometry
-    light: float = 0.0
-
-    @property
-    def lowest(self) -> float:
-        """Down to where a column can be told from the orifice's own glints, u."""
-        return 1.0 - max(_ORIFICE[0], _ORIFICE[1] / max(self.profile.length, 1.0))
-
-    def bore_px(self, top: float, bottom: float) -> float:
-        """Mean width of the bore between two places (u) on the tip, px."""
-        heights = (1.0 - np.linspace(top, bottom, 12)) * self.tip.length_mm
-        width = 2.0 * float(np.mean(self.tip.inner_radius(heights)))
-        return width * self.profile.length / self.tip.length_mm
-
-    def wide_down_to(self, bore_px: float) -> float:
-        """Lowest place (u) whose bore is at least so wide, px."""
-        radius = self.tip.inner_radius((1.0 - self.profile.u.astype(float)) * self.tip.length_mm)
-        wide = 2.0 * radius * self.profile.length / self.tip.length_mm >= bore_px
-        return float(self.profile.u[wide].max(initial=0.0))
 
 
 class MeasuredColumns:
@@ -117,6 +88,9 @@ class MeasuredColumns:
                 reading = self._reading(seen, expected.get(kind, 0.0), most)
                 if reading is not None:
                     readings[kind] = reading
+        full = readings.get(KeyframeKind.TRANSIT)
+        if full is not None:
+            readings[KeyframeKind.TRANSIT] = replace(full, seen=self._seen(looks, expected))
         left = self._pair(looks, expected)
         after = readings.get(KeyframeKind.POST_DISPENSE, _FIRST_VAGUE)
         if left is not None and after.vague:
@@ -126,19 +100,47 @@ class MeasuredColumns:
     def learn(
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
     ) -> None:
+        shown = self._drawn_top(looks, expected)
         for kind in FREE:
             seen = looks.get(kind)
             if not isinstance(seen, Look):
                 continue
             comparable = self._usual.comparable(seen.light)
             self._usual.note_light(seen.light)
-            if not comparable:
-                continue
             volume = expected.get(kind, 0.0)
-            wet = self._wetness(seen)
+            wet = self._wetness(seen) if comparable else None
+            if not comparable or (wet is not None and not volume and self._holds_some(seen, wet)):
+                continue
+            if volume and shown is not None:
+                self._scale.note(seen.tip, shown, volume)
             if wet is not None:
-                self._learn_usual(seen, wet, volume)
+                self._learn_usual(seen, wet, volume, shown)
             self._take(seen, volume)
+
+    def _seen(
+        self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
+    ) -> SeenColumn | None:
+        top, full = self._drawn_top(looks, expected), looks.get(KeyframeKind.TRANSIT)
+        if top is None or not isinstance(full, Look) or not self._scale.known:
+            return None
+        volume = self._scale.volume(full.tip, top)
+        return SeenColumn(volume, self._scale.sigma_ul(full.tip, top, volume), 1.0 - top)
+
+    def _drawn_top(
+        self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
+    ) -> float | None:
+        before, after = (looks.get(kind) for kind in FREE)
+        drawn, kept = (expected.get(kind, 0.0) for kind in FREE)
+        if not isinstance(before, Look) or not isinstance(after, Look) or drawn <= 0 or kept > 0:
+            return None
+        place = self._scale.place(before.tip, drawn)
+        return drawn_top(before, after, place, _REACH[0] + _REACH[1] * (1.0 - place))
+
+    def _holds_some(self, empty: Look, wet: Wetness) -> bool:
+        """Whether an emptied tip of a well that passed is clearly not empty: it teaches nothing."""
+        place = self._scale.place(empty.tip, 0.0)
+        found = wet.column(ceiling(empty.tip), empty.lowest)
+        return self._against(wet, found, place, empty) >= _EVIDENCE
 
     def read_beside(
         self,
@@ -182,7 +184,7 @@ class MeasuredColumns:
         # While the tip's inside is known to some per cent only, rows near the top are unsure.
         self._contrast.learn(seen.profile, top, self._scale.margin(top))
 
-    def _learn_usual(self, seen: Look, wet: Wetness, volume: float) -> None:
+    def _learn_usual(self, seen: Look, wet: Wetness, volume: float, shown: float | None) -> None:
         tip, end = seen.tip, seen.lowest
         top = self._scale.place(tip, volume)
         if volume > 0:
@@ -190,8 +192,10 @@ class MeasuredColumns:
             share, weight = wet.mean(top + 0.02, end)
             gap, _, _ = wet.longest_gap(top + 0.05, min(end, seen.wide_down_to(_GAP_BORE_PX)))
             self._usual.note_full(share if weight > 0 else None, gap, wet.misfit)
+            if shown is not None:
+                return
             found = wet.column(ceiling(tip), end)
-            reach = NEAR if self._scale.known else 0.05 + 0.15 * (1.0 - top)
+            reach = NEAR if self._scale.known else _REACH[0] + _REACH[1] * (1.0 - top)
             if abs(found - top) < reach and wet.power > 4 and wet.bracketed(found, NEAR):
                 self._scale.note(tip, found, volume)
             return
@@ -217,10 +221,11 @@ class MeasuredColumns:
         top = self._scale.place(tip, max(expected_ul, most_ul))
         bore = seen.bore_px(min(top, end), end)
         clear = 0.5 / self._usual.variance(wet, bore, full=full) >= _EVIDENCE
-        if not self._contradicts(wet, found, place, seen):
+        against = self._against(wet, found, place, seen)
+        if against < _EVIDENCE:
             found = place
             if not clear:
-                return None if full else _FIRST_VAGUE
+                return None if full else replace(_FIRST_VAGUE, against=against)
         volume = self._scale.volume(tip, found) if found != place else expected_ul
         sigma = self._scale.sigma_ul(tip, found, max(volume, expected_ul))
         if not full and found == place:
@@ -233,8 +238,9 @@ class MeasuredColumns:
         gap, gap_sigma = self._gap(wet, found, seen) if volume > 0 and full else (0.0, 0.0)
         tested = self._usual.tested(full=full)
         return ColumnReading(
-            max(volume - gap, 0.0), sigma, gap, gap_sigma, 1.0 - found, tested=tested
-        )
+            max(volume - gap, 0.0), sigma, gap, gap_sigma, 1.0 - found,
+            against=against, tested=tested,
+        )  # fmt: skip
 
     def _least_seen(self, wet: Wetness, seen: Look, top: float) -> float:
         """Smallest column, of those up to ``top`` (u), that an empty tip's rows rule out, µL."""
@@ -247,23 +253,23 @@ class MeasuredColumns:
                     return self._scale.volume(seen.tip, upper)
         return self._scale.volume(seen.tip, top)
 
-    def _contradicts(self, wet: Wetness, found: float, place: float, seen: Look) -> bool:
-        """Whether the rows between the column's end and its expected end say that it is off."""
+    def _against(self, wet: Wetness, found: float, place: float, seen: Look) -> float:
+        """How far the rows between the column's end and its expected end say that it is off."""
         end = seen.lowest
         if abs(min(found, end) - min(place, end)) < _SHORTEST:
-            return False
+            return 0.0
         too_much = found < place
         upper, lower = min(found, place), min(max(found, place), end)
         share, weight = wet.mean(upper - 1e-6, lower)
         if weight <= 0:
-            return False
+            return 0.0
         bore = seen.bore_px(upper, lower)
         fullest = max(1.0 - self._scale.place(seen.tip, self._fullest), _SHORTEST)
         height = (1.0 - upper) / fullest if lower >= end else None
         usual = self._usual.variance(wet, bore, full=not too_much, height=height)
         variance = (1.0 / weight + usual) * self._usual.strain(wet)
         towards = share - 0.5 if too_much else 0.5 - share
-        return towards / variance >= _EVIDENCE
+        return max(towards / variance, 0.0)
 
     def _gap(self, wet: Wetness, top: float, seen: Look) -> tuple[float, float]:
         """Air in the column and its uncertainty, µL; nothing unless it stands out in this run."""

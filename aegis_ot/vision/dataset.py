@@ -180,6 +180,7 @@ class Dataset:
             failure_type=record.failure_type,
             retained_fraction=record.retained_fraction,
             capacity_ul=(self.meta.get("tips_ul") or {}).get(record.id),
+            tip_used=(self.meta.get("tips_used") or {}).get(record.id, ""),
         )
 
 
@@ -215,7 +216,8 @@ def load_dataset(folder: str | Path) -> Dataset:
 
 def _strangers(meta: Mapping[str, Any], records: Sequence[Record]) -> list[str]:
     """What ``meta.json`` says of plates and trajectories that the manifest does not have."""
-    known = {"cameras": {r.plate for r in records}, "tips_ul": {r.id for r in records}}
+    wells = {record.id for record in records}
+    known = {"cameras": {r.plate for r in records}, "tips_ul": wells, "tips_used": wells}
     found = {key: [n for n in meta.get(key) or () if n not in known[key]] for key in known}
     return [
         f"meta.json, {key}: {', '.join(map(repr, names[:5]))} is in no row of manifest.csv"
@@ -246,11 +248,15 @@ def _read_meta(root: Path, problems: Problems) -> dict[str, Any]:
         isinstance(volume, (int, float)) and volume > 0 for volume in tips.values()
     ):
         problems.add("meta.json", None, "tips_ul", "must hold a tip's volume, µL, by trajectory_id")
-    cameras = meta.get("cameras")
-    if cameras is not None and not (
-        isinstance(cameras, dict) and all(isinstance(name, str) for name in cameras.values())
+    for key, said in (
+        ("cameras", "must name a kind of camera for each plate"),
+        ("tips_used", "must name the tip that served it by trajectory_id"),
     ):
-        problems.add("meta.json", None, "cameras", "must name a kind of camera for each plate")
+        named = meta.get(key)
+        if named is not None and not (
+            isinstance(named, dict) and all(isinstance(name, str) for name in named.values())
+        ):
+            problems.add("meta.json", None, key, said)
     return meta
 
 

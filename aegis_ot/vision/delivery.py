@@ -19,28 +19,20 @@ from numpy.typing import NDArray
 from ..vocabulary import KeyframeKind
 from .column import ceiling
 from .column.contrast import change_between
-from .column_reader import Look
+from .column_look import Look
+from .drawn import LONGEST_END, PLAIN, ROW_LEAST_PX, ROWS_LEAST, across
 from .tip_scale import TipScale
 from .usual import alike
 
-_LONGEST_END = 0.94
-"""Rows nearer to the orifice show its rim's glints, u."""
-
-_ROWS_LEAST = 12
-_BORE_LEAST_PX, _ROW_LEAST_PX = 4.0, 3.0
-"""In a narrower bore, on the average of the upper rows and in each row, a frame laid a pixel beside
-the other one changes as much as a dye does."""
+_BORE_LEAST_PX = 4.0
+"""Of the upper rows on average: a narrower bore tells as little as a row narrower than
+:data:`.drawn.ROW_LEAST_PX`."""
 
 _UNSEEN_MOST = 0.2
 """Share of the delivery that may stand in rows too narrow to tell, for the others to prove it."""
 
 _LEFT_LEAST = 0.2
 """Share of the delivery that must have stayed to be called so."""
-
-_PLAIN = 3.0
-"""Change of the upper rows from which the liquid is plain to see, in a row's usual noise. Two
-frames of the same tip differ by up to 2.0 where nothing left it, and by 4.8 at least where a dye
-did, on simulated frames of many cameras."""
 
 _SURE = 3.5
 """Change from which the rows below must show it too."""
@@ -136,11 +128,11 @@ def delivery_of(
         return unknown
     scale = TipScale()
     top = max(scale.place(before.tip, drawn), ceiling(before.tip)) + 0.02
-    end = min(_LONGEST_END, scale.place(before.tip, kept) - 0.02)
+    end = min(LONGEST_END, scale.place(before.tip, kept) - 0.02)
     u = before.profile.u.astype(np.float64)
     inside = (u > top) & (u < end)
-    inside &= _bores(before) >= _ROW_LEAST_PX
-    if int(inside.sum()) < _ROWS_LEAST or before.bore_px(top, (top + end) / 2) < _BORE_LEAST_PX:
+    inside &= before.bores >= ROW_LEAST_PX
+    if int(inside.sum()) < ROWS_LEAST or before.bore_px(top, (top + end) / 2) < _BORE_LEAST_PX:
         return unknown
     lowest = float(before.tip.volume_of((1.0 - u[inside].max()) * before.tip.length_mm))
     if lowest - kept > _UNSEEN_MOST * (drawn - kept):
@@ -150,32 +142,17 @@ def delivery_of(
     return replace(unknown, strength=found.strength) if little else found
 
 
-def _bores(look: Look) -> NDArray[np.float64]:
-    """Width of the bore in each row, px."""
-    heights = (1.0 - look.profile.u.astype(np.float64)) * look.tip.length_mm
-    px_per_mm = look.profile.length / look.tip.length_mm
-    return np.asarray(2.0 * look.tip.inner_radius(heights) * px_per_mm, dtype=np.float64)
-
-
-def _across(change: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Change of brightness across the whole bore, and of both colours, ``(rows, 3)``.
-
-    A tip that is laid a pixel beside its place changes one side of the bore against the other.
-    """
-    return np.column_stack([change[:, :-2].mean(axis=1), change[:, -2:]]).astype(np.float64)
-
-
 def _compared(
     before: Look, after: Look, inside: NDArray[np.bool_], above: NDArray[np.bool_]
 ) -> Delivery:
     u, tip = before.profile.u.astype(np.float64), before.tip
-    change = _across(change_between(before.profile, after.profile))
+    change = across(change_between(before.profile, after.profile))
     width = np.asarray(tip.inner_radius((1.0 - u) * tip.length_mm), dtype=np.float64)
     rows = np.flatnonzero(inside)
     upper = rows[: max(len(rows) // 3, 1)]
     mean = change[upper].mean(axis=0)
     strength = float(np.linalg.norm(mean))
-    if strength < _PLAIN:
+    if strength < PLAIN:
         return Delivery(Shown.NOTHING, strength / float(width[upper].mean()))
     along = change @ (mean / strength)
     if above.any() and abs(float(along[above].mean())) > _ELSEWHERE * strength:
@@ -187,7 +164,7 @@ def _compared(
     if emptied >= _EMPTIED:
         unbroken = _unbroken(share[rows])
         gap = _gap(share[rows]) if strength >= _GAP_SURE_WIDE else None
-        wide = gap is not None and _bores(before)[rows[gap[1]]] >= _GAP_WIDE_PX
+        wide = gap is not None and before.bores[rows[gap[1]]] >= _GAP_WIDE_PX
         if gap is None or not (wide or strength >= _GAP_SURE):
             return Delivery(Shown.EMPTIED, per_width, unbroken=unbroken)
         upper_end, lower_end = ((1.0 - u[rows[end]]) * tip.length_mm for end in gap)

@@ -12,6 +12,23 @@ from .types import Image, TipDetection
 
 
 @dataclass(frozen=True)
+class SeenColumn:
+    """A column that left the tip, by where its end is seen and not by where it should be.
+
+    Its scale is what the run's own wells showed: an estimate, on which no verdict rests.
+
+    Attributes:
+        volume_ul: µL.
+        sigma_ul: Standard uncertainty of it, µL.
+        top: Its upper end as a fraction of the tip's length above the orifice.
+    """
+
+    volume_ul: float
+    sigma_ul: float
+    top: float
+
+
+@dataclass(frozen=True)
 class ColumnReading:
     """The liquid column in one frame.
 
@@ -22,6 +39,10 @@ class ColumnReading:
         gap_sigma_ul: Standard uncertainty of that, µL.
         top: Upper end of the column as a fraction of the tip's length above the orifice.
         vague: The tip looks empty, but so might a filled one: no proof either way.
+        against: How far the rows beyond the expected end speak against it, log-likelihood ratio;
+            0: not at all. From 5 on it is believed, and the volume is what is seen; below that it
+            is the expected one.
+        seen: The column by its own end, where that shows and the run's scale is known.
         tested: How many normal tips of this run were read so before they were learned: what the
             uncertainties rest on.
     """
@@ -32,6 +53,8 @@ class ColumnReading:
     gap_sigma_ul: float = 0.0
     top: float = 0.0
     vague: bool = False
+    against: float = 0.0
+    seen: SeenColumn | None = None
     tested: int = 0
 
 

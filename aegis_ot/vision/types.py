@@ -8,7 +8,7 @@ right, y down, and are floats: the centre of the first pixel is ``(0.5, 0.5)``.
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -112,6 +112,7 @@ class TrajectorySample:
         failure_type: As in the data set format; empty for normals.
         retained_fraction: Fraction of the volume left in the tip, if known.
         capacity_ul: Working volume of its tip, µL; ``None`` for the pipette's own size.
+        tip_used: Which tip, where one served several wells; empty: one that served no other.
     """
 
     id: str
@@ -127,7 +128,7 @@ class TrajectorySample:
     failure_type: str = ""
     retained_fraction: float | None = None
     capacity_ul: float | None = None
-    notes: Mapping[str, str] = field(default_factory=dict)
+    tip_used: str = ""
 
     @property
     def tip(self) -> TipGeometry:

@@ -3,8 +3,7 @@
 Every plate is played to :class:`~aegis_ot.vision.monitor.RunMonitor` as a robot would play it:
 keyframe by keyframe, well by well, in the order in which the wells were pipetted. Its model never
 saw the plate. The first normal wells, at most six, are its calibration wells and are not scored.
-Plates in the paper's shape begin with one or two normals: such a run is calibrated on one well, and
-what looks more unusual than one normal well in twenty is not passed for want of proof.
+Plates in the paper's shape begin with one or two normals: such a run is calibrated on one well.
 """
 
 from __future__ import annotations
@@ -19,12 +18,15 @@ from ...vision.camera import Frame
 from ...vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
 from ...vision.measuring import ColumnReading
 from ...vision.monitor import MonitorSettings, RunMonitor
+from ...vision.second_opinion import SpotCheck
 from ...vision.types import Detector, Image, TipDetection, TrajectorySample
 from ...vocabulary import Keyframe, KeyframeKind, Outcome, Route, Verdict, WellRef
 from .lopo import ALPHA, HeldOut, ScoredWell
 
 BAND_WELLS = 4
 """Calibration wells from which a band is set."""
+
+_SPOT_CHECK = SpotCheck(first=0)
 
 
 @dataclass(frozen=True)
@@ -33,7 +35,8 @@ class JudgedWell:
 
     Attributes:
         scored: The well. Its score is the live run's, and so is its standing where scores are
-            p-values; else the standing is that of leave-one-plate-out.
+            p-values; else the standing is that of leave-one-plate-out, and so are both of a well
+            to which the run gave no score, because a tip was not found.
         verdict: What came of it.
         evidence: What stands behind it.
         calibration: Whether the plate was calibrated on it: assumed normal, and not scored.
@@ -86,8 +89,8 @@ def run_cascade(
     gates = (VolumetricGate(), *asked, OperatorGate())
     for anchor, wells in held.plates():
         found = _Replayed(detector)
-        # The first well is known to be normal: nobody is asked about it.
-        settings = MonitorSettings(_calibration(wells), ask_first=False)
+        # The first wells are known to be normal: nobody is asked about them.
+        settings = MonitorSettings(_calibration(wells), ask_first=False, spot_check=_SPOT_CHECK)
         monitor = RunMonitor(found, held.models.get(anchor.sample.plate), settings, gates)
         analyser = monitor.begin(anchor.sample.plate)
         for number, well in enumerate([anchor, *wells]):
@@ -109,9 +112,7 @@ def _calibration(wells: Sequence[ScoredWell]) -> CalibrationSettings:
         if well.failed or leading >= preset.wells:
             break
         leading += 1
-    if leading < BAND_WELLS:
-        return replace(preset, wells=1, alarm_p=ALPHA)
-    return replace(preset, wells=leading)
+    return replace(preset, wells=leading if leading >= BAND_WELLS else 1)
 
 
 def _live(well: ScoredWell, score: float | None, gives_p_values: bool) -> ScoredWell:
@@ -135,8 +136,7 @@ def keyframes(sample: TrajectorySample, number: int) -> list[Keyframe]:
             pipette=sample.pipette,
             mount="left",
             channels=1,
-            # Every well is judged by itself: no leftover of the one before explains it.
-            tip=str(number),
+            tip=sample.tip_used or str(number),
             sources=(),
             destinations=(well,),
             commanded_ul=sample.volume_ul,

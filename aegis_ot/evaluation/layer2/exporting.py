@@ -77,6 +77,7 @@ def export_runs(
         "runs": [run.run for run in found],
         "boxes": name,
         "tips_ul": {s.id: s.capacity_ul for s in kept if s.tip is not tip_for(s.pipette)},
+        "tips_used": {s.id: s.tip_used for s in kept if s.tip_used},
         "notes": "Labels are verdicts of aegis_ot and decisions of its operators, not truth.",
     }
     progress.begin("Writing", len(kept))

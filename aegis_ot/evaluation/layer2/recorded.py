@@ -139,6 +139,7 @@ def _sample(
         well=wells[0]["name"] if wells else "",
         pipette=in_data_sets(last["pipette"]),
         capacity_ul=float(last["capacity_ul"]),
+        tip_used=last["tip"],
         volume_ul=float(last["commanded_ul"]),
         frames=frames,
         detections=LazyDetections(frames, dict.fromkeys(KeyframeKind, ""), detector),

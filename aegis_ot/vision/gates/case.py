@@ -11,8 +11,14 @@ from ..delivery import Delivery
 from ..measuring import ColumnReading
 from ..types import TrajectorySample
 
-RUN_ALARM = 3e-4
-"""Of a hundred normal wells, three in a hundred runs have one that looks more unusual."""
+ALARM_P = 3e-4
+"""A well that looks more unusual than this is not passed for want of proof. In a run of a hundred
+wells it has to be small: three in a hundred runs have such a normal well."""
+
+UNUSUAL_P, SEEMS_LEFT = 0.05, 2.0
+"""Two weak signs of one thing are an alarm too: a well as unusual as one normal one in twenty, and
+rows that speak so far for liquid left after the dispense, log-likelihood ratio. Of 480 normal
+simulated wells and 67 rendered ones none had both."""
 
 
 @dataclass(frozen=True)
@@ -27,9 +33,6 @@ class Case:
         missing: Keyframes in which no tip was found.
         calibrated: Whether readings rest on this run's own normal wells.
         p_value: How often a normal well of this run looks this unusual, if the scorer can tell.
-        alarm_p: A well that looks more unusual than this is not passed for want of proof: it is
-            left to the operator. In a run of a hundred wells it has to be small; on a plate of
-            few wells, of which one is known to be normal, the scorer's own threshold serves.
         clearly_absent: Whether nothing like this run's tips is in the frames without one.
         delivery: What the trajectory shows by itself of its delivery, in the light of the run's
             earlier wells; ``None`` if it was not looked at.
@@ -45,7 +48,6 @@ class Case:
     missing: tuple[KeyframeKind, ...] = ()
     calibrated: bool = True
     p_value: float | None = None
-    alarm_p: float = RUN_ALARM
     clearly_absent: bool = True
     delivery: Delivery | None = None
     signs: Mapping[str, float] = field(default_factory=dict)
@@ -55,7 +57,15 @@ class Case:
     @property
     def alarming(self) -> bool:
         """Whether the well looks too unusual to pass without proof."""
-        return self.p_value is not None and self.p_value < self.alarm_p
+        return self.seems_left or (self.p_value is not None and self.p_value < ALARM_P)
+
+    @property
+    def seems_left(self) -> bool:
+        """Whether it looks unusual, and as if liquid were left, though not surely either."""
+        after = self.readings.get(KeyframeKind.POST_DISPENSE)
+        if after is None or self.p_value is None or self.p_value >= UNUSUAL_P:
+            return False
+        return after.against >= SEEMS_LEFT
 
 
 @dataclass(frozen=True)

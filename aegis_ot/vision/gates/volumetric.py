@@ -208,6 +208,12 @@ class VolumetricGate:
         if KeyframeKind.POST_DISPENSE in case.missing:
             return say(Outcome.UNDECIDED, "No tip can be seen after the dispense.")
         seen = case.calibrated and full is not None and self._sharp(full, sample)
+        if case.seems_left:
+            return say(
+                Outcome.UNDECIDED,
+                "The tip looks unusual, and after the dispense as if liquid were left in it, "
+                "though too little or too faint to be sure.",
+            )
         if case.alarming and seen:
             return say(
                 Outcome.UNDECIDED,
