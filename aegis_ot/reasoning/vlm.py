@@ -18,6 +18,7 @@ import cv2
 
 from ..vision.gates import Case, GateDecision
 from ..vision.measuring import ColumnReading
+from ..vision.signs import SIGNS, Sign
 from ..vision.types import Image, TipDetection, TrajectorySample
 from ..vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route, one_line
 from .answer import strict_object
@@ -52,17 +53,6 @@ _ROUTES = {
 }
 _NEAR_BAND = "its anomaly score, though inside the band of this run's normal wells, is near its end"
 _UNSCORED = "no anomaly score could be computed"
-
-_SIGNS = {
-    "retained": "a column that is left after the dispense (pictures 3 and 4)",
-    "gap_lit": "a break in the glowing column (picture 1)",
-    "gap_aspirate": "a break in the column (picture 1)",
-    "gap_transit": "a break in the column (picture 2)",
-    "overfull": "a column that ends higher than it should (pictures 1 and 2)",
-    "underfull": "a column that ends lower than it should (pictures 1 and 2)",
-    "absent": "no colour where the full column should be (picture 2)",
-    "patches": "a part of the tip that looks like no normal well's",
-}
 
 _SPOKE = 1.0
 """Surprise of a sign, nats, from which it is named: one normal well of three shows as much."""
@@ -190,7 +180,7 @@ def _facts(case: Case) -> list[str]:
     else:
         lines.append("What the liquid is called is not known; it may be clear or coloured.")
     spoke = sorted(case.signs.items(), key=lambda sign: -sign[1])
-    named = [_SIGNS[sign] for sign, nats in spoke if nats >= _SPOKE and sign in _SIGNS]
+    named = [_told(SIGNS[sign]) for sign, nats in spoke if nats >= _SPOKE and sign in SIGNS]
     if named:
         lines.append(f"What the measurement noticed, strongest first: {'; '.join(named)}.")
     for kind, reading in case.readings.items():
@@ -200,6 +190,14 @@ def _facts(case: Case) -> list[str]:
                 + ("." if case.calibrated else ", not calibrated on this run yet.")
             )
     return lines
+
+
+def _told(sign: Sign) -> str:
+    """``a break in the column (picture 1)``: with the pictures that show it."""
+    numbers = [str(number) for number, kind in enumerate(KeyframeKind, 1) if kind in sign.frames]
+    if not numbers:
+        return sign.words
+    return f"{sign.words} (picture{'s' if numbers[1:] else ''} {' and '.join(numbers)})"
 
 
 def _why(case: Case) -> str:
