@@ -63,7 +63,7 @@ def layer1(
     ] = None,
     rules: Rules = None,
     labware: Labware = None,
-    seed: Annotated[int, typer.Option(help="Of the bootstrap.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Of the bootstrap.")] = 0,
     timeout: Annotated[float, typer.Option(help="Longest rehearsal of one protocol, s.")] = 120.0,
 ) -> None:
     """Score Layer 1 on a folder in the protocol benchmark format.

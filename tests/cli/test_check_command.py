@@ -217,6 +217,7 @@ WRONG: list[tuple[list[str], str]] = [
     (["evaluate", "layer1", "nowhere"], "there is no such folder"),
     (["evaluate", "layer1", "."], "holds no labels.json"),
     (["evaluate", "layer1", ".", "--config", "magic"], "'magic' is not one of"),
+    (["evaluate", "layer1", ".", "--seed", "-1"], "greater than or equal to 0"),
 ]
 
 
