@@ -16,7 +16,6 @@ from typing import Any
 from ...vision.calibration import PRESETS, CalibrationSettings
 from ...vision.camera import Frame
 from ...vision.gates import ConfirmingGate, OperatorGate, VolumetricGate
-from ...vision.measuring import ColumnReading
 from ...vision.monitor import MonitorSettings, RunMonitor
 from ...vision.second_opinion import SpotCheck
 from ...vision.types import Detector, Image, TipDetection, TrajectorySample
@@ -60,16 +59,6 @@ class JudgedWell:
     def flagged(self) -> bool:
         """Failed, or left to the operator."""
         return self.verdict.outcome is not Outcome.PASS
-
-    @property
-    def readings(self) -> dict[KeyframeKind, ColumnReading]:
-        """Measured columns by keyframe; one that proved nothing is left out."""
-        return {
-            KeyframeKind(kind): ColumnReading(
-                told["volume"], told["uncertainty"], told["air"], top=told["top"]
-            )
-            for kind, told in self.evidence.get("measured_ul", {}).items()
-        }
 
 
 def run_cascade(

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...errors import ConfigurationError, DatasetError
 from ...vision.dataset import first_normals
-from ...vision.scorers import Calibrating, signs_of
+from ...vision.scorers import Calibrating
 from ...vision.types import Scorer, TrajectorySample
 from .progress import Progress
 
@@ -33,7 +33,6 @@ class ScoredWell:
         standing: Score made comparable between plates; more than 0 is flagged.
         tips_missing: Whether no tip was found in a frame in which it hangs free.
         limit: Score at which the standing is 0, in the scorer's unit.
-        parts: What the score is made of, where the scorer can say and was asked to.
     """
 
     sample: TrajectorySample
@@ -42,7 +41,6 @@ class ScoredWell:
     standing: float
     tips_missing: bool
     limit: float = float("nan")
-    parts: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def failed(self) -> bool:
@@ -89,7 +87,6 @@ def hold_out(
     threshold: str,
     progress: Progress | None = None,
     choose: Callable[[list[TrajectorySample]], list[TrajectorySample]] | None = None,
-    explain: bool = False,
     kinds: Mapping[str, str] | None = None,
 ) -> HeldOut:
     """Score every well but the calibration wells, plate by plate.
@@ -105,7 +102,6 @@ def hold_out(
         progress: Told of each plate.
         choose: Chooses those of the other plates' normals that are learned from; all if left
             out.
-        explain: Keep what each score is made of.
         kinds: Plates of one kind are left out together; each plate by itself if left out.
 
     Raises:
@@ -146,7 +142,7 @@ def hold_out(
                 f"plates' {len(normals)} normal wells ({error}); record more of them"
             ) from error
         own = [sample for sample in samples if sample.plate == plate]
-        first_well, *others = score_plate(scorer, anchor_well, own, explain)
+        first_well, *others = score_plate(scorer, anchor_well, own)
         anchors.append(first_well)
         wells += others
         progress.step()
@@ -155,10 +151,7 @@ def hold_out(
 
 
 def score_plate(
-    scorer: Scorer,
-    anchor_well: TrajectorySample,
-    samples: Sequence[TrajectorySample],
-    explain: bool = False,
+    scorer: Scorer, anchor_well: TrajectorySample, samples: Sequence[TrajectorySample]
 ) -> list[ScoredWell]:
     """Scores of one plate by a fitted scorer, its calibration well first; without standing."""
     if isinstance(scorer, Calibrating):
@@ -167,15 +160,14 @@ def score_plate(
     wells = []
     for sample in [anchor_well, *(sample for sample in samples if sample is not anchor_well)]:
         score = anchor if sample is anchor_well else scorer.score(sample)
-        parts = signs_of(scorer, sample) if explain and not sample.lacks_tip else {}
-        wells.append(ScoredWell(sample, score, anchor, 0.0, sample.lacks_tip, parts=parts))
+        wells.append(ScoredWell(sample, score, anchor, 0.0, sample.lacks_tip))
     return wells
 
 
 def score_with(
     samples: Sequence[TrajectorySample], fitted: Scorer, progress: Progress | None = None
 ) -> HeldOut:
-    """Score every plate by one model that was fitted elsewhere, and say what the scores are of.
+    """Score every plate by one model that was fitted elsewhere.
 
     The threshold is the scorer's own p-value if it gives one, else each plate's first normal.
     """
@@ -185,7 +177,7 @@ def score_with(
     anchors, wells = [], []
     for plate, anchor_well in first.items():
         own = [sample for sample in samples if sample.plate == plate]
-        first_well, *others = score_plate(fitted, anchor_well, own, explain=True)
+        first_well, *others = score_plate(fitted, anchor_well, own)
         anchors.append(first_well)
         wells += others
         progress.step()
