@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Mapping
 from typing import Any
 
 from ..vision.signs import SIGNS, Sign
@@ -14,21 +15,10 @@ def signs_in(evidence: Mapping[str, Any]) -> list[tuple[Sign, float]]:
     return [(SIGNS.get(name) or Sign(name, name.replace("_", " ")), nats) for name, nats in told]
 
 
-def limits_in(evidences: Iterable[Mapping[str, Any]]) -> list[float | None]:
-    """Up to which score each well of a run could pass silently; ``None`` before a band was set.
-
-    The band in a well's evidence is the one that came of it. A well that scored high and was found
-    right has widened it, so the band that it met is that of its liquid's well before.
-
-    Args:
-        evidences: Of the wells in the order in which they were judged.
-    """
-    known: dict[tuple[str, ...], float | None] = {}
-    limits = []
-    for evidence in evidences:
-        stream = tuple(map(str, (evidence.get("calibration") or {}).get("stream") or ()))
-        after = (evidence.get("band") or (None, None))[1]
-        # Of a row the evidence is the gravest tip's, and each tip has a band of its own.
-        limits.append(after if "lanes" in evidence else known.get(stream))
-        known[stream] = after
-    return limits
+def band_in(evidence: Mapping[str, Any]) -> tuple[float, float] | None:
+    """From where to where a score passed silently when the well was judged; one that is open
+    below begins at 0. ``None`` before a band was set."""
+    low, high = evidence.get("band") or (None, None)
+    if high is None:
+        return None
+    return 0.0 if low is None or math.isinf(low) else float(low), float(high)

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..vocabulary import KeyframeKind
 from .levels import axis_of, expected_level, measured_level
-from .scores import signs_in
+from .scores import band_in, signs_in
 from .wells import Box, Picture, SeenFrame, SeenWell
 
 Pictures = Callable[[int, "Box | None"], "tuple[Picture | None, Picture | None, str]"]
@@ -47,19 +47,13 @@ def state_of(trajectory: Mapping[str, Any]) -> str:
     return "waiting" if KeyframeKind.POST_DISPENSE.value in kinds else "running"
 
 
-def seen_well(
-    run: str,
-    entry: Mapping[str, Any],
-    pictures: Pictures = no_pictures,
-    limit: float | None = None,
-) -> SeenWell:
+def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictures) -> SeenWell:
     """Gather one delivery.
 
     Args:
         run: Identifier of the run.
         entry: The delivery in the run's overview.
         pictures: Where its frames come from.
-        limit: Score up to which it could pass silently, see :func:`~.scores.limits_in`.
     """
     verdict: Mapping[str, Any] = entry["verdict"] or {}
     evidence: Mapping[str, Any] = entry["evidence"]
@@ -84,10 +78,9 @@ def seen_well(
         truth="",
         agreement="",
         score=verdict.get("score"),
-        limit=limit,
         frames=_frames(entry, pictures),
         signs=signs_in(evidence),
-        band=_band(evidence.get("band")),
+        band=band_in(evidence),
     )
 
 
@@ -112,13 +105,6 @@ def _frames(entry: Mapping[str, Any], pictures: Pictures) -> dict[KeyframeKind, 
             missing,
         )
     return frames
-
-
-def _band(band: Any) -> tuple[float, float] | None:
-    """A band that is open below begins at 0; one that is open above says nothing."""
-    if not band or band[1] is None:
-        return None
-    return float(band[0] or 0.0), float(band[1])
 
 
 def _box(found: Any) -> Box | None:

@@ -90,8 +90,7 @@ class SeenWell:
         truth: The label, ``"normal"`` or ``"partial_50, 48 % retained"``; empty where unknown.
         agreement: ``"caught"``, ``"missed"``, ``"false alarm"``, ``"passed"``, or empty.
         score: Anomaly score; ``None`` without.
-        limit: Score up to which this well could pass silently; ``None`` without.
-        band: From where to where a score passes silently since; ``None`` without.
+        band: From where to where its score could pass silently; ``None`` without.
         signs: What speaks against the well, nats, the strongest first; empty for a scorer that
             names none.
         frames: By keyframe.
@@ -109,7 +108,6 @@ class SeenWell:
     truth: str
     agreement: str
     score: float | None
-    limit: float | None
     frames: Mapping[KeyframeKind, SeenFrame]
     signs: Sequence[tuple[Sign, float]] = ()
     band: tuple[float, float] | None = None

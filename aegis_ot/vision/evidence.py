@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
-from ..vocabulary import KeyframeKind, Outcome
+from ..vocabulary import Outcome
 from .cascade import Triage
 from .column_reader import MeasuredColumns
 from .delivery import Delivery, Shown
 from .gates import Case, GateDecision
 from .leftover import Leftover
-from .measuring import ColumnReading
 from .stream import OpenTrajectory, Stream
 from .tip_scale import TipScale
 
@@ -26,21 +25,20 @@ def evidence_of(
     decision: GateDecision,
     left: Leftover | None = None,
 ) -> dict[str, Any]:
-    """Boxes, scores, signs (nats), band, volumes, columns' ends (fractions of the tip's length
+    """Boxes, scores, signs (nats), the band that the score met, volumes, columns' ends (fractions of the tip's length
     above the orifice), and what restores the calibration."""
     emptied = _emptied(case)
     channels = max(keyframe.channels for keyframe in seen.keyframes.values())
-    band = stream.cascade.calibration.band
     scores = {} if case.score is None else {stream.scorer.name: case.score}
     found = {kind: tip for kind, tip in seen.detections.items() if tip is not None}
     return {
         "boxes": {kind.value: [tip.x, tip.y, tip.w, tip.h] for kind, tip in found.items()},
         "confidence": {kind.value: tip.confidence for kind, tip in found.items()},
         "scores": scores,
-        "band": None if band is None else list(band),
+        "band": None if triage.band is None else list(triage.band),
         "signs": {sign: round(nats, 2) for sign, nats in case.signs.items()},
         "triage": triage.reason,
-        "measured_ul": dict(_readings(case.readings)),
+        "measured_ul": dict(_readings(case)),
         "expected_ul": {kind.value: v for kind, v in case.sample.expected_ul.items()},
         "expected_top": dict(_expected_tops(stream, case)),
         "unusable_frames": [kind.value for kind in seen.unusable],
@@ -68,19 +66,20 @@ def _emptied(case: Case) -> Delivery | None:
     return seen if seen is not None and seen.shown is Shown.EMPTIED else None
 
 
-def _readings(
-    readings: Mapping[KeyframeKind, ColumnReading],
-) -> Iterator[tuple[str, dict[str, float]]]:
-    for kind, reading in readings.items():
-        if reading.vague:
+def _readings(case: Case) -> Iterator[tuple[str, dict[str, float]]]:
+    """Volumes that were seen: one that is only what was expected is no measurement."""
+    for kind, reading in case.readings.items():
+        told = reading.seen or reading
+        expected = case.sample.expected_ul.get(kind, 0.0)
+        if reading.vague or (told is reading and told.volume_ul == expected > 0):
             continue
         yield (
             kind.value,
             {
-                "volume": round(reading.volume_ul, 2),
-                "uncertainty": round(reading.sigma_ul, 2),
+                "volume": round(told.volume_ul, 2),
+                "uncertainty": round(told.sigma_ul, 2),
                 "air": round(reading.gap_ul, 2),
-                "top": round(reading.top, 4),
+                "top": round(told.top, 4),
             },
         )
 
