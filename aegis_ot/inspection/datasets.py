@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ..account.levels import expected_level, measured_level
 from ..account.pictures import close_up, whole_frame
-from ..account.scores import limits_in, signs_in
+from ..account.scores import band_in, signs_in
 from ..account.wells import Box, Inspection, SeenFrame, SeenWell
 from ..evaluation.layer2 import Progress, find_tips
 from ..evaluation.layer2.cascade import JudgedWell, run_cascade
@@ -66,15 +66,13 @@ def inspect_dataset(
             "are judged by their measured columns. Name a world model (aegis-ot fit) to score them."
         )
     judged = run_cascade(held, detector=tips.finder)
-    limits = _limits(judged)
     order = {record.id: place for place, record in enumerate(data.records)}
     judged.sort(key=lambda well: order[well.sample.id])
     chosen = pictured([(well.flagged, well.flagged != well.scored.failed) for well in judged], most)
     progress.begin("Cutting pictures", len(judged))
     wells = []
     for well, show in zip(judged, chosen, strict=True):
-        limit = limits[well.sample.id]
-        wells.append(_well(data, well, show, limit, scored=how != "none"))
+        wells.append(_well(data, well, show, scored=how != "none"))
         progress.step()
     facts = [
         ("frames", data.source),
@@ -112,21 +110,7 @@ class _Unscored:
         return 1.0
 
 
-def _limits(judged: Sequence[JudgedWell]) -> dict[str, float | None]:
-    """By well, up to which score it could pass silently. Each plate is a run of its own."""
-    plates: dict[str, list[JudgedWell]] = {}
-    for well in judged:
-        plates.setdefault(well.sample.plate, []).append(well)
-    return {
-        well.sample.id: limit
-        for wells in plates.values()
-        for well, limit in zip(wells, limits_in(one.evidence for one in wells), strict=True)
-    }
-
-
-def _well(
-    data: Dataset, judged: JudgedWell, show: bool, limit: float | None, scored: bool
-) -> SeenWell:
+def _well(data: Dataset, judged: JudgedWell, show: bool, scored: bool) -> SeenWell:
     sample, verdict = judged.sample, judged.verdict
     outcome = "calibration" if judged.calibration else verdict.outcome.value
     return SeenWell(
@@ -142,9 +126,9 @@ def _well(
         truth=_truth(sample),
         agreement="" if judged.calibration else _agreement(judged.scored.failed, judged.flagged),
         score=verdict.score if scored else None,
-        limit=limit if scored else None,
         frames=_frames(data, judged, show),
         signs=signs_in(judged.evidence),
+        band=band_in(judged.evidence) if scored else None,
     )
 
 

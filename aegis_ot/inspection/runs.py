@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from ..account import Inspection, seen_well
 from ..account.pictures import cut_pictures
-from ..account.scores import limits_in
 from ..account.seen import no_pictures
 from ..errors import StoreError
 from ..evaluation.layer2 import Progress
@@ -44,10 +43,9 @@ def inspect_run(
         except StoreError:
             return None
 
-    limits = limits_in(entry["evidence"] for entry in entries)
     wells = []
-    for entry, show, limit in zip(entries, chosen, limits, strict=True):
-        wells.append(seen_well(run, entry, cut_pictures(frame) if show else no_pictures, limit))
+    for entry, show in zip(entries, chosen, strict=True):
+        wells.append(seen_well(run, entry, cut_pictures(frame) if show else no_pictures))
         progress.step()
     source = run_source(overview)
     finished = overview.get("finished") or {}

@@ -125,8 +125,7 @@ class RunAnalyser:
         triage = stream.cascade.triage(case.score, case.missing, against)
         case = replace(case, route=triage.route)
         decision = self._decide(stream, case, triage)
-        band = stream.cascade.calibration.band
-        limit = None if band is None else band[1]
+        limit = None if triage.band is None else triage.band[1]
         decision = self._second.on(case, decision, stream.learned + 1, limit)
         left = None
         if decision.outcome is not Outcome.PASS:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ..vocabulary import KeyframeKind, Route
 from .calibration import CalibrationSettings, CalibrationState, RunCalibration, Standing
@@ -20,11 +20,13 @@ class Triage:
         route: See :class:`~aegis_ot.vocabulary.Route`.
         reason: One sentence.
         missing: Keyframes whose missing tip counts in this run.
+        band: From where to where a score passed silently; ``None`` before a band was set.
     """
 
     route: Route
     reason: str
     missing: tuple[KeyframeKind, ...] = ()
+    band: tuple[float, float] | None = None
 
     @property
     def to_gate(self) -> bool:
@@ -81,6 +83,11 @@ class Cascade:
             contradiction: How the measured columns contradict the protocol's volumes, or what
                 else looks alarming: reason enough for the grey zone inside any band.
         """
+        return replace(self._triage(score, missing, contradiction), band=self.calibration.band)
+
+    def _triage(
+        self, score: float | None, missing: Collection[KeyframeKind], contradiction: str
+    ) -> Triage:
         if self.state is CalibrationState.COLLECTING:
             return Triage(
                 Route.CALIBRATION,

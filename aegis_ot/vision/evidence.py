@@ -25,8 +25,8 @@ def evidence_of(
     decision: GateDecision,
     left: Leftover | None = None,
 ) -> dict[str, Any]:
-    """Boxes, scores, signs (nats), the band that the score met, volumes, columns' ends (fractions of the tip's length
-    above the orifice), and what restores the calibration."""
+    """Boxes, scores, signs (nats), the band that the score met, volumes, columns' ends (fractions
+    of the tip's length above the orifice), and what restores the calibration."""
     emptied = _emptied(case)
     channels = max(keyframe.channels for keyframe in seen.keyframes.values())
     scores = {} if case.score is None else {stream.scorer.name: case.score}

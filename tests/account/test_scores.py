@@ -1,15 +1,13 @@
-"""Signs and limits, as the evidence of verdicts tells them."""
+"""Signs and bands, as the evidence of verdicts tells them."""
 
 from __future__ import annotations
 
-from typing import Any
+import math
 
-from aegis_ot.account.scores import limits_in, signs_in
+import pytest
+
+from aegis_ot.account.scores import band_in, signs_in
 from aegis_ot.vocabulary import KeyframeKind
-
-
-def judged(band: list[float | None] | None, liquid: str = "red", **more: Any) -> dict[str, Any]:
-    return {"band": band, "calibration": {"stream": ["left p300", 300.0, liquid]}} | more
 
 
 def test_the_strongest_sign_stands_first_with_its_words_and_frames() -> None:
@@ -22,18 +20,11 @@ def test_the_strongest_sign_stands_first_with_its_words_and_frames() -> None:
     assert told[1][0].words == "new sign", "an evidence of another version"
 
 
-def test_a_well_met_the_band_of_the_wells_before_it_in_its_liquid() -> None:
-    run = [
-        judged(None),
-        judged([None, 3.8]),
-        judged([None, 4.0], "water"),
-        # It passed at a gate, and its own high score has widened the band.
-        judged([None, 15.5]),
-        {},
-        judged([None, 15.5]),
-    ]
-    assert limits_in(run) == [None, None, None, 3.8, None, 15.5]
+@pytest.mark.parametrize("low", [None, -math.inf, 0.0])
+def test_a_band_that_is_open_below_begins_at_nought(low: float | None) -> None:
+    assert band_in({"band": [low, 3.8]}) == (0.0, 3.8)
 
 
-def test_of_a_row_the_gravest_tips_own_band_is_told() -> None:
-    assert limits_in([judged([None, 3.0], lanes={}), judged([None, 5.0], lanes={})]) == [3.0, 5.0]
+def test_a_band_with_two_ends_keeps_them_and_none_is_none() -> None:
+    assert band_in({"band": [1.5, 3.8]}) == (1.5, 3.8)
+    assert band_in({"band": None}) is band_in({"band": [None, None]}) is band_in({}) is None

@@ -28,6 +28,15 @@ def test_the_band_passes_silently_and_the_rest_is_grey() -> None:
     assert "spreads above" in grey.reason
 
 
+def test_the_band_that_a_well_met_is_told_whatever_is_learned_of_it() -> None:
+    assert Cascade("pca").triage(10.0, ()).band is None
+    cascade = calibrated()
+    met = cascade.triage(14.0, ())
+    assert met.band == cascade.calibration.band
+    cascade.learn(14.0, normal=True)
+    assert met.band != cascade.calibration.band == cascade.triage(10.0, ()).band
+
+
 @pytest.mark.parametrize(
     "missing",
     [

@@ -1,8 +1,9 @@
-"""What stands behind a verdict: where columns should end."""
+"""What stands behind a verdict: where columns should end, and the band."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import pytest
 
@@ -21,11 +22,12 @@ from .samples import sample
 TIP = TIPS["ot2_1000"]
 
 
-def expected_tops(heights: Mapping[str, float]) -> dict[str, float]:
+def told(heights: Mapping[str, float], triage: Triage) -> dict[str, Any]:
     """Of a well whose tip should hold 100 µL before the dispense and nothing after it.
 
     Args:
         heights: What earlier runs showed, see :meth:`MeasuredColumns.expect_heights`.
+        triage: Where it was sent.
     """
     reader = MeasuredColumns()
     made = Stream(None, reader, CalibrationSettings())
@@ -34,8 +36,11 @@ def expected_tops(heights: Mapping[str, float]) -> dict[str, float]:
     seen = OpenTrajectory({KeyframeKind.TRANSIT: make_keyframe("run", 1)})
     decision = GateDecision(Outcome.PASS, Gate.NONE, "")
     key = "p1000_single_gen2", 1000.0, "red"
-    told = evidence_of(key, made, case, seen, Triage(Route.CALIBRATION, ""), decision)
-    return dict(told["expected_top"])
+    return evidence_of(key, made, case, seen, triage, decision)
+
+
+def expected_tops(heights: Mapping[str, float]) -> dict[str, float]:
+    return dict(told(heights, Triage(Route.CALIBRATION, ""))["expected_top"])
 
 
 def test_an_expected_end_is_where_columns_are_known_to_stand() -> None:
@@ -45,3 +50,8 @@ def test_an_expected_end_is_where_columns_are_known_to_stand() -> None:
 
 def test_before_anything_is_learned_no_end_is_claimed() -> None:
     assert expected_tops({}) == {}
+
+
+def test_the_band_is_the_one_by_which_the_well_was_sent() -> None:
+    assert told({}, Triage(Route.CALIBRATION, ""))["band"] is None
+    assert told({}, Triage(Route.SILENT_PASS, "", band=(0.0, 3.8)))["band"] == [0.0, 3.8]

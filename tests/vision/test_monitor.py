@@ -203,6 +203,13 @@ def test_evidence_is_plain_and_tells_boxes_scores_and_channels(run) -> None:
     assert evidence["scores"]["pca"] > 0
 
 
+def test_the_band_in_the_evidence_is_the_one_that_the_well_met(run) -> None:
+    assert [evidence["band"] for _, evidence in run[:6]] == [None] * 6, "the sixth sets it"
+    for verdict, evidence in run[6:]:
+        if verdict.route is Route.SILENT_PASS:
+            assert verdict.score <= evidence["band"][1]
+
+
 def test_a_missing_tip_is_caught_even_while_calibrating() -> None:
     (_, _), (verdict, _) = judge_run(2, ("no_tip@#2",))
     assert verdict.route is Route.CALIBRATION
