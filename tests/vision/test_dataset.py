@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from aegis_ot.errors import DatasetError
-from aegis_ot.vision.dataset import load_dataset
+from aegis_ot.vision.dataset import TrueBoxes, load_dataset
 from aegis_ot.vision.dataset_checks import in_data_sets
 from aegis_ot.vision.dataset_writer import DatasetWriter
 from aegis_ot.vision.tips import tip_for
@@ -85,6 +85,10 @@ def test_every_fault_is_named_by_row_and_column_in_one_pass(folder: Path) -> Non
         (lambda f: (f / "manifest.csv").write_bytes(b"\xff\xfe\x00x"), "cannot be read as UTF-8"),
         (lambda f: (f / "meta.json").write_text("{"), "meta.json: is not readable JSON"),
         (lambda f: (f / "meta.json").write_text('{"source": "dreamt"}'), "'dreamt'"),
+        (
+            lambda f: (f / "meta.json").write_text('{"tips_used": ["A1"]}'),
+            "meta.json, column tips_used: must name the tip that served it by trajectory_id",
+        ),
     ],
 )
 def test_broken_files_are_reported(folder: Path, damage, told: str) -> None:
@@ -134,6 +138,13 @@ def test_data_sets_keep_the_robot_whose_tips_differ() -> None:
     assert in_data_sets("p1000_single_flex") == "p1000_single_flex"
     for name in ("p10_single", "p50_single", "p50_multi", "p300_multi_gen2", "flex_96channel_1000"):
         assert tip_for(in_data_sets(name)) is tip_for(name)
+
+
+def test_the_tip_that_served_several_wells_is_read(folder: Path) -> None:
+    (folder / "meta.json").write_text('{"tips_used": {"p1-a": "box A1", "p1-z": "box A2"}}')
+    data = load_dataset(folder)
+    assert [record.tip_used for record in data.samples(TrueBoxes({}))][:2] == ["box A1", ""]
+    assert data.warnings == ("meta.json, tips_used: 'p1-z' is in no row of manifest.csv",)
 
 
 def test_cameras_of_unknown_plates_are_named(folder: Path) -> None:

@@ -91,3 +91,10 @@ def test_a_recording_is_judged_as_the_sidecar_judges_it_live() -> None:
             live.observe(keyframe, Frame(b"", well.sample.frames[keyframe.kind], 0.0))
         verdicts.append(live.judge(number)[0])
     assert [well.verdict for well in run_cascade(known)] == verdicts
+
+
+def test_wells_of_one_tip_are_played_with_it() -> None:
+    """A remainder that was told stays in the tip, and is no failure of the next well."""
+    one = sample("w")
+    assert {keyframe.tip for keyframe in keyframes(one, 3)} == {"3"}
+    assert {keyframe.tip for keyframe in keyframes(replace(one, tip_used="A1"), 3)} == {"A1"}

@@ -76,6 +76,10 @@ def test_a_run_becomes_a_data_set(store: Path, tmp_path: Path) -> None:
     data = load_dataset(tmp_path / "out")
     assert data.source == "synthetic"
     assert [r.failure_type for r in data.records][-1] == "no_dispense"
+    (run,) = recorded_runs(Store(store), load_detector())
+    used = [sample.tip_used for sample in data.samples(data.true_boxes())]
+    assert used == [sample.tip_used for sample in run.samples]
+    assert all(used), "which tip a well had decides what of its column is known to be left"
     with pytest.raises(DatasetError, match="already"):
         export_runs(store, tmp_path / "out")
 
