@@ -117,7 +117,7 @@ def _unobserved(trajectories: Iterable[Mapping[str, Any]]) -> list[str]:
 
 
 def _calibration(trajectories: Iterable[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Per liquid and pipette: which wells calibrated, and the band that came of it."""
+    """Per liquid and pipette: which wells calibrated, and the band that the last well met."""
     streams: dict[tuple[str, ...], dict[str, Any]] = {}
     for trajectory in trajectories:
         evidence = trajectory["evidence"]

@@ -22,7 +22,7 @@ class WellRow:
         pipette: Opentrons pipette name.
         volume_ul: Commanded, µL per channel.
         score: Anomaly score; ``None`` without frames.
-        limit: Score up to which a well passes in this run; ``None`` before it is calibrated.
+        limit: Score up to which it could pass silently; ``None`` before the run is calibrated.
         recovered: Whether it failed, and the robot put the well right.
         unobserved: Whether the camera saw none of its tips: neither passed nor failed.
         p_value: How often a normal well of this run looks this unusual.
