@@ -82,7 +82,7 @@ def _of_length(
 def clarities(
     image: Image, detection: TipDetection, shapes: Sequence[TipShape]
 ) -> tuple[float, ...]:
-    """How much of the steep steps lies on each of the outlines that a kind of tip may have."""
+    """How well each of the outlines that a kind of tip may have lies on the steepest steps."""
     collar, orifice = np.array(detection.collar), np.array(detection.orifice)
     widest = max(shape.half_width for shape in shapes)
     return tuple(_shifted(image, collar, orifice, shape, widest, *_COARSE)[2] for shape in shapes)

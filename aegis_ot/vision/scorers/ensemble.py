@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import weakref
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -81,6 +82,8 @@ class EnsembleScorer:
         self.sums: dict[str, NDArray[np.float64]] = {}
         self.aims: tuple[float, ...] = AIMS
         self._by_aim = {0.0: (self.column, self.patches)}
+        # The score is asked for first, then the signs that it is made of.
+        self._last: tuple[weakref.ref[TrajectorySample], EnsembleReport] | None = None
 
     def fit(self, normals: Sequence[TrajectorySample]) -> None:
         """Fit both scorers, then their sum on the normals as they will be used.
@@ -105,6 +108,7 @@ class EnsembleScorer:
 
     def calibrate(self, normals: Sequence[TrajectorySample]) -> None:
         """Adapt both scorers to a run or plate, for each reading by its own."""
+        self._last = None
         # What a fit has learned is shared; what they take from the run is not.
         self._by_aim = {
             px: (copy.copy(self.column), copy.copy(self.patches))
@@ -134,6 +138,11 @@ class EnsembleScorer:
 
     def report(self, sample: TrajectorySample) -> EnsembleReport:
         """Score and what stands behind it."""
+        if self._last is None or self._last[0]() is not sample:
+            self._last = weakref.ref(sample), self._read(sample)
+        return self._last[1]
+
+    def _read(self, sample: TrajectorySample) -> EnsembleReport:
         name = sample.learned_as(self.sums)
         readings = [self.read(sample, px) for px in self._by_aim]
         score = float(np.mean([self._surprise(one.total, name) for one in readings]))
