@@ -59,16 +59,19 @@ class MeasuredColumns:
         self._contrast = WetAndDry()
         self._usual = Usual()
         self._scale = TipScale()
+        # Of ends that are seen to the row; those that templates tell are off from them.
+        self._seen_scale = TipScale()
         self._fullest = 0.0
 
     def share_tip(self, other: object) -> None:
         """Learn the tip's geometry together with the reader of another liquid."""
         if isinstance(other, MeasuredColumns):
-            self._scale = other._scale
+            self._scale, self._seen_scale = other._scale, other._seen_scale
 
     def expect_heights(self, factors: Mapping[str, float]) -> None:
         """How high columns stood in earlier runs, over what the geometry says, by tip."""
         self._scale.expect(factors)
+        self._seen_scale.expect(factors)
 
     def look(self, view: TipView) -> Look:
         self._contrast.prepare()
@@ -112,19 +115,19 @@ class MeasuredColumns:
             if not comparable or (wet is not None and not volume and self._holds_some(seen, wet)):
                 continue
             if volume and shown is not None:
-                self._scale.note(seen.tip, shown, volume)
+                self._seen_scale.note(seen.tip, shown, volume)
             if wet is not None:
-                self._learn_usual(seen, wet, volume, shown)
+                self._learn_usual(seen, wet, volume)
             self._take(seen, volume)
 
     def _seen(
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
     ) -> SeenColumn | None:
         top, full = self._drawn_top(looks, expected), looks.get(KeyframeKind.TRANSIT)
-        if top is None or not isinstance(full, Look) or not self._scale.known:
+        if top is None or not isinstance(full, Look) or not self._seen_scale.known:
             return None
-        volume = self._scale.volume(full.tip, top)
-        return SeenColumn(volume, self._scale.sigma_ul(full.tip, top, volume), 1.0 - top)
+        volume = self._seen_scale.volume(full.tip, top)
+        return SeenColumn(volume, self._seen_scale.sigma_ul(full.tip, top, volume), 1.0 - top)
 
     def _drawn_top(
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
@@ -133,7 +136,7 @@ class MeasuredColumns:
         drawn, kept = (expected.get(kind, 0.0) for kind in FREE)
         if not isinstance(before, Look) or not isinstance(after, Look) or drawn <= 0 or kept > 0:
             return None
-        place = self._scale.place(before.tip, drawn)
+        place = self._seen_scale.place(before.tip, drawn)
         return drawn_top(before, after, place, _REACH[0] + _REACH[1] * (1.0 - place))
 
     def _holds_some(self, empty: Look, wet: Wetness) -> bool:
@@ -184,7 +187,7 @@ class MeasuredColumns:
         # While the tip's inside is known to some per cent only, rows near the top are unsure.
         self._contrast.learn(seen.profile, top, self._scale.margin(top))
 
-    def _learn_usual(self, seen: Look, wet: Wetness, volume: float, shown: float | None) -> None:
+    def _learn_usual(self, seen: Look, wet: Wetness, volume: float) -> None:
         tip, end = seen.tip, seen.lowest
         top = self._scale.place(tip, volume)
         if volume > 0:
@@ -192,8 +195,6 @@ class MeasuredColumns:
             share, weight = wet.mean(top + 0.02, end)
             gap, _, _ = wet.longest_gap(top + 0.05, min(end, seen.wide_down_to(_GAP_BORE_PX)))
             self._usual.note_full(share if weight > 0 else None, gap, wet.misfit)
-            if shown is not None:
-                return
             found = wet.column(ceiling(tip), end)
             reach = NEAR if self._scale.known else _REACH[0] + _REACH[1] * (1.0 - top)
             if abs(found - top) < reach and wet.power > 4 and wet.bracketed(found, NEAR):
