@@ -18,7 +18,7 @@ import argparse
 import copy
 import json
 import sys
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
@@ -85,8 +85,8 @@ def runs(first: int, count: int, flex: bool = False) -> Iterator[Run]:
 
 def judged(
     run: Run, number_of_wells: int = 16, planted: Sequence[str] = FAULTS
-) -> Iterator[tuple[int, str, Any]]:
-    """Number of the well, the fault planted in its place (or none), and the verdict."""
+) -> Iterator[tuple[int, str, Any, Any]]:
+    """Number of the well, the fault planted in its place (or none), verdict and evidence."""
     from aegis_ot.sidecar import make_analyser
     from aegis_ot.simulation import SimulatedCamera
     from aegis_ot.vision.types import TrajectorySample
@@ -101,7 +101,7 @@ def judged(
         for keyframe in wells[number]:
             camera.announce(keyframe)
             analyser.observe(keyframe, camera.frame_after(0.0, 5.0))
-        return analyser.judge(number)[0]
+        return analyser.judge(number)
 
     for number in range(number_of_wells):
         for fault in planted if number in STRUCK else ():
@@ -117,11 +117,11 @@ def judged(
             analyser._streams = copy.deepcopy(streams, kept)
             analyser._first, analyser._leftovers = copy.deepcopy(known[:2])
             analyser._asked = dict(known[2])
-            yield number, fault, judge(number, fault)
+            yield number, fault, *judge(number, fault)
             analyser._streams = streams
             analyser._first, analyser._leftovers, analyser._asked = known
-        verdict = judge(number, "")
-        yield number, "", verdict
+        verdict, evidence = judge(number, "")
+        yield number, "", verdict, evidence
         if is_question(verdict):
             analyser.confirm(number)
 
@@ -186,10 +186,11 @@ def measure(
     """Counts over ``count`` runs: normal wells by outcome and route, faults caught by kind."""
     normals: Counter[str] = Counter()
     faults: Counter[tuple[str, str, str, str]] = Counter()
+    drawn: defaultdict[str, list[float | None]] = defaultdict(list)
     alarms = []
     for run in runs(first, count, flex):
         liquid = "water" if run.reagent == "water" else "dye"
-        for number, fault, verdict in judged(run, wells, planted):
+        for number, fault, verdict, evidence in judged(run, wells, planted):
             outcome = verdict.outcome.value
             if fault:
                 when = "first wells" if number < CALIBRATION else "later"
@@ -199,6 +200,8 @@ def measure(
             if is_question(verdict):
                 outcome = "asked"
             normals[outcome] += 1
+            if liquid == "dye":
+                drawn[run.pipette] += _drawn_off(evidence)
             if number >= CALIBRATION:
                 normals["after calibration"] += 1
                 normals["routed"] += verdict.route.value != "silent_pass"
@@ -212,8 +215,14 @@ def measure(
     ]
     return {
         "frames": "simulated", "seeds": [first, first + count - 1], "normals": dict(normals),
-        "faults": table, "alarms": alarms,
+        "faults": table, "alarms": alarms, "drawn": drawn,
     }  # fmt: skip
+
+
+def _drawn_off(evidence: Any) -> list[float | None]:
+    """By what share the volume that the camera saw drawn is off; ``None`` if it told none."""
+    told = evidence["measured_ul"].get("transit")
+    return [told and told["volume"] / evidence["expected_ul"]["transit"] - 1.0]
 
 
 def show(found: dict[str, Any]) -> str:
@@ -230,8 +239,16 @@ def show(found: dict[str, Any]) -> str:
         f"undecided {normals.get('undecided', 0)}; "
         f"to the gate {routed}/{after} ({100 * routed / max(after, 1):.1f} %)",
         f"runs with a normal well failed or undecided: {alarmed} of {last - first + 1}",
-        "faults caught of those tried, in a liquid's first six wells and later:",
     ]
+    for pipette, wells in sorted(found["drawn"].items()):
+        off = [abs(one) for one in wells if one is not None]
+        within = ", ".join(
+            f"{sum(one <= limit for one in off)} within {limit:.0%}" for limit in (0.05, 0.1)
+        )
+        lines.append(
+            f"{pipette}, dye: volume drawn told of {len(off)}/{len(wells)} normal wells, {within}"
+        )
+    lines.append("faults caught of those tried, in a liquid's first six wells and later:")
     counts = {
         (row["pipette"], row["liquid"], row["fault"], row["which"]): row["count"]
         for row in found["faults"]
