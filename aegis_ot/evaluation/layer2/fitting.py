@@ -49,13 +49,14 @@ def fit_model(
         scorer: Name of the scorer.
         detector: As in :func:`~.evaluate.evaluate_layer2`; true boxes serve data sets only.
         progress: Told how far it is.
-        measure: Find out the smallest retained volume that would be caught, see
+        measure: Find out the smallest retained volume that a live run would catch, see
             :mod:`.smallest`; takes as long as an evaluation.
 
     Returns:
         What was written. Its ``data["recordings"]`` names each recording with its ``source``
         (``"rendered"``, ``"synthetic"``, ``"real"``), its plates or runs, and how many normals
-        were taken and left out; ``data["smallest"]`` what this camera would let be caught.
+        were taken and left out; ``data["smallest"]`` what this camera would let be caught, and
+        ``data["sound"]``, beside it, how many normal wells were flagged, and of how many.
 
     Raises:
         ConfigurationError: If the scorer is unknown or cannot be stored, or a folder holds
@@ -95,11 +96,14 @@ def fit_model(
     progress.step()
     seen = []
     if measure and hasattr(fitted, "p_value"):
-        progress.begin("Planting retained columns", 1)
-        seen = [one.to_json() for one in smallest_caught(normals, lambda: make_scorer(scorer))]
-        progress.step()
+        seen = smallest_caught(normals, lambda: make_scorer(scorer), progress)
     arrays, settings = fitted.to_arrays()
-    return save_model(path, scorer, arrays, settings, {"recordings": used, "smallest": seen})
+    told = {
+        "recordings": used,
+        "smallest": [one.smallest.to_json() for one in seen],
+        "sound": [[one.flagged, one.sound] for one in seen],
+    }
+    return save_model(path, scorer, arrays, settings, told)
 
 
 def _normals(
