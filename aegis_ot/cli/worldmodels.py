@@ -9,17 +9,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ConfigurationError
-from ..vocabulary import counted
 from .app import app
 from .check_settings import one_of
 from .datasets import open_dataset, tip_finder
 
 if TYPE_CHECKING:
     from ..vision.models import ModelFile
-    from ..vision.reach import Smallest
-
-MANY = 10
-"""Planted wells from which a rate of nine in ten means something."""
 
 
 @app.command()
@@ -72,7 +67,7 @@ def show_model(
 
 
 def _describe(path: Path, model: ModelFile) -> str:
-    from ..vision.reach import recordings_of, shortcomings
+    from ..vision.reach import recordings_of, shortcomings, smallest_in
 
     lines = [
         f"{path}: {model.kind}, {path.stat().st_size / 1e6:.2f} MB, made by aegis_ot "
@@ -84,48 +79,5 @@ def _describe(path: Path, model: ModelFile) -> str:
             f"  {used.get('name')} ({used.get('source')}): {used.get('normals')} normal wells"
             f"{left_out}"
         )
-    lines += [f"  {said}" for said in (*shortcomings(model), *_catches(model))]
+    lines += [f"  {said}" for said in (*shortcomings(model), *map(str, smallest_in(model)))]
     return "\n".join(lines)
-
-
-def _catches(model: ModelFile) -> list[str]:
-    """What a live run would catch, a sentence or two for each pipette and liquid."""
-    from ..vision.reach import smallest_in
-
-    seen, sound = smallest_in(model), model.data.get("sound")
-    if not isinstance(sound, list) or len(sound) != len(seen):
-        return [str(one) for one in seen]  # a file of before they were judged as live runs judge
-    return [_catch(one, *counts) for one, counts in zip(seen, sound, strict=True)]
-
-
-def _catch(one: Smallest, flagged: int, sound: int) -> str:
-    head = f"{one.pipette}, {one.reagent or 'liquid of unknown name'}, {one.volume_ul:g} µL: "
-    alarms = "no normal well was left to tell false alarms from"
-    if sound:
-        alarms = f"{flagged} of {counted(sound, 'normal well')} flagged"
-    if flagged:
-        alarms += f", which would be {one.false_alarms:.0f} on a plate of 96"
-    camera = f"The camera gives {one.px_per_mm:.1f} px/mm; "
-    if one.smallest_ul is None or one.px_per_mm_for_half is None:
-        found = "not even the whole volume left in the tip is surely caught, "
-        least = one.volume_ul
-        camera += f"come closer, to {2 * one.px_per_mm:.1f} px/mm, or dye the liquid."
-    else:
-        found = f"{one.smallest_ul:.1f} µL left in the tip are caught, "
-        least = one.smallest_ul
-        camera += f"for half of that, about {one.px_per_mm_for_half:.1f} px/mm would be needed."
-    return f"{head}{found}{_rate(one, least)}; {alarms}. {camera}"
-
-
-def _rate(one: Smallest, volume_ul: float) -> str:
-    """How many of the wells in which so much was planted were caught."""
-    from ..evaluation.layer2.metrics import wilson
-
-    share = one.caught.get(f"{volume_ul / one.volume_ul:g}", 0.0)
-    caught = round(share * one.wells)
-    low, high = wilson(caught, one.wells)
-    rate = "9 times in 10: " if share >= 0.9 and one.wells >= MANY else ""
-    return (
-        f"{rate}{caught} of {counted(one.wells, 'planted well')} "
-        f"(95 %: {100 * low:.0f} to {100 * high:.0f} %)"
-    )

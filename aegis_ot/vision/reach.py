@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from ..vocabulary import counted
@@ -11,6 +12,20 @@ from .models import ModelFile
 
 ENOUGH = 20
 """Normal wells from which a model can say that a well looks as one normal in twenty does."""
+
+MANY = 10
+"""Planted wells from which a rate of nine in ten means something."""
+
+
+def wilson(hits: int, total: int) -> tuple[float, float]:
+    """95 % interval of a proportion (Wilson, 1927): of use where a few of a few are counted."""
+    if not total:
+        return 0.0, 1.0
+    z = 1.959964
+    share, spread = hits / total, z * z / total
+    middle = share + spread / 2
+    half = z * math.sqrt(share * (1 - share) / total + spread / (4 * total))
+    return max((middle - half) / (1 + spread), 0.0), min((middle + half) / (1 + spread), 1.0)
 
 
 @dataclass(frozen=True)
@@ -25,7 +40,7 @@ class Smallest:
             even the whole volume is.
         caught: Share caught of each planted share of the volume.
         wells: Normal wells in which columns were planted.
-        false_alarms: Normal wells flagged, of a plate of 96.
+        flagged, sound: Normal wells that were flagged, and of how many.
         px_per_mm: Of the tips in the frames.
         px_per_mm_for_half: What would show half of that volume as long as this one shows.
     """
@@ -36,27 +51,44 @@ class Smallest:
     smallest_ul: float | None
     caught: Mapping[str, float]
     wells: int
-    false_alarms: float
     px_per_mm: float
     px_per_mm_for_half: float | None
+    flagged: int = 0
+    sound: int = 0
 
     def __str__(self) -> str:
         liquid = self.reagent or "liquid of unknown name"
         head = f"{self.pipette}, {liquid}, {self.volume_ul:g} µL: "
-        rate = (
-            f"{self.false_alarms:.0f} false alarms on a plate of 96; the camera gives "
-            f"{self.px_per_mm:.1f} px/mm"
-        )
-        if self.smallest_ul is None:
-            return (
-                head + "not even the whole volume left in the tip is caught 9 times in 10 "
-                f"({counted(self.wells, 'well')} planted); {rate}."
-            )
+        camera = f"The camera gives {self.px_per_mm:.1f} px/mm; "
+        if self.smallest_ul is None or self.px_per_mm_for_half is None:
+            found = "not even the whole volume left in the tip is surely caught, "
+            least = self.volume_ul
+            camera += f"come closer, to {2 * self.px_per_mm:.1f} px/mm, or dye the liquid."
+        else:
+            found = f"{self.smallest_ul:.1f} µL left in the tip are caught, "
+            least = self.smallest_ul
+            half = self.px_per_mm_for_half
+            camera += f"for half of that, about {half:.1f} px/mm would be needed."
+        return f"{head}{found}{self._rate(least)}; {self._alarms()}. {camera}"
+
+    def _rate(self, volume_ul: float) -> str:
+        """How many of the wells in which so much was planted were caught."""
+        share = self.caught.get(f"{volume_ul / self.volume_ul:g}", 0.0)
+        caught = round(share * self.wells)
+        low, high = wilson(caught, self.wells)
+        rate = "9 times in 10: " if share >= 0.9 and self.wells >= MANY else ""
         return (
-            head + f"{self.smallest_ul:.1f} µL left in the tip are caught 9 times in 10 "
-            f"({counted(self.wells, 'well')} planted), {rate}; "
-            f"for half of that, about {self.px_per_mm_for_half:.1f} px/mm would be needed."
+            f"{rate}{caught} of {counted(self.wells, 'planted well')} "
+            f"(95 %: {100 * low:.0f} to {100 * high:.0f} %)"
         )
+
+    def _alarms(self) -> str:
+        if not self.sound:
+            return "no normal well was left to tell false alarms from"
+        told = f"{self.flagged} of {counted(self.sound, 'normal well')} flagged"
+        if not self.flagged:
+            return told
+        return f"{told}, which would be {96 * self.flagged / self.sound:.0f} on a plate of 96"
 
     def to_json(self) -> dict[str, Any]:
         return asdict(self)
@@ -65,7 +97,11 @@ class Smallest:
 def smallest_in(model: ModelFile) -> list[Smallest]:
     """What ``aegis-ot fit`` found when it made this model; empty if it could not tell."""
     told = model.data.get("smallest")
-    return [Smallest(**one) for one in (told if isinstance(told, list) else [])]
+    known = {field.name for field in fields(Smallest)}
+    return [
+        Smallest(**{name: value for name, value in one.items() if name in known})
+        for one in (told if isinstance(told, list) else [])
+    ]
 
 
 def recordings_of(model: ModelFile) -> list[dict[str, Any]]:

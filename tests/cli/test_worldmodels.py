@@ -13,21 +13,19 @@ from aegis_ot.vision.reach import Smallest
 
 from .commands import Command
 
-SEEN = Smallest("p20", "red", 10.0, 2.0, {"0.2": 1.0, "1": 1.0}, 4, 12.0, 2.4, 3.5)
+SEEN = Smallest("p20", "red", 10.0, 2.0, {"0.2": 1.0, "1": 1.0}, 4, 2.4, 3.5, 1, 8)
 
 
 @pytest.fixture
 def told(aegis: Command) -> Any:
-    """What is said of a model with these figures, of an old file if without ``sound``."""
+    """What is said of a model with these figures."""
 
-    def tell(*seen: Smallest, sound: list[list[int]] | None = None) -> str:
+    def tell(*seen: Smallest) -> str:
         made = load_model(SHIPPED)
         data = {
             "recordings": [{"name": "a", "normals": 30}],
             "smallest": [one.to_json() for one in seen],
         }
-        if sound is not None:
-            data["sound"] = sound
         save_model(Path("own.model"), made.kind, made.arrays, made.settings, data)
         shown = aegis("world-model", "own.model")
         assert shown.code == 0
@@ -37,27 +35,23 @@ def told(aegis: Command) -> Any:
 
 
 def test_few_planted_wells_are_counted_and_many_are_a_rate(told: Any) -> None:
-    few = told(SEEN, sound=[[1, 8]])
+    few = told(SEEN)
     assert "2.0 µL left in the tip are caught, 4 of 4 planted wells (95 %: 51 to 100 %)" in few
     assert "9 times in 10" not in few
-    many = told(replace(SEEN, wells=12, caught={"0.2": 0.917}), sound=[[1, 8]])
+    many = told(replace(SEEN, wells=12, caught={"0.2": 0.917}))
     assert "caught, 9 times in 10: 11 of 12 planted wells (95 %: 65 to 99 %)" in many
 
 
 def test_false_alarms_are_said_as_they_were_counted(told: Any) -> None:
-    assert "1 of 8 normal wells flagged, which would be 12 on a plate of 96" in told(
-        SEEN, sound=[[1, 8]]
-    )
-    assert "0 of 8 normal wells flagged. The" in told(SEEN, sound=[[0, 8]])
-    assert "no normal well was left" in told(
-        replace(SEEN, false_alarms=float("nan")), sound=[[0, 0]]
-    )
+    assert "1 of 8 normal wells flagged, which would be 12 on a plate of 96" in told(SEEN)
+    assert "0 of 8 normal wells flagged. The" in told(replace(SEEN, flagged=0))
+    assert "no normal well was left" in told(replace(SEEN, flagged=0, sound=0))
 
 
 def test_how_near_the_camera_has_to_come_is_said_whatever_was_caught(told: Any) -> None:
-    assert "for half of that, about 3.5 px/mm" in told(SEEN, sound=[[0, 8]])
+    assert "for half of that, about 3.5 px/mm" in told(replace(SEEN, flagged=0))
     blind = replace(SEEN, smallest_ul=None, px_per_mm_for_half=None, caught={"1": 0.25})
-    said = told(blind, sound=[[0, 8]])
+    said = told(blind)
     assert "not even the whole volume" in said
     assert "1 of 4 planted wells" in said
     assert "come closer, to 4.8 px/mm, or dye the liquid" in said
@@ -65,8 +59,4 @@ def test_how_near_the_camera_has_to_come_is_said_whatever_was_caught(told: Any) 
 
 def test_what_is_told_is_not_called_unknown_too(told: Any) -> None:
     assert "not known" in told()
-    assert "not known" not in told(SEEN, sound=[[0, 8]])
-
-
-def test_a_file_of_before_still_tells(told: Any) -> None:
-    assert str(SEEN) in told(SEEN)
+    assert "not known" not in told(replace(SEEN, flagged=0))

@@ -122,7 +122,7 @@ def test_it_says_what_the_world_model_would_catch(sound: SidecarConfig, tmp_path
     (none,) = told(CascadeSettings(preset="paper"))
     assert "its own first wells" in none.said
 
-    seen = Smallest("p20", "red", 10.0, 2.5, {"0.25": 1.0}, 6, 12.0, 2.4, 3.5)
+    seen = Smallest("p20", "red", 10.0, 2.5, {"0.25": 1.0}, 6, 2.4, 3.5, 0, 8)
     blind = replace(seen, reagent="water", smallest_ul=None)
     made = load_model(SHIPPED)
     data = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from aegis_ot.vision.models import ModelFile
 from aegis_ot.vision.reach import Smallest, normals_in, shortcomings, smallest_in
 
-SEEN = Smallest("p20", "red", 10.0, 2.5, {"0.25": 1.0}, 6, 12.0, 2.4, 3.5)
+SEEN = Smallest("p20", "red", 10.0, 2.5, {"0.25": 1.0}, 6, 2.4, 3.5, 0, 8)
 
 
 def model(normals: int, *seen: Smallest) -> ModelFile:

@@ -55,8 +55,7 @@ def fit_model(
     Returns:
         What was written. Its ``data["recordings"]`` names each recording with its ``source``
         (``"rendered"``, ``"synthetic"``, ``"real"``), its plates or runs, and how many normals
-        were taken and left out; ``data["smallest"]`` what this camera would let be caught, and
-        ``data["sound"]``, beside it, how many normal wells were flagged, and of how many.
+        were taken and left out; ``data["smallest"]`` what this camera would let be caught.
 
     Raises:
         ConfigurationError: If the scorer is unknown or cannot be stored, or a folder holds
@@ -100,8 +99,7 @@ def fit_model(
     arrays, settings = fitted.to_arrays()
     told = {
         "recordings": used,
-        "smallest": [one.smallest.to_json() for one in seen],
-        "sound": [[one.flagged, one.sound] for one in seen],
+        "smallest": [one.to_json() for one in seen],
     }
     return save_model(path, scorer, arrays, settings, told)
 

@@ -109,14 +109,3 @@ def bootstrap(
         low, high = np.percentile(values[name], [2.5, 97.5]) if values[name] else (np.nan, np.nan)
         intervals[name] = Interval(value, float(low), float(high))
     return intervals
-
-
-def wilson(hits: int, total: int) -> tuple[float, float]:
-    """95 % interval of a proportion (Wilson, 1927): of use where a few of a few are counted."""
-    if not total:
-        return 0.0, 1.0
-    z = 1.959964
-    share, spread = hits / total, z * z / total
-    middle = share + spread / 2
-    half = z * float(np.sqrt(share * (1 - share) / total + spread / (4 * total)))
-    return max((middle - half) / (1 + spread), 0.0), min((middle + half) / (1 + spread), 1.0)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import takewhile
 
 import numpy as np
@@ -43,26 +43,11 @@ Liquid = tuple[str, str]
 """Pipette's class and reagent."""
 
 
-@dataclass(frozen=True)
-class Seen:
-    """What a live run would make of one pipette and liquid.
-
-    Attributes:
-        smallest: The smallest volume that it would catch.
-        sound: Normal wells that were judged, beyond those that calibrate a run.
-        flagged: Of them, how many were failed or left to the operator.
-    """
-
-    smallest: Smallest
-    sound: int
-    flagged: int
-
-
 def smallest_caught(
     normals: Sequence[TrajectorySample],
     make: Callable[[], Scorer],
     progress: Progress | None = None,
-) -> list[Seen]:
+) -> list[Smallest]:
     """For each pipette and liquid with a plate of two wells to try it on, and another plate of
     that pipette to learn from.
 
@@ -97,8 +82,7 @@ def smallest_caught(
             least.append(_least_caught(held, lead, sample, scales[sample.tip_class]))
             progress.step()
         if least:
-            smallest = _summary(samples, least, sound[liquid])
-            found.append(Seen(smallest, len(sound[liquid]), sum(sound[liquid])))
+            found.append(_summary(samples, least, sound[liquid]))
     return found
 
 
@@ -178,6 +162,5 @@ def _summary(
         *_liquid(samples[0]), volume, smallest,
         {f"{share:g}": round(value, 3) for share, value in caught.items()},
         len(least),
-        96.0 * float(np.mean(flagged)) if flagged else float("nan"),
-        scale, closer,
+        scale, closer, sum(flagged), len(flagged),
     )  # fmt: skip

@@ -7,8 +7,8 @@ from itertools import product
 from typing import Any
 
 from ...preflight.rehearsal import Script
+from ...vision.reach import wilson
 from ...vocabulary import Outcome as Said
-from ..layer2.metrics import wilson
 from .context import Context
 from .experiment import NOT_RUN, Experiment, Outcome, Table, table
 from .jury import (

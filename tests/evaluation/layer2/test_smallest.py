@@ -54,15 +54,13 @@ def plates(*sizes: int, **kind: object) -> list[TrajectorySample]:
 
 
 def test_it_says_what_would_be_caught_and_how_close_the_camera_has_to_come() -> None:
-    (found,) = smallest_caught(plates(2, 2, 2), ensemble)
-    seen = found.smallest
+    (seen,) = smallest_caught(plates(2, 2, 2), ensemble)
     assert seen.smallest_ul is not None
     assert seen.smallest_ul < 0.5 * VOLUME
     assert seen.px_per_mm_for_half is not None
     assert seen.px_per_mm_for_half > seen.px_per_mm
-    assert (found.flagged, found.sound) == (0, 3), "the first well of each plate calibrates"
+    assert (seen.flagged, seen.sound) == (0, 3), "the first well of each plate calibrates"
     assert seen.wells == 3
-    assert seen.false_alarms == 0.0
     assert Smallest(**seen.to_json()) == seen
 
 
@@ -75,13 +73,13 @@ def test_caught_is_what_the_live_run_flags(monkeypatch: pytest.MonkeyPatch) -> N
     judge = Judge(0.3, sound=True)
     monkeypatch.setattr(smallest, "run_cascade", judge)
     (found,) = smallest_caught(plates(3, 3), ensemble)
-    assert found.smallest.smallest_ul == pytest.approx(0.3 * VOLUME)
-    assert found.smallest.caught == {f"{share:g}": float(share >= 0.3) for share in SHARES}
-    assert (found.flagged, found.sound, found.smallest.false_alarms) == (4, 4, 96.0)
+    assert found.smallest_ul == pytest.approx(0.3 * VOLUME)
+    assert found.caught == {f"{share:g}": float(share >= 0.3) for share in SHARES}
+    assert (found.flagged, found.sound) == (4, 4)
     blind = Judge(2.0)
     monkeypatch.setattr(smallest, "run_cascade", blind)
     (found,) = smallest_caught(plates(3, 3), ensemble)
-    assert found.smallest.smallest_ul is None
+    assert found.smallest_ul is None
 
 
 def test_what_a_run_missed_teaches_it_nothing_that_counts(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -92,8 +90,8 @@ def test_what_a_run_missed_teaches_it_nothing_that_counts(monkeypatch: pytest.Mo
     judge = Odd(0.0)
     monkeypatch.setattr(smallest, "run_cascade", judge)
     (found,) = smallest_caught(plates(3, 3), ensemble)
-    assert found.smallest.caught["0.65"] == 1.0
-    assert found.smallest.caught["0.1"] == 0.0, "flagged, but by a run that had passed the half"
+    assert found.caught["0.65"] == 1.0
+    assert found.caught["0.1"] == 0.0, "flagged, but by a run that had passed the half"
     for run in judge.runs[2:]:
         shares = [sample.retained_fraction for sample in run]
         assert shares == [None, None, *reversed(SHARES)], "a run for each well, the largest first"
@@ -109,7 +107,7 @@ def test_only_so_many_wells_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
     wells = [normal(20 * number, f"p{number // 12}") for number in range(60)]
     (found,) = smallest_caught(wells, ensemble)
     tried = [run for run in judge.runs if run[-1].retained_fraction is not None]
-    assert found.smallest.wells == len(tried) == MOST
+    assert found.wells == len(tried) == MOST
     of_plates = [run[0].plate for run in tried]
     assert max(map(of_plates.count, of_plates)) <= OF_A_PLATE
     assert set(of_plates) == {f"p{number}" for number in range(5)}, "of every plate some"
@@ -126,7 +124,7 @@ def test_liquids_are_told_apart() -> None:
         *(normal(700 + 10 * n, "w0", reagent="blue") for n in range(2)),
     ]
     found = smallest_caught(wells, ensemble)
-    assert [(one.smallest.reagent, one.smallest.wells) for one in found] == [
+    assert [(one.reagent, one.wells) for one in found] == [
         ("red", 2),
         ("blue", 1),
     ]

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.evaluation.layer2.metrics import wilson
 from aegis_ot.evaluation.reproduction import Context, Options, calibration, layer1, live, rules
 from aegis_ot.evaluation.reproduction import components as components_
 from aegis_ot.evaluation.reproduction.experiment import NOT_RUN
@@ -14,6 +13,7 @@ from aegis_ot.evaluation.reproduction.layer1 import NO_MODEL
 from aegis_ot.reasoning import ScriptedBackend
 from aegis_ot.simulation import write_dataset
 from aegis_ot.vision.models import SHIPPED
+from aegis_ot.vision.reach import wilson
 
 
 @pytest.fixture
