@@ -34,7 +34,7 @@ _SHARES = np.arange(0.1, 1.01, 0.1)
 _GAP_SHARE = 0.3
 """Air fills the bore: wetness of a break at most."""
 
-_GAP_BORE_PX = 3.0
+_GAP_BORE_PX = 4.0
 """Narrowest bore in which a break is looked for, px: a tip that is laid down one pixel beside its
 place shows wall for liquid in a narrower one."""
 
