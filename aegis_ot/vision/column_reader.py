@@ -223,10 +223,11 @@ class MeasuredColumns:
         bore = seen.bore_px(min(top, end), end)
         clear = 0.5 / self._usual.variance(wet, bore, full=full) >= _EVIDENCE
         against = self._against(wet, found, place, seen)
+        excess = against if found < place else 0.0
         if against < _EVIDENCE:
             found = place
             if not clear:
-                return None if full else replace(_FIRST_VAGUE, against=against)
+                return None if full else replace(_FIRST_VAGUE, excess=excess)
         volume = self._scale.volume(tip, found) if found != place else expected_ul
         sigma = self._scale.sigma_ul(tip, found, max(volume, expected_ul))
         if not full and found == place:
@@ -240,7 +241,7 @@ class MeasuredColumns:
         tested = self._usual.tested(full=full)
         return ColumnReading(
             max(volume - gap, 0.0), sigma, gap, gap_sigma, 1.0 - found,
-            against=against, tested=tested,
+            excess=excess, tested=tested,
         )  # fmt: skip
 
     def _least_seen(self, wet: Wetness, seen: Look, top: float) -> float:

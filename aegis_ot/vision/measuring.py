@@ -39,9 +39,9 @@ class ColumnReading:
         gap_sigma_ul: Standard uncertainty of that, µL.
         top: Upper end of the column as a fraction of the tip's length above the orifice.
         vague: The tip looks empty, but so might a filled one: no proof either way.
-        against: How far the rows beyond the expected end speak against it, log-likelihood ratio;
-            0: not at all. From 5 on it is believed, and the volume is what is seen; below that it
-            is the expected one.
+        excess: How far the rows above the expected end speak for liquid there, log-likelihood
+            ratio; 0: not at all. From 5 on it is believed, and the volume is what is seen; below
+            that it is the expected one.
         seen: The column by its own end, where that shows and the run's scale is known.
         tested: How many normal tips of this run were read so before they were learned: what the
             uncertainties rest on.
@@ -53,7 +53,7 @@ class ColumnReading:
     gap_sigma_ul: float = 0.0
     top: float = 0.0
     vague: bool = False
-    against: float = 0.0
+    excess: float = 0.0
     seen: SeenColumn | None = None
     tested: int = 0
 

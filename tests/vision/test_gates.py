@@ -114,13 +114,13 @@ def test_in_a_long_run_an_image_score_alone_stops_nothing_that_happens_by_chance
 
 def test_an_unusual_tip_that_seems_to_hold_some_liquid_is_asked_about() -> None:
     """Two weak signs of one thing: neither alone stops anything."""
-    for reading in (replace(EMPTY, against=2.5), ColumnReading(0.0, 9.0, vague=True, against=2.5)):
+    for reading in (replace(EMPTY, excess=2.5), ColumnReading(0.0, 9.0, vague=True, excess=2.5)):
         seen = case(FULL, reading)
         decision = VolumetricGate().examine(replace(seen, p_value=0.01))
         assert decision.outcome is Outcome.UNDECIDED
         assert "as if liquid were left" in decision.reason
         assert VolumetricGate().examine(replace(seen, p_value=0.2)).outcome is Outcome.PASS
-    leaning = case(FULL, replace(EMPTY, against=1.5))
+    leaning = case(FULL, replace(EMPTY, excess=1.5))
     assert VolumetricGate().examine(replace(leaning, p_value=0.01)).outcome is Outcome.PASS
 
 

@@ -65,7 +65,7 @@ class Case:
         after = self.readings.get(KeyframeKind.POST_DISPENSE)
         if after is None or self.p_value is None or self.p_value >= UNUSUAL_P:
             return False
-        return after.against >= SEEMS_LEFT
+        return after.excess >= SEEMS_LEFT
 
 
 @dataclass(frozen=True)
