@@ -221,8 +221,8 @@ def measure(
 
 def _drawn_off(evidence: Any) -> list[float | None]:
     """By what share the volume that the camera saw drawn is off; ``None`` if it told none."""
-    told = evidence["measured_ul"].get("transit")
-    return [told and told["volume"] / evidence["expected_ul"]["transit"] - 1.0]
+    told = evidence["drawn_ul"]
+    return [told and told[0] / evidence["expected_ul"]["transit"] - 1.0]
 
 
 def show(found: dict[str, Any]) -> str:

@@ -8,7 +8,6 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from ..vocabulary import KeyframeKind
 from .plates import PlateMap, plate_maps
 from .seen import state_of
 
@@ -89,7 +88,10 @@ def _well(trajectory: Mapping[str, Any]) -> dict[str, Any]:
         "pipette": last.get("pipette"),
         "line": last.get("line"),
         **{name: verdict.get(name) for name in said},
-        "drawn_estimate_ul": _drawn(trajectory["evidence"]),
+        # Of several tips it would be one's alone.
+        "drawn_estimate_ul": None
+        if verdict.get("channels")
+        else trajectory["evidence"].get("drawn_ul"),
         "band": trajectory["evidence"].get("band"),
         "judged_first": (trajectory["judged"] or {}).get("outcome"),
         "abandoned": trajectory["abandoned"],
@@ -98,12 +100,6 @@ def _well(trajectory: Mapping[str, Any]) -> dict[str, Any]:
             for channel in verdict.get("channels") or ()
         ],
     }
-
-
-def _drawn(evidence: Mapping[str, Any]) -> list[float] | None:
-    """What the camera saw of the volume drawn, and its standard uncertainty, µL."""
-    told = evidence.get("measured_ul", {}).get(KeyframeKind.TRANSIT.value)
-    return None if not told else [told["volume"], told["uncertainty"]]
 
 
 def _unobserved(trajectories: Iterable[Mapping[str, Any]]) -> list[str]:

@@ -91,7 +91,10 @@ class VlmGate:
         decision = self.decide(reply.value)
         if case.alarming and decision.outcome is Outcome.PASS:
             # Readers of a p20's pictures passed 14 of the 28 failures that the scorer had found.
-            told = f"{decision.reason} The scorer finds the tip very unusual all the same."
+            why = "finds the tip very unusual"
+            if case.seems_left:
+                why = "and the column speak for liquid left in the tip"
+            told = f"{decision.reason} The scorer {why} all the same."
             return replace(decision, outcome=Outcome.UNDECIDED, reason=told)
         return decision
 

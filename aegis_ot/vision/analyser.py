@@ -199,6 +199,7 @@ class RunAnalyser:
             clearly_absent=seen.clearly_absent,
             delivery=self._delivery(seen, last),
             signs={} if score is None else stream.scorer.signs(sample), normal=stream.normal,
+            tip_doubted=self._leftovers.doubted(last),
         )  # fmt: skip
 
     def _delivery(self, seen: OpenTrajectory, last: Keyframe, left_ul: float = 0.0) -> Delivery:

@@ -76,7 +76,7 @@ class MeasuredColumns:
     def look(self, view: TipView) -> Look:
         self._contrast.prepare()
         # Shared with the scorers: each frame is straightened once.
-        profile = look(view.image, view.detection, view.tip).profile
+        profile = look(view.image, view.detection, view.tip, shape=view.shape).profile
         return Look(profile, view.tip, float(np.median(view.image[::16, ::16])))
 
     def read(
@@ -93,11 +93,11 @@ class MeasuredColumns:
                     readings[kind] = reading
         full = readings.get(KeyframeKind.TRANSIT)
         if full is not None:
-            readings[KeyframeKind.TRANSIT] = replace(full, seen=self._seen(looks, expected))
+            readings[KeyframeKind.TRANSIT] = replace(full, seen=self._seen(looks, expected, full))
         left = self._pair(looks, expected)
         after = readings.get(KeyframeKind.POST_DISPENSE, _FIRST_VAGUE)
         if left is not None and after.vague:
-            readings[KeyframeKind.POST_DISPENSE] = left
+            readings[KeyframeKind.POST_DISPENSE] = replace(left, excess=after.excess)
         return readings
 
     def learn(
@@ -121,13 +121,17 @@ class MeasuredColumns:
             self._take(seen, volume)
 
     def _seen(
-        self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
+        self,
+        looks: Mapping[KeyframeKind, object],
+        expected: Mapping[KeyframeKind, float],
+        read: ColumnReading,
     ) -> SeenColumn | None:
         top, full = self._drawn_top(looks, expected), looks.get(KeyframeKind.TRANSIT)
         if top is None or not isinstance(full, Look) or not self._seen_scale.known:
             return None
         volume = self._seen_scale.volume(full.tip, top)
-        return SeenColumn(volume, self._seen_scale.sigma_ul(full.tip, top, volume), 1.0 - top)
+        sigma = self._seen_scale.sigma_ul(full.tip, top, volume)
+        return SeenColumn(max(volume - read.gap_ul, 0.0), sigma, 1.0 - top)
 
     def _drawn_top(
         self, looks: Mapping[KeyframeKind, object], expected: Mapping[KeyframeKind, float]
@@ -177,9 +181,12 @@ class MeasuredColumns:
         reader._scale, reader._fullest = self._scale, self._fullest
         for looks, expected in wells:
             for kind in FREE:
-                seen = looks.get(kind)
-                if isinstance(seen, Look) and self._usual.comparable(seen.light):
-                    reader._take(seen, expected.get(kind, 0.0))
+                seen, volume = looks.get(kind), expected.get(kind, 0.0)
+                if not isinstance(seen, Look) or not self._usual.comparable(seen.light):
+                    continue
+                wet = None if volume else reader._wetness(seen)
+                if wet is None or not reader._holds_some(seen, wet):
+                    reader._take(seen, volume)
         return reader
 
     def _take(self, seen: Look, volume: float) -> None:

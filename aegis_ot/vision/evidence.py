@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import asdict
 from typing import Any
 
-from ..vocabulary import Outcome
+from ..vocabulary import KeyframeKind, Outcome
 from .cascade import Triage
 from .column_reader import MeasuredColumns
 from .delivery import Delivery, Shown
@@ -39,6 +39,7 @@ def evidence_of(
         "signs": {sign: round(nats, 2) for sign, nats in case.signs.items()},
         "triage": triage.reason,
         "measured_ul": dict(_readings(case)),
+        "drawn_ul": _drawn(case),
         "expected_ul": {kind.value: v for kind, v in case.sample.expected_ul.items()},
         "expected_top": dict(_expected_tops(stream, case)),
         "unusable_frames": [kind.value for kind in seen.unusable],
@@ -82,6 +83,14 @@ def _readings(case: Case) -> Iterator[tuple[str, dict[str, float]]]:
                 "top": round(told.top, 4),
             },
         )
+
+
+def _drawn(case: Case) -> list[float] | None:
+    """What was seen to leave the tip, and its standard uncertainty, µL."""
+    full = case.readings.get(KeyframeKind.TRANSIT)
+    if full is None or full.seen is None:
+        return None
+    return [round(full.seen.volume_ul, 2), round(full.seen.sigma_ul, 2)]
 
 
 def _expected_tops(stream: Stream, case: Case) -> Iterator[tuple[str, float]]:

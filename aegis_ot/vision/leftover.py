@@ -44,6 +44,7 @@ class Leftovers:
 
     def __init__(self) -> None:
         self._of: dict[str, Leftover] = {}
+        self._doubted: dict[str, str] = {}
 
     def known(self, keyframe: Keyframe) -> Leftover | None:
         """What the tip of this keyframe was reported to hold; another tip ends it."""
@@ -53,10 +54,16 @@ class Leftovers:
             return None
         return left
 
+    def doubted(self, keyframe: Keyframe) -> bool:
+        """Whether this tip seemed to hold liquid before, too little to measure."""
+        return self._doubted.get(keyframe.mount) == keyframe.tip
+
     def note(self, keyframe: Keyframe, case: Case, decision: GateDecision) -> None:
         """A well was judged: if liquid stayed in the tip, it is known from now on."""
         if decision.outcome is Outcome.PASS:
             return
+        if case.seems_left:
+            self._doubted[keyframe.mount] = keyframe.tip
         before = self.known(keyframe)
         volume = None
         if decision.measured_ul is not None and decision.expected_ul is not None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ..vocabulary import KeyframeKind
+from .column import TipShape
 from .tips import TipGeometry
 from .types import Image, TipDetection
 
@@ -68,6 +69,7 @@ class TipView:
         detection: The tip in it.
         tip: Its geometry.
         expected_ul: Liquid that should be in it, µL.
+        shape: Its outline, once the run has shown which it is.
     """
 
     kind: KeyframeKind
@@ -75,6 +77,7 @@ class TipView:
     detection: TipDetection
     tip: TipGeometry
     expected_ul: float
+    shape: TipShape | None = None
 
 
 class ColumnReader(Protocol):

@@ -15,7 +15,9 @@ from .column_reader import MeasuredColumns
 from .consistency import TipConsistency, once_each, second_look
 from .gates import Case, Gates, VolumetricGate
 from .measuring import ColumnReader, TipView
+from .outlines import Outlines
 from .run_scorer import LEAST_ALARM, RunScorer
+from .scorers.looks import look
 from .tips import tip_for
 from .types import FREE, Detector, Image, Scorer, TipDetection, TrajectorySample
 
@@ -105,6 +107,7 @@ class Stream:
         self.cascade = Cascade(self.scorer.name, settings, always_gate, least)
         self.reader = reader
         self.tip: TipConsistency = kin.tip if kin is not None else TipConsistency()
+        self.outlines: Outlines = kin.outlines if kin is not None else Outlines()
         if isinstance(reader, MeasuredColumns):
             if kin is None:
                 reader.expect_heights(self.scorer.height_factors)
@@ -144,8 +147,11 @@ class Stream:
     def look(self, seen: OpenTrajectory, kind: KeyframeKind, detection: TipDetection) -> None:
         """Measure the tip in one frame."""
         keyframe = seen.keyframes[kind]
-        tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
-        view = TipView(kind, seen.frames[kind], detection, tip, keyframe.expected_ul)
+        tip, image = tip_for(keyframe.pipette, keyframe.capacity_ul), seen.frames[kind]
+        shape = self.outlines.known(tip)
+        if kind in FREE and shape is None:
+            self.outlines.note(look(image, detection, tip))
+        view = TipView(kind, image, detection, tip, keyframe.expected_ul, shape)
         seen.looks[kind] = self.reader.look(view)
 
     def settle(self, seen: OpenTrajectory, detector: Detector) -> None:
@@ -165,12 +171,28 @@ class Stream:
             seen.looks.pop(kind, None)
             if detection is not None:
                 self.look(seen, kind, detection)
+        self._lay_alike(seen, settled)
         seen.detections = settled
         seen.excused = tuple(
             kind
             for kind in FREE
             if settled.get(kind) is None and self.tip.excuses(kind, settled, seen.frames)
         )
+
+    def _lay_alike(
+        self, seen: OpenTrajectory, settled: Mapping[KeyframeKind, TipDetection | None]
+    ) -> None:
+        """Have both free frames laid straight by the outline that the run's tips have so far."""
+        for kind in FREE:
+            detection = settled.get(kind)
+            if detection is None or kind not in seen.looks:
+                continue
+            keyframe, image = seen.keyframes[kind], seen.frames[kind]
+            tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
+            shape = self.outlines.best(tip)
+            if shape is not None and look(image, detection, tip).shape != shape:
+                view = TipView(kind, image, detection, tip, keyframe.expected_ul, shape)
+                seen.looks[kind] = self.reader.look(view)
 
     def learn(
         self, sample: TrajectorySample, looks: dict[KeyframeKind, object], scored: bool

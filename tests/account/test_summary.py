@@ -47,7 +47,7 @@ def test_wells_that_the_camera_did_not_see_are_named_and_do_not_count_as_passed(
 
 
 def test_what_was_seen_of_the_volume_drawn_is_told_with_its_uncertainty() -> None:
-    transit = {"volume": 98.2, "uncertainty": 3.1, "air": 0.0, "top": 0.4}
-    seen = delivery(0, "pass", evidence={"measured_ul": {"transit": transit}})
-    told = run_account(overview(seen, delivery(1, "pass")))
-    assert [well["drawn_estimate_ul"] for well in told["wells"]] == [[98.2, 3.1], None]
+    evidence = {"drawn_ul": [98.2, 3.1]}
+    seen, several = delivery(0, "pass", evidence=evidence), row(2, "........", evidence=evidence)
+    told = run_account(overview(seen, delivery(1, "pass"), several))
+    assert [well["drawn_estimate_ul"] for well in told["wells"]] == [[98.2, 3.1], None, None]

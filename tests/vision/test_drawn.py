@@ -103,3 +103,20 @@ def test_an_emptied_tip_that_holds_liquid_teaches_nothing() -> None:
     left = [one[KeyframeKind.POST_DISPENSE].volume_ul for one in read[6:14]]
     assert min(left) > 15.0
     assert read[14][KeyframeKind.POST_DISPENSE].volume_ul == 0.0
+
+
+def test_what_is_learned_anew_leaves_out_emptied_tips_that_hold_liquid() -> None:
+    reader = MeasuredColumns()
+    faults = tuple(f"partial:60@#{number}" for number in (4, 5, 6, 7))
+    seen = wells(reader, 7, faults)
+    readings(reader, seen)
+    reader.forget(seen[:6])
+    assert reader.read(*seen[6])[KeyframeKind.POST_DISPENSE].volume_ul > 15.0
+
+
+def test_air_in_the_column_was_not_drawn() -> None:
+    reader = MeasuredColumns()
+    last = readings(reader, wells(reader, 8, ("air_bubble:20@#8",)))[7][KeyframeKind.TRANSIT]
+    assert last.gap_ul > 10.0
+    assert last.seen is not None
+    assert last.seen.volume_ul < 95.0

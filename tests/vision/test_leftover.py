@@ -126,3 +126,16 @@ def test_whether_what_was_not_seen_to_leave_is_still_there_is_told_by_the_next_w
     tips.note(KEYFRAME, unseen(), GateDecision(Outcome.FAIL, Gate.VLM, "", FailureType.OTHER))
     found = tips.explaining(KEYFRAME, unseen(), lambda held: Delivery(shown[held]))
     assert (None if found is None else found.volume_ul) == left
+
+
+def test_a_tip_that_seems_to_hold_liquid_is_asked_about_once() -> None:
+    """A film in a tip that serves many wells is one question, not one for each."""
+    left = Leftovers()
+    seems = {LAST: ColumnReading(0.0, 2.0, excess=3.0)}
+    doubtful = replace(case(), readings=seems, p_value=0.01)
+    assert doubtful.seems_left
+    assert not left.doubted(KEYFRAME)
+    left.note(KEYFRAME, doubtful, GateDecision(Outcome.UNDECIDED, Gate.OPERATOR, ""))
+    assert left.doubted(KEYFRAME)
+    assert not replace(doubtful, tip_doubted=True).seems_left
+    assert not left.doubted(replace(KEYFRAME, tip="another"))

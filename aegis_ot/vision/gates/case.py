@@ -38,6 +38,7 @@ class Case:
             earlier wells; ``None`` if it was not looked at.
         signs: What the scorer found, by sign, nats; empty if it cannot say.
         normal: A normal well of this run, to compare with.
+        tip_doubted: Whether the operator was asked before about liquid left in this very tip.
         near_band: Whether it is asked about because its score, inside the band, is near the end.
     """
 
@@ -52,6 +53,7 @@ class Case:
     delivery: Delivery | None = None
     signs: Mapping[str, float] = field(default_factory=dict)
     normal: TrajectorySample | None = None
+    tip_doubted: bool = False
     near_band: bool = False
 
     @property
@@ -63,7 +65,8 @@ class Case:
     def seems_left(self) -> bool:
         """Whether it looks unusual, and as if liquid were left, though not surely either."""
         after = self.readings.get(KeyframeKind.POST_DISPENSE)
-        if after is None or self.p_value is None or self.p_value >= UNUSUAL_P:
+        unusual = self.p_value is not None and self.p_value < UNUSUAL_P
+        if after is None or not unusual or self.tip_doubted:
             return False
         return after.excess >= SEEMS_LEFT
 

@@ -225,15 +225,15 @@ class VolumetricGate:
                 "The tip looks very unusual, and its liquid column cannot be measured well enough "
                 "to clear it.",
             )
-        over = 0.0 if measured is None else measured - (expected or 0.0)
-        if last is not None and over > last.sigma_ul:
-            # The tolerance allows for it, but it is no agreement.
-            share = f"{over:.3g} µL, {over / sample.volume_ul:.0%} of the volume"
-            return say(
-                Outcome.PASS,
-                f"About {share}, seem to be left in the tip: less than counts as a failure.",
-            )
         if seen and last is not None and not last.vague and self._sharp(last, sample):
+            over = last.volume_ul - (expected or 0.0)
+            if over > last.sigma_ul:
+                return say(
+                    Outcome.PASS,
+                    f"About {over:.3g} µL more than expected seem to be left in the tip, "
+                    f"{over / sample.volume_ul:.0%} of the volume: within what this reading "
+                    "allows for.",
+                )
             return say(Outcome.PASS, "The measured columns agree with the protocol's volumes.")
         if seen and last is not None:
             return say(

@@ -51,12 +51,15 @@ def look(
 
     A live run calls it as each frame arrives, so that little is left to do after the last one.
     """
-    of_tip = _taken_in(image).setdefault((detection, tip.name, shape), {})
-    for other, taken in of_tip.items():
-        if other == length or (other and length and abs(other / length - 1.0) < _SAME):
+    of_tip = _taken_in(image).setdefault((detection, tip.name), {})
+    for (other, _), taken in of_tip.items():
+        same = other == length or (other and length and abs(other / length - 1.0) < _SAME)
+        if same and (shape is None or taken.shape == shape):
             return taken
-    of_tip[length] = look_at_tip(image, detection, tip, length, shape)
-    return of_tip[length]
+    if shape is not None:
+        of_tip.pop((length, None), None)  # whose outline is not the tip's
+    taken = of_tip[length, shape] = look_at_tip(image, detection, tip, length, shape)
+    return taken
 
 
 def looks_beside(sample: TrajectorySample, px: float) -> Mapping[KeyframeKind, TipLook]:
@@ -113,9 +116,12 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
 
 def _usual_outline(tip: TipGeometry, taken: Mapping[KeyframeKind, TipLook]) -> TipShape:
     """The outline that fits the tip where it hangs free: labware has edges of its own."""
-    shapes = shapes_of(tip)
-    told = [taken[kind].clarities for kind in FREE if kind in taken and taken[kind].clarities]
-    return shapes[int(np.argmax(np.sum(told, axis=0)))] if told else shapes[0]
+    free = [taken[kind] for kind in FREE if kind in taken] or list(taken.values())
+    told = [seen.clarities for seen in free if seen.clarities]
+    if len(told) == len(free) > 0:
+        return shapes_of(tip)[int(np.argmax(np.sum(told, axis=0)))]
+    # The run knows, and has had the others looked at by it.
+    return next((seen.shape for seen in free if not seen.clarities), shapes_of(tip)[0])
 
 
 def _usual_length(lengths: Mapping[KeyframeKind, float]) -> float | None:
