@@ -24,8 +24,9 @@ import cv2
 import numpy as np
 
 from aegis_ot.training.figures import overlap
-from aegis_ot.vision.column.measure import measure_column
+from aegis_ot.vision.column.measure import look_at_tip, measure_column
 from aegis_ot.vision.detection import HeatmapDetector
+from aegis_ot.vision.outlines import Outlines
 from aegis_ot.vision.rows.finder import RowFinder, SeenRow
 from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import Image, TipDetection
@@ -209,13 +210,24 @@ def rows(folder: Path, detector: HeatmapDetector) -> Iterator[tuple[int, Image, 
 def columns(
     series: Series, seen: dict[int, tuple[Image, SeenRow]]
 ) -> Iterator[tuple[int, float, float]]:
-    """Place in the series, volume read and true one of each column, µL."""
+    """Place in the series, volume read and true one of each column, µL.
+
+    By the outline that its first rows show, as a run does it: see ``aegis_ot.vision.outlines``.
+    """
+    geometry, outlines = tip_for(PIPETTE, 300.0), Outlines()
+    for number in range(series.first, series.first + CALIBRATION):
+        image, row = seen[number]
+        for tip in filter(None, row.tips):
+            outlines.note(look_at_tip(image, tip, geometry))
+    shape = outlines.best(geometry)
     for place in range(series.count):
         number, volume = series.first + place, series.start_ul + place * series.step_ul
         image, row = seen[number]
         for channel, tip in enumerate(row.tips):
             if tip is not None and channel not in EMPTY.get(number, ()):
-                column = measure_column(image, tip, PIPETTE, expected_ul=volume, capacity_ul=300.0)
+                column = measure_column(
+                    image, tip, PIPETTE, expected_ul=volume, capacity_ul=300.0, shape=shape
+                )
                 yield place, column.volume_ul, volume
 
 

@@ -207,6 +207,7 @@ def measure_column(
     expected_ul: float = 0.0,
     reference: Reference | None = None,
     capacity_ul: float | None = None,
+    shape: TipShape | None = None,
 ) -> ColumnMeasurement:
     """Measure the liquid column in one frame (about 6 ms).
 
@@ -217,9 +218,10 @@ def measure_column(
         expected_ul: Liquid that should be in the tip, µL: where to look first. 0: anything.
         reference: What is known of this run.
         capacity_ul: Working volume of the tip, if known.
+        shape: Its outline, where other frames have shown which it is.
     """
     tip = tip_for(pipette, capacity_ul)
-    look = look_at_tip(image, detection, tip)
+    look = look_at_tip(image, detection, tip, shape=shape)
     found = read_column(look.profile, tip, expected_ul, reference or Reference())
     return replace(found, collar=look.collar, orifice=look.orifice)
 
