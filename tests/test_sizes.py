@@ -20,7 +20,7 @@ BUDGETS = {
     "preflight/rules": 622,
     "preflight/source": 681,
     "preflight/trace": 1_521,
-    "": 67_462,
+    "": 67_464,
 }
 """Lines of Python by room; the whole package last. They stand at what was reached: ``preflight`` is
 within its aim of 9,500, the package has 48,000 for an aim."""
