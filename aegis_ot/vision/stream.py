@@ -11,6 +11,7 @@ import numpy as np
 from ..vocabulary import Keyframe, KeyframeKind, Outcome, Route
 from .calibration import CalibrationSettings, CalibrationState
 from .cascade import Cascade
+from .column import TipShape
 from .column_reader import MeasuredColumns
 from .consistency import TipConsistency, once_each, second_look
 from .gates import Case, Gates, VolumetricGate
@@ -18,7 +19,7 @@ from .measuring import ColumnReader, TipView
 from .outlines import Outlines
 from .run_scorer import LEAST_ALARM, RunScorer
 from .scorers.looks import look
-from .tips import tip_for
+from .tips import TipGeometry, tip_for
 from .types import FREE, Detector, Image, Scorer, TipDetection, TrajectorySample
 
 _MODEL_WEIGHT = 4.0
@@ -144,11 +145,17 @@ class Stream:
         collecting = self.cascade.state is CalibrationState.COLLECTING
         return min(in_run, math.exp(-score)) if collecting and not self.vouched else in_run
 
-    def look(self, seen: OpenTrajectory, kind: KeyframeKind, detection: TipDetection) -> None:
-        """Measure the tip in one frame."""
-        keyframe = seen.keyframes[kind]
-        tip, image = tip_for(keyframe.pipette, keyframe.capacity_ul), seen.frames[kind]
-        shape = self.outlines.known(tip)
+    def look(
+        self,
+        seen: OpenTrajectory,
+        kind: KeyframeKind,
+        detection: TipDetection,
+        shape: TipShape | None = None,
+    ) -> None:
+        """Measure the tip in one frame; without ``shape``, by the outline of the run's tips."""
+        keyframe, image = seen.keyframes[kind], seen.frames[kind]
+        tip = _tip_of(keyframe)
+        shape = shape or self.outlines.known(tip)
         if kind in FREE and shape is None:
             self.outlines.note(look(image, detection, tip))
         view = TipView(kind, image, detection, tip, keyframe.expected_ul, shape)
@@ -187,12 +194,10 @@ class Stream:
             detection = settled.get(kind)
             if detection is None or kind not in seen.looks:
                 continue
-            keyframe, image = seen.keyframes[kind], seen.frames[kind]
-            tip = tip_for(keyframe.pipette, keyframe.capacity_ul)
+            tip = _tip_of(seen.keyframes[kind])
             shape = self.outlines.best(tip)
-            if shape is not None and look(image, detection, tip).shape != shape:
-                view = TipView(kind, image, detection, tip, keyframe.expected_ul, shape)
-                seen.looks[kind] = self.reader.look(view)
+            if shape is not None and look(seen.frames[kind], detection, tip).shape != shape:
+                self.look(seen, kind, detection, shape)
 
     def learn(
         self, sample: TrajectorySample, looks: dict[KeyframeKind, object], scored: bool
@@ -233,3 +238,7 @@ class Stream:
                     f"the wells after it: {found.reason} Please look at well {sample.well}."
                 )
                 return
+
+
+def _tip_of(keyframe: Keyframe) -> TipGeometry:
+    return tip_for(keyframe.pipette, keyframe.capacity_ul)

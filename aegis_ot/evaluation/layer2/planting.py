@@ -12,6 +12,7 @@ import cv2
 import numpy as np
 
 from ...vision.column import Reference, TipLook, expected_top
+from ...vision.column.profile import SMEARED_PX, WHITE_LEAST
 from ...vision.column.strip import Array
 from ...vision.column.trajectory import DELIVERED
 from ...vision.scorers.looks import looks
@@ -21,13 +22,8 @@ from ...vocabulary import KeyframeKind
 _MENISCUS_PX = 4.0
 """Half the length over which a meniscus shows, px."""
 
-_SMEARED_PX = 3.0
 _BESIDE_PX = (2.0, 8.0)
-"""How far blur carries the colour of a column beyond the tip, px, and where its background is seen,
-px outside of that."""
-
-_WHITE_LEAST = 8.0
-"""Grey level of the nozzle below which a frame is too dark to tell its white."""
+"""Where the background of a column is seen, px outside of what blur carries its colour over."""
 
 _CLEAR, _UNTOLD = 0.8, 0.1
 """Share of the background's light that comes through a tip where two frames do not tell, and how
@@ -78,9 +74,9 @@ def _planted(sample: TrajectorySample, kind: KeyframeKind, was: float, now: floa
     meniscus = _added(sample, here, moved, v / finer) * (finer**2)[..., None]
     at_end = np.abs(u - now) < _MENISCUS_PX * px
     added = np.where(at_end[..., None], meniscus, _added(sample, here, u, v))
-    half = 1.1 * radius(u) + _SMEARED_PX * px
+    half = 1.1 * radius(u) + SMEARED_PX * px
     inside = np.clip((half - np.abs(v)) / px + 0.5, 0.0, 1.0)
-    inside *= (u > now - _MENISCUS_PX * px) & (u < 1.0 + _SMEARED_PX * px)
+    inside *= (u > now - _MENISCUS_PX * px) & (u < 1.0 + SMEARED_PX * px)
     free = looks(sample)[KeyframeKind.POST_DISPENSE]
     inside *= np.interp(u, here.profile.u, _visible(here, free))
     filled = image[rows, columns] + inside[..., None] * added
@@ -147,7 +143,7 @@ def _added(sample: TrajectorySample, here: TipLook, u: Array, v: Array) -> Array
     )
     added = wet - dry
     px = 1.0 / here.profile.length
-    out = (np.abs(v) - here.shape.radius(u)) / px - _SMEARED_PX
+    out = (np.abs(v) - here.shape.radius(u)) / px - SMEARED_PX
     beside = ((out > _BESIDE_PX[0]) & (out < _BESIDE_PX[1])).ravel()
     row = np.clip(np.rint((u + 1.0) / px), 0, 3.0 / px).astype(int)
     least = int(row.max()) + 1
@@ -173,4 +169,4 @@ def _white(look: TipLook) -> Array:
     u, end = look.profile.u, look.shape.nozzle_end
     lanes = look.cone.shape[1]
     nozzle = look.cone[(u > 0.1 * end) & (u < 0.85 * end), lanes // 3 : -lanes // 3]
-    return np.asarray(np.maximum(np.median(nozzle, axis=(0, 1)), _WHITE_LEAST), np.float32)
+    return np.asarray(np.maximum(np.median(nozzle, axis=(0, 1)), WHITE_LEAST), np.float32)

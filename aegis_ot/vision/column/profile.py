@@ -45,13 +45,13 @@ _THROUGH = 0.8
 
 _FLOOR = 1e-3
 
-_SMEARED_PX = 3.0
+SMEARED_PX = 3.0
 """Half the width over which blur and chroma subsampling spread the colour of a fine bore, px."""
 
 _BESIDE_PX = (2.0, 6.0)
 """Where the background is taken, px outside of that."""
 
-_WHITE_LEAST = 8.0
+WHITE_LEAST = 8.0
 """Grey level of the nozzle below which a frame is too dark to tell its white."""
 
 
@@ -159,17 +159,17 @@ def _colour(strip: Strip, shape: TipShape, nozzle: NDArray[np.bool_]) -> Array:
     light = np.square(np.maximum(strip.pixels, 0.0))
     inner = np.abs(strip.v) < 0.6 * shape.collar_radius
     white = np.median(light[nozzle][:, inner], axis=(0, 1))
-    light = light / np.maximum(white, _WHITE_LEAST**2)
+    light = light / np.maximum(white, WHITE_LEAST**2)
     px = 1.0 / max(strip.length, 1.0)
     aside = np.abs(strip.v)[None, :]
-    half = np.maximum(_SMEARED_PX * px, 1.1 * shape.radius(strip.u))[:, None]
+    half = np.maximum(SMEARED_PX * px, 1.1 * shape.radius(strip.u))[:, None]
     near, far = (half + reach * px for reach in _BESIDE_PX)
     inside = (aside < half).astype(np.float32)
     beside = ((aside > near) & (aside < far)).astype(np.float32)
     beside /= np.maximum(beside.sum(axis=1, keepdims=True), 1.0)
     behind = np.einsum("rc,rck->rk", beside, light)
     added = np.einsum("rc,rck->rk", inside, light) - inside.sum(axis=1)[:, None] * behind
-    added *= float(strip.v[1] - strip.v[0]) / px / (2 * _SMEARED_PX)
+    added *= float(strip.v[1] - strip.v[0]) / px / (2 * SMEARED_PX)
     return np.stack([added[:, 2] - added[:, 1], added[:, 0] - added[:, 1]], axis=1)
 
 

@@ -31,12 +31,6 @@ def aimed(sample: TrajectorySample, px: float) -> TrajectorySample:
     return remember(sample, f"aimed {px}", lambda _: _with(sample, looks_beside(sample, px)))
 
 
-def read_as(sample: TrajectorySample, px: float, looks: Mapping[KeyframeKind, TipLook]) -> None:
-    """Let :func:`aimed` give a reading with these looks, not of the frames; for 0 it gives none."""
-    if px:
-        remember(sample, f"aimed {px}", lambda _: _with(sample, looks))
-
-
 def _with(sample: TrajectorySample, looks: Mapping[KeyframeKind, TipLook]) -> TrajectorySample:
     moved = replace(sample)
     # What every scorer asks for first: so it need not know.

@@ -117,11 +117,12 @@ def _looks(sample: TrajectorySample) -> Mapping[KeyframeKind, TipLook]:
 def _usual_outline(tip: TipGeometry, taken: Mapping[KeyframeKind, TipLook]) -> TipShape:
     """The outline that fits the tip where it hangs free: labware has edges of its own."""
     free = [taken[kind] for kind in FREE if kind in taken] or list(taken.values())
-    told = [seen.clarities for seen in free if seen.clarities]
-    if len(told) == len(free) > 0:
-        return shapes_of(tip)[int(np.argmax(np.sum(told, axis=0)))]
-    # The run knows, and has had the others looked at by it.
-    return next((seen.shape for seen in free if not seen.clarities), shapes_of(tip)[0])
+    if not free:
+        return shapes_of(tip)[0]
+    for seen in free:
+        if not seen.clarities:
+            return seen.shape  # there is no other, or the run knows
+    return shapes_of(tip)[int(np.argmax(np.sum([seen.clarities for seen in free], axis=0)))]
 
 
 def _usual_length(lengths: Mapping[KeyframeKind, float]) -> float | None:
