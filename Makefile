@@ -4,7 +4,7 @@ VENV   ?= .venv
 BIN    := $(VENV)/bin
 STAMP  := $(VENV)/.installed
 
-.PHONY: demo test check lint types contracts docs matrix bench clean
+.PHONY: demo test check sizes lint types contracts docs matrix bench clean
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
@@ -35,7 +35,11 @@ docs: $(STAMP)
 	$(BIN)/python -m scripts.cli_reference
 	$(BIN)/mkdocs build --strict
 
-check: lint types contracts test
+# Size is printed, not guarded line by line: see tests/test_sizes.py.
+check: lint types contracts sizes test
+
+sizes: $(STAMP)
+	$(BIN)/python -m scripts.sizes
 
 # Environments of the support matrix, as far as this machine has the interpreters.
 matrix: $(STAMP)
