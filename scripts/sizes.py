@@ -13,8 +13,8 @@ BUDGETS = {
     "aegis_ot/sidecar": 7_600,
     "aegis_ot/runtime": 4_400,
 }
-"""The aims stand in the design: 50,000 for ``aegis_ot`` once the laboratory has a package of its own,
-9,500 for ``preflight``, 9,000 for ``vision``."""
+"""The aims: 50,000 for ``aegis_ot`` once the laboratory's part has a package of its own, 9,500 for
+``preflight``, 9,000 for ``vision``."""
 
 
 def lines_of(folder: str) -> int:

@@ -1,7 +1,7 @@
 """Size is a cost: the package and its largest rooms have budgets, with some room in them.
 
-The figures are printed by ``make check`` (``python -m scripts.sizes``); this test only says when a budget
-is spent, so that somebody decides what goes before more comes.
+``make check`` prints the figures (``python -m scripts.sizes``). This test only says when one is
+spent, so that somebody decides what goes before more comes.
 """
 
 from __future__ import annotations
