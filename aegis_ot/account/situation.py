@@ -63,7 +63,8 @@ def situations(overview: Mapping[str, Any], now: float) -> list[Situation]:
     if overview.get("finished"):
         return []
     trajectories = overview["trajectories"]
-    found = [*_paused(overview), *_ordered(overview), *_questions(overview, trajectories)]
+    paused = list(_paused(overview))  # such a banner says itself what was told
+    found = [*paused, *([] if paused else _ordered(overview)), *_questions(overview, trajectories)]
     found += _holding(overview, trajectories)
     for incident in overview.get("incidents") or ():
         if incident["ended"] is None:
@@ -159,9 +160,10 @@ def _last_holds(overview: Mapping[str, Any]) -> Iterator[tuple[Mapping[str, Any]
 def _told(overview: Mapping[str, Any], trajectory: int, paused_at: float) -> str:
     """What a person has told the paused robot already."""
     for action in reversed(overview.get("actions") or ()):
-        if action["action"] == "pause" or action["at"] < paused_at:
+        stop = action["action"] == "stop"  # it holds for every pause
+        if not stop and (action["action"] == "pause" or action["at"] < paused_at):
             return ""
-        if action["trajectory"] == trajectory:
+        if stop or action["trajectory"] == trajectory:
             word = {"resume": "go on", "stop": "end the run"}[action["action"]]
             return f" {action['by']} told the robot to {word}; it has not answered yet."
     return ""

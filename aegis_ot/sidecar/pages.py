@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from urllib.parse import parse_qs
 
 from fastapi import APIRouter, Query, Request
+from fastapi import Path as InPath
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 
@@ -43,6 +44,7 @@ Frames = Callable[[int], "bytes | None"]
 """The JPEG of a keyframe's number; ``None`` where it is missing."""
 
 Well = Annotated[int | None, Query(ge=0, le=MAX_COUNT)]
+Number = Annotated[int, InPath(ge=0, le=MAX_COUNT)]
 
 
 def page_router(sidecar: Sidecar) -> APIRouter:
@@ -115,7 +117,7 @@ def _reading(router: APIRouter, sidecar: Sidecar) -> None:
 
 def _answering(router: APIRouter, sidecar: Sidecar) -> None:
     @router.post("/runs/{run}/wells/{number}")
-    async def answer(request: Request, run: str, number: int) -> Response:
+    async def answer(request: Request, run: str, number: Number) -> Response:
         return await answered(request, run, number)
 
     @router.post("/runs/{run}/order")

@@ -18,7 +18,7 @@ from .decisions import effective
 from .journal import event
 from .orders import Orders
 from .run_trouble import RunTrouble, Troubles
-from .store import Captured, Store
+from .store import SILENT, Captured, Store
 from .wire import Action, Decision, Hold, Order, WireError
 from .worker import AnalysisWorker
 
@@ -75,6 +75,7 @@ class Session:
         store.forget_torn(run)
         self._next = store.next_sequence(run)
         self._at = 0
+        self._known = {hold["trajectory"] for hold in store.holds(run)}
         judged = store.verdicts(run)
         self._verdicts: dict[int, Verdict] = {v.trajectory: v for v, _, _ in judged}
         self._decisions = store.decisions(run)
@@ -129,6 +130,7 @@ class Session:
                 raise
             self._next += 1
             self._at = keyframe.trajectory
+            self._known.add(keyframe.trajectory)
             self._resumed()
             self._worker.submit(keyframe, frame)
             with self._trouble.at_most_logged():  # it is kept, and in the analyser's queue
@@ -182,6 +184,7 @@ class Session:
     def held(self, hold: Hold) -> None:
         """The robot says how a hold ended: by a pause, if the operator is to look at the well."""
         with self._state:
+            self._known.add(hold.trajectory)
             if hold.resolution == OPERATOR:
                 self._orders.taken()
                 return
@@ -202,8 +205,9 @@ class Session:
         """The operator confirms or corrects a verdict; deciding again is allowed.
 
         Raises:
-            WireError: 409 if there is no verdict yet.
+            WireError: 404 if there is no such delivery, 409 if there is no verdict yet.
         """
+        self._require_known(trajectory)
         with self._state:
             verdict = self._verdicts.get(trajectory)
             if verdict is None:
@@ -219,16 +223,30 @@ class Session:
         return decided
 
     def act(self, trajectory: int, action: Action) -> None:
-        """A person tells the robot, paused at this trajectory, to go on or to end the run."""
+        """A person tells the robot, paused at this trajectory, to go on or to end the run; to end
+        it, wherever the robot is.
+
+        Raises:
+            WireError: 404 if there is no such delivery, 409 if the run has ended, or is to end.
+        """
+        self._require_known(trajectory)
+        self._require_running()
         with self._state:
+            self._orders.require_going_on(action)
             self._store.add_action(self.run, trajectory, action)
             self._orders.answer(trajectory, action)
         self._bell.ring()
         event("action", run=self.run, trajectory=trajectory, action=action.action, by=action.by)
 
     def order(self, order: Order) -> None:
-        """A person tells the moving robot to pause, or to end the run, at its next exchange."""
+        """A person tells the moving robot to pause, or to end the run, at its next exchange.
+
+        Raises:
+            WireError: 409 if the run has ended, or is to end.
+        """
+        self._require_running()
         with self._state:
+            self._orders.require_going_on(order)
             self._store.add_action(self.run, self._at, order)
             self._orders.order(order)
         self._bell.ring()
@@ -248,6 +266,25 @@ class Session:
     def close(self) -> None:
         """End the worker. Idempotent."""
         self._worker.close()
+
+    def _require_known(self, trajectory: int) -> None:
+        if trajectory not in self._known:
+            raise WireError(
+                404,
+                "no_such_delivery",
+                f"This run has no delivery {trajectory}.",
+                "Choose a well on the run's page.",
+            )
+
+    def _require_running(self) -> None:
+        ended = (self._store.run(self.run) or {}).get("finished")
+        if ended and ended["outcome"] != SILENT:  # such a robot may stand in a pause still
+            raise WireError(
+                409,
+                "ended",
+                f"This run has ended ({ended['outcome']}); its robot hears of it no more.",
+                "If it still moves, press stop on its own screen.",
+            )
 
     def _awaited(self, trajectory: int) -> bool:
         release = self._release.get(trajectory)
@@ -276,6 +313,7 @@ class Session:
         """Queue again what a killed sidecar had kept but not judged."""
         settled = self._verdicts.keys() | self._store.abandoned(self.run).keys()
         for captured in self._store.keyframes(self.run):
+            self._known.add(captured.keyframe.trajectory)
             if captured.keyframe.trajectory not in settled:
                 self._worker.submit(captured.keyframe, None)
 

@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Iterator
 
+import httpx
 import pytest
 
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
@@ -49,7 +50,7 @@ def test_the_last_decision_counts_and_all_are_kept(judged: Robot) -> None:
 def test_a_well_that_passed_is_corrected_and_what_was_never_judged_is_not(judged: Robot) -> None:
     assert decide(judged, 0, "fail") == 200
     assert judged.verdict(0)["verdict"]["outcome"] == "fail"
-    assert decide(judged, 9, "pass") == 409
+    assert decide(judged, 9, "pass") == 404
     assert decide(judged, 1, "undecided") == 422
     assert decide(judged, 1, "pass", by="") == 422
 
@@ -134,3 +135,68 @@ def test_a_run_that_was_paused_for_a_look_and_goes_on_was_looked_at(
     judged.cycle(3)
     assert judged.verdict(3)["verdict"] is not None
     assert analyser.confirmed == confirmed
+
+
+def page(robot: Robot, path: str, answer: str) -> httpx.Response:
+    return robot.http.post(f"/runs/run-1/{path}", data={"by": "Ada", "answer": answer})
+
+
+def test_stop_on_a_wells_form_is_heard_by_a_robot_that_moves(judged: Robot) -> None:
+    assert page(judged, "wells/1", "stop").status_code == 303
+    order = judged.send(12).json()["order"]
+    assert (order["action"], order["by"]) == ("stop", "Ada")
+    assert judged.verdict(2)["order"] == order
+    assert "Ada told the robot to end the run" in judged.http.get("/runs/run-1").text
+
+
+def test_stop_is_heard_at_whichever_pause_the_robot_stands(judged: Robot) -> None:
+    assert page(judged, "order", "stop").status_code == 303
+    for number in (0, 2):
+        told = judged.http.get(f"/v1/runs/run-1/trajectories/{number}/action?within=0").json()
+        assert told["action"] == {"action": "stop", "by": "Ada", "note": ""}
+
+
+def test_nothing_that_is_told_later_takes_a_stop_back(judged: Robot) -> None:
+    page(judged, "wells/1", "stop")
+    for path, answer in (("wells/1", "resume"), ("order", "pause"), ("wells/2", "pass resume")):
+        refused = page(judged, path, answer)
+        assert refused.status_code == 409
+        assert "Ada told the robot to end this run, and that stands." in refused.text
+    assert page(judged, "order", "stop").status_code == 303
+    hold = {"number": 1, "trajectory": 1, "seconds": 0, "resolution": "operator", "policy": "pause"}
+    assert judged.post("hold", hold).status_code == 200
+    assert judged.send(12).json()["order"]["action"] == "stop"
+
+
+def test_a_stop_outlives_a_restart(config: SidecarConfig) -> None:
+    with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+        robot.register()
+        robot.cycle(0)
+        page(robot, "wells/0", "stop")
+        hold = {"trajectory": 0, "seconds": 0, "resolution": "verdict", "policy": "pause"}
+        robot.post("hold", hold)
+    with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+        assert robot.send(4).json()["order"]["action"] == "stop"
+
+
+@pytest.mark.parametrize("number", [3, 10**7, 10**24, -1])
+@pytest.mark.parametrize("answer", ["stop", "resume", "pass"])
+def test_a_well_that_does_not_exist_is_refused_in_words(
+    judged: Robot, number: int, answer: str
+) -> None:
+    refused = page(judged, f"wells/{number}", answer)
+    assert refused.status_code in (404, 422)
+    assert "no delivery" in refused.text or "less than or equal" in refused.text or number < 0
+    body = {"action": answer, "by": "Ada"} if answer != "pass" else {"outcome": "pass", "by": "Ada"}
+    path = "decision" if answer == "pass" else "action"
+    assert judged.post(f"trajectories/{number}/{path}", body).status_code in (404, 422)
+    assert judged.overview()["actions"] == []
+
+
+def test_a_run_that_has_ended_is_told_nothing(judged: Robot) -> None:
+    judged.post("finish", {"outcome": "failed"})
+    for path, answer in (("wells/1", "stop"), ("order", "pause")):
+        refused = page(judged, path, answer)
+        assert refused.status_code == 409
+        assert "This run has ended (failed)" in refused.text
+    assert judged.overview()["actions"] == []
