@@ -13,7 +13,7 @@ from typing import Any
 from ..errors import LinkError, SidecarRefused, SidecarUnreachable
 from ..http_client import SLICE_S
 from ..vocabulary import Keyframe, Verdict
-from .link import CameraSilent, Order, RunUnknown, SequenceGap, SidecarLink
+from .link import CameraSilent, Order, RunUnknown, SequenceGap, SidecarBusy, SidecarLink
 from .outbox import REQUEST_S, Outbox
 
 _FIRST_TRY_S = 3.0
@@ -247,7 +247,7 @@ class Courier:
             except LinkError as error:
                 if not isinstance(error, SidecarUnreachable):
                     answered = error
-                elif self._lost is None:
+                if isinstance(error, (SidecarBusy, SidecarUnreachable)) and self._lost is None:
                     self._lost = began, str(error)
                 if time.monotonic() + wait >= deadline:
                     # The last attempt is often cut short: what was answered before says more.
@@ -280,7 +280,7 @@ class Courier:
             self._unheard = False
 
     def _note_outage(self) -> None:
-        """There was no link, and there is again: the run's report says for how long."""
+        """The sidecar serves the robot again: the run's report says for how long it did not."""
         lost, self._lost = self._lost, None
         if lost is None or (seconds := time.monotonic() - lost[0]) < _SILENT_S:
             return

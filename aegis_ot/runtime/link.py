@@ -41,6 +41,11 @@ class CameraSilent(LinkError):
     full; the keyframe may be sent again."""
 
 
+class SidecarBusy(LinkError):
+    """429, or a 503 that is not the camera's or the store's: the sidecar, or a proxy before it, has
+    too much to do for this request."""
+
+
 @dataclass(frozen=True)
 class Captured:
     """Acknowledgement of one keyframe.
@@ -214,7 +219,12 @@ class SidecarLink:
                 f"The sidecar at {self.url} got no usable frame from its camera{said}. Its page "
                 "shows what the camera sees."
             )
-        if status in (429, 503):
+        if status == 429 or (status == 503 and _error_code(answer) not in ("store", "trouble")):
+            raise SidecarBusy(
+                f"The sidecar at {self.url} is there, but too busy to serve this robot{said}. "
+                "See who else sends it requests: its log says from which address."
+            )
+        if status == 503:
             raise CameraSilent(
                 f"The sidecar at {self.url} cannot take what it is sent{said}. Look at the "
                 "workstation, and at the sidecar's page."

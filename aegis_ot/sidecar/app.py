@@ -195,7 +195,7 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
     @app.post("/v1/runs/{run}/incident", openapi_extra=takes(Incident))
     async def incident(run: Run, body: Annotated[Incident, body_as(Incident)]) -> dict[str, Any]:
         await run_in_threadpool(sidecar.require, run)
-        said = f"The robot had no link to the sidecar for {body.seconds:.0f} s. {body.text}".strip()
+        said = f"The robot was not served for {body.seconds:.0f} s. {body.text}".strip()
         await run_in_threadpool(sidecar.note, run, body.kind, said, body.seconds)
         return {}
 

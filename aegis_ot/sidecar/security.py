@@ -16,6 +16,7 @@ from starlette.responses import JSONResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from .config import SidecarConfig, is_loopback
+from .connections import MOST_AT_ONCE, let_in
 from .journal import event
 from .rates import PER_SECOND, RateLimit
 from .wire import WireError
@@ -44,6 +45,7 @@ class Doorkeeper:
         self._app = app
         self._token = None if config.token is None else config.token.get_secret_value()
         self._slowed = 0
+        self._inside = 0
         self._rate = RateLimit()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -54,11 +56,27 @@ class Doorkeeper:
             return
         refusal = self._judge_rate(scope) or self._judge(scope)
         if refusal is None:
-            await self._app(scope, receive, send)
+            await self._enter(scope, receive, send)
         else:
             if refusal.status_code == 401:
                 refusal = await self._slow(scope, refusal)
             await refusal(scope, receive, send)
+
+    async def _enter(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if self._token is None or not _is_open(scope["path"]):
+            let_in(scope)
+        if self._inside >= MOST_AT_ONCE:
+            crowded = _refuse(
+                503, "crowded", f"The sidecar answers {MOST_AT_ONCE} requests already.",
+                "Look who asks it so much; what was sent can be sent again.",
+            )  # fmt: skip
+            await crowded(scope, receive, send)
+            return
+        self._inside += 1
+        try:
+            await self._app(scope, receive, send)
+        finally:
+            self._inside -= 1
 
     async def _slow(self, scope: Scope, refusal: Response) -> Response:
         """Guessing is slow and leaves a trace; asking without a token is neither."""
@@ -101,7 +119,7 @@ class Doorkeeper:
                 "Without a token this sidecar answers to 127.0.0.1 and localhost only.",
                 "Use that address, or set a token.",
             )
-        if path in OPEN or path.startswith(OPEN_BELOW):
+        if _is_open(path):
             return None
         return self._judge_token(scope, headers, self._token)
 
@@ -158,6 +176,11 @@ class LoginThrottle:
             self._wrong[who] = (1 if now - last > 3600 else times + 1, now)
             while len(self._wrong) > 1000:  # a flood of addresses must not fill memory
                 self._wrong.popitem(last=False)
+
+
+def _is_open(path: str) -> bool:
+    """Whether nobody needs a token for it."""
+    return path in OPEN or path.startswith(OPEN_BELOW)
 
 
 def client_of(scope: Scope) -> str:

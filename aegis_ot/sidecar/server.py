@@ -22,6 +22,7 @@ from .analysis import Analyser
 from .app import create_app
 from .auditing import Auditor
 from .config import SidecarConfig
+from .connections import Connection
 from .service import Sidecar
 
 log = logging.getLogger(__name__)
@@ -29,9 +30,6 @@ log = logging.getLogger(__name__)
 KEEP_ALIVE = 3600
 """The robot keeps its connection open between keyframes, which may be minutes apart, s."""
 STARTING = 30.0
-MOST_AT_ONCE = 400
-"""Connections and requests at once; further ones are answered 503. Robots and pages hold one
-or two each."""
 GRACE = 3
 SWITCH_S = 0.0005
 """How long a thread that computes may keep the interpreter from the one that answers, s. Python's
@@ -111,7 +109,7 @@ class _Server(uvicorn.Server):
                 timeout_keep_alive=KEEP_ALIVE,
                 timeout_graceful_shutdown=GRACE,
                 server_header=False,
-                limit_concurrency=MOST_AT_ONCE,
+                http=Connection,
             )
         )
         self._sidecar: Sidecar = app.state.sidecar

@@ -149,7 +149,7 @@ class Recovery(Body):
 
 
 class Incident(Body):
-    """What befell a run on the robot's side: for so long it had no link to the sidecar."""
+    """What befell a run on the robot's side: for so long the sidecar did not serve it."""
 
     kind: Literal["link"]
     seconds: Annotated[float, Field(ge=0, le=1e7)]

@@ -2,9 +2,9 @@
 
 A sidecar in a process of its own, killed and restarted 20 times within a run, then runs in which
 its disk is full, its camera is unplugged and back, its vision model is down, its clock and the
-robot's are set, and the connection is cut for 30 s. The robot is Opentrons' own engine on its
-hardware simulator; frames are simulated. After each: no record that was acknowledged may be lost,
-no hold may hang, and the run's report must name what happened.
+robot's are set, the connection is cut for 30 s, and 400 silent connections crowd it. The robot is
+Opentrons' own engine on its hardware simulator; frames are simulated. After each: no record that
+was acknowledged may be lost, no hold may hang, and the run's report must name what happened.
 
 ``--scale 0.2`` does a fifth of the restarts and waits a fifth of the times. Exit status 1:
 something was wrong. Linux only: the disk is "full" by a limit on the size of the process's files.
@@ -24,7 +24,7 @@ from typing import Any
 
 from .examining import problems
 from .robot import Robot
-from .workstation import Cable, Sidecar, StreamCamera, VisionModel, closing
+from .workstation import Cable, Crowd, Sidecar, StreamCamera, VisionModel, closing
 
 RESTARTS = 20
 FULL_S = 6.0
@@ -32,6 +32,8 @@ UNPLUGGED_S = 6.0
 DOWN_WELLS = 3
 LEAP_S = 3600.0
 CUT_S = 30.0
+CROWD = 400
+CROWD_S = 20.0
 
 Step = Callable[[int], None]
 
@@ -48,6 +50,7 @@ class Drill:
         settings: Of the sidecar, beside the camera.
         guard: Settings of the guard.
         wanted: Incidents that the report must name.
+        most_pauses: More of them are wrong; ``None``: as many as it takes.
         happened: What was done, in words.
     """
 
@@ -62,6 +65,7 @@ class Drill:
     may_resume: Callable[[], bool] = lambda: True
     model: VisionModel | None = None
     robot: Robot | None = None
+    most_pauses: int | None = None
 
     def run(
         self, name: str, incident: Callable[[Drill, Sidecar, StreamCamera, Cable], Step]
@@ -83,6 +87,8 @@ class Drill:
                 wrong = problems(data, sidecar.url, name, robot.told, self.wanted)
             finally:
                 sidecar.stop()
+        if self.most_pauses is not None and robot.pauses > self.most_pauses:
+            wrong.append(f"the robot paused {robot.pauses} times, {self.most_pauses} were meant")
         return robot, [f"the run failed: {failed}"] * bool(failed) + wrong
 
 
@@ -178,8 +184,18 @@ def cut(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> S
     return once_at(10, lambda: cable.cut(True), seconds, lambda: cable.cut(False))
 
 
+def crowd(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> Step:
+    """Somebody opens connections and says nothing, or says a request byte by byte."""
+    seconds = CROWD_S * drill.scale
+    drill.happened = f"{CROWD} silent connections for {seconds:g} s"
+    drill.most_pauses = 0
+    crowd = Crowd(sidecar.port)
+    return once_at(8, lambda: crowd.come(CROWD), seconds, crowd.go)
+
+
 INCIDENTS = {
     "restarts": restarts, "disk": disk, "camera": camera, "vlm": vlm, "clock": clock, "cut": cut,
+    "crowd": crowd,
 }  # fmt: skip
 
 

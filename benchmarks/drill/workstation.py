@@ -218,6 +218,28 @@ class Cable:
                 end.shutdown(socket.SHUT_RDWR)
 
 
+class Crowd:
+    """Connections to the sidecar that say nothing; every second one says a request, byte by byte,
+    that never ends."""
+
+    def __init__(self, port: int) -> None:
+        self._port = port
+        self._open: list[socket.socket] = []
+
+    def come(self, count: int) -> None:
+        """All at once."""
+        for number in range(count):
+            one = socket.create_connection(("127.0.0.1", self._port), 10)
+            if number % 2:
+                one.sendall(b"GET /v1/health HTTP/1.1\r\nX-Slow: ")
+            self._open.append(one)
+
+    def go(self) -> None:
+        """They are closed."""
+        for one in self._open:
+            one.close()
+
+
 class VisionModel:
     """Speaks as an OpenAI-compatible server does: three lenses that pass every well."""
 

@@ -120,6 +120,31 @@ def test_a_sidecar_that_is_gone_is_not_taken_for_a_dead_camera(
     assert seconds_since(began) < 1.0
 
 
+@pytest.mark.parametrize(
+    ("status", "body"),
+    [
+        (503, {"error": {"code": "crowded", "message": "Full.", "hint": ""}}),
+        (503, "Service Unavailable"),
+        (429, {"error": {"code": "rate", "message": "Too often.", "hint": ""}}),
+    ],
+)
+def test_a_sidecar_that_is_too_busy_is_named_and_noted(
+    status: int, body: object, sidecar: FakeSidecar, courier: Courier,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    monkeypatch.setattr(module, "_SILENT_S", 0.1)
+    told: list[str] = []
+    courier.on_trouble = lambda error, left: told.append(str(error))
+    courier.register(1.0)
+    sidecar.fault = once("/keyframes", lambda handler: handler.answer(status, body), 2)
+    courier.offer(keyframe(0))
+    courier.deliver(5.0)
+    assert "too busy to serve this robot" in told[0]
+    courier.abandon(0, "told with what waits")
+    (incident,) = sidecar.incidents
+    assert "too busy" in incident["text"]
+
+
 def test_messages_that_nobody_takes_hold_the_robot_up_once(
     sidecar: FakeSidecar, courier: Courier, monkeypatch: pytest.MonkeyPatch
 ) -> None:
