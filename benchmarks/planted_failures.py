@@ -80,7 +80,7 @@ def measure(count: int, first: int) -> Iterator[Trial]:
 
 
 def _trial(fault: str, pipette: str, liquid: str, new_tip: str, seed: int) -> Trial:
-    from aegis_ot.dryrun import UNATTENDED, DryRunSettings, dry_run
+    from aegis_ot.dryrun import TRUSTING, DryRunSettings, dry_run
     from aegis_ot.preflight.rehearsal import Script
     from aegis_ot.sidecar import make_analyser
 
@@ -89,8 +89,8 @@ def _trial(fault: str, pipette: str, liquid: str, new_tip: str, seed: int) -> Tr
         rack=rack, pipette=pipette, liquid=liquid, colour=LIQUIDS[liquid], volume=volume,
         wells=WELLS, new_tip=new_tip,
     )  # fmt: skip
-    settings = DryRunSettings((fault,), on_fail="stop", seed=seed, rules="off", cascade=UNATTENDED)
-    done = dry_run(Script(text, "planted.py"), settings, make_analyser(UNATTENDED))
+    settings = DryRunSettings((fault,), on_fail="stop", seed=seed, rules="off", cascade=TRUSTING)
+    done = dry_run(Script(text, "planted.py"), settings, make_analyser(TRUSTING))
     struck = int(fault.rpartition("#")[2]) - 1
     flagged = [row.trajectory for row in done.wells if row.flagged]
     if done.outcome != "stopped" or not flagged:

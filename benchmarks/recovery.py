@@ -102,7 +102,7 @@ def _run(
     text: str, faults: Sequence[str], seed: int, recover: dict[str, str]
 ) -> tuple[Any, list[Any]]:
     """The dry run, and every operation that the simulated robot did."""
-    from aegis_ot.dryrun import UNATTENDED, DryRunSettings, Progress, dry_run
+    from aegis_ot.dryrun import TRUSTING, DryRunSettings, Progress, dry_run
     from aegis_ot.preflight.rehearsal import Recorder, Script
     from aegis_ot.sidecar import make_analyser
 
@@ -113,10 +113,10 @@ def _run(
             recorder.after(operation)
 
     settings = DryRunSettings(
-        tuple(faults), recover=recover, seed=seed, rules="off", cascade=UNATTENDED
+        tuple(faults), recover=recover, seed=seed, rules="off", cascade=TRUSTING
     )
     script = Script(text, "recovery.py")
-    result = dry_run(script, settings, make_analyser(UNATTENDED), Heard())
+    result = dry_run(script, settings, make_analyser(TRUSTING), Heard())
     return result, recorder.log
 
 

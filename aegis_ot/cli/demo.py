@@ -62,11 +62,12 @@ def _passed(result: DryRun) -> int:
 
 
 def _run(name: str, **settings: object) -> DryRun:
-    from ..dryrun import DryRunSettings, read_script
+    from ..dryrun import TRUSTING, DryRunSettings, read_script
     from .dryrun_screen import run_and_show
 
     package = Path(aegis_ot.__file__).parent
     # In the wheel, and in a checkout.
     places = (package / "demo_protocols" / name, package.parent / "examples" / "demo" / name)
     script = read_script(next((place for place in places if place.exists()), places[0]))
-    return run_and_show(script, DryRunSettings(**settings))  # type: ignore[arg-type]
+    # The demo plays the operator, who would look at the first well of the clear liquid.
+    return run_and_show(script, DryRunSettings(cascade=TRUSTING, **settings))  # type: ignore[arg-type]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +12,7 @@ from rich.progress import Progress as Bar
 from rich.table import Table
 from rich.text import Text
 
-from ..dryrun import UNATTENDED, DryRun, DryRunSettings, Progress, WellRow, dry_run
+from ..dryrun import DryRun, DryRunSettings, Progress, WellRow, dry_run
 from ..preflight.check_protocol import summary
 from ..reports.run_html import run_report_html
 from ..sidecar import Judged, make_analyser
@@ -38,7 +37,6 @@ def run_and_show(script: Any, settings: DryRunSettings) -> DryRun:
         console=console,
         transient=True,
     ) as bar:
-        settings = replace(settings, cascade=UNATTENDED)
         analyser = make_analyser(settings.cascade)
         result = dry_run(script, settings, analyser, _Shown(bar, script.file_name))
     show(result)
@@ -85,9 +83,15 @@ def show(result: DryRun) -> None:
         f"({result.seconds:.1f} s)."
     )
     for row in result.flagged:
-        console.print(
-            Text(f"  {row.well}: {row.reason}", style=_COLOURS[row.outcome or Outcome.PASS])
-        )
+        if row.outcome is Outcome.FAIL:
+            console.print(Text(f"  {row.well}: {row.reason}", style=_COLOURS[Outcome.FAIL]))
+    # One question is asked of many wells: it is told once.
+    undecided: dict[str, list[str]] = {}
+    for row in result.flagged:
+        if row.outcome is not Outcome.FAIL:
+            undecided.setdefault(row.reason or "No verdict came.", []).append(row.address)
+    for reason, wells in undecided.items():
+        console.print(Text(f"  {', '.join(wells)}: {reason}", style=_COLOURS[Outcome.UNDECIDED]))
     if result.outcome == "stopped":
         console.print(f"Paused: {result.detail}", style="bold", markup=False)
     elif result.detail:

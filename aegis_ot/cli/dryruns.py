@@ -34,6 +34,13 @@ def simulate(
         str, typer.Option(help="continue: report a pause and go on; stop: end the run there.")
     ] = "continue",
     rules: Annotated[str, typer.Option(help="Layer 1: on, warn or off.")] = "on",
+    first_wells: Annotated[
+        str,
+        typer.Option(
+            help="Where no liquid is seen to leave the tip: ask (nobody is there: undecided), or "
+            "trust: you say that the first wells are right."
+        ),
+    ] = "ask",
     seed: Annotated[int, typer.Option(min=0, help="Seed of the simulated camera.")] = 0,
     labware: Annotated[
         list[Path] | None, typer.Option(help="Folder or file with custom labware definitions.")
@@ -49,9 +56,11 @@ def simulate(
     ] = None,
 ) -> None:
     """Run a protocol with both layers on this machine: no robot, no camera, no key."""
-    from ..dryrun import DryRunSettings, read_script
+    from ..dryrun import TRUSTING, DryRunSettings, read_script
+    from ..sidecar.config import CascadeSettings
     from .dryrun_screen import exit_code, run_and_show, write_report
 
+    asks = one_of("--first-wells", first_wells, ("ask", "trust")) == "ask"
     settings = DryRunSettings(
         faults=tuple(fault or ()),
         recover=load_settings(recover=_pairs(recover or ())).recover,
@@ -60,6 +69,7 @@ def simulate(
         rules=one_of("--rules", rules, ("on", "warn", "off")),
         timeout_s=seconds_of(timeout),
         data=data,
+        cascade=CascadeSettings() if asks else TRUSTING,
     )
     script = read_script(protocol, labware or (), parameter or ())
     result = run_and_show(script, settings)

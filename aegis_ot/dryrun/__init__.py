@@ -3,12 +3,12 @@
 Door: :func:`dry_run`, which gives a :class:`DryRun`.
 """
 
-from .runner import UNATTENDED, DryRunSettings, Progress, dry_run
+from .runner import TRUSTING, DryRunSettings, Progress, dry_run
 from .scripts import read_script
 from .summary import DryRun, WellRow
 
 __all__ = [
-    "UNATTENDED",
+    "TRUSTING",
     "DryRun",
     "DryRunSettings",
     "Progress",

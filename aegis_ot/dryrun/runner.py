@@ -38,8 +38,10 @@ from .summary import DryRun, rows_of, unproven
 _LOOPBACK = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 
 
-UNATTENDED = CascadeSettings(first_wells="trust")
-"""Nobody is there to be asked whether a first well is right."""
+TRUSTING = CascadeSettings(first_wells="trust")
+"""First wells are taken for right: for measurements whose truth is known, and for whoever says so.
+
+Else a question that nobody is there to answer leaves its wells undecided."""
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -62,8 +63,8 @@ class WellRow:
 
     @property
     def flagged(self) -> bool:
-        """Whether it failed, and was not put right, or could not be settled."""
-        return self.outcome in (Outcome.FAIL, Outcome.UNDECIDED) and not self.recovered
+        """Whether it failed, and was not put right, or could not be settled, or has no verdict."""
+        return self.outcome is not Outcome.PASS and not self.recovered
 
 
 @dataclass(frozen=True)
@@ -99,21 +100,36 @@ class DryRun:
         return tuple(row for row in self.wells if row.flagged)
 
 
+_ASKED = Outcome.UNDECIDED.value, Route.CALIBRATION.value
+
+_UNANSWERED = (
+    "Here nobody could answer, so its wells stay undecided; --first-wells trust takes them for right."
+)
+
+
 def unproven(overview: Mapping[str, Any]) -> Iterator[str]:
-    """Of which liquids nothing was seen to leave a tip, though wells of it passed: nobody is there
-    to be asked whether they are right."""
+    """Of which liquids nothing was seen to leave a tip, though wells of it passed on trust, or wait
+    for an answer that nobody is there to give."""
     plain: dict[tuple[str, str], bool] = {}
+    waiting: Counter[tuple[str, str]] = Counter()
     for entry in overview["trajectories"]:
-        known = entry["evidence"].get("calibration")
-        if known and (entry["verdict"] or {}).get("outcome") == Outcome.PASS.value:
-            key = str(known["stream"][2] or "the liquid"), str(known["stream"][0])
+        known, verdict = entry["evidence"].get("calibration"), entry["verdict"] or {}
+        if not known:
+            continue
+        key = str(known["stream"][2] or "the liquid"), str(known["stream"][0])
+        if verdict.get("outcome") == Outcome.PASS.value:
             plain[key] = plain.get(key, False) or known.get("strength") is not None
-    for (liquid, pipette), shown in plain.items():
+        elif (verdict.get("outcome"), verdict.get("route")) == _ASKED:
+            plain.setdefault(key, False)
+            waiting[key] += 1
+    for key, shown in plain.items():
         if not shown:
+            liquid, pipette = key
             yield (
                 f"In no well was {liquid} seen to leave the tip of the {pipette}: none may have "
                 "been drawn or dispensed, or it is too clear or the tip too small for this view. "
-                "On a robot you are asked about the first well."
+                "On a robot you are asked about the first well. "
+                + (_UNANSWERED if waiting[key] else "Here its first wells were taken for right.")
             )
 
 

@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from ..dryrun import TRUSTING
 from ..preflight.judging import Report
 from ..preflight.rehearsal import Script
 from ..vocabulary import VerdictWord
@@ -24,7 +25,7 @@ from .coordinator import run_fleet
 from .jobs import Job, Needs
 from .report import FleetReport
 from .schedule import least_s, longest_first_s
-from .sessions import Watch
+from .sessions import SimulatedSession, Watch
 
 LATENCY_S = (8.0, 10.0)
 """A model's answer in Layer 1 (paper, SI A), s."""
@@ -147,7 +148,14 @@ def _task(name: str, text: str, truth: str, faults: tuple[str, ...] = ()) -> Tas
 
 def judge_live(tasks: Sequence[Task], robots: int = 2) -> FleetReport:
     """Both layers on every protocol, on so many simulated robots in this process."""
-    return asyncio.run(run_fleet(_robots(robots), [task.job for task in tasks]))
+
+
+    def agent(robot: RobotConfig) -> AegisAgent:
+        return AegisAgent(robot, session=SimulatedSession(robot.seed, TRUSTING))
+
+    return asyncio.run(
+        run_fleet(_robots(robots), [task.job for task in tasks], make_agent=agent)
+    )
 
 
 def sweep(

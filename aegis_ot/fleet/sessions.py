@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from ..account import SeenWell
-from ..dryrun import UNATTENDED, DryRunSettings, Progress, dry_run
+from ..dryrun import DryRunSettings, Progress, dry_run
 from ..errors import LinkError
 from ..instrumentation import Operation, OperationKind
 from ..reports.run_html import ReportedRun, report_run
@@ -20,6 +20,7 @@ from ..robot.run_report import run_report
 from ..robot.running import RobotRun, analyse, run_analysed
 from ..robot.verdicts import VerdictReader, WellVerdict
 from ..sidecar import Judged, make_analyser
+from ..sidecar.config import CascadeSettings
 from ..vocabulary import Outcome
 from .config import RobotConfig
 from .jobs import Job
@@ -85,15 +86,17 @@ class SimulatedSession:
 
     Args:
         seed: Of the camera.
+        cascade: How its wells are judged.
     """
 
-    def __init__(self, seed: int = 0) -> None:
+    def __init__(self, seed: int = 0, cascade: CascadeSettings | None = None) -> None:
         self._seed = seed
+        self._cascade = cascade or CascadeSettings()
 
     def run(self, job: Job, watch: Watch) -> dict[str, Any]:
         """See :class:`Session`."""
         settings = DryRunSettings(
-            faults=job.faults, seed=self._seed, rules="off", cascade=UNATTENDED
+            faults=job.faults, seed=self._seed, rules="off", cascade=self._cascade
         )
         done = dry_run(job.script, settings, make_analyser(settings.cascade), _Told(watch))
         account = done.reported.account

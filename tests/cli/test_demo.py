@@ -6,12 +6,24 @@ from pathlib import Path
 
 import pytest
 
+ROOT = Path(__file__).resolve().parents[2]
+
 
 def test_a_seed_below_nought_is_refused_before_anything_runs(aegis):
     result = aegis("simulate", "examples/demo/hello_guard.py", "--seed", "-1")
     assert result.code == 2
     assert "--seed" in result.err
     assert "greater than or equal to 0" in result.err
+
+
+def test_one_fault_in_every_well_of_a_liquid_does_not_pass_a_dry_run(aegis):
+    """Eight wells that agree with each other, and nobody there to be asked."""
+    protocol = ROOT / "examples/demo/hello_guard.py"
+    planted = [arg for n in range(1, 9) for arg in ("--fault", f"no_aspirate@#{n}")]
+    result = aegis("simulate", protocol, *planted)
+    assert result.code == 1
+    assert "0 passed, 8 flagged" in result.out.replace("\n", " ")
+    assert result.out.count("Please look at the tip and the well") == 1, "one question, told once"
 
 
 @pytest.mark.timeout(400)  # two whole plates; a busy machine takes three times as long

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from aegis_ot.dryrun import UNATTENDED, DryRunSettings, dry_run
+from aegis_ot.dryrun import TRUSTING, DryRunSettings, dry_run
 from aegis_ot.errors import ConfigurationError, RehearsalError
 from aegis_ot.preflight.rehearsal import Script
 from aegis_ot.reports.run_html import run_report_html
@@ -47,11 +47,20 @@ def test_a_normal_run_has_no_flagged_well():
 
 def test_a_liquid_that_no_well_shows_is_named():
     faults = tuple(f"no_aspirate@#{number}" for number in range(1, 11))
-    result = dry_run(SCRIPT, DryRunSettings(faults), make_analyser(UNATTENDED))
+    result = dry_run(SCRIPT, DryRunSettings(faults), make_analyser(TRUSTING))
     assert "In no well was red dye seen to leave the tip of the left p300" in result.notes[0]
     assert result.notes[0] in run_report_html([result.reported])
-    sound = dry_run(SCRIPT, DryRunSettings(), make_analyser(UNATTENDED))
+    sound = dry_run(SCRIPT, DryRunSettings(), make_analyser(TRUSTING))
     assert sound.notes == ()
+
+
+@pytest.mark.parametrize("fault", ["no_aspirate", "no_dispense"])
+def test_a_question_that_nobody_answers_leaves_its_wells_undecided(fault):
+    faults = tuple(f"{fault}@#{number}" for number in range(1, 11))
+    result = dry_run(SCRIPT, DryRunSettings(faults), make_analyser())
+    assert {row.outcome for row in result.wells} == {Outcome.UNDECIDED}
+    assert len(result.flagged) == 10
+    assert "its wells stay undecided; --first-wells trust" in result.notes[0]
 
 
 def test_layer_1_hears_what_the_guard_says_in_the_protocol():

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ...dryrun import UNATTENDED, DryRunSettings, dry_run
+from ...dryrun import TRUSTING, DryRunSettings, dry_run
 from ...preflight.rehearsal import Script
 from ...reasoning import Backend, Reply, Request, State, load_prices, request_size
 from ...sidecar import Analyser, RunAnalyser, make_analyser
@@ -32,19 +32,19 @@ def plain_points(pca: Path) -> dict[str, CascadeSettings]:
     Args:
         pca: The paper's world model, fitted on earlier normals.
     """
-    paper = UNATTENDED.model_copy(update={"preset": "paper", "model": pca})
+    paper = TRUSTING.model_copy(update={"preset": "paper", "model": pca})
     return {
-        "cascade": UNATTENDED,
+        "cascade": TRUSTING,
         "the paper's band": paper,
-        ALWAYS: UNATTENDED.model_copy(update={"always_gate": True}),
+        ALWAYS: TRUSTING.model_copy(update={"always_gate": True}),
     }
 
 
 def _model_point(form: str, pca: Path) -> CascadeSettings:
     if form == MODEL_POINTS[0]:
-        return UNATTENDED.model_copy(update={"gates": ("volumetric", "vlm")})
+        return TRUSTING.model_copy(update={"gates": ("volumetric", "vlm")})
     paper = {"preset": "paper", "model": pca, "gates": ("vlm",), "spot_check": 0.0}
-    return UNATTENDED.model_copy(update=paper | {"always_gate": form == MODEL_POINTS[2]})
+    return TRUSTING.model_copy(update=paper | {"always_gate": form == MODEL_POINTS[2]})
 
 
 @dataclass(frozen=True)

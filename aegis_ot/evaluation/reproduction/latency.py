@@ -7,7 +7,7 @@ import time
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ...dryrun.runner import UNATTENDED, DryRunSettings, dry_run
+from ...dryrun.runner import TRUSTING, DryRunSettings, dry_run
 from ...errors import StoreError
 from ...sidecar import Analyser, Judged, RunAnalyser, make_analyser
 from ...vision.camera import Frame
@@ -35,7 +35,7 @@ PARTS = {
 
 def run(context: Context) -> Outcome:
     """Nine runs that the guard stops at the planted failure."""
-    analyser = make_analyser(UNATTENDED)
+    analyser = make_analyser(TRUSTING)
     context.progress.begin("Paused runs in real time", RUNS)
     paused = []
     for number in range(RUNS):
@@ -81,7 +81,7 @@ def _paused(analyser: Analyser, seed: int) -> dict[str, float] | None:
     fault = f"{KINDS['partial dispense']}@#{STRUCK + 1}"
     timed = _Timed(analyser)
     settings = DryRunSettings(
-        (fault,), on_fail="stop", seed=seed, rules="off", cascade=UNATTENDED, rate=RATE
+        (fault,), on_fail="stop", seed=seed, rules="off", cascade=TRUSTING, rate=RATE
     )
     done = dry_run(script_of("red", WELLS), settings, timed)
     holds = [one for one in done.reported.account["holds"] if one["trajectory"] == STRUCK]
