@@ -103,7 +103,8 @@ class DryRun:
 _ASKED = Outcome.UNDECIDED.value, Route.CALIBRATION.value
 
 _UNANSWERED = (
-    "Here nobody could answer, so its wells stay undecided; --first-wells trust takes them for right."
+    "Here nobody could answer, so its wells stay undecided; --first-wells trust takes them for "
+    "right."
 )
 
 

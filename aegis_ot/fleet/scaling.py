@@ -149,13 +149,10 @@ def _task(name: str, text: str, truth: str, faults: tuple[str, ...] = ()) -> Tas
 def judge_live(tasks: Sequence[Task], robots: int = 2) -> FleetReport:
     """Both layers on every protocol, on so many simulated robots in this process."""
 
-
     def agent(robot: RobotConfig) -> AegisAgent:
         return AegisAgent(robot, session=SimulatedSession(robot.seed, TRUSTING))
 
-    return asyncio.run(
-        run_fleet(_robots(robots), [task.job for task in tasks], make_agent=agent)
-    )
+    return asyncio.run(run_fleet(_robots(robots), [task.job for task in tasks], make_agent=agent))
 
 
 def sweep(
