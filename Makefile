@@ -9,7 +9,7 @@ STAMP  := $(VENV)/.installed
 $(STAMP): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --upgrade pip
-	$(BIN)/python -m pip install --quiet --editable '.[ot2,sidecar,llm,fleet,dev]'
+	$(BIN)/python -m pip install --quiet --editable '.[ot2,lab,llm,fleet,dev]'
 	touch $@
 
 demo: $(STAMP)

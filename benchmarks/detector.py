@@ -18,19 +18,20 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from aegis_ot.simulation import FrameTruth, SessionParameters, place_tip, random_frames, render_jpeg
+from aegis_ot.simulation import FrameTruth, SessionParameters, place_tip, render_jpeg
 from aegis_ot.simulation.dyes import DYES
 from aegis_ot.simulation.exposure import decode
-from aegis_ot.simulation.plans import contents_of
-from aegis_ot.training.axes import TipLabel
-from aegis_ot.training.figures import Box, LabelledFrame, measure, read_images
-from aegis_ot.training.recorded import read_frames
-from aegis_ot.training.scenes import draw_frame
 from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import Image, TipDetection
 from aegis_ot.vocabulary import KeyframeKind
 from aegis_ot.vocabulary.pipette_names import channels_of
+from aegis_ot_lab.drawing import random_frames
+from aegis_ot_lab.drawing.plans import contents_of
+from aegis_ot_lab.training.axes import TipLabel
+from aegis_ot_lab.training.figures import Box, LabelledFrame, measure, read_images
+from aegis_ot_lab.training.recorded import read_frames
+from aegis_ot_lab.training.scenes import draw_frame
 
 UNSEEN = 70_000_001
 """First seed; trainings draw from small ones and from a million upwards."""

@@ -14,7 +14,7 @@ import os
 from dataclasses import asdict
 from pathlib import Path
 
-from aegis_ot.fleet.scaling import Point, judge_live, sweep, workload
+from aegis_ot_lab.fleet_scaling import Point, judge_live, sweep, workload
 
 ROBOTS = (1, 2, 4, 8, 16)
 LARGE = (64, 256)

@@ -23,7 +23,6 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from aegis_ot.training.figures import overlap
 from aegis_ot.vision.column.measure import look_at_tip, measure_column
 from aegis_ot.vision.detection import HeatmapDetector
 from aegis_ot.vision.outlines import Outlines
@@ -31,6 +30,7 @@ from aegis_ot.vision.rows.finder import RowFinder, SeenRow
 from aegis_ot.vision.tips import tip_for
 from aegis_ot.vision.types import Image, TipDetection
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, WellRef
+from aegis_ot_lab.training.figures import overlap
 
 SERIES_FOLDER = "Demo codes/default_project"
 LABELLED = ("Model_YoloNAS_50 epoch_Tips_n_liquid/Dataset", "Experimental/Previous Data")

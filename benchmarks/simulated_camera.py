@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from aegis_ot.simulation.benchmark import measure
+from aegis_ot_lab.drawing.benchmark import measure
 
 from .figure import Figure
 

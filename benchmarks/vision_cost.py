@@ -57,10 +57,10 @@ def main(folder: str, scorer: str) -> None:
     """In the child: fit on the normals, then judge trajectories as the sidecar does."""
     import cv2
 
-    from aegis_ot.evaluation.layer2.fitting import fit_model
     from aegis_ot.sidecar.analysers import make_analyser
     from aegis_ot.sidecar.config import CascadeSettings
     from aegis_ot.vision.dataset import load_dataset
+    from aegis_ot.worldmodel.fitting import fit_model
 
     cv2.setNumThreads(1)
     dataset = load_dataset(folder)

@@ -16,7 +16,7 @@ def folders(given: Sequence[Path]) -> Iterator[list[Path]]:
     if given:
         yield list(given)
         return
-    from aegis_ot.simulation import write_dataset
+    from aegis_ot_lab.drawing import write_dataset
 
     with tempfile.TemporaryDirectory() as place:
         yield [write_dataset(Path(place) / "p1000", plates=16, seed=2026, size=SIZE)]

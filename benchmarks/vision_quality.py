@@ -17,7 +17,7 @@ def figures(datasets: Sequence[Path]) -> Iterator[Figure]:
 
     The targets are those for p1000 on rendered frames; on other sets none is printed.
     """
-    from aegis_ot.evaluation.layer2 import evaluate_layer2
+    from aegis_ot_lab.evaluation.layer2 import evaluate_layer2
 
     for folder in datasets:
         for scorer in SCORERS:

@@ -10,6 +10,7 @@ from typing import Any
 import typer
 
 from aegis_ot.cli.app import app
+from aegis_ot.cli.commands import load_command
 
 PAGE = Path(__file__).parents[1] / "docs" / "reference" / "cli.md"
 
@@ -24,8 +25,10 @@ def commands(group: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str
 
 
 def root() -> Any:
-    """The whole command line, as Click sees it."""
-    return typer.main.get_command(app)
+    """The whole command line with every command loaded, as Click sees it."""
+    group: Any = typer.main.get_command(app)
+    group.commands = {name: load_command(name) for name in group.commands}
+    return group
 
 
 def page() -> str:

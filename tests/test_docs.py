@@ -7,13 +7,12 @@ from dataclasses import fields
 from pathlib import Path
 
 import pytest
-import typer
 
 from aegis_ot.checking.configuration import read_configuration
-from aegis_ot.cli.app import app
 from aegis_ot.preflight.rules import Family
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar.config import ENVIRONMENT, SidecarConfig
+from scripts.cli_reference import root
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").rglob("*.md")])
@@ -80,7 +79,7 @@ def test_every_option_that_is_shown_exists(page):
     text = (ROOT / "docs" / "how-to" / page).read_text(encoding="utf-8")
     known = {
         option
-        for command in typer.main.get_command(app).commands.values()
+        for command in root().commands.values()
         for part in (command, *getattr(command, "commands", {}).values())
         for parameter in part.params
         for option in parameter.opts
@@ -101,7 +100,7 @@ def test_rule_files_are_told_of_with_all_their_fields():
 def test_the_pre_commit_hook_calls_a_command_that_exists_with_extras_that_exist():
     text = (ROOT / ".pre-commit-hooks.yaml").read_text(encoding="utf-8")
     (entry,) = re.findall(r"^  entry: aegis-ot (\S+)$", text, re.MULTILINE)
-    assert entry in typer.main.get_command(app).commands
+    assert entry in root().commands
     (extras,) = re.findall(r'additional_dependencies: \["\.\[(.*?)\]"\]', text)
     project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     for extra in extras.split(","):

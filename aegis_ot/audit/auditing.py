@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from ..evaluation.layer2 import Progress
+from ..progress import Progress
 from ..sidecar.store import Store
 from ..vision.gates import Case, ConfirmingGate
 from ..vision.scorers.ensemble import EnsembleScorer

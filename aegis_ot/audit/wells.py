@@ -7,8 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ..errors import StoreError
-from ..evaluation.layer2 import Progress
-from ..evaluation.layer2.recorded import recorded_runs
+from ..progress import Progress
 from ..sidecar.store import Store
 from ..vision.column_reader import MeasuredColumns
 from ..vision.consistency import TipConsistency, once_each, second_look
@@ -20,6 +19,7 @@ from ..vision.scorers.patches import describe
 from ..vision.tips import tip_for
 from ..vision.types import Detector, Image, TipDetection, TrajectorySample
 from ..vocabulary import Keyframe, KeyframeKind
+from ..worldmodel.recorded import recorded_runs
 
 Detections = dict[KeyframeKind, TipDetection | None]
 

@@ -7,14 +7,40 @@ import sys
 from typing import Any
 
 import typer
+from typer.core import TyperCommand, TyperGroup
 
 from .. import __version__
-from ..errors import AegisError
+from ..errors import AegisError, ConfigurationError
+from .commands import COMMANDS, load_command, what_to_install
+from .exit_codes import BROKEN, INTERRUPTED
 
-CLEAN, FINDINGS, BROKEN, INTERRUPTED = 0, 1, 2, 130
+
+class _Commands(TyperGroup):
+    """Shows each command by its summary, and loads the one that is called."""
+
+    def __init__(self, **settings: Any) -> None:
+        super().__init__(**settings)
+        for name, command in COMMANDS.items():
+            self.add_command(TyperCommand(name, help=command.summary, callback=None))
+
+    def resolve_command(self, ctx: Any, args: Any) -> Any:
+        name, command, rest = super().resolve_command(ctx, args)
+        return name, command and load_command(str(name)), rest
+
+    def invoke(self, ctx: Any) -> Any:
+        called = (*ctx._protected_args, *ctx.args)
+        try:
+            return super().invoke(ctx)
+        except ModuleNotFoundError as error:
+            library = (error.name or "").partition(".")[0]
+            if library in ("", "aegis_ot") or called[0] not in COMMANDS:
+                raise
+            raise ConfigurationError(what_to_install(called[0], error)) from error
+
 
 app = typer.Typer(
     name="aegis-ot",
+    cls=_Commands,
     help="Guards Opentrons robots: checks protocols before they run, watches tips while they do.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -61,28 +87,3 @@ def run() -> None:
     if code == INTERRUPTED:  # Typer's newer versions return it, the older ones raise Abort
         typer.echo("aegis-ot: interrupted; nothing more is done.", err=True)
     sys.exit(code)
-
-
-# Each module adds its commands to the app.
-from . import (  # noqa: E402
-    audits,  # noqa: F401
-    checks,  # noqa: F401
-    corpora,  # noqa: F401
-    datasets,  # noqa: F401
-    demo,  # noqa: F401
-    dryruns,  # noqa: F401
-    evaluations,  # noqa: F401
-    fleets,  # noqa: F401
-    inspections,  # noqa: F401
-    layer2,  # noqa: F401
-    llm,  # noqa: F401
-    onto_robot,  # noqa: F401
-    reproductions,  # noqa: F401
-    robots,  # noqa: F401
-    rulebook,  # noqa: F401
-    runs,  # noqa: F401
-    services,  # noqa: F401
-    sidecars,  # noqa: F401
-    trainings,  # noqa: F401
-    worldmodels,  # noqa: F401
-)

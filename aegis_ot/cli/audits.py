@@ -11,10 +11,9 @@ import typer
 
 from ..errors import ConfigurationError
 from ..vocabulary import counted
-from .app import BROKEN, CLEAN, FINDINGS, app
-from .checks import write_text
-from .datasets import tip_finder
+from .exit_codes import BROKEN, CLEAN, FINDINGS
 from .models import ModelName, RecordFolder, backend_of
+from .paths import tip_finder, write_text
 from .runs import DataFolder, known_run, open_data
 
 if TYPE_CHECKING:
@@ -23,6 +22,9 @@ if TYPE_CHECKING:
     from ..reports.plate_views import PlateViews
     from ..sidecar.store import Store
     from ..vision.gates import ConfirmingGate
+
+
+app = typer.Typer()
 
 
 @app.command()

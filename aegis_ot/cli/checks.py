@@ -18,7 +18,6 @@ from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
 from ..reports import RENDERERS, SHOW_ROLES, check_text
 from ..vocabulary import VerdictWord, counted
-from .app import BROKEN, CLEAN, app
 from .check_settings import (
     Assay,
     CsvParameters,
@@ -35,7 +34,11 @@ from .check_settings import (
     spared,
 )
 from .counting import Counting
+from .exit_codes import BROKEN, CLEAN
 from .models import ModelName, RecordFolder, backend_of
+from .paths import write_text
+
+app = typer.Typer()
 
 
 @app.command()
@@ -183,16 +186,3 @@ def _colours() -> bool:
     if os.environ.get("NO_COLOR"):
         return False
     return sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
-
-
-def write_text(path: Path, text: str) -> None:
-    """Write a file, making its folder.
-
-    Raises:
-        ConfigurationError: It cannot be written.
-    """
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8", errors="backslashreplace")
-    except OSError as error:
-        raise ConfigurationError(f"{path} cannot be written: {error.strerror}.") from None

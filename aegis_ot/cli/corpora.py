@@ -28,11 +28,14 @@ from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
 from ..preflight import load_database
 from ..vocabulary import counted
-from .app import CLEAN, FINDINGS, app
 from .check_settings import Rules
+from .exit_codes import CLEAN, FINDINGS
 
 _TELLING = ("fail", "crash")
 """Verdicts that are told at once, while the others are counted."""
+
+
+app = typer.Typer()
 
 
 @app.command()

@@ -10,7 +10,7 @@ import typer
 import aegis_ot
 
 from ..vocabulary import counted
-from .app import BROKEN, app
+from .exit_codes import BROKEN
 
 if TYPE_CHECKING:
     from ..dryrun import DryRun
@@ -19,6 +19,9 @@ _REJECTED = "pcr_setup_contaminated.py"
 _LONG = "normalisation_plate.py"
 _FAULT = "partial:50@3:D4"
 """Half of the dye stays in the tip at D4 of the plate in slot 3; 16 more wells would follow."""
+
+
+app = typer.Typer()
 
 
 @app.command()

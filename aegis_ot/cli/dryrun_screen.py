@@ -17,7 +17,7 @@ from ..preflight.check_protocol import summary
 from ..reports.run_html import run_report_html
 from ..sidecar import Judged, make_analyser
 from ..vocabulary import Outcome, counted
-from .app import BROKEN, CLEAN, FINDINGS
+from .exit_codes import BROKEN, CLEAN, FINDINGS
 
 console = Console(highlight=False)
 

@@ -9,8 +9,9 @@ from typing import Annotated
 import typer
 
 from ..settings import load_settings
-from .app import app
 from .check_settings import Timeout, one_of, seconds_of
+
+app = typer.Typer()
 
 
 @app.command()

@@ -20,12 +20,13 @@ from rich.text import Text
 
 from ..errors import AegisError, ConfigurationError
 from ..vocabulary import counted
-from .app import BROKEN, CLEAN, FINDINGS, INTERRUPTED, app
+from .exit_codes import BROKEN, CLEAN, FINDINGS, INTERRUPTED
 
 if TYPE_CHECKING:
     from ..fleet import FleetConfig, FleetReport, Job
     from ..fleet.report import Entry
 
+app = typer.Typer()
 fleet = typer.Typer(help="Many robots: one agent each.", no_args_is_help=True)
 app.add_typer(fleet, name="fleet")
 console = Console(highlight=False)

@@ -9,14 +9,15 @@ import typer
 
 from ..errors import ConfigurationError
 from ..vocabulary import counted
-from .app import app
-from .check_settings import one_of
-from .checks import write_text
-from .datasets import open_dataset, tip_finder
+from .commands import joined
+from .paths import open_dataset, tip_finder, write_text
 
 if TYPE_CHECKING:
-    from ..evaluation.layer2 import Progress
     from ..inspection import Inspection
+    from ..progress import Progress
+
+
+app = typer.Typer()
 
 
 @app.command("inspect")
@@ -69,7 +70,7 @@ def inspect_wells(
 
 
 def _is_store(folder: Path) -> bool:
-    from ..evaluation.layer2.recorded import is_store
+    from ..worldmodel.recorded import is_store
 
     return is_store(folder)
 
@@ -77,21 +78,23 @@ def _is_store(folder: Path) -> bool:
 def _dataset(
     folder: Path, scorer: str, world_model: Path | None, boxes: str, most: int, shown: Progress
 ) -> Inspection:
-    from ..inspection import inspect_dataset
+    """A data set is judged anew, which is the laboratory's to do."""
+    inspect_dataset = joined("dataset", "aegis_ot.inspections")
     from ..sidecar.analysers import load_scorer
-    from ..vision.scorers import SCORERS
 
-    one_of("--scorer", scorer, [name.replace("_", "-") for name in SCORERS])
     fitted = None if world_model is None else load_scorer(world_model)
     data = open_dataset(folder)
-    return inspect_dataset(data, scorer.replace("-", "_"), fitted, tip_finder(boxes), most, shown)
+    inspection: Inspection = inspect_dataset(
+        data, scorer.replace("-", "_"), fitted, tip_finder(boxes), most, shown
+    )
+    return inspection
 
 
 def _run(what: str, run: str | None, most: int, shown: Progress) -> Inspection:
-    from ..evaluation.layer2.recorded import open_store
     from ..inspection import inspect_run
     from ..sidecar import SidecarConfig
     from ..sidecar.token_file import known_token
+    from ..worldmodel.recorded import open_store
 
     folder = Path(what)
     if not folder.exists():

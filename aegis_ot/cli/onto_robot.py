@@ -8,8 +8,10 @@ from typing import Annotated, Any
 import typer
 
 from ..errors import ConfigurationError, ProtocolRejected
-from .app import FINDINGS, app
+from .exit_codes import FINDINGS
 from .robots import Robot
+
+app = typer.Typer()
 
 
 @app.command()

@@ -6,7 +6,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, TaskID, TextColumn, TimeElapsedColumn
 from rich.progress import Progress as Bar
 
-from ..evaluation.layer2.progress import Progress
+from ..progress import Progress
 
 
 class Shown(Progress):

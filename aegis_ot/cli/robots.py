@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ..errors import ConfigurationError, LinkError, RobotError
-from .app import BROKEN, CLEAN, FINDINGS, INTERRUPTED, app
+from .exit_codes import BROKEN, CLEAN, FINDINGS, INTERRUPTED
 
 if TYPE_CHECKING:
     from ..robot import Analysis
@@ -32,6 +32,9 @@ SidecarUrl = Annotated[
 Token = Annotated[
     str | None, typer.Option("--token", help="Its token; better given as AEGIS_OT_TOKEN.")
 ]
+
+
+app = typer.Typer()
 
 
 @app.command()

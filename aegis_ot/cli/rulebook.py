@@ -16,12 +16,13 @@ from ..preflight import Database, load_database
 from ..preflight.database import shipped_rules
 from ..reports import rule_list, rule_pages, rule_text
 from ..vocabulary import counted
-from .app import CLEAN, FINDINGS, app
 from .check_settings import known_rule, one_of, split
-from .checks import write_text
+from .exit_codes import CLEAN, FINDINGS
+from .paths import write_text
 
 RulesOption = Annotated[list[Path] | None, typer.Option(help="File or folder of further rules.")]
 
+app = typer.Typer()
 rules_app = typer.Typer(no_args_is_help=True, help="The rule database: list, test, document.")
 app.add_typer(rules_app, name="rules")
 

@@ -14,13 +14,12 @@ from rich.table import Table
 
 from ..errors import ConfigurationError
 from ..vocabulary import counted
-from .app import app
-from .checks import write_text
-from .datasets import empty_folder, tip_finder
+from .paths import empty_folder, tip_finder, write_text
 
 if TYPE_CHECKING:
     from ..sidecar.store import Store
 
+app = typer.Typer()
 runs = typer.Typer(
     help="What a sidecar has kept: list, show, export, remove.", no_args_is_help=True
 )
@@ -108,7 +107,7 @@ def export(
     wrong before anything is measured against them. Trajectories that nobody decided are left
     out, and so is a run without one that passed.
     """
-    from ..evaluation.layer2.exporting import export_runs
+    from ..worldmodel.exporting import export_runs
     from .progress import Shown
 
     empty_folder(out)
@@ -181,7 +180,7 @@ def _folder(data: Path | None) -> Path:
 
 def open_data(data: Path | None, alone: bool = False) -> Store:
     """The store in a folder, or in the sidecar's usual one."""
-    from ..evaluation.layer2.recorded import open_store
+    from ..worldmodel.recorded import open_store
 
     return open_store(_folder(data), alone)
 

@@ -9,9 +9,12 @@ import typer
 from rich.console import Console
 from rich.text import Text
 
-from .app import BROKEN, CLEAN, FINDINGS, app
+from .exit_codes import BROKEN, CLEAN, FINDINGS
 
 _COLOURS = {"ok": "green", "warning": "yellow", "bad": "bold red"}
+
+
+app = typer.Typer()
 
 
 @app.command()

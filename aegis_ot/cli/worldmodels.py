@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ConfigurationError
-from .app import app
 from .check_settings import one_of
-from .datasets import open_dataset, tip_finder
+from .paths import open_dataset, tip_finder
 
 if TYPE_CHECKING:
     from ..vision.models import ModelFile
+
+
+app = typer.Typer()
 
 
 @app.command()
@@ -36,8 +38,8 @@ def fit(
 
     Exit codes: 0 written, 2 nothing could be learned, or the file cannot be written.
     """
-    from ..evaluation.layer2.fitting import STORED, fit_model
-    from ..evaluation.layer2.recorded import is_store
+    from ..worldmodel.fitting import STORED, fit_model
+    from ..worldmodel.recorded import is_store
     from .progress import Shown
 
     one_of("--scorer", scorer, STORED)

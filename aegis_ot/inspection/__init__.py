@@ -1,8 +1,7 @@
 """A look, well by well: frames, boxes, columns, scores and routes of a data set or a run."""
 
 from ..account import Inspection
-from .datasets import inspect_dataset
 from .page import inspection_html
 from .runs import inspect_run
 
-__all__ = ["Inspection", "inspect_dataset", "inspect_run", "inspection_html"]
+__all__ = ["Inspection", "inspect_run", "inspection_html"]

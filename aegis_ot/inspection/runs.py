@@ -6,10 +6,10 @@ from ..account import Inspection, seen_well
 from ..account.pictures import cut_pictures
 from ..account.seen import no_pictures
 from ..errors import StoreError
-from ..evaluation.layer2 import Progress
-from ..evaluation.layer2.recorded import run_source
+from ..progress import Progress
 from ..sidecar.overview import run_overview
 from ..sidecar.store import Store
+from ..worldmodel.recorded import run_source
 from .choosing import pictured
 
 

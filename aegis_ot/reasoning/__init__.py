@@ -21,7 +21,6 @@ from .backends import (
     project_model,
     record_from_environment,
 )
-from .batch import Imported, export_requests, import_answers
 from .configurations import Configuration, Judgement, judge_in, request_in
 from .opinions import Opinions
 from .prices import Price, PriceTable, load_prices
@@ -34,7 +33,6 @@ __all__ = [
     "Backend",
     "Configuration",
     "ExportBackend",
-    "Imported",
     "Judgement",
     "Manner",
     "Message",
@@ -54,8 +52,6 @@ __all__ = [
     "State",
     "Usage",
     "estimate_tokens",
-    "export_requests",
-    "import_answers",
     "judge_in",
     "load_prices",
     "make_backend",

@@ -1,11 +1,9 @@
 """The simulation room: a camera that shows a simulated pipette, and planted faults."""
 
 from .camera import SimulatedCamera
-from .dataset import write_dataset
 from .dyes import Dye, dye_for
 from .fault_plan import FaultPlan, PhysicalState
 from .faults import Fault, FaultKind, parse_faults
-from .random_frames import random_frames
 from .render import render, render_jpeg
 from .scene import SceneState, TipContent, place_tip
 from .session import SessionParameters
@@ -26,8 +24,6 @@ __all__ = [
     "dye_for",
     "parse_faults",
     "place_tip",
-    "random_frames",
     "render",
     "render_jpeg",
-    "write_dataset",
 ]

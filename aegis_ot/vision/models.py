@@ -28,7 +28,7 @@ MOST_BYTES = 256 * 1024 * 1024
 """Largest model file that is read: a damaged header must not fill the memory."""
 
 SHIPPED = Path(__file__).with_name("world") / "simulated.npz"
-"""The ensemble fitted on simulated normals; ``aegis_ot.evaluation.layer2.shipped`` makes it."""
+"""The ensemble fitted on simulated normals; ``aegis_ot_lab.shipped_model`` makes it."""
 
 Arrays = Mapping[str, NDArray[Any]]
 

@@ -20,10 +20,10 @@ from typing import Any
 
 import numpy as np
 
-from aegis_ot.simulation.dataset import SimulatedPlate, typical_volume, write_plates
 from aegis_ot.simulation.dyes import DYES
-from aegis_ot.simulation.plans import REAGENTS, PlannedWell
 from aegis_ot.vision.tips import tip_for
+from aegis_ot_lab.drawing.dataset import SimulatedPlate, typical_volume, write_plates
+from aegis_ot_lab.drawing.plans import REAGENTS, PlannedWell
 
 from .kinds import KINDS, CameraKind, any_kind, any_row, draw_session
 from .stage import Lamps

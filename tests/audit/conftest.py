@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from aegis_ot.sidecar.store import Store
-from tests.evaluation.layer2.stores import make_store
+from tests.worldmodel.stores import make_store
 
 STRUCK = 2
 """The third well got nothing: one of those on which the run is calibrated."""

@@ -20,11 +20,10 @@ from aegis_ot.sidecar.wire import Decision, Hold
 from aegis_ot.vision.gates import Case, GateDecision
 from aegis_ot.vision.gates.case import Cost
 from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome
+from tests.audit.conftest import STRUCK, pass_silently
 from tests.cli.commands import Command
-from tests.evaluation.layer2.stores import make_store
 from tests.sidecar.browser import CHROMIUM, chromium
-
-from .conftest import STRUCK, pass_silently
+from tests.worldmodel.stores import make_store
 
 
 class Model:

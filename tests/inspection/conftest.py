@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from tests.evaluation.layer2.fixtures import drawn, store
+from tests.worldmodel.fixtures import drawn, store
 
 __all__ = ["drawn", "store"]

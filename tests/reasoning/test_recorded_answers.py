@@ -14,17 +14,10 @@ import pytest
 from aegis_ot.preflight import Report
 from aegis_ot.preflight.opinion import check_with_dossier
 from aegis_ot.preflight.rehearsal import Script
-from aegis_ot.reasoning import (
-    ReplayBackend,
-    ScriptedBackend,
-    export_requests,
-    import_answers,
-    judge_in,
-    request_in,
-)
+from aegis_ot.reasoning import ReplayBackend, ScriptedBackend, judge_in, request_in
 from aegis_ot.vocabulary import Severity, VerdictWord
-
-from .samples import database
+from aegis_ot_lab.batch import export_requests, import_answers
+from tests.reasoning.samples import database
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FOLDERS = ["benchmark", "prose-benchmark"]

@@ -17,13 +17,11 @@ from aegis_ot.reasoning import (
     ScriptedBackend,
     State,
     Usage,
-    export_requests,
-    import_answers,
     make_backend,
 )
-
-from .samples import GOOD, PNG, request
-from .wire_server import Answer, WireServer, anthropic_message
+from aegis_ot_lab.batch import export_requests, import_answers
+from tests.reasoning.samples import GOOD, PNG, request
+from tests.reasoning.wire_server import Answer, WireServer, anthropic_message
 
 KEY = "sk-ant-very-secret-0123456789"
 

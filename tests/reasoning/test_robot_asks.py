@@ -23,17 +23,16 @@ from aegis_ot.reasoning import (
     Request,
     ScriptedBackend,
     State,
-    import_answers,
     make_backend,
     request_in,
 )
 from aegis_ot.sidecar import SidecarConfig, create_app
 from aegis_ot.sidecar.config import CameraSettings
 from aegis_ot.vocabulary import to_json
-
-from ..runtime.live import LiveRun
-from .samples import CONTAMINATED, SILENT, answer, checked, database, finding
-from .wire_server import Answer, WireServer
+from aegis_ot_lab.batch import import_answers
+from tests.reasoning.samples import CONTAMINATED, SILENT, answer, checked, database, finding
+from tests.reasoning.wire_server import Answer, WireServer
+from tests.runtime.live import LiveRun
 
 TOKEN = "robot-token"
 VIOLATED = answer(findings=[finding("PCR-2", ["2:A2", "4:H12"], [11, 15])])

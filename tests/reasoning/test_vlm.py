@@ -17,14 +17,12 @@ import pytest
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.reasoning import (
     AnthropicBackend,
-    Imported,
     Manner,
     Picture,
     RecordingBackend,
     ReplayBackend,
     ScriptedBackend,
     State,
-    import_answers,
     make_backend,
 )
 from aegis_ot.reasoning.gate_tiers import VlmTiers
@@ -35,8 +33,8 @@ from aegis_ot.vision.gates import Case, Gates, OperatorGate
 from aegis_ot.vision.measuring import ColumnReading
 from aegis_ot.vision.types import TipDetection, TrajectorySample
 from aegis_ot.vocabulary import FailureType, Gate, KeyframeKind, Outcome, Route
-
-from .wire_server import Answer, WireServer, anthropic_message
+from aegis_ot_lab.batch import Imported, import_answers
+from tests.reasoning.wire_server import Answer, WireServer, anthropic_message
 
 EXPECTED = dict(zip(KeyframeKind, (100.0, 100.0, 0.0, 0.0), strict=True))
 

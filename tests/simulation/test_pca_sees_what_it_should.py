@@ -15,9 +15,9 @@ import pytest
 from numpy.typing import NDArray
 
 from aegis_ot.simulation import SessionParameters
-from aegis_ot.simulation.dataset import PlannedWell, SimulatedPlate, render_trajectory
 from aegis_ot.vision.crops import trajectory_vector
 from aegis_ot.vision.scorers.pca import PcaScorer
+from aegis_ot_lab.drawing.dataset import PlannedWell, SimulatedPlate, render_trajectory
 
 # A frame far overexposed says nothing here, and with few wells it would decide.
 WEBCAM = replace(SessionParameters.webcam(), overexposed_chance=0.0)

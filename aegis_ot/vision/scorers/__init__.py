@@ -15,11 +15,6 @@ from ..types import Scorer, TrajectorySample
 
 _WHERE = {
     "pca": ("pca", "PcaScorer"),
-    "isolation_forest": ("baselines", "IsolationForestScorer"),
-    "one_class_svm": ("baselines", "OneClassSvmScorer"),
-    "autoencoder": ("baselines", "AutoencoderScorer"),
-    "single_frame_pca": ("baselines", "SingleFramePcaScorer"),
-    "mahalanobis": ("baselines", "MahalanobisScorer"),
     "column": ("column", "ColumnScorer"),
     "patches": ("patches", "PatchesScorer"),
     "ensemble": ("ensemble", "EnsembleScorer"),
@@ -28,10 +23,7 @@ _WHERE = {
 SCORERS = tuple(_WHERE)
 """Names that :func:`make_scorer` knows."""
 
-BASELINES = SCORERS[:6]
-"""The paper's scorers."""
-
-__all__ = ["BASELINES", "SCORERS", "Calibrating", "make_scorer", "signs_of"]
+__all__ = ["SCORERS", "Calibrating", "make_scorer", "signs_of"]
 
 
 @runtime_checkable
@@ -42,8 +34,12 @@ class Calibrating(Protocol):
         """Adapt. Called anew for each plate; an empty sequence undoes it."""
 
 
-def make_scorer(name: str) -> Scorer:
+def make_scorer(name: str, known: Sequence[str] = SCORERS) -> Scorer:
     """A new, unfitted scorer.
+
+    Args:
+        name: One of :data:`SCORERS`.
+        known: What a complaint names.
 
     Raises:
         ConfigurationError: If there is no scorer of this name.
@@ -52,7 +48,7 @@ def make_scorer(name: str) -> Scorer:
         module, cls = _WHERE[name]
     except KeyError:
         raise ConfigurationError(
-            f"there is no scorer {name!r}; choose one of {', '.join(SCORERS)}"
+            f"there is no scorer {name!r}; choose one of {', '.join(known)}"
         ) from None
     try:
         loaded = importlib.import_module(f".{module}", __name__)

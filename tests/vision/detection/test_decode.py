@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aegis_ot.training.axes import TipLabel
-from aegis_ot.training.examples import targets
 from aegis_ot.vision.detection.decode import candidates
+from aegis_ot_lab.training.axes import TipLabel
+from aegis_ot_lab.training.examples import targets
 
 
 @pytest.mark.parametrize(

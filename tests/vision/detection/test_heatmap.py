@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from aegis_ot.errors import ModelError
-from aegis_ot.training.axes import TipLabel
-from aegis_ot.training.scenes import draw_frame
 from aegis_ot.vision.detection import HeatmapDetector, load_detector
+from aegis_ot_lab.training.axes import TipLabel
+from aegis_ot_lab.training.scenes import draw_frame
 
 UNSEEN = 20_000_003  # far from any seed that weights are trained with
 

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from aegis_ot.evaluation.layer2.smallest import with_retained
 from aegis_ot.vision.column import look_beside
 from aegis_ot.vision.crops import remember
 from aegis_ot.vision.models import ModelFile
@@ -16,8 +15,8 @@ from aegis_ot.vision.scorers.aims import AIMS, aimed
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vision.scorers.looks import looks
 from aegis_ot.vocabulary import KeyframeKind
-
-from ..column.drawn import normals, trajectory
+from aegis_ot.worldmodel.detection_limits import with_retained
+from tests.vision.column.drawn import normals, trajectory
 
 
 def test_the_end_moves_along_the_tip_and_nothing_else_does() -> None:

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from aegis_ot.simulation import SessionParameters
-from aegis_ot.simulation.dataset import PlannedWell, SimulatedPlate, render_trajectory
 from aegis_ot.vision.run_scorer import RunScorer
 from aegis_ot.vision.scorers.column import ColumnScorer
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vision.types import TrajectorySample
+from aegis_ot_lab.drawing.dataset import PlannedWell, SimulatedPlate, render_trajectory
 
 SESSION = replace(SessionParameters.bench(5), overexposed_chance=0.0)
 

@@ -10,12 +10,12 @@ import pytest
 from aegis_ot.errors import ConfigurationError, ModelError
 from aegis_ot.vision.crops import CANVAS, crop_grey, trajectory_vector
 from aegis_ot.vision.models import load_model, save_model
-from aegis_ot.vision.scorers import BASELINES, make_scorer
+from aegis_ot.vision.scorers import make_scorer
 from aegis_ot.vision.scorers.pca import PcaScorer
 from aegis_ot.vision.types import TipDetection
 from aegis_ot.vocabulary import KeyframeKind
-
-from ..samples import sample
+from aegis_ot_lab.scorers import BASELINES
+from tests.vision.samples import sample
 
 
 def normals(count: int = 24) -> list:

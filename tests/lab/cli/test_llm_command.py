@@ -1,0 +1,49 @@
+"""``aegis-ot llm``: out and in again, through the command line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from typer.testing import CliRunner
+
+from aegis_ot.cli.app import app
+from aegis_ot.reasoning import ReplayBackend, judge_in
+from tests.reasoning.samples import CONTAMINATED, SILENT, answer, examined
+
+runner = CliRunner()
+
+
+def test_requests_out_and_answers_in(tmp_path: Path) -> None:
+    for name, text in (("a", CONTAMINATED), ("b", SILENT)):
+        (tmp_path / f"{name}.py").write_text(text)
+    out, replay = tmp_path / "requests.jsonl", tmp_path / "replay"
+    files = [str(tmp_path / "a.py"), str(tmp_path / "b.py"), str(tmp_path / "missing.py")]
+    done = runner.invoke(app, ["llm", "export", *files, "--out", str(out)])
+    assert done.exit_code == 2, "one file is missing"
+    assert "missing.py" in done.output
+    lines = [json.loads(line) for line in out.read_text().split("\n") if line]
+    assert [Path(line["about"]).name for line in lines] == ["a.py", "b.py"]
+    responses = tmp_path / "responses.jsonl"
+    said = answer(summary="Read by hand.")
+    responses.write_text(
+        "\n".join(json.dumps({"id": line["id"], "answer": said}) for line in lines)
+    )
+    done = runner.invoke(
+        app, ["llm", "import", str(responses), "--out", str(replay), "--requests", str(out)]
+    )
+    assert done.exit_code == 0, done.output
+    # The child process saw the protocol as this one does, but for the file's name.
+    request_of = {Path(line["about"]).name: line for line in lines}
+    assert '"hash"' in next(replay.glob("*.json")).read_text()
+    assert request_of["b.py"]["purpose"] == "layer1"
+    result = judge_in("hybrid", *examined(SILENT), ReplayBackend(replay))
+    assert not result.unanswered, result.report.undecided
+
+
+def test_answers_that_cannot_be_used_are_told(tmp_path: Path) -> None:
+    responses = tmp_path / "responses.jsonl"
+    responses.write_text('{"id": "x"}\n')
+    done = runner.invoke(app, ["llm", "import", str(responses), "--out", str(tmp_path / "r")])
+    assert done.exit_code == 2
+    assert "line 1" in done.output
