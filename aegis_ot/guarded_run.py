@@ -245,7 +245,9 @@ def _new_watcher(
     from .runtime import Watcher
 
     knowledge = None if tips is None else tips.knowledge
-    return Watcher(protocol, settings, file_name, layer1.report if layer1 else None, knowledge)
+    report = layer1.report if layer1 else None
+    text = _text_of(file_name, protocol)
+    return Watcher(protocol, settings, file_name, report, knowledge, text)
 
 
 def _text_of(file_name: str, protocol: Any) -> str:

@@ -118,7 +118,7 @@ def watch(
     from ..robot.moments import PastLink
     from ..robot.running import RobotRun
     from ..robot.verdicts import VerdictReader
-    from ..robot.watching import WatchPolicies, await_run, name_of_watch, watch_run
+    from ..robot.watching import WatchPolicies, await_run, watch_run
     from .check_settings import one_of
     from .robot_screen import TerminalScreen, show_end
 
@@ -145,7 +145,7 @@ def watch(
                 watch_run(client, result, link, screen, policies)
         finally:
             if report is not None:
-                reader = VerdictReader(url, secret, run=name_of_watch(identifier))
+                reader = VerdictReader(url, secret, run=result.watched_as)
                 with contextlib.suppress(LinkError):  # the robot's own side is worth a report too
                     result.overview = reader.overview()
                 reader.close()

@@ -190,7 +190,7 @@ def _run(
 ) -> tuple[str, str, list[Operation], dict[str, Any], dict[int, bytes]]:
     run, token = f"dry-run-{settings.seed}", secrets.token_urlsafe(16)
     if settings.data is not None:
-        run += time.strftime("-%Y%m%d-%H%M%S")
+        run += time.strftime("-%Y%m%d-%H%M%S-") + secrets.token_hex(2)
     robot = HeardRobot(progress.moves)
     outcome, detail = "succeeded", ""
     with contextlib.ExitStack() as stack:

@@ -7,6 +7,7 @@ where TRANSIT and POST_DISPENSE lie within it, or within the next, is reckoned.
 from __future__ import annotations
 
 import time
+import uuid
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -49,7 +50,7 @@ class PastLink(SidecarLink):
     def __init__(
         self, url: str, token: str | None, now: Callable[[], float] = time.monotonic
     ) -> None:
-        super().__init__(url, token, lambda: None)
+        super().__init__(url, token, lambda: None, uuid.uuid4().hex)
         self._now = now
         self.moments: dict[int, float] = {}
         self.lost = 0

@@ -62,6 +62,7 @@ class RobotRun:
         verdicts: By trajectory, as they stand.
         errors: What ended it.
         overview: What the sidecar knows of it, or ``None``.
+        watched_as: What the sidecar calls it, in watch mode.
     """
 
     protocol: str
@@ -76,6 +77,7 @@ class RobotRun:
     verdicts: dict[int, WellVerdict] = field(default_factory=dict)
     errors: tuple[str, ...] = ()
     overview: Any = None
+    watched_as: str = ""
 
 
 @dataclass(frozen=True)

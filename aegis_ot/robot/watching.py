@@ -145,6 +145,12 @@ class _Watch:
 
     def begin(self) -> None:
         self._courier.register(self._policies.capture_timeout_s)
+        self._run.watched_as = self._courier.run
+        if self._courier.run != self.name:
+            self._screen.says(
+                f"This run was watched before; what is seen from now on is kept apart, as "
+                f"{self._courier.run!r}."
+            )
         self._clock.look()
 
     def take(self, step: Any) -> None:

@@ -44,6 +44,8 @@ class Courier:
         rest: Sleeps in short slices and raises when the run is being stopped.
 
     Attributes:
+        run: What the sidecar calls the run; another name where another start has the one it
+            came with.
         on_trouble: Told, during retries, what the trouble is and for how long they go on, s.
         away: Whether the sidecar is given up for now; then only cheap looks are taken.
         stale: Trajectories of which a keyframe was, or will be, sent too late.
@@ -59,7 +61,7 @@ class Courier:
         rest: Callable[[float], None],
     ) -> None:
         self._link = link
-        self._run = run
+        self.run = run
         self._about = about
         self._rest = rest
         self._sent: list[Keyframe] = []
@@ -138,7 +140,7 @@ class Courier:
     def verdict(self, number: int) -> Verdict | None:
         """Ask once, for 0.15 s at most, for a verdict."""
         try:
-            return self._link.verdict(self._run, number, _POLL_S, REQUEST_S)
+            return self._link.verdict(self.run, number, _POLL_S, REQUEST_S)
         except RunUnknown:
             self._register(time.monotonic() + REQUEST_S)
             self._queue_again(0)
@@ -151,7 +153,7 @@ class Courier:
 
     def action(self, number: int, within_s: float) -> str | None:
         """Ask once what a person told the robot that is paused at a trajectory so long, s."""
-        return self._link.action(self._run, number, within_s, REQUEST_S)
+        return self._link.action(self.run, number, within_s, REQUEST_S)
 
     def order(self) -> Order | None:
         """What a person told the moving robot on the sidecar's page; each order once."""
@@ -204,7 +206,7 @@ class Courier:
             self._outbox.abandon(number, reason)
         self._outbox.flush(deadline)
         left = max(SLICE_S, deadline - time.monotonic())
-        self._link.finish(self._run, outcome, detail[:2000], left)
+        self._link.finish(self.run, outcome, detail[:2000], left)
 
     def close(self) -> None:
         """Drop the connection."""
@@ -263,7 +265,7 @@ class Courier:
             self._register(deadline)
         mended = 0
         while self._pending:
-            keyframe = self._pending[0]
+            keyframe = replace(self._pending[0], run=self.run)
             try:
                 left = min(each_s, deadline - time.monotonic())
                 self._link.keyframe(keyframe, max(SLICE_S, left))
@@ -290,7 +292,7 @@ class Courier:
     def _close_gap(self, gap: SequenceGap, keyframe: Keyframe) -> None:
         if gap.expected > keyframe.sequence:
             raise SidecarRefused(
-                f"{gap} It has other keyframes under these numbers: run {self._run!r} was used "
+                f"{gap} It has other keyframes under these numbers: run {self.run!r} was used "
                 "before. Give the run a new run_id."
             )
         self._queue_again(gap.expected)
@@ -303,7 +305,8 @@ class Courier:
         self._pending.extendleft(self._late(keyframe) for keyframe in reversed(again))
 
     def _register(self, deadline: float) -> None:
-        self._link.start(self._run, self._about, max(SLICE_S, deadline - time.monotonic()))
+        left = max(SLICE_S, deadline - time.monotonic())
+        self.run = self._outbox.run = self._link.start(self.run, self._about, left)
         self._registered = True
 
     def _late(self, keyframe: Keyframe) -> Keyframe:

@@ -41,7 +41,6 @@ class Holding:
         state, waits: Of the run.
         result: Holds and verdicts are counted here.
         link: Makes a further connection to the sidecar.
-        run: Identifier of the run.
         recovery: Puts failed wells right where it may; asked before the policies.
     """
 
@@ -55,12 +54,10 @@ class Holding:
         waits: Waits,
         result: WatchSummary,
         link: Callable[[CheckStop], SidecarLink],
-        run: str,
         recovery: Recovery | None = None,
     ) -> None:
         self._recovery = recovery
         self._link = link
-        self._run = run
         self._courier = courier
         self._link_loss = link_loss
         self._settings = settings
@@ -208,7 +205,7 @@ class Holding:
     def _pause(self, number: int, text: str, report: Callable[[float, str], None]) -> None:
         """Wait for a person, then tell how long that took and where it was answered."""
         began = time.monotonic()
-        page = PageAnswers(self._link, self._run, number, lambda: self._state.paused)
+        page = PageAnswers(self._link, self._courier.run, number, lambda: self._state.paused)
         where = self._operator.pause(
             text, lambda: self._told(number, time.monotonic() - began), page
         )

@@ -21,7 +21,8 @@ WIRE_VERSION = 1
 
 
 class RunUnknown(LinkError):
-    """404: the sidecar does not know the run (it was restarted without its store)."""
+    """The sidecar does not know this start: it was restarted without its store, or has another run
+    of this name."""
 
 
 class SequenceGap(LinkError):
@@ -82,6 +83,7 @@ class SidecarLink:
         token: Bearer token, or ``None``.
         check_stop: Called at least every 0.15 s during every wait; whatever it raises ends the
             request and reaches the caller.
+        nonce: Drawn anew for each start of a run: tells it from another one of the same name.
 
     Attributes:
         order: The last one that came with an answer.
@@ -90,24 +92,36 @@ class SidecarLink:
     :class:`SidecarGarbled`, with the address, what happened and what to do.
     """
 
-    def __init__(self, url: str, token: str | None, check_stop: CheckStop) -> None:
+    def __init__(self, url: str, token: str | None, check_stop: CheckStop, nonce: str = "") -> None:
         self.url = url
         self.order: Order | None = None
-        self._http = HttpClient(url, token, check_stop)
+        self.nonce = nonce
+        headers = {"X-Aegis-Start": nonce} if nonce else {}
+        self._http = HttpClient(url, token, check_stop, headers)
 
     def health(self, timeout_s: float) -> dict[str, Any]:
         """What the sidecar says of itself."""
         return self._request("GET", "/v1/health", None, timeout_s)
 
-    def start(self, run: str, about: Mapping[str, Any], timeout_s: float) -> None:
-        """Register the run; the same run twice is the same run."""
-        answer = self._request("PUT", f"/v1/runs/{quote(run, safe='')}", dict(about), timeout_s)
+    def start(self, run: str, about: Mapping[str, Any], timeout_s: float) -> str:
+        """Register the run; the same start twice is the same run.
+
+        Returns:
+            What it is called from now on: another name where another start has this one.
+        """
+        body = {**about, "run": run, "nonce": self.nonce}
+        answer = self._request("PUT", f"/v1/runs/{quote(run, safe='')}", body, timeout_s)
         wire = answer.get("wire")
         if wire != WIRE_VERSION:
             raise self._garbled(
                 f"it speaks wire version {wire!r}, this robot {WIRE_VERSION}",
                 "install the same version of aegis-ot on both machines",
             )
+        own = self.nonce[:8]
+        if answer.get("nonce", "") != self.nonce and own not in run:
+            # An older sidecar takes all starts of a name for one.
+            return self.start(f"{run}-{own}", about, timeout_s)
+        return str(answer.get("run") or run)
 
     def keyframe(self, keyframe: Keyframe, timeout_s: float, ago_s: float = 0.0) -> Captured:
         """Have one keyframe captured.
@@ -212,6 +226,8 @@ class SidecarLink:
             )
         if status == 404:
             raise RunUnknown(f"The sidecar at {self.url} does not know this run{said}.")
+        if status == 409 and _error_code(answer) == "other_start":
+            raise RunUnknown(f"The sidecar at {self.url} has another run of this name{said}.")
         if status == 409:
             raise self._gap(answer, said)
         if status == 503 and _error_code(answer) == "camera":

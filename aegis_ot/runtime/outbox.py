@@ -23,29 +23,32 @@ class Outbox:
         run: Identifier of the run.
         register: Says, until a moment of ``time.monotonic`` (s), which run this is, to a sidecar
             that does not know it.
+
+    Attributes:
+        run: May change when it registers.
     """
 
     def __init__(self, link: SidecarLink, run: str, register: Callable[[float], None]) -> None:
         self._link = link
-        self._run = run
+        self.run = run
         self._register = register
         self._messages: deque[Callable[[float], None]] = deque()
 
     def abandon(self, number: int, reason: str) -> None:
         """A trajectory is given up."""
-        self._messages.append(lambda most: self._link.abandon(self._run, number, reason, most))
+        self._messages.append(lambda most: self._link.abandon(self.run, number, reason, most))
 
     def hold(self, told: Mapping[str, Any]) -> None:
         """How a hold went."""
-        self._messages.append(lambda most: self._link.report_hold(self._run, told, most))
+        self._messages.append(lambda most: self._link.report_hold(self.run, told, most))
 
     def recovery(self, told: Mapping[str, Any]) -> None:
         """What the robot does by itself about a failed delivery."""
-        self._messages.append(lambda most: self._link.report_recovery(self._run, told, most))
+        self._messages.append(lambda most: self._link.report_recovery(self.run, told, most))
 
     def outage(self, seconds: float, said: str) -> None:
         """For how long there was no link, and what was said of it."""
-        self._messages.append(lambda most: self._link.report_outage(self._run, seconds, said, most))
+        self._messages.append(lambda most: self._link.report_outage(self.run, seconds, said, most))
 
     def flush(self, deadline: float) -> None:
         """Send what there is until a moment of ``time.monotonic``, s; the rest stays.

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import time
+import uuid
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -52,6 +54,7 @@ class Watcher:
         file_name: ``co_filename`` of the protocol's code.
         layer1: Layer 1's report, for the sidecar's page.
         tips: What Layer 1 knows of them; without it nothing is recovered.
+        text: The protocol's, where it is known.
     """
 
     def __init__(
@@ -61,10 +64,12 @@ class Watcher:
         file_name: str,
         layer1: Any = None,
         tips: TipKnowledge | None = None,
+        text: str = "",
     ) -> None:
         self._settings = settings
         self._simulating = bool(protocol.is_simulating())
         self.run_id = settings.new_run_id()
+        self._nonce = self.run_id if settings.run_id is None else uuid.uuid4().hex
         self.result = WatchSummary(watching=settings.watch_simulation or not self._simulating)
         self._state = RunState(protocol)
         self._waits = Waits(self._state)
@@ -79,6 +84,7 @@ class Watcher:
         self._about = about_run(protocol, self.run_id, file_name, self._simulating) | {
             "guard": about_guard(settings),
             "layer1": None if layer1 is None else about_layer1(layer1),
+            "protocol_sha256": hashlib.sha256(text.encode()).hexdigest() if text else "",
         }
         self._refuse: Callable[[RunAborted], None] = lambda error: refuse_everything(
             protocol, error, file_name
@@ -104,6 +110,7 @@ class Watcher:
         self._line = line = self._connect(tap)
         try:
             self._stoppable(lambda: line.loss.insist(line.loss.register))
+            self._say_name(line)
         except BaseException:
             self._operator.end()
             line.courier.close()
@@ -220,7 +227,18 @@ class Watcher:
             courier.move_on()
             return
         line.loss.insist(lambda: courier.deliver(timeout))
+        self._say_name(line)
         line.holding.obey(keyframe.trajectory)
+
+    def _say_name(self, line: _Line) -> None:
+        """The sidecar gave the run a name of its own: another start has the one it came with."""
+        before, self.run_id = self.run_id, line.courier.run
+        if before != self.run_id:
+            self._operator.comment(
+                f"The sidecar has another run {before!r}; this one is watched as {self.run_id!r}, "
+                "and no frame or verdict of the other counts. Give each run a run_id of its own, "
+                "or none."
+            )
 
     def _abandon(self, step: Abandon) -> None:
         self.result.abandoned.add(step.trajectory)
@@ -244,7 +262,7 @@ class Watcher:
         assert url is not None
 
         def link(check: CheckStop) -> SidecarLink:
-            return SidecarLink(url, token, check)
+            return SidecarLink(url, token, check, self._nonce)
 
         courier = Courier(link(self._waits.check), self.run_id, self._about, self._waits.rest)
         loss = LinkLoss(
@@ -264,7 +282,7 @@ class Watcher:
             self._tracker.mark_recoveries(self._recovery.of_mount)
         holding = Holding(
             courier, loss, self._settings, self._operator, self._state, self._waits, self.result,
-            link, self.run_id, self._recovery,
+            link, self._recovery,
         )  # fmt: skip
         return _Line(courier, loss, holding)
 

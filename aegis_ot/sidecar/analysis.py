@@ -11,7 +11,7 @@ from enum import Enum
 from typing import Any, Protocol
 
 from ..vision.camera import Frame
-from ..vocabulary import Keyframe, Outcome, Route, Verdict
+from ..vocabulary import Keyframe, KeyframeKind, Outcome, Route, Verdict
 
 Evidence = Mapping[str, Any]
 """What the page and the report show beside a verdict: boxes, scores, measured µL. Must turn
@@ -71,6 +71,12 @@ class _UnscoredRun:
 def undecided(run: str, trajectory: int, reason: str) -> Verdict:
     """The verdict on a trajectory that could not be scored."""
     return Verdict(run, trajectory, Outcome.UNDECIDED, Route.UNCALIBRATED, reason=reason)
+
+
+def tell_late(kind: KeyframeKind | None = None) -> str:
+    """Why a trajectory cannot be judged whose frame may not show its moment."""
+    moment = "moment" if kind is None else f"{kind.value.replace('_', '-')} moment"
+    return f"The robot had moved on before a frame of the {moment} was taken: nobody saw it."
 
 
 def plain(value: Any) -> Any:

@@ -8,7 +8,7 @@ import time
 from collections.abc import AsyncIterator
 from typing import Annotated, Any
 
-from fastapi import Depends, FastAPI, Path, Query, Request
+from fastapi import Depends, FastAPI, Header, Path, Query, Request
 from starlette.concurrency import run_in_threadpool
 from starlette.responses import Response
 
@@ -63,6 +63,8 @@ Wait = Annotated[float, Query(ge=0, allow_inf_nan=False)]
 Within = Annotated[float | None, Query(ge=0, allow_inf_nan=False)]
 Ago = Annotated[float, Query(ge=-HISTORY_S, le=HISTORY_S, allow_inf_nan=False)]
 """How long before its arrival the moment of a keyframe was, s; negative: it is still to come."""
+Start = Annotated[str, Header(alias="X-Aegis-Start", max_length=200)]
+"""The nonce of the start that speaks; empty from a guard that has none."""
 
 
 def create_app(
@@ -138,17 +140,22 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
     @app.put("/v1/runs/{run}", openapi_extra=takes(RunStart))
     async def register(run: Run, start: Annotated[RunStart, body_as(RunStart)]) -> dict[str, Any]:
         _must_match(run, start.run)
-        await run_in_threadpool(sidecar.register, start)
-        return {"run": run, "wire": WIRE}
+        named = await run_in_threadpool(sidecar.register, start)
+        told = {"nonce": start.nonce} if start.nonce else {}
+        return {"run": named, "wire": WIRE, **told}
 
     @app.post("/v1/runs/{run}/keyframes", openapi_extra=takes(Keyframe))
     async def keyframe(
-        run: Run, arrived: Annotated[float, Depends(_now)], request: Request, ago: Ago = 0.0
+        run: Run,
+        arrived: Annotated[float, Depends(_now)],
+        request: Request,
+        ago: Ago = 0.0,
+        start: Start = "",
     ) -> dict[str, Any]:
         keyframe = parse(Keyframe, await read_body(request))
         _must_match(run, keyframe.run)
         moment = arrived - ago
-        session = await run_in_threadpool(sidecar.session, run)
+        session = await run_in_threadpool(sidecar.session, run, start)
         captured = await run_in_threadpool(session.capture, keyframe, moment)
         return {
             "sequence": keyframe.sequence,
@@ -157,8 +164,10 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         } | _order(session)
 
     @app.get("/v1/runs/{run}/trajectories/{number}/verdict")
-    async def verdict(run: Run, number: Number, wait: Wait = 0.0) -> dict[str, Any]:
-        session = await run_in_threadpool(sidecar.session, run)
+    async def verdict(
+        run: Run, number: Number, wait: Wait = 0.0, start: Start = ""
+    ) -> dict[str, Any]:
+        session = await run_in_threadpool(sidecar.session, run, start)
         found = await sidecar.bell.until(lambda: session.ask(number), min(wait, MAX_WAIT))
         answer: dict[str, Any] = {"verdict": None if found is None else to_json(found)}
         if found is None and session.awaiting_operator(number):
@@ -167,9 +176,9 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
 
     @app.get("/v1/runs/{run}/trajectories/{number}/action")
     async def action(
-        run: Run, number: Number, wait: Wait = 0.0, within: Within = None
+        run: Run, number: Number, wait: Wait = 0.0, within: Within = None, start: Start = ""
     ) -> dict[str, Any]:
-        session = await run_in_threadpool(sidecar.session, run)
+        session = await run_in_threadpool(sidecar.session, run, start)
         found = await sidecar.bell.until(
             lambda: session.action(number, within), min(wait, MAX_WAIT)
         )
@@ -177,30 +186,42 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
 
     @app.post("/v1/runs/{run}/trajectories/{number}/abandon", openapi_extra=takes(Abandon))
     async def abandon(
-        run: Run, number: Number, body: Annotated[Abandon, body_as(Abandon)]
+        run: Run, number: Number, body: Annotated[Abandon, body_as(Abandon)], start: Start = ""
     ) -> dict[str, Any]:
-        await run_in_threadpool(lambda: sidecar.session(run).abandon(number, body.reason))
+        session = await run_in_threadpool(sidecar.session, run, start)
+        await run_in_threadpool(session.abandon, number, body.reason)
         return {}
 
     @app.post("/v1/runs/{run}/hold", openapi_extra=takes(Hold))
-    async def hold(run: Run, body: Annotated[Hold, body_as(Hold)]) -> dict[str, Any]:
+    async def hold(
+        run: Run, body: Annotated[Hold, body_as(Hold)], start: Start = ""
+    ) -> dict[str, Any]:
+        await run_in_threadpool(sidecar.session, run, start)
         await run_in_threadpool(sidecar.hold, run, body)
         return {}
 
     @app.post("/v1/runs/{run}/recovery", openapi_extra=takes(Recovery))
-    async def recovery(run: Run, body: Annotated[Recovery, body_as(Recovery)]) -> dict[str, Any]:
+    async def recovery(
+        run: Run, body: Annotated[Recovery, body_as(Recovery)], start: Start = ""
+    ) -> dict[str, Any]:
+        await run_in_threadpool(sidecar.session, run, start)
         await run_in_threadpool(sidecar.recovery, run, body)
         return {}
 
     @app.post("/v1/runs/{run}/incident", openapi_extra=takes(Incident))
-    async def incident(run: Run, body: Annotated[Incident, body_as(Incident)]) -> dict[str, Any]:
-        await run_in_threadpool(sidecar.require, run)
+    async def incident(
+        run: Run, body: Annotated[Incident, body_as(Incident)], start: Start = ""
+    ) -> dict[str, Any]:
+        await run_in_threadpool(sidecar.session, run, start)
         said = f"The robot was not served for {body.seconds:.0f} s. {body.text}".strip()
         await run_in_threadpool(sidecar.note, run, body.kind, said, body.seconds)
         return {}
 
     @app.post("/v1/runs/{run}/finish", openapi_extra=takes(Finish))
-    async def finish(run: Run, body: Annotated[Finish, body_as(Finish)]) -> dict[str, Any]:
+    async def finish(
+        run: Run, body: Annotated[Finish, body_as(Finish)], start: Start = ""
+    ) -> dict[str, Any]:
+        await run_in_threadpool(sidecar.session, run, start)
         await run_in_threadpool(sidecar.finish, run, body)
         return {}
 

@@ -39,6 +39,13 @@ class Records(Database):
             ),
         )
 
+    def withdraw_verdict(self, verdict: Verdict) -> None:
+        """Keep this verdict in place of the one that was given before."""
+        self._write(
+            "UPDATE verdicts SET verdict = ? WHERE run = ? AND trajectory = ?",
+            (json.dumps(to_json(verdict)), verdict.run, verdict.trajectory),
+        )
+
     def verdicts(self, run: str) -> list[tuple[Verdict, dict[str, Any], float]]:
         """The analyser's verdicts in order: verdict, evidence, when (s since the epoch)."""
         rows = self._read("SELECT * FROM verdicts WHERE run = ? ORDER BY trajectory", run)

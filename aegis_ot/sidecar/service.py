@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import threading
 import time
 from collections.abc import Sequence
@@ -22,6 +23,7 @@ from .cameras import BoundCameras, FreeRunning, Health
 from .config import SidecarConfig
 from .grabbing import Grabber
 from .housekeeping import Housekeeper, Tidied
+from .identity import check_start, kept_apart, name_taken
 from .incidents import Incidents
 from .journal import event
 from .messages import compose
@@ -82,27 +84,53 @@ class Sidecar:
         self._grabber = Grabber(camera, config.camera.timeout_s, self)
         self.aim = Aim(config, camera, lambda: self._grabber.last)
         self._closed = False
+        self._about = about_sidecar(config, camera)
         self._audits = None
         if auditor is not None and config.audit:
             self._audits = Audits(auditor, self.store, self._settled, self.bell.ring)
         self._housekeeper = Housekeeper(self.store, config.retention, self._tidied)
 
-    def register(self, start: RunStart) -> None:
-        """A run starts, or the robot says again that it has."""
-        if self.store.register(start, about_sidecar(self.config, self.camera)):
-            self._met.add(start.run)
-            event("run", run=start.run, protocol=start.protocol, robot=start.robot_name)
-        self.store.reopen(start.run)
-        if start.mode == "watch" and isinstance(self.camera, (FreeRunning, BoundCameras)):
-            self.camera.remember()
-        self.session(start.run)
-        self.bell.ring()
+    def register(self, start: RunStart) -> str:
+        """A run starts, or the robot says again that it has.
 
-    def session(self, run: str) -> Session:
-        """The run in memory, from the store if need be.
+        Returns:
+            What the run is called here: another name where another start has the one it came with.
 
         Raises:
-            WireError: 404 if the run was never registered.
+            WireError: 422 if another start has it, and the guard is too old to take another.
+        """
+        run, first = start.run, None
+        for number in itertools.count(2):
+            if self.store.register(start.model_copy(update={"run": run}), self._about):
+                self._met.add(run)
+                event("run", run=run, protocol=start.protocol, robot=start.robot_name)
+                break
+            known = self.store.start_of(run)
+            if known is None or start.is_again(known):
+                break
+            if not start.nonce:
+                raise name_taken(known)
+            first = first or known
+            run = f"{start.run[:120]}-{number}"
+        if first is not None:
+            self._incidents.begin(run, "identifier", kept_apart(first, run))
+            self._incidents.end(run, "identifier")
+        self.store.reopen(run)
+        if start.mode == "watch" and isinstance(self.camera, (FreeRunning, BoundCameras)):
+            self.camera.remember()
+        self.session(run)
+        self.bell.ring()
+        return run
+
+    def session(self, run: str, nonce: str | None = None) -> Session:
+        """The run in memory, from the store if need be.
+
+        Args:
+            run: Its name.
+            nonce: Of the start that asks; ``None`` for a person.
+
+        Raises:
+            WireError: 404 if the run was never registered, 409 if it is another start's.
         """
         with self._opening:
             session = self._sessions.get(run)
@@ -122,6 +150,8 @@ class Sidecar:
                     self.config.operator.timeout_s,
                     None if self._detector is None else ViewWatch(self._detector),
                 )
+            if nonce is not None:
+                check_start(run, session.nonce, nonce)
             session.asked = time.monotonic()
             return session
 
@@ -134,7 +164,6 @@ class Sidecar:
 
     def hold(self, run: str, hold: Hold) -> None:
         """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
-        self.require(run)
         self.store.add_hold(run, hold)
         watched = (self.store.run(run) or {}).get("mode") == "watch"
         if not watched or hold.resolution == OPERATOR:  # there keyframes come in a pause
@@ -156,7 +185,6 @@ class Sidecar:
 
     def recovery(self, run: str, told: Recovery) -> None:
         """Keep what the robot does by itself about a failed delivery."""
-        self.require(run)
         self.store.add_recovery(run, told)
         event("recovery", run=run, **told.model_dump())
         if told.state == "recovered":  # people were told that it failed

@@ -6,13 +6,14 @@ import logging
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from ..errors import StoreError
 from ..vision.camera import Frame
 from ..vision.view import ViewWatch
 from ..vocabulary import Keyframe, Outcome, Verdict
-from .analysis import Analyser
+from .analysis import Analyser, tell_late, undecided
 from .bell import Bell
 from .decisions import effective
 from .journal import event
@@ -48,6 +49,7 @@ class Session:
 
     Attributes:
         asked: When it was last asked for, ``time.monotonic``, s.
+        nonce: Of the start that it is; empty if its guard has none.
     """
 
     def __init__(
@@ -72,6 +74,9 @@ class Session:
         self._view = view
         self._capturing = threading.Lock()
         self._state = threading.Lock()
+        start = store.start_of(run)
+        self.nonce = "" if start is None else start.nonce
+        self._late: set[int] = set()
         store.forget_torn(run)
         self._next = store.next_sequence(run)
         self._at = 0
@@ -296,18 +301,31 @@ class Session:
         kept = self._store.keyframe(self.run, keyframe.sequence)
         if kept is None:
             raise StoreError(f"Keyframe {keyframe.sequence} is missing from the store.")
-        same = (kept.keyframe.trajectory, kept.keyframe.kind)
-        if same != (keyframe.trajectory, keyframe.kind):
+        # Whether it comes late is no part of the moment that it is for.
+        if replace(kept.keyframe, late=keyframe.late) != keyframe:
             raise WireError(
                 409,
                 "taken",
-                f"Keyframe {keyframe.sequence} was the {kept.keyframe.kind.value} of trajectory "
-                f"{kept.keyframe.trajectory}; it cannot also be the {keyframe.kind.value} of "
-                f"trajectory {keyframe.trajectory}.",
+                f"Keyframe {keyframe.sequence} was another moment: the "
+                f"{kept.keyframe.kind.value} of trajectory {kept.keyframe.trajectory}, with other "
+                "content than this one.",
                 "A run that starts anew needs a new identifier.",
                 expected=self._next,
             )
+        if keyframe.late and not kept.keyframe.late:
+            self._came_late(kept.keyframe)
         return kept
+
+    def _came_late(self, keyframe: Keyframe) -> None:
+        """The robot moved on before it heard of this capture: the frame may show anything."""
+        with self._state:
+            self._late.add(keyframe.trajectory)
+            verdict = self._verdicts.get(keyframe.trajectory)
+            self._store.mark_late(self.run, keyframe.sequence)
+            if verdict is not None:
+                unseen = undecided(self.run, keyframe.trajectory, tell_late(keyframe.kind))
+                self._store.withdraw_verdict(unseen)
+                self._verdicts[keyframe.trajectory] = unseen
 
     def _resume(self) -> None:
         """Queue again what a killed sidecar had kept but not judged."""
@@ -319,6 +337,9 @@ class Session:
 
     def _publish(self, verdict: Verdict, evidence: dict[str, Any]) -> None:
         """Called by the worker. A verdict that cannot be kept still reaches the robot."""
+        with self._state:
+            if verdict.trajectory in self._late:
+                verdict = undecided(self.run, verdict.trajectory, tell_late())
         try:
             self._store.add_verdict(verdict, evidence)
         except StoreError as error:

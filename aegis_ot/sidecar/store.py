@@ -107,6 +107,11 @@ class Store(Records):
         """Whether the run was registered."""
         return bool(self._read("SELECT 1 FROM runs WHERE run = ?", run))
 
+    def start_of(self, run: str) -> RunStart | None:
+        """What its robot said when the run registered; ``None`` if it never did."""
+        rows = self._read("SELECT start FROM runs WHERE run = ?", run)
+        return RunStart.model_validate_json(rows[0]["start"]) if rows else None
+
     def finish(self, run: str, finish: Finish) -> None:
         """Keep how a run ended; the last word counts."""
         self._end(run, finish.outcome, finish.detail)
@@ -201,6 +206,14 @@ class Store(Records):
                 captured.exposed_after_s,
                 captured.captured,
             ),
+        )
+
+    def mark_late(self, run: str, sequence: int) -> None:
+        """Keep that the robot had moved on before it heard that this keyframe was captured."""
+        self._write(
+            "UPDATE keyframes SET keyframe = json_set(keyframe, '$.late', json('true')) "
+            "WHERE run = ? AND sequence = ?",
+            (run, sequence),
         )
 
     def keyframe(self, run: str, sequence: int) -> Captured | None:

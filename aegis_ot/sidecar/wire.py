@@ -97,9 +97,11 @@ class Layer1Words(Body):
 
 
 class RunStart(Body):
-    """A run registers."""
+    """A run registers. ``nonce`` is this start's own: drawn anew whenever a guard begins."""
 
     run: str
+    nonce: Word = ""
+    protocol_sha256: Word = ""
     protocol: Word = ""
     robot: Word = ""
     robot_name: Word = ""
@@ -110,6 +112,19 @@ class RunStart(Body):
     mode: Literal["guard", "watch"] = "guard"
     guard: GuardWords | None = None
     layer1: Layer1Words | None = None
+
+    def is_again(self, other: RunStart) -> bool:
+        """Whether this is the same start, told once more, and not another one of this name.
+
+        What one of both leaves out (an older guard, an older sidecar) tells nothing apart.
+        """
+        always = ("protocol", "robot", "robot_name", "simulated", "started", "mode")
+        told = [
+            (getattr(self, name), getattr(other, name)) for name in ("nonce", "protocol_sha256")
+        ]
+        return all(getattr(self, name) == getattr(other, name) for name in always) and all(
+            mine == theirs for mine, theirs in told if mine and theirs
+        )
 
 
 class Abandon(Body):

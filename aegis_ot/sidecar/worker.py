@@ -13,7 +13,7 @@ from typing import Any
 from ..errors import CameraError, StoreError
 from ..vision.camera import Frame
 from ..vocabulary import Keyframe, KeyframeKind, Verdict
-from .analysis import Analyser, Judged, RunAnalyser, plain, undecided
+from .analysis import Analyser, Judged, RunAnalyser, plain, tell_late, undecided
 from .cameras.codec import decode_jpeg
 from .store import Store
 
@@ -121,7 +121,9 @@ class AnalysisWorker:
             time.sleep(max(0.0, begin - time.monotonic()))
             if keyframe.trajectory in self._dropped:
                 continue
-            if run is not None:
+            if keyframe.late:
+                self._failed[keyframe.trajectory] = tell_late(keyframe.kind)
+            elif run is not None:
                 self._observe(run, keyframe, frame)
             else:
                 self._failed[keyframe.trajectory] = trouble

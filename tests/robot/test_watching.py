@@ -140,6 +140,21 @@ def test_an_unguarded_run_is_watched_to_its_end(client: RobotClient, tmp_path: P
     assert not any(f["late"] for f in frames[4:])
 
 
+def test_a_run_that_is_watched_a_second_time_is_kept_apart(
+    client: RobotClient, tmp_path: Path
+) -> None:
+    shown = Shown()
+    with sidecar(tmp_path) as url:
+        view = begin(client, tmp_path)
+        PastLink(url, None).start(f"watch-{view.id}", {"mode": "watch", "started": 1.5}, 2.0)
+        run = watch_run(client, view, PastLink(url, None), shown, poll_s=0.05)
+        with Robot(url, run.watched_as) as reader:
+            seen = reader.overview()
+    assert run.watched_as == f"watch-{view.id}-2"
+    assert any("This run was watched before" in said for said in shown.said)
+    assert len(seen["trajectories"]) == len(run.verdicts) == 4
+
+
 def test_a_failed_delivery_pauses_the_robot_by_its_api(client: RobotClient, tmp_path: Path) -> None:
     shown = Shown()
     shown.wants["The watch paused"] = "play"

@@ -120,7 +120,7 @@ class Handler(BaseHTTPRequestHandler):
         run = words[2]
         if len(words) == 3:
             owner.keyframes.setdefault(run, [])
-            self.answer(200, {"run": run, "wire": 1})
+            self.answer(200, {"run": run, "wire": 1, "nonce": self.body.get("nonce", "")})
         elif run not in owner.keyframes:
             self.answer(404, {"error": {"code": "run_unknown", "message": "Unknown.", "hint": ""}})
         elif words[3] == "keyframes":

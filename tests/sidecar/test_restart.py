@@ -208,7 +208,7 @@ def test_what_a_power_cut_tore_is_asked_for_again(
         assert (answer.status_code, answer.json()["expected"]) == (409, 5)
         for sequence in (5, 6, 7):
             assert robot.send(sequence, late=True).status_code == 200
-        assert robot.verdict(1)["verdict"]["outcome"] == "pass"
+        assert robot.verdict(1)["verdict"]["outcome"] == "undecided"
         kept = [k["sequence"] for t in robot.overview()["trajectories"] for k in t["keyframes"]]
         assert kept == list(range(8))
 
