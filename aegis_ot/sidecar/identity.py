@@ -43,6 +43,9 @@ def check_start(run: str, known: str, nonce: str) -> None:
 
 
 def _describe(start: RunStart) -> str:
-    began = f"begun {datetime.fromtimestamp(start.started):%Y-%m-%d %H:%M:%S}"
-    what = (start.protocol, start.robot_name and f"on {start.robot_name}", start.started and began)
-    return ", ".join(filter(None, what)) or "of which its robot told nothing"
+    told = [start.protocol] if start.protocol else []
+    if start.robot_name:
+        told.append(f"on {start.robot_name}")
+    if start.started:
+        told.append(f"begun {datetime.fromtimestamp(start.started):%Y-%m-%d %H:%M:%S}")
+    return ", ".join(told) or "of which its robot told nothing"
