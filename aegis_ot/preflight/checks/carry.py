@@ -61,6 +61,7 @@ class Carry(Check):
         open_: dict[tuple[Tip, Well], list[tuple[Well, Met]]] = {}
         found: dict[tuple[Tip, Well, Well], Violation] = {}
         rising: dict[Well, Well] = {}
+        twins: dict[Well, Well] = {}
         for visit in case.trace.visits:
             if not visit.contact or not visit.carried:
                 continue
@@ -84,6 +85,8 @@ class Carry(Check):
                     again = True  # nothing new
                 elif self._let_be(case, visit, origin, met):
                     again = not once
+                    if case.are_twins(origin, well):
+                        twins.setdefault(origin, well)
                 elif case.left_over and self.pooled and _is_rising(case, origin, well):
                     rising.setdefault(origin, well)
                     again = False
@@ -97,6 +100,11 @@ class Carry(Check):
         for origin, well in islice(rising.items(), 1):
             why = f"{origin.ref} and {well.ref} may hold rising standards, or two samples"
             yield Doubt(why, roles_of=tuple(rising))
+        for origin, well in islice(twins.items(), 1):
+            name = origin.liquids[0]
+            yield Doubt(
+                f"{origin.ref} and {well.ref}, both '{name}', may hold the same or two things"
+            )
         if doubt := self._unnamed_contact(case, carriers) or self._mixed_contact(case):
             yield doubt
 

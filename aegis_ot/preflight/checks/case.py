@@ -162,6 +162,8 @@ class Case:
             and self.roles.level(one.ref) == self.roles.level(other.ref)
         ):
             return True
+        if self.are_twins(one, other):
+            return True
         if {one.ref, other.ref} <= roles.unnamed and one.liquids == other.liquids:
             return one.ref not in roles.apart
         mine, theirs = roles.by_well.get(one.ref), roles.by_well.get(other.ref)
@@ -170,6 +172,17 @@ class Case:
         if not self.family.roles[mine.role].one_liquid:
             return False
         return self.compound(one) == self.compound(other)
+
+    def are_twins(self, one: Well, other: Well) -> bool:
+        """Whether two wells that the run fills were loaded under one name with what a role of
+        theirs says: nothing tells one template from the other.
+        """
+        loaded = (role for role, spec in self.family.roles.items() if spec.loaded_with)
+        return (
+            bool(one.liquids)
+            and one.liquids == other.liquids
+            and not self.of(one).isdisjoint(self.of(other).intersection(loaded))
+        )
 
     def compound(self, well: Well) -> tuple[str, ...]:
         """What a liquid's name says besides its dose: ``("cisplatin",)``, ``("b",)``."""

@@ -205,7 +205,7 @@ class Receives(Check):
 
     def _judged(self, case: Case) -> Iterator[Well]:
         for well in case.trace.wells.values():
-            if not case.has(well, self.wells):
+            if not case.has(well, self.wells) or self._is_circular(case, well):
                 continue
             usage = case.trace.usage.get(well.ref, Usage())
             if not usage.first_drawn and (usage.received or case.has(well, self.always)):
@@ -217,6 +217,13 @@ class Receives(Check):
                 continue  # among sources: a tube that this run leaves out
             if ref not in visited and case.roles.has(ref, self.always):
                 yield Well(ref)
+
+    def _is_circular(self, case: Case, well: Well) -> bool:
+        """Whether only the liquid in question tells what the well is: its control's tube."""
+        if well.ref not in case.roles.followed:
+            return False
+        roles = case.family.roles
+        return any(set(self.liquid) & set(roles[role].follows) for role in case.of(well))
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,8 @@ class UniformVolume(Check):
     apart. Where it comes out of several tubes, each of which gives as much to all its wells, and
     no declared liquid says that they hold the same, each tube may be an assay of its own.
     End volumes are compared only where the run brings everything. A well that is shared out to
-    others beside it is left out, and one that gets nothing but what such wells held.
+    others beside it is left out, one that gets nothing but what such wells held, and a control that only its tube
+    tells: what it is given in the place of others' liquids, nothing says.
 
     Attributes:
         wells: Roles of the wells.
@@ -74,6 +75,8 @@ class UniformVolume(Check):
             or len(members) < 6
         )
         for well, got, total in members:
+            if well.ref in case.roles.followed:
+                continue
             if _differs(got, usual_got):
                 what = f"receives {microlitres(got)} of {title}; the others receive "
                 what += microlitres(usual_got)

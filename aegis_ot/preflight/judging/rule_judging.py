@@ -51,7 +51,8 @@ def _beside(reading: Reading) -> Iterable[Undecided]:
 def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided | None]:
     """Where a rule is broken, or why that cannot be said (``None`` if it can)."""
     checks = [make_check(check, rule.id) for check in rule.checks]
-    if missing := missing_needs(rule, case.roles):
+    missing = missing_needs(rule, case.roles)
+    if missing and not _are_supposed(missing, case.roles):
         demanded = {role for check in checks for role in check.demanded(case)}
         cannot_break = case.absent - demanded
         if any(cannot_break.issuperset(need.split("|")) for need in missing):
@@ -81,7 +82,16 @@ def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided 
                 violations.append(replace(result, cause=cause, warning=warning))
     if not case.confident and not violations:
         doubts.append(UNKNOWN_ASSAY)
-    return violations, undecided_by(doubts[0], rule, case) if doubts and not violations else None
+    if violations:
+        return violations, None
+    if missing:
+        return [], missing_roles(rule, case, missing)
+    return [], undecided_by(doubts[0], rule, case) if doubts else None
+
+
+def _are_supposed(needs: Sequence[str], roles: Roles) -> bool:
+    """Whether some wells may have the roles that no well surely has: enough to tell of them."""
+    return all(any(roles.has(ref, need.split("|")) for ref in roles.supposed) for need in needs)
 
 
 def _begun(message: str) -> str:

@@ -42,6 +42,7 @@ def assign_roles(
     for one in evidence:
         named = names.of(one)
         worth = _worth(one, names)
+        control = names.has_word_of_control(one.text)
         placed = False
         for ref, level in zip(one.wells, _levels(one, common), strict=True) if named else ():
             role = _fitting(named, roles, trace.sides(ref), one)
@@ -50,6 +51,10 @@ def assign_roles(
                     role = next(iter(family.roles[role].parents), None)
                 else:  # "blank (5 mg/mL sucrose)" holds none of what is measured
                     level = 0.0
+            if not one.whole:
+                roles.marked.update([ref] if control else ())
+                said = roles.also.setdefault(ref, {})
+                said.update({name: max(one.kind, said.get(name, one.kind)) for name in named})
             if role is not None and not (family.roles[role].dosed and level == 0):
                 placed = True
                 candidates.setdefault(ref, []).append(Candidate(worth, role, one, level))
@@ -94,6 +99,9 @@ def _fitting(
     if evidence.whole and side == "destination" and not passes_on:
         # "TaqMan" on a plate of reactions names the assay; the mix would be given on.
         fitting = [role for role in fitting if not specs[role].one_liquid]
+    if not fitting:  # a tube called "DMSO vehicle control" holds the vehicle
+        liquids = [liquid for role in named for liquid in specs[role].follows]
+        fitting = [liquid for liquid in liquids if specs[liquid].side == side]
     if passes_on and any(specs[role].side == "source" for role in named):
         # A plate of doses that is made here and given on is no plate of treated cells.
         plates = {r for r in fitting if specs[r].implies_contents and specs[r].side == side}

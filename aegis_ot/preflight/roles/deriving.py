@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 
 from ...vocabulary import WellRef
 from ..evidence import Kind
@@ -36,6 +36,11 @@ def derive(roles: Roles, trace: Trace) -> None:
     for name, spec in roles.family.roles.items():
         if spec.receives:
             _derive_receiving(roles, name, spec, trace)
+        if spec.loaded_with:
+            _derive_loaded_with(roles, name, spec, trace)
+    for name, spec in roles.family.roles.items():
+        if spec.follows:
+            _derive_following(roles, name, spec, trace)
 
 
 def _unsay_ends(roles: Roles, trace: Trace) -> None:
@@ -120,6 +125,80 @@ def _receives(roles: Roles, well: Well, wanted: Collection[str], made: Collectio
         if not roles.has(one.source.ref, made)
         for origin in one.liquid
     )
+
+
+def _derive_loaded_with(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
+    """Wells that stand where others are filled, and were loaded with a liquid of these roles."""
+    closure = roles.family.closure
+    for well in trace.wells.values():
+        said = roles.also.get(well.ref, {}) if well.liquids else {}
+        loaded = (role for role, kind in said.items() if kind in (Kind.LIQUID, Kind.DESCRIPTION))
+        named = frozenset[str]().union(*map(closure, loaded))
+        if named.isdisjoint(spec.loaded_with) or trace.usage[well.ref].first_drawn:
+            continue
+        assigned = roles.by_well.get(well.ref)
+        if assigned is None or not roles.is_control(assigned.role):
+            roles.derive(well.ref, name)
+
+
+def _derive_following(roles: Roles, name: str, spec: RoleSpec, trace: Trace) -> None:
+    """A well that is given what stands in a control's tube is that control.
+
+    A tube that serves most of the wells that hold what the control must not hold is everybody's,
+    as is one that only its liquid's name speaks for and that mostly serves such wells.
+    """
+    barred = {w.ref for w in trace.wells.values() if _receives(roles, w, spec.without, ())}
+    called = (ref for ref in roles.by_well if roles.is_called(ref, (name,)))
+    roles.tubes.update(ref for ref in called if trace.sides(ref)[0] == "source")
+    for source, served in trace.served.items():
+        told = source in roles.marked and name in roles.also.get(source, {})
+        marked = told or roles.has(source, (name,))
+        if not trace.usage[source].first_drawn or not (marked or roles.has(source, spec.follows)):
+            continue
+        if roles.has(source, spec.without):
+            continue
+        roles.tubes.add(source)
+        spoiled = len(served & barred)
+        if spoiled > 1 and 2 * spoiled > len(barred):
+            _say_what_it_is(roles, source, name)
+        elif marked or 2 * spoiled <= len(served):
+            new = _follow(roles, name, served, trace)
+            roles.followed |= new
+            roles.supposed |= new if not marked else set()
+
+
+def _say_what_it_is(roles: Roles, source: WellRef, control: str) -> None:
+    """Of water that is called for the control, and that all wells are given: it is water."""
+    specs = roles.family.roles
+    liquids = [role for role in roles.also.get(source, {}) if control in specs[role].may_be]
+    if liquids and roles.by_well[source].role == control:
+        roles.by_well[source].role = min(liquids)
+
+
+def _follow(roles: Roles, name: str, into: Iterable[WellRef], trace: Trace) -> set[WellRef]:
+    """Give wells a control's role, and those that are filled from them alone: no pool.
+
+    Returns those that nothing else says it of.
+    """
+    found: set[WellRef] = set()
+    kin, open_ = roles.family.are_kin, list(into)
+    made_from: dict[WellRef, set[WellRef]] = {}
+    for one in trace.transfers:
+        if trace.usage[one.source.ref].received:
+            made_from.setdefault(one.well.ref, set()).add(one.source.ref)
+    while open_:
+        ref = open_.pop()
+        assigned, used = roles.by_well.get(ref), trace.usage[ref]
+        unlike = assigned and not (assigned.whole or kin(assigned.role, name))
+        if unlike or used.first_drawn or used.drain or name in roles.derived.get(ref, ()):
+            continue
+        if any(name not in roles.of(one) for one in made_from.get(ref, ())):
+            continue
+        if not roles.has(ref, (name,)):
+            found.add(ref)
+        roles.derive(ref, name)
+        open_ += trace.served.get(ref, ())
+    return found
 
 
 def implied_contents(roles: Roles, trace: Trace) -> set[WellRef]:

@@ -32,6 +32,23 @@ class RoleNames:
             common.aliases,
         )
 
+        liquids = {role for spec in family.roles.values() for role in spec.follows}
+        words = {
+            at_control: {
+                word[0]
+                for name, spec in family.roles.items()
+                if bool(spec.follows) is at_control and (at_control or name in liquids)
+                for word in map(self._lexicon.words, spec.words)
+                if len(word) == 1
+            }
+            for at_control in (True, False)
+        }
+        self._of_control = words[True] - words[False]
+
+    def has_word_of_control(self, text: str) -> bool:
+        """Whether one of a name's words says that it is a control, not what liquid: "control"."""
+        return not self._of_control.isdisjoint(self._lexicon.words(text))
+
     def of(self, evidence: Evidence) -> list[str]:
         """The roles that a piece of evidence may give its wells, the likeliest first.
 
@@ -56,6 +73,7 @@ class RoleNames:
         various = text != key and any(map(str.isalpha, key))
         heads = self._head(text, evidence.is_name)
         named = list(dict.fromkeys(match.topic for match in heads))
+        named += [role for role in self._controls_behind(text) if self._may_serve(named, role)]
         if self._speaks_of_several(evidence, text, heads):
             return []
         several = evidence.text.rstrip("]'\"").endswith("s") and len(evidence.wells) >= _SEVERAL
@@ -82,6 +100,24 @@ class RoleNames:
         found = telling or found  # `SAMPLE_POS` is the place of a sample
         return [match for match in reversed(found) if not match.topic.startswith("!")]
 
+    def _controls_behind(self, text: str) -> set[str]:
+        """The control that something is for: "water for the NTC"; not "for samples and NTC"."""
+        words = self._lexicon.words(text)
+        start = next(
+            (at for at, word in enumerate(words) if at and word in self._joints), len(words)
+        )
+        behind = {match.topic for match in self._lexicon.find(text) if match.start >= start}
+        controls = {role for role in behind & self._family.roles.keys() if self._is_control(role)}
+        return controls if behind == controls else set()
+
+    def _is_control(self, role: str) -> bool:
+        return bool(self._family.roles[role].follows)
+
+    def _may_serve(self, named: Sequence[str], control: str) -> bool:
+        """Whether what is named, if anything is, may be a control's liquid: water, no master mix."""
+        specs = self._family.roles
+        return not named or any(control in specs[role].may_be for role in named)
+
     def _speaks_of_several(self, evidence: Evidence, text: str, heads: Sequence[Match]) -> bool:
         """Whether a text joins things that differ: "samples and NTC" says of no well which.
 
@@ -95,7 +131,14 @@ class RoleNames:
         if len(parts) < 2:
             starts = {match.start for match in heads}
             told = [{match.topic for match in heads if match.start == start} for start in starts]
-        kin = self._family.are_kin
+        specs = self._family.roles
+
+        def kin(one: str, other: str) -> bool:
+            if one not in specs or other not in specs:
+                return one == other
+            used = other in specs[one].may_be or one in specs[other].may_be
+            return used or self._family.are_kin(one, other)
+
         unlike = any(
             some != others and not all(kin(one, other) for one in some for other in others)
             for some, others in itertools.combinations(filter(None, told), 2)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -55,6 +55,12 @@ class Roles:
         unnamed: Wells with a loaded liquid whose name is none of the family's words.
         unread: Evidence that names no role that fits its wells.
         apart: Unnamed wells that each serve one well of their own, and so hold different things.
+        also: All roles that the words for a well name, with the kind of the best such words.
+        marked: Wells whose name has a word of control beside that of a liquid.
+        tubes: Sources that hold a control's liquid: they tell which wells are the control, and are
+            none.
+        followed: Wells that are a control because they are given what stands in such a tube.
+        supposed: Those of them for which no word of control speaks, but the vehicle's name alone.
         diluent_guessed: Whether use alone tells which of several buffers dilutes.
     """
 
@@ -65,6 +71,11 @@ class Roles:
     unnamed: set[WellRef] = field(default_factory=set)
     unread: list[Evidence] = field(default_factory=list)
     apart: set[WellRef] = field(default_factory=set)
+    also: dict[WellRef, dict[str, Kind]] = field(default_factory=dict)
+    marked: set[WellRef] = field(default_factory=set)
+    tubes: set[WellRef] = field(default_factory=set)
+    followed: set[WellRef] = field(default_factory=set)
+    supposed: set[WellRef] = field(default_factory=set)
     diluent_guessed: bool = False
 
     def of(self, ref: WellRef) -> frozenset[str]:
@@ -127,9 +138,19 @@ class Roles:
         spec = self.family.roles[role]
         return bool(spec.parents) and not spec.receives and spec.side != "source"
 
+    def is_control(self, role: str) -> bool:
+        """Whether a role is a control's, whose liquid tells which wells are one."""
+        return bool(self.family.roles[role].follows)
+
     def known(self, role: str) -> bool:
-        """Whether any well has this role."""
-        return any(role in self.of(ref) for ref in (*self.by_well, *self.derived))
+        """Whether any well surely has this role; the tube of a control's liquid is no control."""
+        unsure = self.tubes | self.supposed if self.is_control(role) else frozenset()
+        return any(role in self.of(ref) for ref in self.wells if ref not in unsure)
+
+    @property
+    def wells(self) -> Iterable[WellRef]:
+        """All wells with a role."""
+        return dict.fromkeys((*self.by_well, *self.derived))
 
     def title(self, ref: WellRef) -> str:
         """What a well is, for a message: "no-template control"."""

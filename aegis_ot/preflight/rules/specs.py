@@ -106,6 +106,12 @@ class RoleSpec:
         may_be: Roles that a liquid of this one is used as, if that is said as well: "PBS
             (vehicle)".
         receives: Derived: a destination that is given liquid of one of these roles.
+        loaded_with: Derived: a destination that was loaded with liquid which these roles' words
+            name.
+        follows: Derived: a well that is given what stands in a source of one of these roles: the
+            control that the liquid is for.
+        without: For ``follows``: what such a well must not hold. A liquid that goes to most of the
+            wells that hold it is everybody's, and marks no control.
         one_to_one: Derived: unnamed wells of a plate or rack that each serve one well of their own.
         loaded: Derived: a well with a loaded liquid whose name says no role: ``shared`` where it
             serves several wells, ``single`` where it serves one or two, ``kept`` where the run
@@ -125,6 +131,9 @@ class RoleSpec:
     dosed: bool = False
     may_be: tuple[str, ...] = role_names()
     receives: tuple[str, ...] = role_names()
+    loaded_with: tuple[str, ...] = role_names()
+    follows: tuple[str, ...] = role_names()
+    without: tuple[str, ...] = role_names()
     one_to_one: bool = False
     loaded: Literal["", "shared", "single", "kept"] = ""
     DROPPED: ClassVar[Mapping[str, str]] = {
