@@ -25,8 +25,9 @@ class UniformVolume(Check):
     apart. Where it comes out of several tubes, each of which gives as much to all its wells, and
     no declared liquid says that they hold the same, each tube may be an assay of its own.
     End volumes are compared only where the run brings everything. A well that is shared out to
-    others beside it is left out, one that gets nothing but what such wells held, and a control that only its tube
-    tells: what it is given in the place of others' liquids, nothing says.
+    others beside it is left out, and one that gets nothing but what such wells held. So is a
+    control that only its tube tells: what it should get in the place of others' liquids, nothing
+    says.
 
     Attributes:
         wells: Roles of the wells.

@@ -114,7 +114,7 @@ class RoleNames:
         return bool(self._family.roles[role].follows)
 
     def _may_serve(self, named: Sequence[str], control: str) -> bool:
-        """Whether what is named, if anything is, may be a control's liquid: water, no master mix."""
+        """Whether what is named, if anything, may be a control's liquid: water is, a mix not."""
         specs = self._family.roles
         return not named or any(control in specs[role].may_be for role in named)
 
