@@ -22,6 +22,18 @@ _DOES = {
 }
 
 
+_UNSERVED = {
+    "camera": (
+        "no frame",
+        "Of its next step no frame was taken: see the camera, or the store.",
+    ),
+    "busy": ("it is not served", "The sidecar has too much else to do."),
+    "link": ("it had no link", "The robot did not reach the sidecar."),
+}
+"""Why a robot paused by itself that the sidecar did not serve."""
+_THEN_UNWATCHED = "When it is resumed it tries again; if that fails, the run goes on unwatched."
+
+
 @dataclass(frozen=True)
 class Situation:
     """Something that a person should see at once.
@@ -129,11 +141,16 @@ def _paused(overview: Mapping[str, Any]) -> Iterator[Situation]:
         if hold["at"] < moved and overview.get("mode") != "watch":
             continue  # it moves; a watched robot ends its move first, and says when it goes on
         told = _told(overview, trajectory["trajectory"], hold["at"])
+        where = trajectory["trajectory"], trajectory["well"]
         if hold["resolution"] == "operator":
             who = _who_paused(overview)
             text = f"{who} paused it from this page.{told}"
-            where = trajectory["trajectory"], trajectory["well"]
             yield Situation("paused", "The robot is paused", text, *where)
+            continue
+        if hold["resolution"] in _UNSERVED:
+            what, text = _UNSERVED[hold["resolution"]]
+            text = f"{text} {_THEN_UNWATCHED}{told}"
+            yield Situation("paused", f"The robot is paused: {what}", text, *where)
             continue
         verdict = trajectory["verdict"] or {}
         failure = str(verdict.get("failure") or "").replace("_", " ")
@@ -144,8 +161,7 @@ def _paused(overview: Mapping[str, Any]) -> Iterator[Situation]:
             "paused",
             f"The robot is paused: {what}",
             f"{reason}{told}",
-            trajectory["trajectory"],
-            trajectory["well"],
+            *where,
             judged=bool(verdict),
         )
 

@@ -14,6 +14,9 @@ from .seen import state_of
 FORMAT = "aegis-ot run report"
 VERSION = 1
 
+PAUSES = ("operator", "camera", "busy", "link")
+"""Resolutions of holds that were pauses from the start."""
+
 ALWAYS = ("run", "protocol", "robot", "robot_name", "api_level", "package", "registered")
 
 
@@ -165,7 +168,7 @@ def _latency(trajectories: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         hold["seconds"]
         for t in trajectories
         for hold in t["holds"]
-        if hold["resolution"] != "operator"  # a pause, which is nobody's delay
+        if hold["resolution"] not in PAUSES  # which are nobody's delay
     ]
     return {
         "trigger_to_exposure_s": _spread(exposures),

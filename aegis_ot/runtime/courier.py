@@ -155,6 +155,11 @@ class Courier:
         """Ask once what a person told the robot that is paused at a trajectory so long, s."""
         return self._link.action(self.run, number, within_s, REQUEST_S)
 
+    @property
+    def ordered(self) -> bool:
+        """Whether a person told something that :meth:`order` has not handed out yet."""
+        return self._link.order not in (None, self._obeyed)
+
     def order(self) -> Order | None:
         """What a person told the moving robot on the sidecar's page; each order once."""
         order = self._link.order
@@ -172,7 +177,39 @@ class Courier:
             Tells, where it was a pause and that is over, how long it lasted, s, and where it was
             answered.
         """
-        told = {
+        told = self._hold(trajectory, seconds, ended_by, policy)
+        self._outbox.hold(told)
+        self._tell()
+        return self._answered(told)
+
+    def begin_pause(
+        self, trajectory: int, why: str
+    ) -> tuple[Callable[[SidecarLink], None], Callable[[float, str], None]]:
+        """A pause because the sidecar does not serve the robot: it may not hear of it yet.
+
+        Args:
+            trajectory: At which the robot stands.
+            why: ``"camera"``, ``"busy"`` or ``"link"``.
+
+        Returns:
+            Tells of it over another connection, once there is one (raises LinkError); and what
+            :meth:`report_hold` returns.
+        """
+        told = self._hold(trajectory, 0.0, why, "pause")
+
+        def announce(link: SidecarLink) -> None:
+            try:
+                link.report_hold(self.run, told, REQUEST_S)
+            except RunUnknown:  # it is there now, and was not when the run registered
+                self.run = self._outbox.run = link.start(self.run, self._about, REQUEST_S)
+                link.report_hold(self.run, told, REQUEST_S)
+
+        return announce, self._answered(told)
+
+    def _hold(
+        self, trajectory: int, seconds: float, ended_by: str, policy: str | None
+    ) -> dict[str, Any]:
+        return {
             "number": next(self._holds),
             "trajectory": trajectory,
             "seconds": round(seconds, 4),
@@ -180,12 +217,11 @@ class Courier:
             "policy": policy,
         }
 
+    def _answered(self, told: Mapping[str, Any]) -> Callable[[float, str], None]:
         def answered(paused_s: float, where: str) -> None:
-            self._outbox.hold(told | {"paused_s": round(paused_s, 3), "answered": where})
+            self._outbox.hold({**told, "paused_s": round(paused_s, 3), "answered": where})
             self._tell()
 
-        self._outbox.hold(told)
-        self._tell()
         return answered
 
     def report_recovery(self, told: Mapping[str, Any]) -> None:
@@ -251,7 +287,7 @@ class Courier:
                     answered = error
                 if isinstance(error, (SidecarBusy, SidecarUnreachable)) and self._lost is None:
                     self._lost = began, str(error)
-                if time.monotonic() + wait >= deadline:
+                if self.ordered or time.monotonic() + wait >= deadline:
                     # The last attempt is often cut short: what was answered before says more.
                     raise answered or error from None
                 if time.monotonic() - began >= _SILENT_S:

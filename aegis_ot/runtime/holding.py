@@ -15,7 +15,7 @@ from .courier import Courier
 from .descriptions import tell_unobserved, tell_verdict
 from .link import SidecarLink
 from .linkloss import LinkLoss
-from .operator import Answer, Operator
+from .operator import Operator, no_news
 from .page_answers import PageAnswers, act_on_current_run
 from .recovering import Recovery
 from .runstate import RunState, can_be_resumed
@@ -105,7 +105,7 @@ class Holding:
                 deadline += self.obey(number)
             except LinkError:
                 # The same patience as for a keyframe.
-                self._link_loss.insist(self._link_loss.register)
+                self._link_loss.insist(self._link_loss.register, number)
             if verdict is not None:
                 return verdict, "verdict"
             if time.monotonic() - asked < SLICE_S / 2:
@@ -205,21 +205,13 @@ class Holding:
     def _pause(self, number: int, text: str, report: Callable[[float, str], None]) -> None:
         """Wait for a person, then tell how long that took and where it was answered."""
         began = time.monotonic()
-        page = PageAnswers(self._link, self._courier.run, number, lambda: self._state.paused)
-        where = self._operator.pause(
-            text, lambda: self._told(number, time.monotonic() - began), page
+        page = PageAnswers(
+            self._link, lambda: self._courier.run, number, lambda: self._state.paused
         )
+        where = self._operator.pause(text, no_news, page)
         if where:
             report(time.monotonic() - began, where)
             self._hear_decision(number)
-
-    def _told(self, number: int, within_s: float) -> Answer | None:
-        """What a person told on the sidecar's page, where the run cannot be resumed."""
-        try:
-            action = self._courier.action(number, within_s)
-        except LinkError:
-            return None
-        return {"resume": Answer.RESUME, "stop": Answer.ABORT}.get(action or "")
 
     def _hear_decision(self, number: int) -> None:
         """A person may have put the verdict right meanwhile."""

@@ -142,7 +142,6 @@ class SidecarLink:
         answer = self._request("POST", path, to_json(keyframe), timeout_s)
         if answer.get("captured") is not True or answer.get("sequence") != keyframe.sequence:
             raise self._garbled(f"it did not acknowledge keyframe {keyframe.sequence}")
-        self.order = _order_of(answer) or self.order
         delay: Any = answer.get("exposed_after_s")
         known = isinstance(delay, (int, float)) and not isinstance(delay, bool)
         return Captured(keyframe.sequence, float(delay) if known else None)
@@ -153,7 +152,6 @@ class SidecarLink:
         answer = self._request("GET", path, None, timeout_s)
         if "verdict" not in answer:
             raise self._garbled(f"its answer for trajectory {number} holds no verdict field")
-        self.order = _order_of(answer) or self.order
         if answer["verdict"] is None:
             return None
         try:
@@ -218,6 +216,7 @@ class SidecarLink:
             answer = json.loads(data)
         except (ValueError, RecursionError):
             answer = None
+        self.order = _order_of(answer) or self.order
         said = _error_text(answer)
         if status == 401 or status == 403:
             raise SidecarRefused(
@@ -276,9 +275,9 @@ class SidecarLink:
         return SidecarGarbled(f"The sidecar at {self.url} makes no sense: {what}; {remedy}.")
 
 
-def _order_of(answer: Mapping[str, Any]) -> Order | None:
+def _order_of(answer: Any) -> Order | None:
     """An order, if the answer brings one that makes sense."""
-    told = answer.get("order")
+    told = answer.get("order") if isinstance(answer, dict) else None
     if not isinstance(told, dict) or told.get("action") not in ("pause", "stop"):
         return None
     at: Any = told.get("at")

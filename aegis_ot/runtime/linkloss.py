@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 from ..errors import LinkError, RunAborted
 from ..settings import Settings
 from .courier import Courier
-from .operator import Answer, Operator
+from .link import CameraSilent, SidecarBusy
+from .operator import Answer, Operator, no_news
+from .page_answers import Announce, PageAnswers
 from .runstate import RunState
 from .stopping import Waits
 from .summary import WatchSummary
@@ -15,6 +18,9 @@ from .summary import WatchSummary
 _TRY_S = 0.1
 """How long one try to reach the sidecar may take while the operator is waited for, s."""
 _LOOK_S = 0.5
+
+_WHY: dict[type[LinkError], str] = {CameraSilent: "camera", SidecarBusy: "busy"}
+"""What the sidecar is told of why the robot is paused; ``"link"`` for all else."""
 
 Attempt = Callable[[], None]
 
@@ -29,6 +35,11 @@ class LinkLoss:
         state, waits: Of the run.
         simulating: In simulation nobody mends anything.
         result: Outages are counted here.
+        page: Asks the sidecar's page about a pause at a trajectory, and tells of it.
+
+    Attributes:
+        obey: Does at a trajectory what a person told the robot meanwhile; for how long it was
+            paused by that, s.
     """
 
     def __init__(
@@ -40,7 +51,10 @@ class LinkLoss:
         waits: Waits,
         simulating: bool,
         result: WatchSummary,
+        page: Callable[[int, Announce], PageAnswers],
     ) -> None:
+        self._page = page
+        self.obey: Callable[[int], float] = lambda number: 0.0
         self._courier = courier
         self._settings = settings
         self._operator = operator
@@ -55,14 +69,20 @@ class LinkLoss:
         """Say which run this is; raises LinkError."""
         self._courier.register(self._settings.capture_timeout_s)
 
-    def insist(self, attempt: Attempt) -> None:
+    def insist(self, attempt: Attempt, number: int = 0) -> None:
         """Attempt; if that fails, do as the policy says. Returns when the run may go on.
+
+        Args:
+            attempt: What the sidecar has to take.
+            number: Trajectory at which the robot stands meanwhile.
 
         Raises:
             RunAborted: The policy, or the operator, ends the run.
         """
         self._told = False
         trouble = self._outlast_pause(attempt, _trouble_of(attempt))
+        if trouble is not None and self.obey(number):
+            trouble = _trouble_of(attempt)
         if trouble is None:
             if self._told:
                 self._operator.comment("The sidecar answers again; the run goes on.")
@@ -72,12 +92,7 @@ class LinkLoss:
         if policy == "abort":
             raise RunAborted(f"{trouble} The run ends here, as configured.") from trouble
         if policy == "pause":
-            self._operator.pause(
-                f"{trouble} Resume to try again; if it is still away then, the run goes on "
-                "unwatched until it is back. Or cancel the run.",
-                self._is_back,
-            )
-            trouble = trouble if self._simulating else _trouble_of(attempt)
+            trouble = self._pause(trouble, number, attempt)
             if trouble is None:
                 return
         self._courier.give_up()
@@ -85,6 +100,28 @@ class LinkLoss:
             self._operator.comment(
                 f"{trouble} The run goes on unwatched until the sidecar is back."
             )
+
+    def _pause(self, trouble: LinkError, number: int, attempt: Attempt) -> LinkError | None:
+        """Have a person mend it, on the page too as far as it can be reached; what is still wrong
+        then."""
+        why = next((why for kind, why in _WHY.items() if isinstance(trouble, kind)), "link")
+        began = time.monotonic()
+        announce, answered = self._courier.begin_pause(number, why)
+        where = self._operator.pause(
+            f"{trouble} Resume to try again; if it fails again, the run goes on unwatched until "
+            "it works. Or cancel the run.",
+            # A sidecar that is there again mends itself, a camera does not.
+            self._is_back if why == "link" else no_news,
+            self._page(number, announce),
+        )
+        if self._simulating:
+            return trouble
+        paused_s = time.monotonic() - began
+        left = _trouble_of(attempt)
+        if left is not None:
+            self._courier.give_up()  # what is to be said waits until it is back
+        answered(paused_s, where)
+        return left
 
     def _tell(self, trouble: LinkError, seconds_left: float) -> None:
         """Say at once why the robot stands still, not only when it has been tried for long."""
@@ -101,6 +138,8 @@ class LinkLoss:
             while self._state.paused and self._is_back() is None:
                 self._waits.rest(_LOOK_S)
             trouble = _trouble_of(attempt)
+            if self._courier.ordered:
+                break
         return trouble
 
     def _is_back(self) -> Answer | None:

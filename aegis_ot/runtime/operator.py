@@ -17,6 +17,8 @@ from .runstate import can_be_resumed
 
 _REMIND_S = 60.0
 _POLL_S = 0.15
+_ASK_S = 0.3
+"""How long the page may take to answer while the console is listened to as well, s."""
 
 
 class Answer(Enum):
@@ -27,6 +29,13 @@ class Answer(Enum):
 
 
 Poll = Callable[[], "Answer | None"]
+
+_ON_PAGE = {"resume": Answer.RESUME, "stop": Answer.ABORT}
+
+
+def no_news() -> Answer | None:
+    """A :data:`Poll` where nothing mends by itself."""
+    return None
 
 
 class Operator:
@@ -78,8 +87,9 @@ class Operator:
         Args:
             text: What happened and what to do.
             poll: Asked now and then where the run cannot be resumed from outside
-                (``opentrons_execute``, notebooks): an answer given on the sidecar's page.
-            page: Carries out such an answer where the run can be resumed.
+                (``opentrons_execute``, notebooks): whether the cause is mended.
+            page: Knows what is answered on the sidecar's page, and carries it out where the run can
+                be resumed.
 
         Returns:
             Where it was answered: ``"robot"`` (its screen, or the App), ``"page"``,
@@ -93,7 +103,7 @@ class Operator:
             self.comment(f"{text} (Simulation: on a robot the run would pause here.)")
             return ""
         if not can_be_resumed():
-            return self._ask_at_console(text, poll)
+            return self._ask_at_console(text, poll, page)
         with page or nullcontext():
             with self._speaking():
                 self._protocol.pause(f"aegis_ot: {text}")
@@ -110,7 +120,7 @@ class Operator:
         finally:
             self.busy = False
 
-    def _ask_at_console(self, text: str, poll: Poll) -> str:
+    def _ask_at_console(self, text: str, poll: Poll, page: PageAnswers | None) -> str:
         # pause() would hang for ever here: nothing can send the "play" that it waits for.
         has_console = _is_terminal()
         how = (
@@ -120,17 +130,21 @@ class Operator:
         )
         _say(f"{text}\n{how}.")
         reminded = time.monotonic()
-        while True:
-            self._rest(_POLL_S)
-            on_page = poll()
-            answer = on_page or (_typed() if has_console else None)
-            if answer is Answer.RESUME:
-                return "page" if on_page else "console"
-            if answer is Answer.ABORT:
-                raise RunAborted(f"The operator ended the run. {text}")
-            if time.monotonic() - reminded > _REMIND_S:
-                reminded = time.monotonic()
-                _say(f"Still waiting. {how}.")
+        try:
+            while True:
+                self._rest(_POLL_S)
+                on_page = None if page is None else _ON_PAGE.get(page.ask(_ASK_S) or "")
+                answer = on_page or (_typed() if has_console else None) or poll()
+                if answer is Answer.RESUME:
+                    return "page" if on_page else "console"
+                if answer is Answer.ABORT:
+                    raise RunAborted(f"The operator ended the run. {text}")
+                if time.monotonic() - reminded > _REMIND_S:
+                    reminded = time.monotonic()
+                    _say(f"Still waiting. {how}.")
+        finally:
+            if page is not None:
+                page.close()
 
 
 @contextmanager

@@ -24,6 +24,9 @@ _ASK_S = 2.0
 
 _DOES = {"resume": "play", "stop": "stop"}
 
+Announce = Callable[[SidecarLink], None]
+"""Tells the sidecar of the pause; raises LinkError where it does not hear."""
+
 
 class _Answered(Exception):
     """The pause is over; whatever is asked now is of no interest."""
@@ -34,9 +37,10 @@ class PageAnswers:
 
     Args:
         link: Makes a connection of the thread's own.
-        run: Identifier of the run.
+        run: Identifier of the run at present: a sidecar may give it another.
         number: Of the trajectory that the robot is paused at.
         paused: Whether the robot is paused; an answer given before that would be lost.
+        announce: Tried until the sidecar has heard; ``None`` where it was told already.
 
     Attributes:
         given: Whether an answer was carried out.
@@ -45,14 +49,16 @@ class PageAnswers:
     def __init__(
         self,
         link: Callable[[CheckStop], SidecarLink],
-        run: str,
+        run: Callable[[], str],
         number: int,
         paused: Callable[[], bool],
+        announce: Announce | None = None,
     ) -> None:
         self.given = False
         self._run = run
         self._number = number
         self._paused = paused
+        self._announce = announce
         self._began = time.monotonic()
         self._over = threading.Event()
         self._link = link(self._check)
@@ -66,25 +72,41 @@ class PageAnswers:
         # Not joined: a stop must not wait for a robot server that answers slowly.
         self._over.set()
 
+    def ask(self, timeout_s: float = _ASK_S) -> str | None:
+        """What was told since the pause began: ``"resume"``, ``"stop"``, or ``None``."""
+        try:
+            if self._announce is not None:
+                self._announce(self._link)
+                self._announce = None
+        except LinkError:
+            pass  # its store is full, say: it may answer all the same
+        try:
+            within = time.monotonic() - self._began
+            return self._link.action(self._run(), self._number, within, timeout_s)
+        except LinkError:
+            return None
+
+    def close(self) -> None:
+        """Drop the connection."""
+        self._link.close()
+
     def _check(self) -> None:
         if self._over.is_set():
             raise _Answered
 
     def _work(self) -> None:
         try:
-            while not self._over.wait(_EVERY_S):
-                try:
-                    within = time.monotonic() - self._began
-                    action = self._link.action(self._run, self._number, within, _ASK_S)
-                except LinkError:
-                    continue
+            while True:
+                action = self.ask()
                 if action in _DOES and self._paused() and not self._over.is_set():
                     self.given = True
                     self.given = act_on_current_run(_DOES[action])
+                if self._over.wait(_EVERY_S):
+                    return
         except _Answered:
             pass
         finally:
-            self._link.close()
+            self.close()
 
 
 def act_on_current_run(action: str) -> bool:

@@ -20,6 +20,7 @@ from .holding import Holding
 from .link import SidecarLink
 from .linkloss import LinkLoss
 from .operator import Operator
+from .page_answers import PageAnswers
 from .probes import liquid_found, never_asked
 from .recovering import Recovery, TipKnowledge
 from .refusal import refuse_everything
@@ -226,7 +227,7 @@ class Watcher:
         if courier.away and not courier.look(timeout):
             courier.move_on()
             return
-        line.loss.insist(lambda: courier.deliver(timeout))
+        line.loss.insist(lambda: courier.deliver(timeout), keyframe.trajectory)
         self._say_name(line)
         line.holding.obey(keyframe.trajectory)
 
@@ -273,6 +274,9 @@ class Watcher:
             self._waits,
             self._simulating,
             self.result,
+            lambda number, announce: PageAnswers(
+                link, lambda: courier.run, number, lambda: self._state.paused, announce
+            ),
         )
         if self._settings.recover and self._tips is not None:
             self._recovery = Recovery(
@@ -284,6 +288,7 @@ class Watcher:
             courier, loss, self._settings, self._operator, self._state, self._waits, self.result,
             link, self._recovery,
         )  # fmt: skip
+        loss.obey = holding.obey
         return _Line(courier, loss, holding)
 
     def _connected(self) -> _Line:

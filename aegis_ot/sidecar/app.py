@@ -13,7 +13,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import Response
 
 from .._version import __version__
-from ..errors import AegisError
+from ..errors import AegisError, CameraError, StoreError
 from ..vision.camera import Camera
 from ..vision.types import Detector
 from ..vocabulary import Keyframe, to_json
@@ -24,7 +24,7 @@ from .cameras import open_cameras
 from .cameras.history import HISTORY_S
 from .config import SidecarConfig
 from .description import ERRORS, describe, takes
-from .error_answers import answer_errors
+from .error_answers import answer_errors, trouble_of
 from .pages import page_router
 from .reasoning_routes import opinion_router, opinions_of
 from .security import Doorkeeper
@@ -156,7 +156,10 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         _must_match(run, keyframe.run)
         moment = arrived - ago
         session = await run_in_threadpool(sidecar.session, run, start)
-        captured = await run_in_threadpool(session.capture, keyframe, moment)
+        try:
+            captured = await run_in_threadpool(session.capture, keyframe, moment)
+        except (CameraError, StoreError) as error:
+            raise trouble_of(error, **_order(session)) from None
         return {
             "sequence": keyframe.sequence,
             "captured": True,

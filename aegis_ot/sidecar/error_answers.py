@@ -14,6 +14,16 @@ from ..errors import AegisError, CameraError, StoreError
 from .wire import WireError
 
 
+def trouble_of(error: AegisError, **extra: Any) -> WireError:
+    """Trouble of the workstation as an answer, with further members of it."""
+    code, hint = "trouble", "Run aegis-ot doctor."
+    if isinstance(error, CameraError):
+        code, hint = "camera", "Check the camera; the keyframe can be resent."
+    elif isinstance(error, StoreError):
+        code, hint = "store", "Check the workstation; the keyframe can be resent."
+    return WireError(503, code, str(error), hint, **extra)
+
+
 def answer_errors(app: FastAPI) -> None:
     """Every error in the wire's shape."""
 
@@ -34,26 +44,8 @@ def answer_errors(app: FastAPI) -> None:
         return WireError(error.status_code, "http", str(error.detail))
 
     app.add_exception_handler(WireError, answer(lambda error: error))
-    app.add_exception_handler(
-        CameraError,
-        answer(
-            lambda error: WireError(
-                503, "camera", str(error), "Check the camera; the keyframe can be resent."
-            )
-        ),
-    )
-    app.add_exception_handler(
-        StoreError,
-        answer(
-            lambda error: WireError(
-                503, "store", str(error), "Check the workstation; the keyframe can be resent."
-            )
-        ),
-    )
-    app.add_exception_handler(
-        AegisError,
-        answer(lambda error: WireError(503, "trouble", str(error), "Run aegis-ot doctor.")),
-    )
+    for kind in (CameraError, StoreError, AegisError):
+        app.add_exception_handler(kind, answer(trouble_of))
     app.add_exception_handler(RequestValidationError, answer(invalid))
     app.add_exception_handler(HTTPException, answer(http))
     app.add_exception_handler(

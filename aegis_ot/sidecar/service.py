@@ -30,7 +30,7 @@ from .messages import compose
 from .notices import Notice
 from .notifications import Message, Notifier
 from .overview import run_overview
-from .sessions import OPERATOR, Session
+from .sessions import OPERATOR, UNSERVED, Session
 from .store import Store
 from .wire import Finish, Hold, Recovery, RunStart, WireError
 
@@ -173,15 +173,11 @@ class Sidecar:
         expected = hold.resolution in ("verdict", "stopped", OPERATOR)
         if not expected and hold.paused_s is None:
             policy = f"; then: {hold.policy}" if hold.policy else ""
-            self.tell(
-                Notice(
-                    run,
-                    "hold",
-                    "a hold ended without a verdict",
-                    f"After {hold.seconds:.1f} s: {hold.resolution}{policy}.",
-                    hold.trajectory,
-                )
-            )
+            what, seen = "a hold ended without a verdict", f"After {hold.seconds:.1f} s: "
+            if hold.resolution in UNSERVED:
+                what, seen = "the robot is paused", "It was not served: "
+            seen += f"{hold.resolution}{policy}."
+            self.tell(Notice(run, "hold", what, seen, hold.trajectory))
 
     def recovery(self, run: str, told: Recovery) -> None:
         """Keep what the robot does by itself about a failed delivery."""

@@ -30,6 +30,8 @@ Grab = Callable[[Keyframe, float, ViewWatch | None], Frame]
 raises CameraError."""
 
 
+UNSERVED = ("camera", "busy", "link")
+"""Resolutions of a pause that began because the robot was not served."""
 OPERATOR = "operator"
 """Resolution of a hold that a person ordered."""
 ASKS_S = 3.0
@@ -190,7 +192,7 @@ class Session:
         """The robot says how a hold ended: by a pause, if the operator is to look at the well."""
         with self._state:
             self._known.add(hold.trajectory)
-            if hold.resolution == OPERATOR:
+            if hold.resolution in (OPERATOR, *UNSERVED):
                 self._orders.taken()
                 return
             verdict = self._verdicts.get(hold.trajectory)

@@ -24,7 +24,7 @@ from typing import Any
 
 from .examining import problems
 from .robot import Robot
-from .workstation import Cable, Crowd, Sidecar, StreamCamera, VisionModel, closing
+from .workstation import Cable, Crowd, Person, Sidecar, StreamCamera, VisionModel, closing
 
 RESTARTS = 20
 FULL_S = 6.0
@@ -184,6 +184,29 @@ def cut(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> S
     return once_at(10, lambda: cable.cut(True), seconds, lambda: cable.cut(False))
 
 
+def page(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> Step:
+    """The camera's cable is pulled until the robot pauses; it is answered on the page alone."""
+    drill.wanted, drill.most_pauses = {"camera": 1}, 1
+    drill.happened = "camera unplugged until the page shows the pause, resumed there"
+    drill.guard = {"capture_timeout_s": 8.0}
+    person = Person(sidecar.url, "page")
+    unplugged: list[bool] = []
+    drill.may_resume = lambda: (
+        unplugged[-1:] == [False]
+    )  # nobody stands before the robot until then
+
+    def step(keyframes: int) -> None:
+        if keyframes >= 10 and not unplugged:
+            camera.plug(False)
+            unplugged.append(True)
+        elif unplugged == [True] and person.sees_a_pause():
+            camera.plug(True)
+            person.resumes()
+            unplugged.append(False)
+
+    return step
+
+
 def crowd(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> Step:
     """Somebody opens connections and says nothing, or says a request byte by byte."""
     seconds = CROWD_S * drill.scale
@@ -195,7 +218,7 @@ def crowd(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) ->
 
 INCIDENTS = {
     "restarts": restarts, "disk": disk, "camera": camera, "vlm": vlm, "clock": clock, "cut": cut,
-    "crowd": crowd,
+    "page": page, "crowd": crowd,
 }  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
@@ -14,10 +15,10 @@ from aegis_ot.runtime.link import Captured, SidecarLink
 from aegis_ot.settings import Settings
 from aegis_ot.vocabulary import Keyframe, Verdict
 from tests.runtime.live import LiveRun
+from tests.runtime.test_page_answers import RobotServer
 
 PATIENCE_S = 300.0
 """A run that takes longer hangs."""
-_NOBODY = ("127.0.0.1", 9)
 
 
 @dataclass
@@ -71,8 +72,10 @@ class Robot:
         """
         settings = Settings(sidecar=self.url, run_id=self.run, **self.more)
         began = time.monotonic()
-        with self._recorded(), mock.patch.object(page_answers, "ROBOT_SERVER", _NOBODY):
-            live = LiveRun(lambda protocol: fill(protocol, self.wells), settings).start()
+        with self._recorded(), robot_server() as server:
+            live = LiveRun(lambda protocol: fill(protocol, self.wells), settings)
+            server.run = live
+            live.start()
             paused = False
             while live._thread.is_alive():
                 if time.monotonic() - began > PATIENCE_S:
@@ -123,6 +126,20 @@ class Robot:
             SidecarLink, keyframe=sent, verdict=asked, report_hold=held, finish=ended
         ):
             yield
+
+
+@contextlib.contextmanager
+def robot_server() -> Iterator[RobotServer]:
+    """The robot's own HTTP server, by which its page answers are carried out."""
+    server = RobotServer()
+    threading.Thread(target=server.server.serve_forever, args=(0.05,), daemon=True).start()
+    host, port = server.server.server_address[:2]
+    try:
+        with mock.patch.object(page_answers, "ROBOT_SERVER", f"http://{host}:{port}"):
+            yield server
+    finally:
+        server.server.shutdown()
+        server.server.server_close()
 
 
 def fill(protocol: Any, wells: int) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import resource
 import signal
 import socket
@@ -12,6 +13,8 @@ import subprocess
 import sys
 import threading
 import time
+import urllib.parse
+import urllib.request
 from collections.abc import Iterator
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -238,6 +241,30 @@ class Crowd:
         """They are closed."""
         for one in self._open:
             one.close()
+
+
+class Person:
+    """Somebody at the sidecar's page, who sees what it shows and presses its buttons."""
+
+    def __init__(self, url: str, run: str) -> None:
+        self._page = f"{url}/runs/{run}"
+        self._form = ""
+        self._open = urllib.request.build_opener(urllib.request.ProxyHandler({})).open
+
+    def sees_a_pause(self) -> bool:
+        """Whether the page says that the robot is paused, and offers to resume it."""
+        with self._open(self._page, timeout=20) as answer:
+            shown = answer.read().decode()
+        asked = re.search(r'class="asks paused".*?action="([^"]+)".*?value="resume"', shown, re.S)
+        self._form = asked[1] if asked else ""
+        return asked is not None
+
+    def resumes(self) -> None:
+        """By the button on the page."""
+        url = self._page.partition("/runs/")[0] + self._form
+        body = urllib.parse.urlencode({"by": "drill", "answer": "resume"}).encode()
+        with self._open(url, body, timeout=20):
+            pass
 
 
 class VisionModel:

@@ -18,6 +18,7 @@ from aegis_ot.runtime.runstate import RunState, can_be_resumed
 from aegis_ot.settings import Settings
 
 from .fake_sidecar import FakeSidecar, Handler, once
+from .live import LiveRun
 
 
 @pytest.fixture
@@ -313,6 +314,34 @@ def test_nobody_can_resume_where_opentrons_execute_owns_the_hardware(
     assert can_be_resumed()  # imported, and not in use
     module._THREAD_MANAGED_HW = object()  # type: ignore[attr-defined]
     assert not can_be_resumed()
+
+
+def test_where_nobody_can_resume_a_dead_camera_waits_for_the_page(
+    sidecar: FakeSidecar, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The sidecar is there all the time: that alone mends no camera."""
+    module = types.ModuleType("opentrons.execute")
+    module._THREAD_MANAGED_HW = object()  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "opentrons.execute", module)
+    error = {"error": {"code": "camera", "message": "No frame.", "hint": ""}}
+    dead = True
+
+    def fault(handler: Handler) -> bool:
+        nonlocal dead
+        if handler.path.endswith("/hold") and handler.body["resolution"] == "camera":
+            sidecar.actions[0] = "resume"  # a person sees the page, and puts the cable back
+            dead = False
+        if dead and handler.path.endswith("/keyframes"):
+            handler.answer(503, error)
+            return True
+        return False
+
+    sidecar.fault = fault
+    live = LiveRun(wells(1), settings(sidecar, watch_simulation=False)).start().join()
+    assert live.error is None
+    (told,) = [hold for hold in sidecar.holds if hold.get("answered")]
+    assert (told["resolution"], told["answered"]) == ("camera", "page")
+    assert not any(keyframe["late"] for keyframe in sidecar.stored())
 
 
 def test_a_core_of_an_unknown_version_is_neither_stopping_nor_paused() -> None:

@@ -89,5 +89,5 @@ def test_a_lost_link_is_told_by_the_robot(robot: Robot) -> None:
     assert robot.post("incident", body).status_code == 200
     (one,) = robot.overview()["incidents"]
     assert one["ended"] - one["at"] == pytest.approx(31.0)
-    assert "no link to the sidecar for 31 s" in one["text"]
+    assert "The robot was not served for 31 s." in one["text"]
     assert robot.post("incident", body | {"kind": "else"}).status_code == 422

@@ -11,9 +11,11 @@ import httpx
 import pytest
 
 from aegis_ot.account import situations
+from aegis_ot.errors import CameraError
 from aegis_ot.runtime.link import SidecarLink
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from tests.runtime.fake_sidecar import free_port
 from tests.runtime.live import LiveRun
 from tests.runtime.test_live import in_time, two_wells
 from tests.runtime.test_page_answers import RobotServer, robot
@@ -123,6 +125,92 @@ def test_a_moving_robot_is_paused_and_resumed_and_an_old_answer_does_not_count(
         assert [(a["action"], a["by"]) for a in stage.overview()["actions"]] == [
             ("pause", "Ada"), ("resume", "Ada"), ("stop", "Ada"),
         ]  # fmt: skip
+        stage.http.close()
+
+
+@pytest.fixture
+def unseen(config: SidecarConfig, robot: RobotServer) -> Iterator[tuple[Stage, StubCamera]]:
+    """A run whose camera was unplugged before the first frame."""
+    camera = StubCamera()
+    camera.failure = CameraError("the cable is out")
+    with running_sidecar(config, camera, StubAnalyser()) as url:
+        settings = Settings(sidecar=url, run_id="run", capture_timeout_s=1.0)
+        run = robot.run = LiveRun(two_wells, settings).start()
+        stage = Stage(url, run)
+        yield stage, camera
+        stage.http.close()
+
+
+def test_a_robot_that_its_camera_paused_is_shown_and_resumed_from_the_page(
+    unseen: tuple[Stage, StubCamera], robot: RobotServer
+) -> None:
+    stage, camera = unseen
+    in_time(lambda: stage.asked() == ["paused", "camera"])
+    page = stage.http.get("/").text
+    assert "The robot is paused: no frame" in page
+    assert "the cable is out" in page
+    camera.failure = None
+    stage.answer("resume")
+    stage.run.join()
+    assert stage.run.error is None
+    assert [action for _, action in robot.told] == ["play"]
+    holds = stage.overview()["trajectories"][0]["holds"]
+    assert [(h["resolution"], h["answered"]) for h in holds[:1]] == [("camera", "page")]
+    assert stage.run.watcher is not None
+    assert "2 passed" in stage.run.watcher.summary()
+
+
+def test_a_robot_that_its_camera_paused_is_stopped_from_the_page(
+    unseen: tuple[Stage, StubCamera], robot: RobotServer
+) -> None:
+    stage, _ = unseen
+    in_time(lambda: "paused" in stage.asked())
+    stage.answer("stop")
+    stage.run.join()
+    assert [action for _, action in robot.told] == ["stop"]
+    in_time(lambda: stage.overview()["finished"] is not None)
+    assert stage.overview()["finished"]["outcome"] == "stopped"
+
+
+def test_a_stop_is_heard_while_the_robot_tries_its_camera_again(
+    config: SidecarConfig, robot: RobotServer
+) -> None:
+    camera = StubCamera()
+    camera.failure = CameraError("the cable is out")
+    with running_sidecar(config, camera, StubAnalyser()) as url:
+        settings = Settings(sidecar=url, run_id="run", capture_timeout_s=600.0)
+        run = robot.run = LiveRun(two_wells, settings).start()
+        stage = Stage(url, run)
+        in_time(lambda: len(camera.announced) > 1)
+        form = {"by": "Ada", "answer": "stop"}
+        assert stage.http.post("/runs/run/order", data=form).status_code == 303
+        run.join()
+        assert [action for _, action in robot.told] == ["stop"]
+        stage.http.close()
+
+
+def test_a_robot_that_lost_its_sidecar_is_shown_as_paused_once_that_is_back(
+    config: SidecarConfig, robot: RobotServer
+) -> None:
+    camera = StubCamera()
+    camera.gate.clear()
+    port = free_port()
+    config = config.model_copy(update={"port": port})
+    with running_sidecar(config, camera, StubAnalyser()) as url:
+        settings = Settings(sidecar=url, run_id="run", capture_timeout_s=1.0)
+        run = robot.run = LiveRun(two_wells, settings).start()
+        in_time(lambda: len(camera.announced) > 0)
+    run.wait_for_status("paused")
+    with running_sidecar(config, StubCamera(), StubAnalyser()) as url:
+        stage = Stage(url, run)
+        in_time(lambda: stage.asked() == ["paused"])
+        assert "The robot is paused: it had no link" in stage.http.get("/").text
+        stage.answer("resume")
+        run.join()
+        assert run.error is None
+        assert [action for _, action in robot.told] == ["play"]
+        assert run.watcher is not None
+        assert "2 passed" in run.watcher.summary()
         stage.http.close()
 
 
