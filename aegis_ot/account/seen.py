@@ -25,14 +25,14 @@ def no_pictures(_sequence: int, _box: Box | None) -> tuple[None, None, str]:
 
 def state_of(trajectory: Mapping[str, Any]) -> str:
     """How a delivery stands, in one word: ``fail``, ``recovered`` (failed, and put right by the
-    robot), ``undecided``, ``pass``, ``calibration``, ``waiting`` (for its verdict), ``running``
-    (keyframes are still to come), ``abandoned``, or ``unobserved`` where the camera saw none of
-    its tips.
+    robot), ``undecided`` (also where no verdict will come any more), ``pass``,
+    ``calibration``, ``waiting`` (for its verdict), ``running`` (keyframes are still to come),
+    ``abandoned``, or ``unobserved`` where the camera saw none of its tips.
     """
     if trajectory["abandoned"] is not None:
         return "abandoned"
     verdict = trajectory["verdict"]
-    if trajectory.get("awaiting"):
+    if trajectory.get("awaiting") or (not verdict and trajectory.get("unjudged")):
         return "undecided"
     if verdict:
         if verdict["outcome"] == "fail" and trajectory.get("recovered"):
@@ -64,13 +64,15 @@ def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictur
     state = state_of(entry)
     if entry["abandoned"] is not None:
         reason = f"Given up: {entry['abandoned']}"
+    elif not verdict:
+        reason = str(entry.get("unjudged") or "")
     return SeenWell(
         id=f"{run}-{entry['trajectory']}",
         group=", ".join(filter(None, (f"{last.get('mount', '')} {pipette}".strip(), reagent))),
         well=str(wells[0]["name"]) if wells else "-",
         title=f"{entry['well']}, {float(last.get('commanded_ul', 0.0)):g} µL {reagent}".rstrip()
         + _PROBED.get(last.get("liquid_found"), ""),
-        outcome="calibration" if state == "calibration" else str(verdict.get("outcome", "")),
+        outcome=_outcome(state, verdict),
         route=route,
         gate=str(verdict.get("gate", "")),
         failure=str(verdict.get("failure") or ""),
@@ -82,6 +84,12 @@ def seen_well(run: str, entry: Mapping[str, Any], pictures: Pictures = no_pictur
         signs=signs_in(evidence),
         band=band_in(evidence),
     )
+
+
+def _outcome(state: str, verdict: Mapping[str, Any]) -> str:
+    if state == "calibration" or not verdict:
+        return state if state in ("calibration", "undecided") else ""
+    return str(verdict["outcome"])
 
 
 def _frames(entry: Mapping[str, Any], pictures: Pictures) -> dict[KeyframeKind, SeenFrame]:

@@ -82,7 +82,7 @@ def _plate(plate: PlateMap) -> dict[str, Any]:
 def _well(trajectory: Mapping[str, Any]) -> dict[str, Any]:
     last = trajectory["keyframes"][-1] if trajectory["keyframes"] else {}
     verdict = trajectory["verdict"] or {}
-    said = ("outcome", "failure", "route", "gate", "score", "reason", "measured_ul", "expected_ul")
+    said = ("outcome", "failure", "route", "gate", "score", "measured_ul", "expected_ul")
     return {
         "trajectory": trajectory["trajectory"],
         "well": trajectory["well"],
@@ -91,6 +91,7 @@ def _well(trajectory: Mapping[str, Any]) -> dict[str, Any]:
         "pipette": last.get("pipette"),
         "line": last.get("line"),
         **{name: verdict.get(name) for name in said},
+        "reason": verdict.get("reason") or trajectory.get("unjudged"),
         # Of several tips it would be one's alone.
         "drawn_estimate_ul": None
         if verdict.get("channels")

@@ -136,6 +136,9 @@ def show_end(console: Console, run: RobotRun) -> None:
     """The last lines of a run."""
     for error in run.errors:
         console.print(Text(error, style="red"), soft_wrap=True)
+    if run.unheard:
+        text = f"Verdicts may be missing, and are not counted as passed: {run.unheard}"
+        console.print(Text(text, style="yellow"), soft_wrap=True)
     words = {"unobserved": "not seen", "recovered": "put right"}
     outcomes = [words.get(known.state, known.state) for known in run.verdicts.values()]
     parts = [f"{run.protocol} on {run.robot}: {run.status}", f"{run.commands} commands"]

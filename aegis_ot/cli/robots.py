@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import sys
 from collections.abc import Sequence
@@ -13,7 +12,7 @@ import typer
 from rich.console import Console
 from rich.text import Text
 
-from ..errors import ConfigurationError, LinkError, RobotError
+from ..errors import ConfigurationError, RobotError
 from .exit_codes import BROKEN, CLEAN, FINDINGS, INTERRUPTED
 
 if TYPE_CHECKING:
@@ -139,16 +138,14 @@ def watch(
         identifier = await_run(client, says=_say)
         analysis = Analysis("", done=False)
         result = RobotRun(client.protocol_name(identifier), name, client.url, identifier, analysis)
+        reader = VerdictReader(url, secret)
         try:
             with TerminalScreen(console) as screen:
                 screen.began(None)
-                watch_run(client, result, link, screen, policies)
+                watch_run(client, result, link, screen, policies, reader)
         finally:
+            reader.close()
             if report is not None:
-                reader = VerdictReader(url, secret, run=result.watched_as)
-                with contextlib.suppress(LinkError):  # the robot's own side is worth a report too
-                    result.overview = reader.overview()
-                reader.close()
                 _write_report(report, result)
     show_end(console, result)
     raise typer.Exit(_code(result))
@@ -227,7 +224,7 @@ def _code(result: RobotRun) -> int:
     if result.status == "failed":
         return BROKEN
     flagged = any(known.is_flagged for known in result.verdicts.values())
-    return FINDINGS if flagged or result.status != "succeeded" else CLEAN
+    return FINDINGS if flagged or result.unheard or result.status != "succeeded" else CLEAN
 
 
 def _say(text: str, style: str = "") -> None:

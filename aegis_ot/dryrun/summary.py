@@ -151,6 +151,8 @@ def _row(entry: Mapping[str, Any]) -> WellRow:
     verdict = entry["verdict"] or {}
     last = entry["keyframes"][-1] if entry["keyframes"] else {}
     outcome = Outcome(verdict["outcome"]) if verdict else None
+    if outcome is None and entry.get("unjudged"):
+        outcome = Outcome.UNDECIDED
     return WellRow(
         trajectory=entry["trajectory"],
         well=entry["well"],
@@ -162,7 +164,7 @@ def _row(entry: Mapping[str, Any]) -> WellRow:
         gate=Gate(verdict.get("gate", "none")),
         outcome=outcome,
         failure=FailureType(verdict["failure"]) if verdict.get("failure") else None,
-        reason=verdict.get("reason", ""),
+        reason=verdict.get("reason") or entry.get("unjudged") or "",
         hold_s=sum(hold["seconds"] for hold in entry["holds"]),
         measured_ul=verdict.get("measured_ul"),
         line=last.get("line"),

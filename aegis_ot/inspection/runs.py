@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..account import Inspection, seen_well
+from ..account import Inspection, seen_well, state_of
 from ..account.pictures import cut_pictures
 from ..account.seen import no_pictures
 from ..errors import StoreError
@@ -31,9 +31,7 @@ def inspect_run(
     progress = progress or Progress()
     overview = run_overview(store, run)
     entries = overview["trajectories"]
-    flagged = [
-        (entry["verdict"] or {}).get("outcome") in ("fail", "undecided") for entry in entries
-    ]
+    flagged = [state_of(entry) in ("fail", "recovered", "undecided") for entry in entries]
     chosen = pictured([(flag, False) for flag in flagged], most)
     progress.begin("Cutting pictures", len(entries))
 

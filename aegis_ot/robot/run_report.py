@@ -19,7 +19,8 @@ def run_report(run: RobotRun) -> dict[str, Any]:
     Returns:
         ``protocol``, ``robot``, ``url``, ``robot_run``; ``status``, ``errors``, ``seconds``,
         ``commands``, ``pauses``; ``analysis`` (``ok``, ``errors``, ``guard``: the guard's words);
-        ``verdicts``, each with its ``state`` as it stands; ``sidecar``: its account of the run, or
+        ``verdicts``, each with its ``state`` as it stands (``undecided`` where none came);
+        ``unheard``: why verdicts may be missing; ``sidecar``: its account of the run, or
         ``None``.
     """
     analysis = run.analysis
@@ -45,5 +46,6 @@ def run_report(run: RobotRun) -> dict[str, Any]:
             {"well": known.well, "state": known.state, **to_json(known.verdict)}
             for known in run.verdicts.values()
         ],
+        "unheard": run.unheard,
         "sidecar": None if run.overview is None else run_account(run.overview),
     }

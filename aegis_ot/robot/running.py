@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
@@ -12,9 +12,16 @@ from ..errors import LinkError, RobotError
 from .client import RobotClient, Values
 from .following import PATIENCE_S, POLL_S, Completed, Found, Lost, Started, StatusChanged, follow
 from .shapes import OWN_WORDS, PAUSED, Analysis, Command, RunView
-from .verdicts import VerdictReader, WellVerdict
+from .verdicts import VerdictReader, WellVerdict, unjudged
 
 VERDICTS_EVERY_S = 0.5
+LAST_VERDICTS_S = 600.0
+"""How long the next one of the last verdicts may take, s: a vision model may be asked."""
+LOST_SIDECAR_S = 20.0
+"""The same from a sidecar that is away, or that was not told of the run's end, s."""
+WAIT_SHOWN_S = 2.0
+"""A shorter wait is not worth a word, s."""
+NO_VERDICT = "No verdict on it came."
 
 
 class Screen(Protocol):
@@ -63,6 +70,7 @@ class RobotRun:
         errors: What ended it.
         overview: What the sidecar knows of it, or ``None``.
         watched_as: What the sidecar calls it, in watch mode.
+        unheard: Why verdicts may be missing; empty if all were heard.
     """
 
     protocol: str
@@ -78,6 +86,7 @@ class RobotRun:
     errors: tuple[str, ...] = ()
     overview: Any = None
     watched_as: str = ""
+    unheard: str = ""
 
 
 @dataclass(frozen=True)
@@ -148,8 +157,10 @@ def run_analysed(
             robot, run.id, poll_s=poll_s, patience_s=patience_s, idle=driver.look_around
         ):
             driver.take(step)
-    finally:
         run.seconds = time.monotonic() - began
+        driver.await_verdicts()
+    finally:
+        run.seconds = run.seconds or time.monotonic() - began
         driver.last_words()
     return run
 
@@ -208,14 +219,38 @@ class RunDriver:
         """The run was told to pause, and why: its next pause is no stranger's."""
         self._waiting_for = text
 
+    def await_verdicts(self) -> None:
+        """The run is over: wait for its last verdicts while the sidecar works on them."""
+        if self._verdicts is None:
+            return
+        began = heard = self._now()
+        open_: dict[int, str] = {}
+        told = False
+        while True:
+            self._read_verdicts()
+            if self._verdicts.open != open_:
+                open_, heard = dict(self._verdicts.open), self._now()
+            reached = not self._trouble and self._verdicts.ended
+            patience = LAST_VERDICTS_S if reached else LOST_SIDECAR_S
+            if not (open_ or self._trouble) or self._now() - heard >= patience:
+                break
+            if open_ and not told and self._now() - began >= WAIT_SHOWN_S:
+                self._screen.says(tell_open(open_.values()))
+                told = True
+            time.sleep(VERDICTS_EVERY_S)
+        self._run.unheard = self._trouble
+
     def last_words(self) -> None:
-        """The run is over: what the sidecar has to say at the end."""
+        """What the sidecar has to say at the end; without a verdict a delivery is undecided."""
+        if self._verdicts is None:
+            return
         self._read_verdicts()
-        if self._verdicts is not None:
-            try:
-                self._run.overview = self._verdicts.overview()
-            except LinkError as error:
-                self._screen.says(str(error))
+        try:
+            self._run.overview = self._verdicts.overview()
+        except LinkError as error:
+            self._screen.says(str(error))
+        for number, well in self._verdicts.open.items():
+            self._judged(WellVerdict(well, unjudged(self._run.id, number, NO_VERDICT)))
 
     def _began(self, command: Command) -> None:
         if command.kind == "waitForResume":
@@ -239,14 +274,26 @@ class RunDriver:
             return
         try:
             for verdict in self._verdicts.news():
-                self._run.verdicts[verdict.verdict.trajectory] = verdict
-                self._screen.judged(verdict)
+                self._judged(verdict)
         except LinkError as error:
             if str(error) != self._trouble:
                 self._screen.says(f"{error} Verdicts are not shown until it is back.")
             self._trouble = str(error)
         else:
             self._trouble = ""
+
+    def _judged(self, verdict: WellVerdict) -> None:
+        known = self._run.verdicts.get(verdict.verdict.trajectory)
+        self._run.verdicts[verdict.verdict.trajectory] = verdict
+        if known is None or known.state != verdict.state:
+            self._screen.judged(verdict)
+
+
+def tell_open(wells: Iterable[str], most: int = 4) -> str:
+    """Which wells' verdicts are waited for."""
+    named = list(wells)
+    rest = f" and {len(named) - most} more" if len(named) > most else ""
+    return f"Waiting for the verdict on {', '.join(named[:most])}{rest}."
 
 
 _PAUSE_WORDS = {

@@ -10,7 +10,7 @@ from typing import Any
 import httpx
 
 from ..errors import SidecarGarbled, SidecarRefused, SidecarUnreachable
-from ..vocabulary import Outcome, Verdict, from_json
+from ..vocabulary import Outcome, Route, Verdict, from_json
 
 _TIMEOUT_S = 2.0
 _EARLY_S = 5.0
@@ -42,6 +42,11 @@ class WellVerdict:
         return self.verdict.outcome is not Outcome.PASS and not self.recovered
 
 
+def unjudged(run: str, trajectory: int, reason: str) -> Verdict:
+    """What a delivery counts as whose verdict never came."""
+    return Verdict(run, trajectory, Outcome.UNDECIDED, Route.UNCALIBRATED, reason=reason)
+
+
 class VerdictReader:
     """Looks into one sidecar for the run that begins now.
 
@@ -54,6 +59,8 @@ class VerdictReader:
 
     Attributes:
         run: Identifier of the run there, ``""`` until it is known.
+        open: Deliveries without a verdict at the last look, with their wells.
+        ended: Whether the run had ended there at the last look.
     """
 
     def __init__(
@@ -66,6 +73,8 @@ class VerdictReader:
     ) -> None:
         self.url = url.rstrip("/")
         self.run = run
+        self.open: dict[int, str] = {}
+        self.ended = False
         self._protocol = protocol
         self._since = time.time() - _EARLY_S
         self._seen: dict[int, WellVerdict] = {}
@@ -99,10 +108,15 @@ class VerdictReader:
         if not self._find():
             return []
         found: list[WellVerdict] = []
-        for trajectory in self._ask(f"/v1/runs/{self.run}")["trajectories"]:
-            if trajectory.get("verdict") is None:
+        overview = self._ask(f"/v1/runs/{self.run}")
+        self.ended = bool(overview.get("finished"))
+        self.open = {}
+        for trajectory in overview["trajectories"]:
+            verdict = self._verdict(trajectory)
+            if verdict is None:
+                if trajectory.get("abandoned") is None:
+                    self.open[trajectory["trajectory"]] = str(trajectory.get("well", ""))
                 continue
-            verdict = from_json(Verdict, trajectory["verdict"])
             recovered = verdict.outcome is Outcome.FAIL and bool(trajectory.get("recovered"))
             known = WellVerdict(str(trajectory.get("well", "")), verdict, recovered)
             before = self._seen.get(verdict.trajectory)
@@ -110,6 +124,13 @@ class VerdictReader:
                 self._seen[verdict.trajectory] = known
                 found.append(known)
         return found
+
+    def _verdict(self, trajectory: Mapping[str, Any]) -> Verdict | None:
+        if trajectory.get("verdict") is not None:
+            return from_json(Verdict, trajectory["verdict"])
+        if reason := trajectory.get("unjudged"):
+            return unjudged(self.run, trajectory["trajectory"], str(reason))
+        return None
 
     def overview(self) -> Mapping[str, Any] | None:
         """All that the sidecar knows of the run, ``None`` if it never came there."""

@@ -19,15 +19,23 @@ from .following import POLL_S, Completed, Found, Lost, Started, StatusChanged, f
 from .listening import RunListener, Timed
 from .moments import PastLink
 from .page_pauses import PagePauses
-from .running import RobotRun, RunDriver, Screen
-from .verdicts import WellVerdict
+from .running import (
+    LAST_VERDICTS_S,
+    LOST_SIDECAR_S,
+    NO_VERDICT,
+    WAIT_SHOWN_S,
+    RobotRun,
+    RunDriver,
+    Screen,
+    tell_open,
+)
+from .verdicts import VerdictReader, WellVerdict, unjudged
 
 LOSSES = (
     "The robot is not held between deliveries: when a delivery fails, the robot has gone on for "
     "some seconds before it is paused. Frames are chosen by the times of its commands and may be "
     "one camera frame off."
 )
-_LAST_VERDICTS_S = 20.0
 
 
 @dataclass(frozen=True)
@@ -74,10 +82,11 @@ def watch_run(
     sidecar: PastLink,
     screen: Screen,
     policies: WatchPolicies | None = None,
+    verdicts: VerdictReader | None = None,
     *,
     poll_s: float = POLL_S,
 ) -> RobotRun:
-    """Watch a run that has begun, to its end.
+    """Watch a run that has begun, to its end and to its last verdict.
 
     Args:
         robot: Where.
@@ -85,6 +94,7 @@ def watch_run(
         sidecar: Scores its deliveries.
         screen: Shows it.
         policies: What to do when a delivery fails, or cannot be watched.
+        verdicts: Of the same sidecar: read at the end, so that both reports say the same.
         poll_s: Pause between two looks at the robot.
 
     Raises:
@@ -94,6 +104,8 @@ def watch_run(
     driver = RunDriver(robot, run, screen)
     watch = _Watch(robot, run, sidecar, screen, policies or WatchPolicies(), driver.paused_because)
     watch.begin()
+    if verdicts is not None:
+        verdicts.run = run.watched_as
     screen.says(LOSSES)
     began = time.monotonic()
 
@@ -102,12 +114,16 @@ def watch_run(
         watch.look_around()
 
     try:
-        for step in follow(robot, run.id, poll_s=poll_s, idle=idle):
-            driver.take(step)
-            watch.take(step)
+        try:
+            for step in follow(robot, run.id, poll_s=poll_s, idle=idle):
+                driver.take(step)
+                watch.take(step)
+        finally:
+            run.seconds = time.monotonic() - began
+        watch.await_last()
     finally:
-        run.seconds = time.monotonic() - began
         watch.end()
+        RunDriver(robot, run, screen, verdicts).last_words()
     return run
 
 
@@ -197,11 +213,29 @@ class _Watch:
         elif verdict.outcome is Outcome.UNDECIDED:
             self._apply(self._policies.on_undecided, f"{known.well} could not be judged", number)
 
-    def end(self) -> None:
-        """The run is over, or is followed no longer: the last verdicts, and goodbye."""
-        until = time.monotonic() + _LAST_VERDICTS_S
-        while self._awaited and not self._courier.away and time.monotonic() < until:
+    def await_last(self) -> None:
+        """The run is over: wait for its last verdicts while the sidecar works on them."""
+        heard, left, told = time.monotonic(), len(self._awaited), False
+        while self._awaited:
+            away = not self._courier.look(self._policies.capture_timeout_s)
             self.look_around()
+            now = time.monotonic()
+            if len(self._awaited) < left:
+                heard, left = now, len(self._awaited)
+            waited = now - heard
+            if waited >= (LOST_SIDECAR_S if away else LAST_VERDICTS_S):
+                break
+            if waited >= WAIT_SHOWN_S and not told:
+                self._screen.says(tell_open(map(self._place, self._awaited)))
+                told = True
+            time.sleep(0.02)  # an answer may come at once
+
+    def end(self) -> None:
+        """The run is over, or is followed no longer: what is open is undecided; goodbye."""
+        for number in self._awaited:
+            verdict = unjudged(self.name, number, NO_VERDICT)
+            known = self._run.verdicts[number] = WellVerdict(self._place(number), verdict)
+            self._screen.judged(known)
         status = self._run.status
         outcome = status if status in ("succeeded", "failed", "stopped") else "failed"
         detail = "" if outcome == status else "The run was followed no longer."
@@ -212,6 +246,9 @@ class _Watch:
             self._screen.says(str(error))
         finally:
             self._courier.close()
+
+    def _place(self, number: int) -> str:
+        return self._places.get(number) or f"delivery {number}"
 
     def _tell(self, heard: list[Abandon | Timed]) -> None:
         for one in heard:

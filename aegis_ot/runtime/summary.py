@@ -66,17 +66,17 @@ class WatchSummary:
             return "Layer 2 does not watch this simulation."
         failed = tuple(n for n in self.of(Outcome.FAIL) if n not in self.recovered)
         recovered = tuple(sorted(self.recovered))
-        undecided = self.of(Outcome.UNDECIDED)
+        # A delivery without a verdict is no pass.
+        open_ = tuple(sorted(self.lost.keys() - self.attempts.keys()))
+        undecided = tuple(sorted({*self.of(Outcome.UNDECIDED), *open_}))
         parts = [f"{len(self.of(Outcome.PASS))} passed"]
         if failed:
             parts.append(f"{len(failed)} failed ({self._wells(failed)})")
         if recovered:
             parts.append(f"{len(recovered)} put right ({self._wells(recovered)})")
         if undecided:
-            parts.append(f"{len(undecided)} undecided ({self._wells(undecided)})")
-        lost = tuple(sorted(self.lost.keys() - self.attempts.keys()))
-        if lost:
-            parts.append(f"{len(lost)} not judged ({self._wells(lost)})")
+            without = f"; without a verdict: {self._wells(open_)}" if open_ else ""
+            parts.append(f"{len(undecided)} undecided ({self._wells(undecided)}{without})")
         hidden = unobserved(self.verdicts.values())
         if hidden:
             parts.append(f"{len(hidden)} wells unobserved: the camera did not see their tips")

@@ -10,10 +10,18 @@ from ..vocabulary import WellRef, from_json, to_json
 from .decisions import effective
 from .store import Store
 
+NO_VERDICT = "No verdict came before the run was over; look at this well."
 
-def run_overview(store: Store, run: str) -> dict[str, Any]:
+
+def run_overview(store: Store, run: str, at_work: bool = False) -> dict[str, Any]:
     """All that the store knows of a run: its start and end, and per trajectory its keyframes,
     verdict (as it stands, and as it was judged), evidence, decisions, holds; the audit.
+
+    Args:
+        store: An open store.
+        run: Which run.
+        at_work: Whether verdicts of it may still come. Where none can, a delivery of a run that is
+            over says under ``unjudged`` that it has none.
 
     Returns:
         The answer of ``GET /v1/runs/{run}``, without ``version``.
@@ -39,6 +47,7 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
                 "holds": [],
                 "abandoned": abandoned.get(number),
                 "recovered": False,
+                "unjudged": None,
             }
         return trajectories[number]
 
@@ -57,6 +66,9 @@ def run_overview(store: Store, run: str) -> dict[str, Any]:
     for number in store.put_right(run):
         entry(number)["recovered"] = True
     row = store.run(run) or {}
+    for trajectory in trajectories.values() if row.get("finished") and not at_work else ():
+        if trajectory["verdict"] is None and trajectory["abandoned"] is None:
+            trajectory["unjudged"] = NO_VERDICT
     return row | {
         "trajectories": [trajectories[number] for number in sorted(trajectories)],
         "costs": _costs(evidence for _, evidence, _ in verdicts.values()),

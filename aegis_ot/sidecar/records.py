@@ -72,7 +72,8 @@ class Records(Database):
 
     def outcomes(self, run: str) -> dict[str, int]:
         """How many deliveries have which outcome, after the operator: ``pass``, ``fail``,
-        ``undecided``, ``recovered`` (failed, and put right) or ``unobserved``.
+        ``undecided``, ``recovered`` (failed, and put right) or ``unobserved``. Of a run that is
+        over those without a verdict are undecided.
         """
         rows = self._read(
             "SELECT CASE WHEN d.outcome IS NULL AND json_array_length(v.verdict, '$.channels') > 0 "
@@ -87,7 +88,15 @@ class Records(Database):
             "AND a.trajectory = v.trajectory) GROUP BY 1",
             run,
         )
-        return {row["outcome"]: row["n"] for row in rows}
+        found = {row["outcome"]: row["n"] for row in rows}
+        ((open_,),) = self._read(
+            "SELECT count(DISTINCT k.trajectory) FROM keyframes k JOIN runs r USING (run) "
+            "WHERE k.run = ?1 AND r.finished IS NOT NULL AND k.trajectory NOT IN "
+            "(SELECT trajectory FROM verdicts WHERE run = ?1 UNION "
+            "SELECT trajectory FROM abandoned WHERE run = ?1)",
+            run,
+        )
+        return found | ({"undecided": found.get("undecided", 0) + open_} if open_ else {})
 
     def add_hold(self, run: str, hold: Hold) -> None:
         """Keep how long the robot held; the last word on each hold counts."""

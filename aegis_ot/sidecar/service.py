@@ -225,8 +225,8 @@ class Sidecar:
         """All that is known of a run, as plain JSON (docs/reference/wire.md)."""
         version = self.bell.rings
         self.require(run)
-        overview = run_overview(self.store, run)
         session = self._sessions.get(run)
+        overview = run_overview(self.store, run, session is not None and not session.idle)
         overview["order"] = None if session is None else session.ordered()
         for trajectory in overview["trajectories"]:
             number = trajectory["trajectory"]
@@ -237,7 +237,8 @@ class Sidecar:
             if session is not None and trajectory["verdict"] is None:
                 # Judged, but the store could not keep it.
                 verdict = session.verdict(number)
-                trajectory["verdict"] = None if verdict is None else to_json(verdict)
+                if verdict is not None:
+                    trajectory |= {"verdict": to_json(verdict), "unjudged": None}
         return overview | {"version": version}
 
     def camera_health(self) -> Health:

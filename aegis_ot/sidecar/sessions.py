@@ -18,6 +18,7 @@ from .bell import Bell
 from .decisions import effective
 from .journal import event
 from .orders import Orders
+from .overview import run_overview
 from .run_trouble import RunTrouble, Troubles
 from .store import SILENT, Captured, Store
 from .wire import Action, Decision, Hold, Order, WireError
@@ -216,7 +217,7 @@ class Session:
         """
         self._require_known(trajectory)
         with self._state:
-            verdict = self._verdicts.get(trajectory)
+            verdict = self._verdicts.get(trajectory) or self._give_up(trajectory)
             if verdict is None:
                 raise WireError(409, "no_verdict", f"Trajectory {trajectory} has no verdict yet.")
             self._store.add_decision(self.run, trajectory, decision)
@@ -292,6 +293,17 @@ class Session:
                 f"This run has ended ({ended['outcome']}); its robot hears of it no more.",
                 "If it still moves, press stop on its own screen.",
             )
+
+    def _give_up(self, trajectory: int) -> Verdict | None:
+        """Undecided, and a person's to decide, is a delivery of which no verdict will come."""
+        entries = run_overview(self._store, self.run, not self.idle)["trajectories"]
+        for why in (one["unjudged"] for one in entries if one["trajectory"] == trajectory):
+            if why is not None:
+                verdict = undecided(self.run, trajectory, why)
+                self._store.add_verdict(verdict, {})
+                self._verdicts[trajectory] = verdict
+                return verdict
+        return None
 
     def _awaited(self, trajectory: int) -> bool:
         release = self._release.get(trajectory)

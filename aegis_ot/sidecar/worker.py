@@ -68,7 +68,7 @@ class AnalysisWorker:
     def idle(self) -> bool:
         """Whether everything submitted was dealt with."""
         with self._news:
-            return not self._tasks and not self._busy
+            return not (self._tasks or self._busy) or not self._thread.is_alive()
 
     def submit(self, keyframe: Keyframe, frame: Frame | None) -> None:
         """Queue a capture; ``None`` reads its frame from the store. Never blocks."""

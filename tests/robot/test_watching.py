@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from datetime import datetime, timezone
 from pathlib import Path
@@ -16,19 +16,21 @@ import pytest
 
 from aegis_ot.account import Situation, situations
 from aegis_ot.errors import SidecarUnreachable
-from aegis_ot.robot import Analysis, RobotClient
+from aegis_ot.robot import Analysis, RobotClient, watching
 from aegis_ot.robot.deck import channels_of, largest_volume
 from aegis_ot.robot.moments import PastLink, moment_of_transit
+from aegis_ot.robot.run_report import run_report
 from aegis_ot.robot.running import RobotRun
 from aegis_ot.robot.shapes import Command as RobotCommand
-from aegis_ot.robot.verdicts import WellVerdict
+from aegis_ot.robot.verdicts import VerdictReader, WellVerdict
 from aegis_ot.robot.watching import LOSSES, WatchPolicies, await_run, watch_run
 from aegis_ot.runtime.link import Captured
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.sidecar.analysis import Judged
 from aegis_ot.vocabulary import Keyframe, Outcome, Verdict
 
 from ..cli.commands import Command
-from ..sidecar.helpers import Robot, StubAnalyser, StubCamera
+from ..sidecar.helpers import Robot, StubAnalyser, StubCamera, StubRun
 from ..support.robot_server import RobotServer
 
 SLOW = """
@@ -273,6 +275,66 @@ def test_a_robot_that_is_away_is_waited_for() -> None:
         assert await_run(robot, lambda seconds: None, said.append) == "one"
     (words,) = said
     assert "cannot be reached" in words
+
+
+class Slow(StubAnalyser):
+    """Judges the last delivery when it may."""
+
+    def __init__(self, fails: Sequence[int] = ()) -> None:
+        super().__init__(fails)
+        self.last = threading.Event()
+
+    def begin(self, run: str, history: Any = ()) -> StubRun:
+        return SlowRun(self, run)
+
+
+class SlowRun(StubRun):
+    def judge(self, trajectory: int) -> Judged:
+        if trajectory == 3:
+            assert isinstance(self.analyser, Slow)
+            assert self.analyser.last.wait(60)
+        return super().judge(trajectory)
+
+
+def test_the_last_verdict_is_waited_for_however_long_the_sidecar_works(
+    client: RobotClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(watching, "WAIT_SHOWN_S", 0.2)
+    shown, analyser = Shown(), Slow([3])
+    config = SidecarConfig(port=0, data=tmp_path / "sidecar")
+    said = shown.says
+
+    def says(text: str) -> None:
+        said(text)
+        if text == "Waiting for the verdict on D2 of my plate (slot 2).":
+            analyser.last.set()
+
+    monkeypatch.setattr(shown, "says", says)
+    with running_sidecar(config, StubCamera(), analyser) as url:
+        run = begin(client, tmp_path)
+        reader = VerdictReader(url, None)
+        watch_run(client, run, PastLink(url, None), shown, verdicts=reader, poll_s=0.05)
+        reader.close()
+    assert run.status == "succeeded"
+    assert [v.state for v in run.verdicts.values()] == ["pass"] * 3 + ["fail"]
+    report = run_report(run)
+    assert report["sidecar"]["counts"] == {"pass": 3, "fail": 1, "wells": 4}
+
+
+def test_a_verdict_that_never_comes_leaves_its_well_undecided(
+    client: RobotClient, robot: RobotServer, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capfdbinary: pytest.CaptureFixture[bytes],
+) -> None:  # fmt: skip
+    monkeypatch.setattr(watching, "LAST_VERDICTS_S", 0.5)
+    analyser = Slow()
+    config = SidecarConfig(port=0, data=tmp_path / "sidecar")
+    with running_sidecar(config, StubCamera(), analyser) as url:
+        begin(client, tmp_path)
+        done = Command(capfdbinary)("watch", "--robot", robot.url, "--sidecar", url)
+        analyser.last.set()
+    assert done.code == 1, done.out + done.err
+    assert "4 deliveries: 3 pass, 1 undecided" in done.out
+    assert "D2 of my plate (slot 2): undecided: No verdict on it came." in done.out
 
 
 def test_a_run_with_a_guard_is_told_so(client: RobotClient, tmp_path: Path) -> None:

@@ -37,3 +37,12 @@ def test_a_row_that_nobody_saw_counts_when_the_operator_decides_on_it() -> None:
     assert summary.of(Outcome.PASS) == ()
     summary.verdicts[0] = replace(unseen, gate=Gate.OPERATOR)
     assert summary.of(Outcome.PASS) == (0,)
+
+
+def test_a_delivery_without_a_verdict_is_undecided() -> None:
+    summary = WatchSummary(watching=True, places={0: "A1", 1: "B1", 2: "C1"})
+    summary.verdicts = {0: judged(0, Outcome.PASS), 1: judged(1, Outcome.UNDECIDED)}
+    summary.lost = {2: "timeout"}
+    assert summary.text().startswith(
+        "Layer 2 watched 3 deliveries: 1 passed, 2 undecided (B1, C1; without a verdict: C1); held"
+    )
