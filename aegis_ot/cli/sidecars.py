@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Annotated
 
@@ -38,6 +39,7 @@ def sidecar(
     from ..sidecar.journal import event, set_up
     from ..sidecar.reasoning_routes import gates_of
     from ..sidecar.token_file import TOKEN_FILE, kept_token
+    from ..vocabulary import without_secrets
 
     made: list[str] = []
     kept: list[Path] = []
@@ -64,12 +66,15 @@ def sidecar(
     set_up(settings.log)
 
     def ready(url: str) -> None:
-        event("ready", address=url, camera=settings.camera.spec, data=str(settings.data))
+        camera = without_secrets(settings.camera.spec)
+        event("ready", address=url, camera=camera, data=str(settings.data))
         typer.echo(f"aegis-ot sidecar: {settings.url or url}")
-        typer.echo(f"camera {settings.camera.spec}, data {settings.data}")
+        typer.echo(f"camera {camera}, data {settings.data}")
         if made:
+            # Standard output of a service ends in a log.
+            shown = f": {made[0]}" if sys.stdout.isatty() else ""
             typer.echo(
-                f"A token was made: {made[0]}\nIt is kept in {kept[0]}. Log in "
+                f"A token was made{shown}\nIt is kept in {kept[0]}. Log in "
                 'with it, and give it to the guard (token="...", or AEGIS_OT_TOKEN on the robot).'
             )
         elif settings.token is not None:

@@ -75,8 +75,9 @@ class WatchSummary:
         if recovered:
             parts.append(f"{len(recovered)} put right ({self._wells(recovered)})")
         if undecided:
-            without = f"; without a verdict: {self._wells(open_)}" if open_ else ""
-            parts.append(f"{len(undecided)} undecided ({self._wells(undecided)}{without})")
+            parts.append(f"{len(undecided)} undecided ({self._wells(undecided)})")
+        if open_:
+            parts.append(f"{len(open_)} of them without a verdict")
         hidden = unobserved(self.verdicts.values())
         if hidden:
             parts.append(f"{len(hidden)} wells unobserved: the camera did not see their tips")

@@ -68,7 +68,7 @@ class CameraSettings(Section):
             misaimed.
     """
 
-    spec: str = "usb:0"
+    spec: Annotated[str, Field(repr=False)] = "usb:0"
     timeout_s: Annotated[float, Field(gt=0, le=30)] = 2.0
     latency_s: Annotated[float, Field(ge=0, le=5)] | None = None
     width: Annotated[int, Field(ge=16, le=10_000)] | None = None

@@ -21,7 +21,7 @@ from ..reasoning.backends.service import ServiceBackend
 from ..vision.camera import Camera
 from ..vision.models import load_model
 from ..vision.reach import Smallest, normals_in, shortcomings, smallest_in
-from ..vocabulary import counted
+from ..vocabulary import counted, without_secrets
 from .aiming import Aim
 from .analysers import load_scorer
 from .cameras import FreeRunning, open_camera
@@ -32,6 +32,10 @@ from .token_file import TOKEN_FILE
 
 _LEAST_FREE_GB = 2.0
 _FIRST_FRAME_S = 8.0
+_WAITS = 6
+"""Frames that are waited for, to see how long one takes."""
+_LONG_WAIT = 0.7
+"""Share of the time that a frame may take, from which on some may take longer."""
 _CLOCK_S = 5.0
 """A robot's clock that is off by more makes its run log hard to read beside the frames, s."""
 _PACKAGES = ("opentrons", "onnxruntime", "opencv-python-headless", "fastapi")
@@ -150,22 +154,20 @@ def _camera_checks(config: SidecarConfig, working: dict[str, Any] | None) -> Ite
 
 
 def _look(config: SidecarConfig, settings: CameraSettings, camera: Camera) -> Iterator[Check]:
-    aim = Aim(config, camera, lambda: None)
-    until = time.monotonic() + (_FIRST_FRAME_S if isinstance(camera, FreeRunning) else 0)
-    while True:
-        try:
-            view = aim.look()
-            break
-        except CameraError as error:
-            if time.monotonic() >= until:
-                todo = "Look at its cable and power; close other programs that use it."
-                yield Check("camera", "bad", f"{settings.spec}: {error}", todo)
-                return
-        except AegisError as error:
-            yield Check("detector", "bad", str(error), "Leave cascade.detector out, or mend it.")
-            return
+    shown = without_secrets(settings.spec)
+    try:
+        if isinstance(camera, FreeRunning):
+            yield _wait(camera, settings)
+        view = Aim(config, camera, lambda: None).look()
+    except CameraError as error:
+        todo = "Look at its cable and power; close other programs that use it."
+        yield Check("camera", "bad", f"{shown}: {error}", todo)
+        return
+    except AegisError as error:
+        yield Check("detector", "bad", str(error), "Leave cascade.detector out, or mend it.")
+        return
     height, width = view.frame.image.shape[:2]
-    yield Check("camera", "ok", f"{settings.spec}, {width} x {height} px")
+    yield Check("camera", "ok", f"{shown}, {width} x {height} px")
     light = (
         f"brightness {view.brightness:.0%}, too dark {view.dark:.0%}, blown out {view.blown:.0%}"
     )
@@ -179,6 +181,23 @@ def _look(config: SidecarConfig, settings: CameraSettings, camera: Camera) -> It
     found = "no tip" if view.tip is None else f"a tip, {view.confidence:.0%} sure"
     state = "warning" if about_tip else "ok"
     yield Check("detector", state, f"on a live frame: {found}", " ".join(about_tip))
+
+
+def _wait(camera: FreeRunning, settings: CameraSettings) -> Check:
+    """What a keyframe costs: a frame counts when it was surely exposed after the trigger."""
+    camera.frame_after(time.monotonic(), _FIRST_FRAME_S)  # it has only just been opened
+    waits = []
+    for _ in range(_WAITS):
+        began = time.monotonic()
+        camera.frame_after(began, _FIRST_FRAME_S)
+        waits.append(time.monotonic() - began)
+    name, longest = "camera's delay", max(waits)
+    said = f"the robot stands up to {longest:.2f} s for each keyframe"
+    if longest < _LONG_WAIT * settings.timeout_s:
+        return Check(name, "ok", said)
+    todo = "Have it send more frames a second, or set camera.timeout_s higher."
+    state = "warning" if longest < settings.timeout_s else "bad"
+    return Check(name, state, f"{said}, and a frame is given {settings.timeout_s:g} s", todo)
 
 
 def _world_model(config: SidecarConfig) -> Iterator[Check]:

@@ -8,6 +8,8 @@ import sys
 from datetime import datetime, timezone
 from typing import Any
 
+from ..vocabulary import without_secrets
+
 EVENTS = logging.getLogger("aegis_ot.sidecar.events")
 
 
@@ -45,7 +47,7 @@ class _Json(logging.Formatter):
             line |= {"event": "log", "logger": record.name, "message": record.getMessage()}
         if record.exc_info:
             line["trace"] = self.formatException(record.exc_info)
-        return json.dumps(line, ensure_ascii=False, default=str)
+        return without_secrets(json.dumps(line, ensure_ascii=False, default=str))
 
 
 class _Text(logging.Formatter):
@@ -56,4 +58,4 @@ class _Text(logging.Formatter):
         if record.exc_info:
             text += "\n" + self.formatException(record.exc_info)
         # What a robot says of itself must not look like a line of ours.
-        return text.rstrip().replace("\r", " ")
+        return without_secrets(text.rstrip().replace("\r", " "))

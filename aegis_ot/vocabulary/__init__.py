@@ -4,6 +4,7 @@ Whatever crosses from one room to another, or from the robot to the workstation,
 these. They carry no behaviour beyond naming themselves and turning into plain JSON.
 """
 
+from .addresses import without_secrets
 from .channels import is_row, named_wells, unobserved, with_places
 from .findings import Finding, Remark, Severity, Site, Undecided, VerdictWord
 from .opinions import (
@@ -66,4 +67,5 @@ __all__ = [
     "to_json",
     "unobserved",
     "with_places",
+    "without_secrets",
 ]

@@ -44,5 +44,5 @@ def test_a_delivery_without_a_verdict_is_undecided() -> None:
     summary.verdicts = {0: judged(0, Outcome.PASS), 1: judged(1, Outcome.UNDECIDED)}
     summary.lost = {2: "timeout"}
     assert summary.text().startswith(
-        "Layer 2 watched 3 deliveries: 1 passed, 2 undecided (B1, C1; without a verdict: C1); held"
+        "Layer 2 watched 3 deliveries: 1 passed, 2 undecided (B1, C1), 1 of them without a verdict;"
     )

@@ -148,7 +148,7 @@ def test_a_verdict_that_never_comes(sidecar: FakeSidecar) -> None:
     )
     assert error is None
     assert len(said(texts)) == 1
-    assert "1 not judged (A2" in watcher.summary()
+    assert "1 undecided (A2" in watcher.summary()
 
 
 def test_hold_off_never_waits_until_the_end(sidecar: FakeSidecar) -> None:
@@ -174,7 +174,7 @@ class TestLinkLoss:
         assert error is None
         assert time.monotonic() - began < 3.0  # one patient try, not one for each keyframe
         assert len(said(texts)) == 1
-        assert "4 not judged" in watcher.summary()
+        assert "4 undecided" in watcher.summary()
 
     def test_a_refused_token_is_not_asked_again(self) -> None:
         with FakeSidecar(token="right") as strict:
@@ -254,7 +254,7 @@ class TestLinkLoss:
         assert "B2" in said(texts)[0]
         assert "the sidecar lost its keyframes" in said(texts)[0]
         # The first had its verdict before; of the second one keyframe is worthless.
-        assert "1 passed, 1 not judged (B2" in watcher.summary()
+        assert "1 passed, 1 undecided (B2" in watcher.summary()
 
     def test_a_sidecar_that_forgot_the_run_during_a_hold_is_not_waited_for(
         self, sidecar: FakeSidecar
@@ -273,7 +273,7 @@ class TestLinkLoss:
         assert "the sidecar lost its keyframes" in said(texts)[0]
         assert [f["sequence"] for f in sidecar.stored()] == list(range(8))
         assert [f["late"] for f in sidecar.stored()] == [True] * 4 + [False] * 4
-        assert "1 passed, 1 not judged (A2" in watcher.summary()
+        assert "1 passed, 1 undecided (A2" in watcher.summary()
 
     def test_it_is_found_again_and_gets_what_it_missed(self, sidecar: FakeSidecar) -> None:
         sidecar.fault = once("/keyframes", Handler.drop, times=10_000)
@@ -294,7 +294,7 @@ class TestLinkLoss:
         stored = sidecar.stored()
         assert [f["sequence"] for f in stored] == list(range(8))
         assert [f["late"] for f in stored] == [True] * 4 + [False] * 4
-        assert "1 passed, 1 not judged (A2" in watcher.summary()
+        assert "1 passed, 1 undecided (A2" in watcher.summary()
         assert watcher.result.outages == 1
 
     def test_a_run_id_that_was_used_before(self, sidecar: FakeSidecar) -> None:

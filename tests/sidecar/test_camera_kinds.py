@@ -17,7 +17,7 @@ from aegis_ot.errors import CameraError, ConfigurationError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.cameras import open_camera, open_cameras
 from aegis_ot.sidecar.cameras.bound import Bound, BoundCameras
-from aegis_ot.sidecar.cameras.capture import UsbSource, shown_address
+from aegis_ot.sidecar.cameras.capture import UsbSource
 from aegis_ot.sidecar.config import CameraSettings
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_jpeg, make_keyframe
@@ -118,10 +118,6 @@ def test_what_cannot_be_opened_is_told_without_opencvs_lines_or_a_secret(
     err = capfd.readouterr().err
     assert "VIDEOIO" not in err
     assert "tcp @" not in err
-
-
-def test_addresses_are_shown_without_their_secrets() -> None:
-    assert shown_address("rtsp://ada:secret@cam.local:554/live") == "rtsp://cam.local:554/live"
 
 
 def test_a_video_is_played_at_its_own_rate_over_and_over(tmp_path: Path) -> None:

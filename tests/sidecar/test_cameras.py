@@ -194,7 +194,7 @@ def stream(frames: int, length: bool, boundary: str = "frame") -> Callable[..., 
 
 
 def snapshot(handler: BaseHTTPRequestHandler) -> None:
-    jpeg = make_jpeg()
+    jpeg = make_jpeg(int(time.monotonic() * 50) % 200)  # a sensor's noise makes each a new one
     handler.send_response(200)
     handler.send_header("Content-Type", "image/jpeg")
     handler.send_header("Content-Length", str(len(jpeg)))

@@ -75,7 +75,8 @@ def robot() -> Iterator[tuple[str, list[float]]]:
 def test_everything_is_looked_at(sound: SidecarConfig, robot: tuple[str, list[float]]) -> None:
     checks = found(sound, robot[0])
     assert list(checks) == [
-        "versions", "disk", "store", "token", "camera", "sharpness and light", "detector",
+        "versions", "disk", "store", "token", "camera's delay", "camera",
+        "sharpness and light", "detector",
         "world model", "language model", "notifications", "robot",
     ]  # fmt: skip
     assert {name for name, check in checks.items() if check.state == "bad"} == set()

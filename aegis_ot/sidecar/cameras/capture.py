@@ -8,13 +8,13 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
 
 import cv2
 import numpy as np
 
 from ...errors import CameraError
 from ...vision.types import Image
+from ...vocabulary import without_secrets
 from ..config import CameraSettings
 from .freerunning import Raw
 
@@ -120,7 +120,7 @@ class RtspSource:
     """
 
     def __init__(self, url: str, latency: float) -> None:
-        self._shown = shown_address(url)
+        self._shown = without_secrets(url)
         self._latency = latency
         self._device = _opened(
             url, cv2.CAP_FFMPEG, f"{self._shown} cannot be reached, or sends no video."
@@ -166,17 +166,6 @@ class VideoSource:
     def close(self) -> None:
         """Close the file."""
         self._device.release()
-
-
-def shown_address(url: str) -> str:
-    """An address without user name and password."""
-    try:
-        parts = urlsplit(url)
-        place = parts.hostname or ""
-        port = f":{parts.port}" if parts.port else ""
-    except ValueError as error:
-        raise CameraError(f"The camera's address makes no sense: {error}") from error
-    return f"{parts.scheme}://{place}{port}{parts.path}"
 
 
 def _device(which: int | str) -> int | str:

@@ -154,7 +154,11 @@ class FreeRunning:
             return "The camera is closed."
         if self._trouble:
             return f"The {self.kind} camera gave no frame: {self._trouble}"
-        return f"The {self.kind} camera gave no frame within {timeout:g} s of the trigger."
+        said = f"The {self.kind} camera gave no frame within {timeout:g} s of the trigger"
+        if self.health().ok:
+            # Pictures come, but none was surely exposed after the trigger.
+            return f"{said} that is surely of a later moment: see what aegis-ot doctor says of it."
+        return f"{said}."
 
     def _run(self) -> None:
         pause = FIRST_PAUSE

@@ -7,9 +7,10 @@ from typing import cast
 
 from ...errors import AegisError, ConfigurationError
 from ...vision.camera import Camera
+from ...vocabulary import without_secrets
 from ..config import CameraSettings, SidecarConfig
 from .bound import Bound, BoundCameras
-from .capture import RtspSource, UsbSource, VideoSource, shown_address
+from .capture import RtspSource, UsbSource, VideoSource
 from .folder import FolderCamera
 from .freerunning import FreeRunning
 from .http import HttpSource
@@ -62,7 +63,9 @@ def open_camera(settings: CameraSettings) -> Camera:
         return FreeRunning("pattern", lambda: PatternSource(settings.fps))
     if spec == "simulated":
         return _simulated()
-    raise ConfigurationError(f"There is no camera called {settings.spec!r}; use {NAMES}.")
+    raise ConfigurationError(
+        f"There is no camera called {without_secrets(settings.spec)!r}; use {NAMES}."
+    )
 
 
 def open_cameras(config: SidecarConfig) -> Camera:
@@ -76,8 +79,7 @@ def open_cameras(config: SidecarConfig) -> Camera:
     opened: list[Bound] = []
     try:
         for one in config.cameras:
-            name = one.spec if "@" not in one.spec else shown_address(one.spec)
-            opened.append(Bound(open_camera(one), name, one.robot, one.mount))
+            opened.append(Bound(open_camera(one), without_secrets(one.spec), one.robot, one.mount))
     except AegisError:
         for bound in opened:
             bound.camera.close()
