@@ -131,6 +131,8 @@ class Session:
             frame = self._grab(keyframe, moment, self._view)
             captured = Captured(keyframe, max(0.0, frame.exposed_at - moment), time.time())
             try:
+                if frame.simulated:
+                    self._store.mark_simulated(self.run)
                 self._store.add_keyframe(captured, frame.jpeg)
                 self._store.reopen(self.run)
             except StoreError as error:

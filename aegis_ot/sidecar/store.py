@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import StoreError
+from ..vision.camera import SIMULATED_KINDS
 from ..vocabulary import Keyframe, from_json, to_json
 from .database import DATABASE
 from .frames import FrameFiles, folder_name
@@ -102,6 +103,15 @@ class Store(Records):
             "UPDATE runs SET start = json_set(start, '$.layer1', json(?)) WHERE run = ?",
             (json.dumps(said), run),
         )
+
+    def mark_simulated(self, run: str) -> None:
+        """A frame of this run is drawn or replayed, whatever its robot said of itself."""
+        if not (self.run(run) or {}).get("simulated"):
+            self._write(
+                "UPDATE runs SET start = json_set(start, '$.simulated', json('true')) "
+                "WHERE run = ?",
+                (run,),
+            )
 
     def knows(self, run: str) -> bool:
         """Whether the run was registered."""
@@ -300,10 +310,14 @@ def _run_row(row: sqlite3.Row) -> dict[str, Any]:
     start: dict[str, Any] = json.loads(row["start"])
     finished = row["finished"]
     ended = {"at": finished, "outcome": row["outcome"], "detail": row["detail"]}
+    sidecar = json.loads(row["sidecar"] or "null")
+    # Older stores say only what the robot was; the frames are the camera's.
+    drawn = (sidecar or {}).get("camera") in SIMULATED_KINDS
     return start | {
+        "simulated": bool(start.get("simulated")) or drawn,
         "registered": row["registered"],
         "finished": ended if finished else None,
-        "sidecar": json.loads(row["sidecar"] or "null"),
+        "sidecar": sidecar,
     }
 
 

@@ -132,7 +132,7 @@ class SimulatedCamera:
         if self._closed.wait(max(ready - time.monotonic(), 0.0)):
             raise CameraError("The simulated camera was closed while a frame was awaited.")
         self._truth = truth
-        return Frame(jpeg=jpeg, image=decode(jpeg), exposed_at=exposed_at)
+        return Frame(jpeg=jpeg, image=decode(jpeg), exposed_at=exposed_at, simulated=True)
 
     def close(self) -> None:
         """Give no more frames; a waiting :meth:`frame_after` ends. Idempotent."""

@@ -21,11 +21,17 @@ class Frame:
         jpeg: The encoded frame, as it is stored.
         image: The decoded frame.
         exposed_at: When its exposure began, on the workstation's ``time.monotonic`` clock, s.
+        simulated: Whether it is drawn or replayed: it shows nothing of what the robot did.
     """
 
     jpeg: bytes
     image: Image
     exposed_at: float
+    simulated: bool = False
+
+
+SIMULATED_KINDS = frozenset({"simulated", "pattern", "folder", "video"})
+"""Kinds of cameras whose frames are drawn or replayed: no figure on them is a real one."""
 
 
 class Camera(Protocol):

@@ -35,8 +35,8 @@ class RecordedRun:
     Attributes:
         run: Its identifier.
         protocol: File name.
-        source: ``"synthetic"`` for a simulated robot, whose frames are simulated as a rule, else
-            ``"real"``: what figures on its frames are called.
+        source: ``"synthetic"`` for a simulated robot, or a camera that draws or replays its frames,
+            else ``"real"``: what figures on its frames are called.
         samples: Trajectories with all four frames. Their label is the verdict as it stands after
             the operator: ``"normal"`` for a pass, ``"failure"`` for a fail whose type the data
             set format knows, ``""`` for all others.

@@ -14,11 +14,14 @@ import numpy as np
 import pytest
 
 from aegis_ot.errors import CameraError, ConfigurationError
+from aegis_ot.evaluation.layer2.recorded import run_source
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.cameras import open_camera, open_cameras
 from aegis_ot.sidecar.cameras.bound import Bound, BoundCameras
 from aegis_ot.sidecar.cameras.capture import UsbSource
 from aegis_ot.sidecar.config import CameraSettings
+from aegis_ot.sidecar.store import Store
+from aegis_ot.sidecar.wire import RunStart
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_jpeg, make_keyframe
 
@@ -209,3 +212,31 @@ def test_several_cameras_are_opened_from_the_settings(tmp_path: Path) -> None:
         update={"spec": "ftp://x"}),)})  # fmt: skip
     with pytest.raises(ConfigurationError, match="usb:NUMBER"):
         open_cameras(wrong)
+
+
+def test_frames_that_are_drawn_or_replayed_are_called_so_whatever_robot_runs(
+    tmp_path: Path, config: SidecarConfig
+) -> None:
+    folder = tmp_path / "frames"
+    folder.mkdir()
+    for number in range(8):
+        (folder / f"{number}.jpg").write_bytes(make_jpeg())
+    replayed = open_camera(CameraSettings(spec=f"folder:{folder}"))
+    camera = BoundCameras(
+        [Bound(StubCamera(), "real", mount="left"), Bound(replayed, "replayed", mount="right")]
+    )
+    with running_sidecar(config, camera, StubAnalyser()) as url, Robot(url) as robot:
+        robot.http.put("/v1/runs/run-1", json={"run": "run-1", "simulated": False})
+        robot.cycle(0)
+        assert robot.overview()["simulated"] is False
+        assert robot.send(4, mount="right").status_code == 200
+        assert robot.overview()["simulated"] is True
+
+
+def test_runs_of_an_older_store_are_called_after_the_camera(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    for name, kind in (("drawn", "simulated"), ("seen", "usb")):
+        store.register(RunStart(run=name, simulated=False), {"camera": kind})
+    assert run_source(store.run("drawn") or {}) == "synthetic"
+    assert run_source(store.run("seen") or {}) == "real"
+    store.close()

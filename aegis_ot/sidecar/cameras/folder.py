@@ -59,7 +59,7 @@ class FolderCamera:
             data = path.read_bytes()
             if path.suffix.lower() == ".png":
                 data = encode_jpeg(_decode_png(data))
-            return Frame(data, decode_jpeg(data), max(moment, time.monotonic()))
+            return Frame(data, decode_jpeg(data), max(moment, time.monotonic()), simulated=True)
         except (OSError, CameraError) as error:
             raise CameraError(f"Frame {path.name} of the folder camera: {error}") from error
 

@@ -7,11 +7,11 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from ...errors import CameraError
-from ...vision.camera import Frame
+from ...vision.camera import SIMULATED_KINDS, Frame
 from ...vision.types import Image
 from ...vocabulary import Keyframe
 from .codec import decode_jpeg, encode_jpeg
@@ -97,7 +97,7 @@ class FreeRunning:
         spoiled = 0
         while (raw := self._next(tried, first, deadline)) is not None:
             try:
-                return _finish(raw)
+                return replace(_finish(raw), simulated=self.kind in SIMULATED_KINDS)
             except CameraError as error:
                 log.warning("Camera %s: %s", self.kind, error)
                 self.undecodable += 1
