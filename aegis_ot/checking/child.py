@@ -2,13 +2,15 @@
 
 Protocols are other people's programs. They print, end the process, crash it, loop for ever, or
 change what opentrons' own modules hold. So no two share a process, and none has this
-process's standard streams: those carry the answers, and are moved away first.
+process's standard streams: those carry the answers, and are moved away first. A fork has a pipe
+of its own, so whatever its protocol writes there spoils no other's answer.
 """
 
 from __future__ import annotations
 
 import contextlib
 import faulthandler
+import io
 import os
 import pickle
 import struct
@@ -56,7 +58,10 @@ class Link:
 
     def send(self, message: object) -> None:
         """Send one message."""
-        data = pickle.dumps(message)
+        self.forward(pickle.dumps(message))
+
+    def forward(self, data: bytes) -> None:
+        """Send one message that is pickled already."""
         self._outgoing.write(struct.pack("!Q", len(data)) + data)
         self._outgoing.flush()
 
@@ -65,9 +70,17 @@ class Link:
 
         Raises:
             EOFError: The other side is gone.
+            pickle.UnpicklingError: It is none of ours: a protocol wrote it.
         """
-        size = struct.unpack("!Q", self._exactly(8))[0]
-        return pickle.loads(self._exactly(size))
+        return _Unpickler(io.BytesIO(self.receive_bytes())).load()
+
+    def receive_bytes(self) -> bytes:
+        """Wait for one message, and leave it pickled.
+
+        Raises:
+            EOFError: As for :meth:`receive`.
+        """
+        return self._exactly(struct.unpack("!Q", self._exactly(8))[0])
 
     def _exactly(self, size: int) -> bytes:
         data = self._incoming.read(size)
@@ -80,6 +93,28 @@ class Link:
         for stream in (self._outgoing, self._incoming):
             with contextlib.suppress(OSError):
                 stream.close()
+
+
+class _Unpickler(pickle.Unpickler):
+    """Makes objects of this package and plain values only: a protocol may have written them."""
+
+    def load(self) -> Any:
+        try:
+            return super().load()
+        except Exception as error:
+            raise pickle.UnpicklingError(str(error)) from error
+
+    def find_class(self, module: str, name: str) -> Any:
+        if module.partition(".")[0] == __name__.partition(".")[0] or (module, name) in _PLAIN:
+            found = super().find_class(module, name)
+            if isinstance(found, type) and found.__module__ == module:
+                return found
+        raise pickle.UnpicklingError(f"{module}.{name} is not part of an answer.")
+
+
+_PLAIN = {("builtins", name) for name in ("set", "frozenset", "complex", "bytearray", "range")} | {
+    ("collections", name) for name in ("Counter", "OrderedDict", "defaultdict", "deque")
+}
 
 
 def main() -> None:
@@ -115,17 +150,28 @@ def _private_streams() -> Link:
 
 
 def _fork(task: Task, link: Link, stacks: Path) -> None:
+    reading, writing = os.pipe()
     pid = os.fork()
     if pid == 0:
         try:
+            os.close(reading)
+            link.close()
             _limit_memory()
-            _serve(task, link, stacks)
+            _serve(task, Link(io.BytesIO(), os.fdopen(writing, "wb")), stacks)
             os._exit(ANSWERED)
         finally:
             os._exit(1)
+    os.close(writing)
+    own = Link(os.fdopen(reading, "rb"), io.BytesIO())
+    answer = b""
+    with contextlib.suppress(EOFError, MemoryError, OverflowError):
+        answer = own.receive_bytes()
+    own.close()
     _, status = os.waitpid(pid, 0)
     code = os.waitstatus_to_exitcode(status)
-    if code != ANSWERED:
+    if code == ANSWERED:
+        link.forward(answer)
+    else:
         how = f"signal {-code}" if code < 0 else f"exit status {code}"
         link.send(Answer(died=how))
 

@@ -18,6 +18,7 @@ from types import TracebackType
 from typing import IO, Any
 
 from ..errors import ConfigurationError
+from ..vocabulary import csv_cell, from_csv_cell
 
 SKIPPED, CRASHED = "skipped", "crash"
 """Verdicts beside those of a report: there was no use in trying, and aegis-ot itself failed."""
@@ -107,7 +108,8 @@ def read_results(table: Path) -> Results:
                 raise ConfigurationError(f"{table} {told}")
             for values in reader:
                 if all(values.get(name) is not None for name in _COLUMNS):
-                    rows[values["file"]] = _row(values)
+                    row = _row({name: from_csv_cell(values[name]) for name in _COLUMNS})
+                    rows[row.file] = row
         told_by_file = _read_findings(findings_path(table))
     except OSError as error:
         raise ConfigurationError(f"{table} cannot be read: {error.strerror}.") from None
@@ -189,7 +191,7 @@ def _written_anew(path: Path, text: str) -> IO[str]:
 
 def _row_text(row: Row) -> str:
     text = io.StringIO()
-    csv.writer(text, lineterminator="\n").writerow(dataclasses.astuple(row))
+    csv.writer(text, lineterminator="\n").writerow(map(csv_cell, dataclasses.astuple(row)))
     return text.getvalue()
 
 

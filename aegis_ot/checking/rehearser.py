@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import pickle
 import re
 import signal
 import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -26,6 +27,36 @@ from aegis_ot.checking.child import main
 main()"""
 # Not `-m`: that puts the working folder first, where a json.py of the user's may lie.
 
+_NEEDED = {
+    *(
+        "PATH",
+        "PATHEXT",
+        "HOME",
+        "USER",
+        "LOGNAME",
+        "SHELL",
+        "TZ",
+        "LANG",
+        "LANGUAGE",
+        "VIRTUAL_ENV",
+    ),
+    *("TMPDIR", "TMP", "TEMP", "USERPROFILE", "USERNAME", "APPDATA", "LOCALAPPDATA", "PROGRAMDATA"),
+    *("SYSTEMROOT", "SYSTEMDRIVE", "WINDIR", "COMSPEC", "LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH"),
+    *("DEV_ROBOT_NAME", "RUNNING_ON_PI", "RUNNING_ON_VERDIN"),
+}
+_NEEDED_BEGIN = (
+    "LC_",
+    "XDG_",
+    "PYTHON",
+    "OT_",
+    "OPENTRONS_",
+    "AEGIS_OT_",
+    "OPENBLAS_",
+    "OMP_",
+    "NPY_",
+)
+_SECRET = re.compile(r"TOKEN|KEY|SECRET|PASS|CREDENTIAL|NOTIFY")
+
 _START_S = 180.0
 """Longest wait for opentrons to be loaded; slow on a busy machine with a cold disk."""
 
@@ -34,6 +65,22 @@ _AROUND_S = 60.0
 
 _TIMED_OUT = "Timeout ("
 """How the last words of a process begin that its own clock has ended."""
+
+
+_GARBLED = "the protocol wrote into the pipe that carries what came of its rehearsal."
+
+
+def environment_of_protocols(whole: Mapping[str, str]) -> dict[str, str]:
+    """What a rehearsal gets of the environment: what Python, Opentrons and this package need.
+
+    A protocol is somebody's program, and keys of models or of a CI are none of its business.
+    """
+    return {
+        name: value
+        for name, value in whole.items()
+        if (name.upper() in _NEEDED or name.upper().startswith(_NEEDED_BEGIN))
+        and not _SECRET.search(name.upper())
+    }
 
 
 class TaskFailed(Exception):
@@ -117,6 +164,7 @@ class Rehearser:
         path = os.pathsep.join(filter(None, sys.path))
         self._process = subprocess.Popen(
             [sys.executable, "-c", _MAIN, path, str(self._stacks), *self._rules],
+            env=environment_of_protocols(os.environ),
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -154,6 +202,8 @@ class Rehearser:
             if task is not None:
                 self._link.send(task)
             answer = self._link.receive()
+        except pickle.UnpicklingError:
+            answer = Answer(problem=Problem(_GARBLED))
         except (EOFError, OSError):
             answer = None
         finally:

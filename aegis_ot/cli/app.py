@@ -38,6 +38,8 @@ class _Commands(TyperGroup):
             raise ConfigurationError(what_to_install(called[0], error)) from error
 
 
+from .printing import echo
+
 app = typer.Typer(
     name="aegis-ot",
     cls=_Commands,
@@ -77,10 +79,10 @@ def run() -> None:
         if type(error).__name__ == "NoArgsIsHelpError":
             error.show()
         else:
-            typer.echo(f"aegis-ot: {error.format_message()}", err=True)
+            echo(f"aegis-ot: {error.format_message()}", err=True)
         code = BROKEN
     except AegisError as error:
-        typer.echo(f"aegis-ot: {error}", err=True)
+        echo(f"aegis-ot: {error}", err=True)
         code = BROKEN
     except (typer.Abort, KeyboardInterrupt):
         code = INTERRUPTED

@@ -14,6 +14,7 @@ from ..vocabulary import counted
 from .exit_codes import BROKEN, CLEAN, FINDINGS
 from .models import ModelName, RecordFolder, backend_of
 from .paths import tip_finder, write_text
+from .printing import echo
 from .runs import DataFolder, known_run, open_data
 
 if TYPE_CHECKING:
@@ -106,10 +107,10 @@ def audit(
         overview = run_overview(store, name)
         page = audit_html(overview, found.to_json(), store.frames_of(name), views)
         write_text(out, page)
-        typer.echo(f"Page: {out}", err=True)
+        echo(f"Page: {out}", err=True)
     if as_json is not None:
         write_text(as_json, json.dumps(found.to_json(), ensure_ascii=False, indent=1) + "\n")
-        typer.echo(f"JSON: {as_json}", err=True)
+        echo(f"JSON: {as_json}", err=True)
     if not found.wells and seen is None:
         raise typer.Exit(BROKEN)
     stands_out = bool(found.standing_out) or (seen is not None and seen.stands_out)
@@ -170,7 +171,7 @@ def _gate(
 
 
 def _tell_plate(seen: PlateAudit) -> None:
-    typer.echo(
+    echo(
         f"{seen.title}, {seen.before} and {seen.after}: {counted(len(seen.wells), 'well')}, "
         f"{counted(seen.counted('agrees'), 'agrees', 'agree')} with the record, "
         f"{counted(seen.counted('contradicts'), 'contradicts', 'contradict')} it, "
@@ -178,24 +179,24 @@ def _tell_plate(seen: PlateAudit) -> None:
     )
     for said in (seen.doubt, *seen.contradictions, *seen.notes):
         if said:
-            typer.echo(f"  {said}")
+            echo(f"  {said}")
 
 
 def _tell(audit: Audit) -> None:
     out = audit.standing_out
     if not audit.wells:
-        typer.echo(f"{audit.run}: no delivery could be audited.")
+        echo(f"{audit.run}: no delivery could be audited.")
     else:
-        typer.echo(
+        echo(
             f"{audit.run}: {counted(audit.wells, 'well')} on {audit.frames} frames, "
             f"{counted(audit.silent, 'silent pass', 'silent passes')}; "
             f"{'none stands out' if not out else f'{len(out)} to look at'}."
         )
     for note in audit.notes:
-        typer.echo(note)
+        echo(note)
     for rank, one in enumerate(audit.suspects, 1):
         if one.stands_out:
             where = one.wells[0] if one.kind == "well" else f"{len(one.wells)} wells"
-            typer.echo(f"  {rank}. {where} (score {one.score:.1f})")
+            echo(f"  {rank}. {where} (score {one.score:.1f})")
             for said in one.why:
-                typer.echo(f"     {said}")
+                echo(f"     {said}")

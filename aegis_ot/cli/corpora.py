@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
@@ -30,6 +29,7 @@ from ..preflight import load_database
 from ..vocabulary import counted
 from .check_settings import Rules
 from .exit_codes import CLEAN, FINDINGS
+from .printing import PlainConsole, echo
 
 _TELLING = ("fail", "crash")
 """Verdicts that are told at once, while the others are counted."""
@@ -83,11 +83,11 @@ def corpus(
     )
     with _Shown(len(protocols)) as shown:
         after = check_corpus(protocols, folders, out, settings, shown.done)
-    typer.echo(summary([row for row, _ in after.values()]))
-    typer.echo(f"{out}; findings: {findings_path(out)}")
+    echo(summary([row for row, _ in after.values()]))
+    echo(f"{out}; findings: {findings_path(out)}")
     if against:
         changed = list(changes(before, after))
-        typer.echo(_compared(before, after, changed, against))
+        echo(_compared(before, after, changed, against))
         raise typer.Exit(FINDINGS if changed else CLEAN)
 
 
@@ -101,7 +101,7 @@ class _Shown:
     """Progress on stderr: a bar with counts, and a line for each protocol that fails."""
 
     def __init__(self, total: int) -> None:
-        console = Console(stderr=True, highlight=False, soft_wrap=True)
+        console = PlainConsole(stderr=True, highlight=False, soft_wrap=True)
         self._counts: Counter[str] = Counter()
         self._bar = Progress(
             TextColumn("{task.description}", markup=False),

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
 from rich.progress import Progress as Bar
 from rich.table import Table
@@ -18,8 +17,9 @@ from ..reports.run_html import run_report_html
 from ..sidecar import Judged, make_analyser
 from ..vocabulary import Outcome, counted
 from .exit_codes import BROKEN, CLEAN, FINDINGS
+from .printing import PlainConsole
 
-console = Console(highlight=False)
+console = PlainConsole(highlight=False)
 
 _WIDE = 100
 """What the table of wells needs at most, columns."""

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 from rich.text import Text
@@ -21,6 +20,7 @@ from rich.text import Text
 from ..errors import AegisError, ConfigurationError
 from ..vocabulary import counted
 from .exit_codes import BROKEN, CLEAN, FINDINGS, INTERRUPTED
+from .printing import PlainConsole
 
 if TYPE_CHECKING:
     from ..fleet import FleetConfig, FleetReport, Job
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 app = typer.Typer()
 fleet = typer.Typer(help="Many robots: one agent each.", no_args_is_help=True)
 app.add_typer(fleet, name="fleet")
-console = Console(highlight=False)
+console = PlainConsole(highlight=False)
 
 Robots = Annotated[Path, typer.Option("--robots", help="The fleet: a TOML or JSON file.")]
 _STYLES = {"succeeded": "green", "stopped": "yellow", "broken off": "yellow"}

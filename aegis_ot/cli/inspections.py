@@ -11,6 +11,7 @@ from ..errors import ConfigurationError
 from ..vocabulary import counted
 from .commands import joined
 from .paths import open_dataset, tip_finder, write_text
+from .printing import echo
 
 if TYPE_CHECKING:
     from ..inspection import Inspection
@@ -63,7 +64,7 @@ def inspect_wells(
     page = inspection_html(inspection)
     write_text(out, page)
     flagged = sum(well.flagged for well in inspection.wells)
-    typer.echo(
+    echo(
         f"{out}: {counted(len(inspection.wells), 'well')} ({inspection.source} frames), "
         f"{flagged} flagged; {len(page.encode()) / 1e6:.1f} MB."
     )

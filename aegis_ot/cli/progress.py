@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, TaskID, TextColumn, TimeElapsedColumn
 from rich.progress import Progress as Bar
 
 from ..progress import Progress
+from .printing import PlainConsole
 
 
 class Shown(Progress):
     """Shows stages as a bar; where stderr is no terminal, one line a stage. A context manager."""
 
     def __init__(self) -> None:
-        self._console = Console(stderr=True, highlight=False)
+        self._console = PlainConsole(stderr=True, highlight=False)
         self._bar = Bar(
             TextColumn("{task.description}", markup=False),
             BarColumn(),

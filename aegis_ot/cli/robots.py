@@ -9,18 +9,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.text import Text
 
 from ..errors import ConfigurationError, RobotError
 from .exit_codes import BROKEN, CLEAN, FINDINGS, INTERRUPTED
+from .printing import PlainConsole
 
 if TYPE_CHECKING:
     from ..robot import Analysis
     from ..robot.running import RobotRun
     from ..robot.verdicts import VerdictReader
 
-console = Console(highlight=False)
+console = PlainConsole(highlight=False)
 
 Robot = Annotated[
     str, typer.Option("--robot", help="The robot's address, as the Opentrons App shows it.")

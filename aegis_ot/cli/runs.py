@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from ..errors import ConfigurationError
 from ..vocabulary import counted
 from .paths import empty_folder, tip_finder, write_text
+from .printing import PlainConsole, echo
 
 if TYPE_CHECKING:
     from ..sidecar.store import Store
@@ -43,10 +43,10 @@ def list_runs(
     store = open_data(data)
     rows = store.runs(search, most)
     if as_json:
-        typer.echo(json.dumps(rows, ensure_ascii=False, indent=1))
+        echo(json.dumps(rows, ensure_ascii=False, indent=1))
         return
     if not rows:
-        typer.echo(f"{store.folder}: no run is like that.")
+        echo(f"{store.folder}: no run is like that.")
         return
     table = Table(box=None, pad_edge=False, header_style="bold")
     for name in ("begun", "run", "protocol", "robot", "outcome", "wells"):
@@ -63,7 +63,7 @@ def list_runs(
             wells,
         )
     # What is piped is not folded.
-    Console(highlight=False, width=None if sys.stdout.isatty() else 200).print(table)
+    PlainConsole(highlight=False, width=None if sys.stdout.isatty() else 200).print(table)
 
 
 @runs.command()
@@ -83,13 +83,13 @@ def show(
     overview = run_overview(store, name)
     account = run_account(overview)
     for line in _told(account):
-        typer.echo(line)
+        echo(line)
     if html is not None:
         write_text(html, run_report_html([report_run(overview, store.frames_of(name))]))
-        typer.echo(f"Report: {html}", err=True)
+        echo(f"Report: {html}", err=True)
     if as_json is not None:
         write_text(as_json, json.dumps(account, ensure_ascii=False, indent=1) + "\n")
-        typer.echo(f"JSON: {as_json}", err=True)
+        echo(f"JSON: {as_json}", err=True)
 
 
 @runs.command()
@@ -114,7 +114,7 @@ def export(
     with Shown() as shown:
         told = export_runs(_folder(data), out, run or (), tip_finder(boxes), shown)
     written = counted(told.written, "trajectory", "trajectories")
-    typer.echo(
+    echo(
         f"{out}: {written} of {counted(told.runs, 'run')}, {told.failures} of them failures, "
         f"{told.left_out} left out. The labels are verdicts, not truth."
     )
@@ -146,9 +146,9 @@ def prune(
     done = tidy(store, settings, time.time(), pretend=not yes)
     store.close()
     for name in done.removed:
-        typer.echo(name)
+        echo(name)
     said = "removed" if yes else "would be removed; add --yes"
-    typer.echo(f"{counted(len(done.removed), 'run')}, {done.freed / 1e6:.1f} MB: {said}.")
+    echo(f"{counted(len(done.removed), 'run')}, {done.freed / 1e6:.1f} MB: {said}.")
 
 
 def _told(account: dict[str, Any]) -> list[str]:

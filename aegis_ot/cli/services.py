@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.text import Text
 
 from .exit_codes import BROKEN, CLEAN, FINDINGS
+from .printing import PlainConsole
 
 _COLOURS = {"ok": "green", "warning": "yellow", "bad": "bold red"}
 
@@ -45,7 +45,7 @@ def doctor(
         data=data,
         camera=None if camera is None else {"spec": camera},
     )
-    console = Console(highlight=False)
+    console = PlainConsole(highlight=False)
     worst = CLEAN
     for check in examine(settings, robot):
         line = Text(f"{check.state:8}", style=_COLOURS[check.state])

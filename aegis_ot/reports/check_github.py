@@ -9,13 +9,14 @@ from collections.abc import Iterator
 
 from ..checking import CheckedProtocol, CheckRun
 from ..vocabulary import Severity
-from .wording import by_model, listed, summary_line
+from .wording import by_model, fit_to_print, listed, summary_line
 
 
 def check_github(run: CheckRun) -> str:
     """Render as workflow commands, and a closing line for the log."""
     names = {rule.id: rule.name for rule in run.database.rules}
-    lines = [line for checked in run.protocols for line in _annotations(checked, names)]
+    protocols = map(fit_to_print, run.protocols)
+    lines = [line for checked in protocols for line in _annotations(checked, names)]
     return "\n".join([*lines, summary_line(run)]) + "\n"
 
 

@@ -12,9 +12,10 @@ from rich.cells import cell_len
 
 from ..checking import CheckedProtocol, CheckRun, Exploration, Problem
 from ..preflight.judging import RoleEvidence
-from ..vocabulary import Finding, Severity, VerdictWord, counted
+from ..vocabulary import Finding, Severity, VerdictWord, counted, no_commands
 from .wording import (
     by_model,
+    fit_to_print,
     listed,
     listed_wells,
     location,
@@ -56,10 +57,10 @@ def check_text(run: CheckRun, colour: bool = False) -> str:
     paint = _Paint(colour)
     names = {rule.id: rule.name for rule in run.database.rules}
     blocks: list[str] = []
-    for checked in run.protocols:
+    for checked in map(fit_to_print, run.protocols):
         blocks += _protocol(checked, names, run.explain_roles, paint)
     blocks.append(paint(summary_line(run), _BOLD))
-    return "\n".join(blocks) + "\n"
+    return no_commands("\n".join(blocks) + "\n")
 
 
 def _protocol(

@@ -2,10 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import dataclasses
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 from ..checking import CheckedProtocol, CheckRun
-from ..vocabulary import Finding, Severity, Site, VerdictWord, WellRef, counted
+from ..vocabulary import Finding, Severity, Site, VerdictWord, WellRef, counted, printable
+
+
+def fit_to_print(checked: CheckedProtocol) -> CheckedProtocol:
+    """The same, with every text of it on one line and without what would repaint a terminal.
+
+    Names of files, labware and liquids, and messages, come from the protocol.
+    """
+    fitted: CheckedProtocol = _fit(dataclasses.replace(checked, judgement=None, dossier=None))
+    return dataclasses.replace(fitted, judgement=checked.judgement, dossier=checked.dossier)
+
+
+def _fit(value: Any) -> Any:
+    if type(value) is str:
+        return printable(value, "\t")
+    if isinstance(value, (list, tuple)):
+        return tuple(map(_fit, value))
+    if isinstance(value, Mapping):
+        return {_fit(key): _fit(each) for key, each in value.items()}
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        names = [each.name for each in dataclasses.fields(value) if each.init]
+        return dataclasses.replace(value, **{name: _fit(getattr(value, name)) for name in names})
+    return value
 
 
 def listed_wells(wells: Iterable[WellRef], at_most: int = 8) -> str:

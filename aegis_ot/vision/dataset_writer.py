@@ -12,7 +12,7 @@ from typing import Any
 import cv2
 
 from ..errors import DatasetError
-from ..vocabulary import KeyframeKind
+from ..vocabulary import KeyframeKind, csv_cell
 from .dataset_checks import AXIS_COLUMNS, BOX_COLUMNS, COLUMNS
 from .types import TipDetection, TrajectorySample
 
@@ -105,7 +105,8 @@ class DatasetWriter:
             )
         retained = sample.retained_fraction
         self._rows.writerow(
-            [
+            csv_cell(value)
+            for value in (
                 sample.id,
                 sample.plate,
                 sample.well,
@@ -116,7 +117,7 @@ class DatasetWriter:
                 "" if retained is None else f"{retained:g}",
                 f"{sample.volume_ul:g}",
                 *(paths[kind] for kind in KeyframeKind),
-            ]
+            )
         )
 
     def _add_tips(

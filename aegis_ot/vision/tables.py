@@ -8,6 +8,8 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
+from ..vocabulary import from_csv_cell
+
 _MOST_SHOWN = 200
 
 
@@ -64,7 +66,7 @@ def read_table(
     header: list[str] | None = None
     try:
         for cells in reader:
-            cells = [cell.strip() for cell in cells]
+            cells = [from_csv_cell(cell.strip()) for cell in cells]
             if header is None:
                 header = cells
                 if not _check_header(path.name, header, columns, problems):

@@ -93,7 +93,7 @@ class TipGeometry:
         up = height - self._heights[i]
         here = low + up * self._slope(i)
         volume = self._volumes[i] + np.pi * up / 3 * (low * low + low * here + here * here)
-        return _like(height_mm, volume)
+        return _like(height_mm, np.clip(volume, 0.0, self._volumes[-1]))
 
     def height_of(self, volume_ul: _T) -> _T:
         """Height in mm at which a column from the orifice ends (clipped to the tip).
@@ -107,8 +107,10 @@ class TipGeometry:
         flat = np.abs(slope) < 1e-9
         safe = np.where(flat, 1.0, slope)
         cone = (np.cbrt(low**3 + 3 * safe * rest / np.pi) - low) / safe
-        height = self._heights[i] + np.where(flat, rest / (np.pi * low**2), cone)
-        return _like(volume_ul, height)
+        up = np.where(flat, rest / (np.pi * low**2), cone)
+        # The cube root of a cube is not its base on every processor, by a few parts in 10^16.
+        up = np.where(rest > 0, up, 0.0)
+        return _like(volume_ul, np.clip(self._heights[i] + up, 0.0, self._heights[-1]))
 
     def mm_per_ul(self, volume_ul: float) -> float:
         """How far the meniscus moves per µL at this volume, mm/µL."""

@@ -18,7 +18,7 @@ from .opinions import (
     RuleBrief,
     is_known,
 )
-from .sentences import counted, one_line
+from .sentences import counted, csv_cell, from_csv_cell, no_commands, one_line, printable
 from .trajectories import (
     ChannelOutcome,
     ChannelVerdict,
@@ -59,11 +59,15 @@ __all__ = [
     "VerdictWord",
     "WellRef",
     "counted",
+    "csv_cell",
+    "from_csv_cell",
     "from_json",
     "is_known",
     "is_row",
     "named_wells",
+    "no_commands",
     "one_line",
+    "printable",
     "to_json",
     "unobserved",
     "with_places",

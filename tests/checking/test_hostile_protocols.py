@@ -8,11 +8,28 @@ from pathlib import Path
 import pytest
 
 from aegis_ot.checking import CheckedProtocol, CheckSettings, check_files
+from aegis_ot.checking.child import CAN_FORK
 from aegis_ot.preflight import load_database
 from aegis_ot.vocabulary import VerdictWord
 
 HEAD = 'metadata = {"apiLevel": "2.15"}\n'
 
+# Every open pipe that it can find gets a message's head and no message, then a whole one.
+WRITES = (
+    HEAD
+    + """
+import os, pickle, stat, struct
+def run(p):
+    forged = pickle.dumps("forged")
+    for number in range(3, 64):
+        try:
+            if stat.S_ISFIFO(os.fstat(number).st_mode):
+                for data in (b"junk", forged):
+                    os.write(number, struct.pack("!Q", len(data)) + data)
+        except OSError:
+            pass
+"""
+)
 GOOD = HEAD + "def run(protocol):\n    print('hello')\n"
 
 VANDAL = (
@@ -124,6 +141,32 @@ HOSTILE: dict[str, tuple[str, int | None, str]] = {
         "it imports no_such_thing, which is not",
     ),
 }
+
+
+@pytest.mark.skipif(not CAN_FORK, reason="protocols share a process here")
+@pytest.mark.parametrize(
+    "text", [WRITES, HEAD + "import os\ndef run(p):\n    os.kill(os.getppid(), 9)\n"]
+)
+def test_what_a_protocol_does_to_its_rehearser_spoils_its_own_result_only(
+    tmp_path: Path, text: str
+) -> None:
+    files = [tmp_path / name for name in ("before.py", "writes.py", "after.py", "last.py")]
+    for file in files:
+        file.write_text(text if file.stem == "writes" else AFTER, encoding="utf-8")
+    run = check_files(files, CheckSettings(timeout_s=20), load_database())
+    words = [protocol.verdict for protocol in run.protocols]
+    assert words == [VerdictWord.PASS, VerdictWord.ERROR, VerdictWord.PASS, VerdictWord.PASS]
+
+
+def test_a_protocol_gets_no_keys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    secret = ("ANTHROPIC_API_KEY", "MY_LAB", "AEGIS_OT_TOKEN", "GITHUB_TOKEN", "OT_PASSWORD")
+    for name in (*secret, "OT_API_CONFIG_DIR_OF_MINE"):
+        monkeypatch.setenv(name, "x")
+    text = f"import os\ndef run(p):\n    assert not set({secret}) & set(os.environ)\n"
+    text += "    assert os.environ['OT_API_CONFIG_DIR_OF_MINE'] and os.environ['PATH']\n"
+    (tmp_path / "p.py").write_text(HEAD + text, encoding="utf-8")
+    (protocol,) = check_files([tmp_path / "p.py"], CheckSettings(), load_database()).protocols
+    assert protocol.problem is None
 
 
 @pytest.fixture(scope="module")

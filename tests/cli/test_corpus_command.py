@@ -27,6 +27,21 @@ def test_a_corpus_is_told_and_compared(aegis: Command, tmp_path: Path) -> None:
     assert "0 of 1 protocols changed." in again.out
 
 
+def test_a_file_name_is_no_formula_of_a_spreadsheet(aegis: Command, tmp_path: Path) -> None:
+    protocol(tmp_path / "=1+1" / "pcr.py")
+    assert aegis("corpus", "=1+1", "--out", "r.csv").code == 0
+    assert "\n'=1+1/pcr.py," in (tmp_path / "r.csv").read_text(encoding="utf-8")
+    again = aegis("corpus", "=1+1", "--out", "r.csv", "--against", "r.csv")
+    assert "0 of 1 protocols changed." in again.out
+
+
+def test_an_error_does_not_repaint_the_terminal(aegis: Command) -> None:
+    result = aegis("simulate", "a\x1b[2J\n::error::b.py")
+    assert result.code == 2
+    assert "\x1b" not in result.err
+    assert not any(line.startswith("::") for line in result.err.splitlines())
+
+
 def test_a_wrong_call_says_what_is_wrong(aegis: Command, tmp_path: Path) -> None:
     (tmp_path / "empty").mkdir()
     for arguments, words in [

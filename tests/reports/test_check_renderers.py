@@ -194,3 +194,21 @@ def test_a_model_that_gave_no_answer_is_told_by_its_state(name: str) -> None:
     shown = RENDERERS[name](run)
     assert "some-model gave no answer (rate_limited): slow down" in shown
     assert "error" in shown or name == "json"
+
+
+def test_names_command_neither_the_terminal_nor_the_runner_of_a_ci() -> None:
+    hostile = "x\x1b[2J\n::error file=a.py::owned\r\n##[error]owned"
+    finding = Finding(
+        "GEN-3", Severity.ERROR, hostile, (Site(1, well("A1", label=hostile)),), hostile
+    )
+    checked = CheckedProtocol(
+        f"::error::{hostile}.py", report(finding, notes=(hostile,)), lines=(f"a = 1  # {hostile}",)
+    )
+    told = CheckRun((checked,), DATABASE, "1")
+    for text in (check_text(told), check_github(told)):
+        assert not re.search(r"[\x1b\r]", text)
+    lines = check_text(told).splitlines()
+    assert not any(line.lstrip().startswith("::") or "##[" in line for line in lines)
+    commands = [line for line in check_github(told).splitlines() if line.startswith("::")]
+    assert all(re.match(r"::(error|warning|notice) file=", line) for line in commands)
+    assert sum(line.startswith("::error") for line in commands) == 1
