@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 
 from aegis_ot.errors import CameraError, ConfigurationError
-from aegis_ot.evaluation.layer2.recorded import run_source
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.cameras import open_camera, open_cameras
 from aegis_ot.sidecar.cameras.bound import Bound, BoundCameras
@@ -22,6 +21,7 @@ from aegis_ot.sidecar.cameras.capture import UsbSource
 from aegis_ot.sidecar.config import CameraSettings
 from aegis_ot.sidecar.store import Store
 from aegis_ot.sidecar.wire import RunStart
+from aegis_ot.worldmodel.recorded import run_source
 
 from .helpers import Robot, StubAnalyser, StubCamera, make_jpeg, make_keyframe
 
