@@ -13,6 +13,7 @@ from .. import __version__
 from ..errors import AegisError, ConfigurationError
 from .commands import COMMANDS, load_command, what_to_install
 from .exit_codes import BROKEN, INTERRUPTED
+from .printing import echo
 
 
 class _Commands(TyperGroup):
@@ -37,8 +38,6 @@ class _Commands(TyperGroup):
                 raise
             raise ConfigurationError(what_to_install(called[0], error)) from error
 
-
-from .printing import echo
 
 app = typer.Typer(
     name="aegis-ot",
