@@ -45,8 +45,9 @@ class RobotClock:
             look = (after - before, told - (before + after) / 2)
             best = look if best is None else min(best, look)
         assert best is not None
+        doubt_s = (self.round_trip_s + best[0]) / 2
         self.round_trip_s, ahead = best
-        if self._ahead is not None and abs(ahead - self._ahead) > JUMP_S:
+        if self._ahead is not None and abs(ahead - self._ahead) > JUMP_S + doubt_s:
             self.jumps += 1
         self._ahead = ahead
 
@@ -83,7 +84,9 @@ class WatchedClock:
         with contextlib.suppress(RobotError):  # the follower tells of a lost connection
             self._clock.look()
         if self._clock.jumps > jumps:
-            self._says("The robot's clock was set; a delivery may have lost its frames.")
+            self._says(
+                "The robot's clock was set, or this computer slept: a delivery may have no frames."
+            )
 
     def look_around(self, followed: bool) -> None:
         """Between two looks at the run; ``followed``: nothing of it has been missed."""

@@ -260,9 +260,11 @@ class RunDriver:
         self._screen.doing(command)
 
     def _status(self, view: RunView) -> None:
-        self._run.status, self._run.errors = view.status, view.errors
+        before, self._run.status = self._run.status, view.status
+        self._run.errors = view.errors
         if view.status in PAUSED:
-            text = self._waiting_for or _PAUSE_WORDS.get(view.status, "The run is paused.")
+            words = _DOOR if before in _AT_THE_DOOR else "The run is paused."
+            text = self._waiting_for or _PAUSE_WORDS.get(view.status, words)
             self._run.pauses.append(text)
             self._screen.waits(text)
         elif view.status != "pause-requested":
@@ -296,8 +298,9 @@ def tell_open(wells: Iterable[str], most: int = 4) -> str:
     return f"Waiting for the verdict on {', '.join(named[:most])}{rest}."
 
 
+_DOOR = "The robot's door was open; the run waits to be resumed."
+_AT_THE_DOOR = ("blocked-by-open-door", "awaiting-recovery-blocked-by-open-door")
 _PAUSE_WORDS = {
-    "paused": "Somebody paused the run.",
     "blocked-by-open-door": "The robot's door is open.",
     "awaiting-recovery": "A command failed; the robot waits for a person to recover from it.",
 }

@@ -257,6 +257,16 @@ class Courier:
         except LinkError:
             self._unheard = True
 
+    def _is_there(self, error: LinkError) -> bool:
+        """Whether a sidecar that has not answered yet does answer: then it waits for its camera."""
+        if not isinstance(error, SidecarUnreachable):
+            return False
+        try:
+            self._link.health(_GLANCE_S)
+        except LinkError:
+            return False
+        return True
+
     def _camera_trouble(self, waited_s: float) -> CameraSilent | None:
         """Whether the sidecar that captured nothing in time is there, and what it says."""
         try:
@@ -276,6 +286,7 @@ class Courier:
         wait = _FIRST_RETRY_S
         answered: LinkError | None = None
         while True:
+            asked = time.monotonic()
             try:
                 attempt(limit)
                 self._note_outage()
@@ -285,8 +296,10 @@ class Courier:
             except LinkError as error:
                 if not isinstance(error, SidecarUnreachable):
                     answered = error
-                if isinstance(error, (SidecarBusy, SidecarUnreachable)) and self._lost is None:
-                    self._lost = began, str(error)
+                if not isinstance(error, (SidecarBusy, SidecarUnreachable)):
+                    self._note_outage()  # it is there, and says what else is wrong
+                elif self._lost is None and not self._is_there(error):
+                    self._lost = asked, str(error)
                 if self.ordered or time.monotonic() + wait >= deadline:
                     # The last attempt is often cut short: what was answered before says more.
                     raise answered or error from None

@@ -222,7 +222,8 @@ class Watcher:
             self._recovery.strokes.captured(keyframe)
         line = self._connected()
         courier = line.courier
-        courier.offer(replace(keyframe, robot_time=time.time()))
+        now, uptime = time.time(), time.monotonic()
+        courier.offer(replace(keyframe, robot_time=now, robot_uptime=uptime))
         timeout = self._settings.capture_timeout_s
         if courier.away and not courier.look(timeout):
             courier.move_on()

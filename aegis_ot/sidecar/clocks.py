@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 LEAP_S = 5.0
-"""A clock that is ahead or behind by less may drift, or its word came late."""
+"""A clock that is ahead or behind by less may drift."""
 
 
 class ClockWatch:
@@ -16,8 +16,8 @@ class ClockWatch:
     def look(self, clock: float, monotonic: float) -> float:
         """By how much it was set, s; 0 if it was not.
 
-        A leap counts when the next look confirms it: one word alone may have been under way for
-        long.
+        A leap counts when the next look confirms it: between the two clocks of one look the
+        machine may have paused.
 
         Args:
             clock: What it says, seconds since the epoch.
@@ -37,8 +37,8 @@ class ClockWatch:
 
 
 def tell_leap(whose: str, seconds: float) -> str:
-    """``"The robot's clock was set 3600 s ahead."``"""
-    way = "ahead" if seconds > 0 else "back"
+    """``"The robot's clock was set 3600 s ahead, or it slept so long."``"""
+    way = "ahead, or it slept so long" if seconds > 0 else "back"
     return (
         f"The {whose}'s clock was set {abs(seconds):.0f} s {way}; times in this run leap with it."
     )

@@ -72,16 +72,18 @@ class RunTrouble:
             self._troubles.over(self._run, kind)
             self._lasting.discard(kind)
 
-    def look_at_clocks(self, keyframe: Keyframe, moment: float) -> None:
+    def look_at_clocks(self, keyframe: Keyframe) -> None:
         """Times of a run are those of wall clocks: tell where one was set meanwhile.
 
+        Each is held against its own machine's running time: how long a keyframe was under way
+        says nothing about clocks.
+
         Args:
-            keyframe: With the robot's clock.
-            moment: When it arrived, ``time.monotonic``, s.
+            keyframe: With the robot's clocks.
         """
         told = {"workstation": (time.time(), time.monotonic())}
-        if keyframe.robot_time and not keyframe.late:
-            told["robot"] = (keyframe.robot_time, moment)
+        if keyframe.robot_time and keyframe.robot_uptime:
+            told["robot"] = (keyframe.robot_time, keyframe.robot_uptime)
         for whose, (clock, when) in told.items():
             leap = self._clocks[whose].look(clock, when)
             if leap:

@@ -145,7 +145,7 @@ class Session:
             self._worker.submit(keyframe, frame)
             with self._trouble.at_most_logged():  # it is kept, and in the analyser's queue
                 self.catch_up()
-                self._trouble.look_at_clocks(keyframe, moment)
+                self._trouble.look_at_clocks(keyframe)
         self._bell.ring()
         return captured
 

@@ -77,6 +77,7 @@ class Keyframe:
         reagent: What the liquid is called, if anything is known.
         position: Tip end on the deck (x, y, z), mm; ``None`` if unknown.
         robot_time: Seconds since the epoch on the robot's clock.
+        robot_uptime: The same moment on the robot's clock that nobody can set, s; 0 if not told.
         line: Source line of the protocol that caused it.
         recovers: The failed trajectory of which this one is a recovery; ``None`` for the
             protocol's own.
@@ -114,6 +115,7 @@ class Keyframe:
     targets: tuple[WellRef | None, ...] = ()
     liquid_found: bool | None = None
     channels_found: tuple[bool | None, ...] = ()
+    robot_uptime: float = 0.0
 
 
 class ChannelOutcome(str, Enum):

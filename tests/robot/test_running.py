@@ -126,7 +126,7 @@ def test_the_person_pauses_and_resumes(
     aegis: Command, robot: RobotServer, pressing: dict[str, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pressing["hello"] = "p"
-    pressing["Somebody paused"] = "s"
+    pressing["Paused: The run is paused."] = "s"
     shown = robot_screen.TerminalScreen.doing
     monkeypatch.setattr(
         robot_screen.TerminalScreen,
@@ -138,7 +138,7 @@ def test_the_person_pauses_and_resumes(
     )
     done = aegis("run", written(WAITS), "--robot", robot.url, "--yes")
     assert done.code == 1, done.out + done.err
-    assert "Paused: Somebody paused the run." in done.out
+    assert "Paused: The run is paused." in done.out
     assert "stopped" in done.out
 
 

@@ -188,3 +188,44 @@ def test_a_goodbye_says_everything(sidecar: FakeSidecar, courier: Courier) -> No
     courier.finish("failed", "why", {0: "the run failed", 1: "the run failed"}, 1.0)
     assert sidecar.abandoned == [0, 1]
     assert sidecar.finished == [{"outcome": "failed", "detail": "why"}]
+
+
+def test_a_sidecar_that_waits_for_its_camera_is_no_lost_link(
+    sidecar: FakeSidecar, courier: Courier, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "_SILENT_S", 0.1)
+    monkeypatch.setattr(module, "_FIRST_TRY_S", 0.3)
+    courier.register(5.0)
+    sidecar.fault = fault = Hanging("/keyframes")  # its camera is unplugged; all else is answered
+    threading.Timer(0.8, fault.release.set).start()
+    courier.offer(keyframe(0))
+    courier.deliver(10.0)
+    courier.abandon(0, "told with what waits")
+    assert sidecar.incidents == []
+
+
+def test_an_outage_ends_when_the_sidecar_says_what_else_is_wrong(
+    sidecar: FakeSidecar, courier: Courier, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "_SILENT_S", 0.0)
+    courier.register(5.0)
+    answers: list[float] = []
+
+    def gone_then_without_a_camera(handler: Handler) -> bool:
+        if len(answers) < 4:
+            handler.drop()
+        elif handler.path.endswith("/keyframes") and len(answers) < 8:
+            handler.answer(503, {"error": {"code": "camera", "message": "It is dark."}})
+        else:
+            return False
+        answers.append(time.monotonic())
+        return True
+
+    sidecar.fault = gone_then_without_a_camera
+    began = time.monotonic()
+    courier.offer(keyframe(0))
+    courier.deliver(20.0)
+    courier.abandon(0, "told with what waits")
+    (incident,) = sidecar.incidents
+    assert incident["seconds"] <= answers[4] - began + 0.1  # told in tenths
+    assert incident["seconds"] < answers[-1] - began

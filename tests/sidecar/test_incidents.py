@@ -70,10 +70,19 @@ def test_a_vision_model_that_is_down_is_told_once_until_it_answers(config: Sidec
 
 def test_a_robots_clock_that_is_set_is_named(robot: Robot) -> None:
     for sequence in range(4):
-        robot.send(sequence, robot_time=time.time() + (3600 if sequence >= 2 else 0))
+        now = time.time() + (3600 if sequence >= 2 else 0)
+        robot.send(sequence, robot_time=now, robot_uptime=time.monotonic())
     (one,) = robot.overview()["incidents"]
     assert one["kind"] == "clock"
     assert "robot's clock was set 3600 s ahead" in one["text"]
+
+
+def test_keyframes_that_were_long_under_way_set_no_clock(robot: Robot) -> None:
+    """The sidecar was away for 9 s; the keyframes that waited for it carry earlier times."""
+    for sequence, waited_s in enumerate((9.0, 9.0, 0.0, 0.0)):
+        sent = time.monotonic() - waited_s
+        robot.send(sequence, robot_time=time.time() - waited_s, robot_uptime=sent)
+    assert robot.overview()["incidents"] == []
 
 
 def test_one_late_word_is_no_leap() -> None:
