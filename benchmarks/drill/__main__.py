@@ -2,9 +2,11 @@
 
 A sidecar in a process of its own, killed and restarted 20 times within a run, then runs in which
 its disk is full, its camera is unplugged and back, its vision model is down, its clock and the
-robot's are set, the connection is cut for 30 s, and 400 silent connections crowd it. The robot is
-Opentrons' own engine on its hardware simulator; frames are simulated. After each: no record that
-was acknowledged may be lost, no hold may hang, and the run's report must name what happened.
+robot's are set, the connection is cut for 30 s, 400 silent connections crowd it, the camera hands
+on old frames, and verdicts are open at the end. The robot is Opentrons' own engine on its hardware
+simulator; frames are simulated. After each: no record that was acknowledged may be lost, no hold
+may hang, no frame may be older than its trigger, no delivery without a verdict may count as passed,
+and the run's report must name what happened.
 
 ``--scale 0.2`` does a fifth of the restarts and waits a fifth of the times. Exit status 1:
 something was wrong. Linux only: the disk is "full" by a limit on the size of the process's files.
@@ -32,6 +34,9 @@ UNPLUGGED_S = 6.0
 DOWN_WELLS = 3
 LEAP_S = 3600.0
 CUT_S = 30.0
+STALE_FPS = 3.0
+LATE_S = 20.0
+"""How long the slow vision model takes for a well, s."""
 CROWD = 400
 CROWD_S = 20.0
 
@@ -52,6 +57,9 @@ class Drill:
         wanted: Incidents that the report must name.
         most_pauses: More of them are wrong; ``None``: as many as it takes.
         happened: What was done, in words.
+        camera: How the camera differs from a usual one.
+        camera_settings: Settings of the sidecar for it.
+        at_end: Done when the run is over; then deliveries may be left without a verdict.
     """
 
     folder: Path
@@ -66,13 +74,16 @@ class Drill:
     model: VisionModel | None = None
     robot: Robot | None = None
     most_pauses: int | None = None
+    camera: dict[str, Any] = field(default_factory=dict)
+    camera_settings: dict[str, Any] = field(default_factory=dict)
+    at_end: Callable[[], None] | None = None
 
     def run(
         self, name: str, incident: Callable[[Drill, Sidecar, StreamCamera, Cable], Step]
     ) -> Any:
         """The robot's pauses, and all that was wrong."""
-        camera = StreamCamera(self.rng.randrange(1000))
-        seen = {"camera": {"spec": camera.spec, "latency_s": 0.1}}
+        camera = StreamCamera(self.rng.randrange(1000), **self.camera)
+        seen = {"camera": {"spec": camera.spec, "latency_s": 0.1} | self.camera_settings}
         sidecar = Sidecar(self.folder, seen | self.settings)
         cable = Cable(sidecar.port)
         with closing(camera, cable):
@@ -83,8 +94,10 @@ class Drill:
                 failed = robot.play(
                     incident(self, sidecar, camera, cable), lambda: self.may_resume()
                 )
-                data = self.folder / "data"
-                wrong = problems(data, sidecar.url, name, robot.told, self.wanted)
+                if self.at_end is not None:
+                    self.at_end()
+                data, may_be_open = self.folder / "data", self.at_end is not None
+                wrong = problems(data, sidecar.url, name, robot.told, self.wanted, may_be_open)
             finally:
                 sidecar.stop()
         if self.most_pauses is not None and robot.pauses > self.most_pauses:
@@ -216,9 +229,29 @@ def crowd(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) ->
     return once_at(8, lambda: crowd.come(CROWD), seconds, crowd.go)
 
 
+def stale(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> Step:
+    """Nothing befalls the run: its camera hands on old frames."""
+    drill.happened = "a slow stream without lengths, one frame behind"
+    return lambda keyframes: None
+
+
+def late(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> Step:
+    """The vision model is slow; at the run's end verdicts are open, and the sidecar is killed."""
+    assert drill.model is not None
+    drill.model.takes_s = LATE_S
+    drill.happened = "verdicts open at the run's end, then the sidecar killed and restarted"
+
+    def at_end() -> None:
+        sidecar.kill()
+        sidecar.start()
+
+    drill.at_end = at_end
+    return lambda keyframes: None
+
+
 INCIDENTS = {
     "restarts": restarts, "disk": disk, "camera": camera, "vlm": vlm, "clock": clock, "cut": cut,
-    "page": page, "crowd": crowd,
+    "page": page, "crowd": crowd, "stale": stale, "late": late,
 }  # fmt: skip
 
 
@@ -244,9 +277,15 @@ def _drill(name: str, folder: Path, given: argparse.Namespace) -> bool:
     drill.model = model = VisionModel()
     if name == "restarts":
         drill.wells = max(4, round(24 * given.scale))
-    if name == "vlm":
+    if name in ("vlm", "late"):
         cascade = {"gates": ["volumetric", "vlm"], "spot_check": 1.0, "calibration_wells": 2}
         drill.settings = {"model": {"name": model.name, "timeout_s": 3}, "cascade": cascade}
+    if name == "late":
+        drill.settings["model"]["timeout_s"] = 2 * LATE_S
+        drill.guard = {"hold": "off", "verdict_timeout_s": 1.0, "on_link_loss": "continue"}
+    if name == "stale":
+        drill.camera = {"fps": STALE_FPS, "lengths": False, "behind": 1}
+        drill.camera_settings = {"timeout_s": 5.0}
     if name == "cut":
         drill.guard = {"capture_timeout_s": 10.0 * given.scale}
     with closing(model):

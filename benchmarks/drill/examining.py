@@ -11,12 +11,18 @@ from pathlib import Path
 from aegis_ot.sidecar.store import Store
 
 from .robot import Acknowledged
+from .workstation import exposed_at
 
 _DIRECT = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 
 
 def problems(
-    folder: Path, url: str, run: str, told: Acknowledged, wanted: Mapping[str, int]
+    folder: Path,
+    url: str,
+    run: str,
+    told: Acknowledged,
+    wanted: Mapping[str, int],
+    may_be_open: bool = False,
 ) -> list[str]:
     """All that is wrong after a run.
 
@@ -26,10 +32,12 @@ def problems(
         run: Identifier.
         told: What it had acknowledged to the robot.
         wanted: Incidents that the report must name: kind, and how often at least.
+        may_be_open: Whether deliveries may be left without a verdict.
     """
     store = Store(folder)
     try:
-        kept = list(_lost(store, run, told)) + list(_hanging(store, run))
+        kept = [*_lost(store, run, told), *_hanging(store, run, may_be_open)]
+        kept += [*_unseen(store, run, told), *_miscounted(store, url, run)]
     finally:
         store.close()
     return kept + list(_unnamed(url, run, wanted))
@@ -54,12 +62,34 @@ def _lost(store: Store, run: str, told: Acknowledged) -> Iterator[str]:
         yield f"the run's end was told as {told.finished or 'nothing'}, kept is {kept}"
 
 
-def _hanging(store: Store, run: str) -> Iterator[str]:
+def _unseen(store: Store, run: str, told: Acknowledged) -> Iterator[str]:
+    for sequence in sorted(told.keyframes):
+        frame = store.frame(run, sequence)
+        early = told.triggers[sequence] - exposed_at(frame) if frame else 0.0
+        if early > 0:
+            yield f"the frame of keyframe {sequence} was exposed {early:.2f} s before its trigger"
+
+
+def _miscounted(store: Store, url: str, run: str) -> Iterator[str]:
+    """A delivery without a verdict is undecided, in the report and in the list of runs."""
+    judged = {verdict.trajectory for verdict, _, _ in store.verdicts(run)}
+    report = json.loads(_get(f"{url}/runs/{run}/report.json"))
+    states = {well["trajectory"]: well["state"] for well in report["wells"]}
+    for number, state in states.items():
+        if number not in judged and state not in ("undecided", "abandoned"):
+            yield f"delivery {number} has no verdict and counts as {state}"
+    (row,) = [row for row in store.runs() if row["run"] == run]
+    counted = sum(state != "abandoned" for state in states.values())
+    if sum(row["wells"].values()) != counted:
+        yield f"of {counted} deliveries the list of runs counts {row['wells']}"
+
+
+def _hanging(store: Store, run: str, may_be_open: bool) -> Iterator[str]:
     verdicts = {v.trajectory for v, _, _ in store.verdicts(run)}
     holds = store.holds(run)
     settled = verdicts | store.abandoned(run).keys() | {hold["trajectory"] for hold in holds}
     open_ = {one.keyframe.trajectory for one in store.keyframes(run)} - settled
-    if open_:
+    if open_ and not may_be_open:
         yield f"deliveries {sorted(open_)} have neither verdict nor end"
     for hold in holds:
         if hold["policy"] == "pause" and hold["paused_s"] is None:

@@ -26,12 +26,14 @@ class Acknowledged:
     """What the sidecar has told the robot that it has, or that is so.
 
     Attributes:
+        triggers: When the robot stood still for a keyframe, ``time.monotonic``, s.
         keyframes: Sequence numbers.
         verdicts: Outcome by trajectory, as told first.
         holds: Trajectories whose hold was reported.
         finished: The outcome of the run, once it was taken.
     """
 
+    triggers: dict[int, float] = field(default_factory=dict)
     keyframes: set[int] = field(default_factory=set)
     verdicts: dict[int, str] = field(default_factory=dict)
     holds: set[int] = field(default_factory=set)
@@ -102,6 +104,7 @@ class Robot:
         hold, finish = SidecarLink.report_hold, SidecarLink.finish
 
         def sent(link: SidecarLink, frame: Keyframe, *rest: Any) -> Captured:
+            told.triggers.setdefault(frame.sequence, time.monotonic())
             self.show(frame)
             ahead = replace(frame, robot_time=frame.robot_time + self.clock_ahead_s)
             captured = keyframe(link, ahead, *rest)

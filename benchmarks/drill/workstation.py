@@ -9,12 +9,14 @@ import re
 import resource
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import threading
 import time
 import urllib.parse
 import urllib.request
+from collections import deque
 from collections.abc import Iterator
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -105,12 +107,18 @@ class Sidecar:
 class StreamCamera:
     """The simulated camera as an MJPEG stream on loopback, with a cable that can be pulled.
 
+    Each frame holds the moment of its exposure (see :func:`exposed_at`).
+
     Args:
         seed: Of its session.
         fps: Frames per second.
+        lengths: Whether parts say how long they are.
+        behind: How many newer frames it has when it hands one on.
     """
 
-    def __init__(self, seed: int, fps: float = FPS) -> None:
+    def __init__(self, seed: int, fps: float = FPS, lengths: bool = True, behind: int = 0) -> None:
+        self._lengths = lengths
+        self._kept: deque[bytes] = deque(maxlen=behind + 1)
         self._drawn: dict[int, list[bytes]] = {}
         self._now: list[bytes] = []
         self._turn = 0
@@ -159,15 +167,29 @@ class StreamCamera:
         self._server.server_close()
 
     def _part(self) -> bytes:
-        drawn = self._now
+        moment, drawn = time.monotonic(), self._now
         if len(drawn) < EXPOSURES:
             drawn.append(self._camera.frame_after(time.monotonic(), 5.0).jpeg)
             jpeg = drawn[-1]
         else:
             self._turn += 1
             jpeg = drawn[self._turn % EXPOSURES]
-        head = f"--frame\r\nContent-Type: image/jpeg\r\nContent-Length: {len(jpeg)}\r\n\r\n"
+        self._kept.append(_dated(jpeg, moment))
+        jpeg = self._kept[0]
+        length = f"Content-Length: {len(jpeg)}\r\n" if self._lengths else ""
+        head = f"--frame\r\nContent-Type: image/jpeg\r\n{length}\r\n"
         return head.encode() + jpeg + b"\r\n"
+
+
+def _dated(jpeg: bytes, moment: float) -> bytes:
+    """With the moment of its exposure as a comment, ``time.monotonic``, s."""
+    said = struct.pack(">d", moment)
+    return jpeg[:2] + b"\xff\xfe" + struct.pack(">H", len(said) + 2) + said + jpeg[2:]
+
+
+def exposed_at(jpeg: bytes) -> float:
+    """When a frame of :class:`StreamCamera` was exposed, ``time.monotonic``, s."""
+    return float(struct.unpack(">d", jpeg[6:14])[0])
 
 
 class Cable:
@@ -272,11 +294,13 @@ class VisionModel:
 
     def __init__(self) -> None:
         self.up = True
+        self.takes_s = 0.0
         model = self
 
         class Answers(BaseHTTPRequestHandler):
             def do_POST(self) -> None:
                 self.rfile.read(int(self.headers.get("Content-Length", 0)))
+                time.sleep(model.takes_s)
                 body = json.dumps(_completion() if model.up else {"error": {"message": "down"}})
                 self.send_response(200 if model.up else 500)
                 self.send_header("Content-Type", "application/json")
