@@ -15,33 +15,40 @@ from contextvars import ContextVar
 from types import FrameType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .errors import AegisError, ProtocolRejected, RehearsalError
-from .instrumentation import NameCollector, Tap, tapped
-from .known_tips import KnownTips, heard_by, recovers_by_itself
+from .errors import (
+    AegisError,
+    ConfigurationError,
+    ProtocolRejected,
+    RehearsalError,
+    RehearsalTimeout,
+    RuleError,
+)
+from .instrumentation import NameCollector, tapped
+from .known_tips import KnownTips, recovers_by_itself
 from .protocol_frames import at_return_of, line_of, make_final, outermost, raise_in_protocol
 from .settings import Settings, load_settings
 
 if TYPE_CHECKING:
-    from .preflight.judging import Report
+    from .guarding import Layer1
     from .preflight.rehearsal import Recording
-    from .runtime import Watcher
 
 
-class _Layer1(NamedTuple):
-    """What Layer 1 says: a line for the run log, and the report where there is one."""
+class _Guarded(NamedTuple):
+    """A context under guard, and what its guard was told."""
 
-    text: str
-    report: Report | None = None
+    protocol: weakref.ref[Any]
+    keywords: Mapping[str, Any]
 
 
 # Which context is guarded, and not merely that one is: a robot server runs the next protocol
 # in a thread of the same pool, and a mark left there must not leave that one unguarded.
-_GUARDED: ContextVar[weakref.ref[Any] | None] = ContextVar("aegis_ot_guarded", default=None)
+_GUARDED: ContextVar[_Guarded | None] = ContextVar("aegis_ot_guarded", default=None)
 
 
-def _is_guarded(protocol: Any) -> bool:
+def _first_guard_of(protocol: Any) -> Mapping[str, Any] | None:
+    """What the guard was told under which this context stands already, if it does."""
     guarded = _GUARDED.get()
-    return guarded is not None and guarded() is protocol
+    return guarded.keywords if guarded is not None and guarded.protocol() is protocol else None
 
 
 def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any], run: Any) -> Any:
@@ -53,13 +60,18 @@ def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any]
         keywords: The guard's keyword arguments.
         run: What the user decorated.
     """
-    from .preflight.rehearsal import find_home, is_rehearsing
+    from .guarding import Guarding
+    from .preflight.rehearsal import find_home, rehearsal_under_way
 
-    if is_rehearsing() or _is_guarded(protocol):
-        return call()
+    if (rehearsal := rehearsal_under_way()) is not None:
+        return rehearsal.guarded(keywords, _refuse_second, call)
     file_name, module = find_home(run)
-    token = _GUARDED.set(weakref.ref(protocol))
+    token = None
     try:
+        if (first := _first_guard_of(protocol)) is not None:
+            _refuse_second(first, keywords)
+            return call()
+        token = _GUARDED.set(_Guarded(weakref.ref(protocol), keywords))
         settings = load_settings(**keywords)
         _announce(protocol, settings)
         recovers = recovers_by_itself(protocol, settings)
@@ -67,47 +79,90 @@ def run_guarded(call: Callable[[], Any], protocol: Any, keywords: dict[str, Any]
             return _rehearse_by_running(call, protocol, settings, file_name, module)
         tips = KnownTips() if recovers else None
         layer1 = _preflight(protocol, settings, file_name, tips)
-        return _watched(call, protocol, settings, file_name, layer1, tips)
+        guarding = Guarding(protocol, settings, file_name, module, layer1, tips)
+        with guarding:
+            result = call()
+        guarding.say()
+        return result
     except AegisError as error:
         make_final(error, protocol, file_name, sys._getframe(1))
         raise_in_protocol(error, file_name, line_of(run))
         raise
     finally:
-        _GUARDED.reset(token)
+        if token is not None:
+            _GUARDED.reset(token)
 
 
 def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> None:
     """Guard what is left of the protocol function that calls from ``frame``.
 
     Used for ``protocol = guard(protocol)``. There is no call to wrap, so the protocol is
-    rehearsed here, in simulation too, and the end of the run is seen by a profile hook on the
-    return of the protocol's outermost function.
+    rehearsed here, in simulation too, and the end of the run is seen by a hook on the return of the
+    protocol's outermost function. At the top level of a notebook's cell or of a program there is no
+    function: nothing can be rehearsed, and the guard ends with the cell or the program.
     """
-    from .preflight.rehearsal import find_home, is_rehearsing
+    from .guarding import Guarding, Layer1, announce_top_level, tell_of_nothing
+    from .preflight.rehearsal import find_home, rehearsal_under_way
 
-    if is_rehearsing() or _is_guarded(protocol):
+    if (rehearsal := rehearsal_under_way()) is not None:
+        rehearsal.guarded(keywords, _refuse_second)
         return
-    file_name, _ = find_home(frame)
+    file_name, module = find_home(frame)
+    run = outermost(frame, file_name)
     try:
+        if (first := _first_guard_of(protocol)) is not None:
+            _refuse_second(first, keywords)
+            return
         settings = load_settings(**keywords)
-        _announce(protocol, settings)
-        tips = KnownTips() if recovers_by_itself(protocol, settings) else None
-        layer1 = _preflight(protocol, settings, file_name, tips)
-        watcher = _new_watcher(protocol, settings, file_name, layer1, tips)
+        if run is None:
+            announce_top_level(protocol, file_name)
+            layer1 = Layer1.none("At the top level there is no run() to rehearse.", settings)
+            tips = None
+        else:
+            _announce(protocol, settings)
+            tips = KnownTips() if recovers_by_itself(protocol, settings) else None
+            layer1 = _preflight(protocol, settings, file_name, tips)
+        guarding = Guarding(protocol, settings, file_name, module, layer1, tips)
+        guarded = _Guarded(weakref.ref(protocol), keywords)
         with ExitStack() as beginning:
-            beginning.callback(_GUARDED.reset, _GUARDED.set(weakref.ref(protocol)))
-            if watcher is not None:
-                tap = Tap(protocol, heard_by(watcher, tips), file_name)
-                watcher.begin(tap)
-                beginning.callback(tap.remove)
-                tap.install()
+            beginning.callback(_GUARDED.reset, _GUARDED.set(guarded))
+            guarding.begin()
             ending = beginning.pop_all()
     except AegisError as error:
         make_final(error, protocol, file_name, frame)
         raise_in_protocol(error, file_name, frame.f_lineno)
         raise
-    run = outermost(frame, file_name) or frame
-    at_return_of(run, lambda by_itself: _end(by_itself, protocol, layer1, watcher, ending))
+
+    def end(by_itself: bool) -> None:
+        told = "The protocol raised an error; the robot's run log has it."
+        if run is None and by_itself and not guarding.moved:
+            by_itself, told = False, tell_of_nothing(protocol, file_name)
+        try:
+            guarding.end(None if by_itself else RuntimeError(), told)
+        finally:
+            ending.close()
+        if by_itself:
+            guarding.say()
+
+    at_return_of(run or frame, end)
+
+
+def _refuse_second(first: Mapping[str, Any], second: Mapping[str, Any]) -> None:
+    """Refuse what a guard inside a guard is told otherwise: it would never count.
+
+    Raises:
+        ConfigurationError: Naming the settings.
+    """
+    if not second:
+        return
+    before, now = load_settings(**first), load_settings(**{**first, **second})
+    changed = [name for name in second if getattr(before, name) != getattr(now, name)]
+    if changed:
+        raise ConfigurationError(
+            f"This protocol is guarded already, and guard() is called again with "
+            f"{', '.join(changed)}. A protocol has one guard: write all settings into the first "
+            "one, and leave the second out."
+        )
 
 
 def _announce(protocol: Any, settings: Settings) -> None:
@@ -119,6 +174,12 @@ def _announce(protocol: Any, settings: Settings) -> None:
         protocol.comment("aegis_ot: Layer 1 rehearses the protocol; then the run begins.")
 
 
+def _announce_result(protocol: Any, settings: Settings, text: str) -> None:
+    """Before the first move, where a run goes on whatever Layer 1 says. In analysis likewise."""
+    if settings.rules == "warn":
+        protocol.comment(f"aegis_ot: {text}")
+
+
 def _rehearse_by_running(
     call: Callable[[], Any],
     protocol: Any,
@@ -126,174 +187,150 @@ def _rehearse_by_running(
     file_name: str,
     module: Mapping[str, Any],
 ) -> Any:
+    """An analysis of a decorated ``run``: it is its own rehearsal."""
+    from .guarding import call_watched, new_watcher, say, text_of
     from .preflight.rehearsal import Recorder, Recording, plain_values
 
+    _announce_result(protocol, settings, "Layer 1 judges this run at its end.")
     recorder = Recorder() if settings.rules != "off" else None
-    watcher = _new_watcher(protocol, settings, file_name)
+    watcher = new_watcher(protocol, settings, file_name)
     listeners = [listener for listener in (recorder, watcher) if listener is not None]
     if not listeners:
         return call()
     with tapped(protocol, listeners, file_name) as tap:
         if recorder is None:
-            result = _call_watched(call, watcher, tap)
-            _say(protocol, _Layer1(""), watcher)
+            result = call_watched(call, watcher, tap)
+            say(protocol, "", watcher)
             return result
         names = NameCollector(tap.wells, tap.stack, file_name)
         with names.watching(module):
-            result = _call_watched(call, watcher, tap)
-    text = _text_of(file_name, protocol)
+            result = call_watched(call, watcher, tap)
+    text = text_of(file_name, protocol)
     values = plain_values(getattr(protocol, "_params", None))
     recording = Recording(file_name, text, recorder.log, recorder.labware, names.bindings, values)
-    layer1 = _judge(recording, protocol, settings)
-    _say(protocol, layer1, watcher)
+    try:
+        layer1 = _judge(recording, protocol, settings)
+    except AegisError:
+        raise
+    except Exception as error:  # whatever a fault of ours may be
+        layer1 = _unjudged(error, protocol, settings, file_name)
+    say(protocol, layer1.text, watcher)
     return result
 
 
 def _preflight(
     protocol: Any, settings: Settings, file_name: str, tips: KnownTips | None = None
-) -> _Layer1:
-    """Rehearse and judge before anything moves; what there is to say of it."""
-    if settings.rules == "off" and tips is None:
-        return _Layer1("")
-    from .preflight.rehearsal import find_script, record
+) -> Layer1:
+    """Rehearse and judge before anything moves; what there is to say of it.
+
+    Raises:
+        ProtocolRejected: Layer 1 found errors, or could not judge the protocol, and ``rules`` is
+            ``"on"`` or ``"strict"``.
+    """
+    from .guarding import Layer1
+    from .preflight.rehearsal import RunPlan, find_script, record
     from .runtime.runstate import RunState
 
+    if settings.rules == "off" and tips is None:
+        return Layer1("")
     script = find_script(file_name, protocol)
     if script is None:
-        return _Layer1("Layer 1 could not find the protocol's text, so it was not checked.")
-    state = RunState(protocol)
+        layer1 = Layer1.none("Layer 1 cannot find the protocol's text to rehearse it.", settings)
+        _announce_result(protocol, settings, layer1.text)
+        return layer1
+    state, plan = RunState(protocol), RunPlan()
     try:
         recording = record(
             script,
-            [] if tips is None else [tips.forecast],
+            [plan] if tips is None else [plan, tips.forecast],
             # The property is refused below apiLevel 2.18.
             live_parameters=getattr(protocol, "_params", None),
             timeout_s=settings.rehearsal_timeout_s,
             is_stopping=lambda: state.stopping,
         )
-    except RehearsalError as error:
-        # A protocol that fails by itself fails with its own error; that is not the guard's to
-        # change.
-        return _Layer1(f"Layer 1 could not rehearse the protocol: {error}")
-    except AegisError:
+        if tips is not None:
+            tips.forecast.complete = True
+        if settings.rules == "off":
+            return Layer1("")
+        layer1 = _judge(recording, protocol, settings)._replace(recording=recording, plan=plan)
+    except (ConfigurationError, ProtocolRejected, RuleError):
         raise
-    except Exception as error:  # as in _judge
-        return _failed(error)
-    if tips is not None:
-        tips.forecast.complete = True
-    return _judge(recording, protocol, settings) if settings.rules != "off" else _Layer1("")
+    except Exception as error:  # whatever a fault of ours may be
+        if settings.rules == "off":
+            return Layer1("")
+        layer1 = _unjudged(error, protocol, settings, file_name)
+    _announce_result(protocol, settings, layer1.text)
+    return layer1
 
 
-def _watched(
-    call: Callable[[], Any],
-    protocol: Any,
-    settings: Settings,
-    file_name: str,
-    layer1: _Layer1,
-    tips: KnownTips | None,
-) -> Any:
-    watcher = _new_watcher(protocol, settings, file_name, layer1, tips)
-    if watcher is None:
-        result = call()
-    else:
-        with tapped(protocol, heard_by(watcher, tips), file_name) as tap:
-            result = _call_watched(call, watcher, tap)
-    _say(protocol, layer1, watcher)
-    return result
-
-
-def _call_watched(call: Callable[[], Any], watcher: Watcher | None, tap: Tap) -> Any:
-    if watcher is None:
-        return call()
-    watcher.begin(tap)
-    try:
-        result = call()
-    except BaseException as error:
-        watcher.end(error)
-        raise
-    watcher.end(None)
-    return result
-
-
-def _end(
-    by_itself: bool, protocol: Any, layer1: _Layer1, watcher: Watcher | None, ending: ExitStack
-) -> None:
-    try:
-        if watcher is not None:
-            error = None if by_itself else RuntimeError()
-            watcher.end(error, "The protocol raised an error; the robot's run log has it.")
-    finally:
-        ending.close()
-    if by_itself:
-        _say(protocol, layer1, watcher)
-
-
-def _new_watcher(
-    protocol: Any,
-    settings: Settings,
-    file_name: str,
-    layer1: _Layer1 | None = None,
-    tips: KnownTips | None = None,
-) -> Watcher | None:
-    """Layer 2, where a sidecar is configured.
-
-    In an analysis it only moves as it will in the live run, so that both show the Opentrons App
-    the same sequence of commands.
-    """
-    if settings.sidecar is None:
-        return None
-    from .runtime import Watcher
-
-    knowledge = None if tips is None else tips.knowledge
-    report = layer1.report if layer1 else None
-    text = _text_of(file_name, protocol)
-    return Watcher(protocol, settings, file_name, report, knowledge, text)
-
-
-def _text_of(file_name: str, protocol: Any) -> str:
-    """The source of the protocol that is running, ``""`` where it cannot be had."""
-    from .preflight.rehearsal import find_script
-
-    script = find_script(file_name, protocol)
-    return script.text if script is not None else ""
-
-
-def _judge(recording: Recording, protocol: Any, settings: Settings) -> _Layer1:
+def _judge(recording: Recording, protocol: Any, settings: Settings) -> Layer1:
     """Layer 1's report and its summary.
 
     Raises:
         ProtocolRejected: It found errors, and ``rules`` is ``"on"`` or ``"strict"``.
     """
+    from .guarding import Layer1
     from .preflight.check_protocol import errors_of, read_for_guard, rejection, summary
     from .preflight.judging import judge, uncollected
+    from .runtime import about_layer1
 
-    try:
-        with uncollected():
-            reading = read_for_guard(recording, settings)
-            report = judge(reading)
-        if settings.opinion == "ask":
-            from .preflight.asking import with_opinion
+    with uncollected():
+        reading = read_for_guard(recording, settings)
+        report = judge(reading)
+    if settings.opinion == "ask":
+        from .preflight.asking import with_opinion
 
-            report = with_opinion(report, reading, settings, protocol)
-    except AegisError:
-        raise
-    except Exception as error:  # a fault of ours must not keep a good protocol from running
-        return _failed(error)
+        report = with_opinion(report, reading, settings, protocol)
     errors = errors_of(report)
     if settings.rules in ("on", "strict") and errors:
         line = next((line for finding in errors for line in finding.lines), None)
-        raise ProtocolRejected(rejection(report), line)
-    return _Layer1(summary(report), report)
+        raise _rejected(
+            rejection(report), line, about_layer1(report), protocol, settings, recording.file
+        )
+    return Layer1(summary(report), report)
 
 
-def _failed(error: Exception) -> _Layer1:
-    return _Layer1(f"Layer 1 failed and judged nothing ({type(error).__name__}: {error}).")
+def _unjudged(error: Exception, protocol: Any, settings: Settings, file_name: str) -> Layer1:
+    """What becomes of a run whose rehearsal failed, or of which Layer 1 could make nothing.
+
+    Raises:
+        ProtocolRejected: Nobody has judged it, and ``rules`` is ``"on"`` or ``"strict"``.
+    """
+    from .guarding import Layer1
+    from .runtime.runstate import RunState
+
+    fails_itself = isinstance(error, RehearsalError) and not isinstance(error, RehearsalTimeout)
+    if isinstance(error, RehearsalError):
+        why = f"Layer 1 could not rehearse the protocol: {str(error).rstrip('.')}."
+    else:
+        why = f"Layer 1 failed and judged nothing ({type(error).__name__}: {error})."
+    layer1 = Layer1.none(why, settings)
+    # An analysis of a protocol that fails by itself fails with its own error; and what a run that
+    # is being stopped raises is Opentrons' to say.
+    lets_be = RunState(protocol).stopping or (fails_itself and protocol.is_simulating())
+    if settings.rules in ("on", "strict") and not lets_be:
+        raise _rejected(
+            f"{why} Nobody has judged what it would do, so it does not begin; no tip has moved. "
+            'To run it all the same: @guard(rules="warn").',
+            getattr(error, "line", None),
+            layer1.words(),
+            protocol,
+            settings,
+            file_name,
+        )
+    return layer1
 
 
-def _say(protocol: Any, layer1: _Layer1, watcher: Watcher | None) -> None:
-    """One closing comment in analysis and live alike."""
-    parts = [layer1.text] if layer1.text else []
-    if watcher is not None:
-        parts.append(watcher.summary())
-    if parts:
-        protocol.comment(f"aegis_ot: {' '.join(parts)}")
+def _rejected(
+    text: str,
+    line: int | None,
+    words: Mapping[str, Any] | None,
+    protocol: Any,
+    settings: Settings,
+    file_name: str,
+) -> ProtocolRejected:
+    """The error that keeps a run from beginning; the sidecar's page says so too."""
+    from .runtime import tell_of_rejection
+
+    tell_of_rejection(protocol, settings, file_name, words, text)
+    return ProtocolRejected(text, line)

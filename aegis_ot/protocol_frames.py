@@ -62,17 +62,41 @@ def outermost(frame: FrameType, file_name: str) -> FrameType | None:
 def at_return_of(frame: FrameType, action: Callable[[bool], None]) -> None:
     """Call ``action`` when ``frame`` returns, with whether it returned by itself.
 
-    An exception raised by ``action`` becomes the exception of that function.
+    An exception raised by ``action`` becomes the exception of that function. A protocol may set a
+    profiler or a tracer of its own, and take it off again: so there is a hook in either place.
     """
-    previous: Any = sys.getprofile()
+    profiler: Any = sys.getprofile()
+    tracer: Any = sys.gettrace()
+    over = False
 
-    def hook(seen: FrameType, event: str, argument: Any) -> None:
-        if previous is not None:
-            previous(seen, event, argument)
+    def at_end(seen: FrameType) -> None:
+        nonlocal over
+        if over:
+            return
+        over = True
+        if sys.getprofile() is profiled:
+            sys.setprofile(profiler)
+        if sys.gettrace() is traced:
+            sys.settrace(tracer)
+        # An exception is told as a return too; the instruction tells them apart.
+        opcode = dis.opname[seen.f_code.co_code[seen.f_lasti]]
+        action(opcode.startswith(("RETURN_", "INSTRUMENTED_RETURN")))
+
+    def profiled(seen: FrameType, event: str, argument: Any) -> None:
+        if callable(profiler):
+            profiler(seen, event, argument)
         if seen is frame and event == "return":
-            sys.setprofile(previous)
-            # An exception is told as a return too; the instruction tells them apart.
-            opcode = dis.opname[seen.f_code.co_code[seen.f_lasti]]
-            action(opcode.startswith(("RETURN_", "INSTRUMENTED_RETURN")))
+            at_end(seen)
 
-    sys.setprofile(hook)
+    def traced(_seen: FrameType, _event: str, _argument: Any) -> None:
+        """Keeps tracing on; of interest is the one frame alone."""
+
+    def traced_here(seen: FrameType, event: str, _argument: Any) -> Any:
+        if event == "return":
+            at_end(seen)
+        return traced_here
+
+    sys.setprofile(profiled)
+    if tracer is None:
+        frame.f_trace, frame.f_trace_lines = traced_here, False
+        sys.settrace(traced)

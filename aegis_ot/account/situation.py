@@ -247,6 +247,7 @@ def _trouble(incident: Mapping[str, Any]) -> Situation:
         "store": "The store is in trouble",
         "model": "The vision model does not answer",
         "hold": "A hold ended without a verdict",
+        "layer1": "The run is not as rehearsed",
     }
     title = titles.get(incident["kind"], f"Trouble: {incident['kind']}")
     return Situation(incident["kind"], title, incident["text"])

@@ -109,6 +109,11 @@ class ProtocolStack:
                     self.met(frame)
         return CallSite(tuple(lines), call, mixing)
 
+    @property
+    def running(self) -> tuple[FrameType, ...]:
+        """The protocol's functions that were on the stack at the last walk, innermost first."""
+        return tuple(self._running)
+
     def close(self) -> None:
         """The run is over: tell of the frames that are left, and let go of them."""
         self._now_running([])

@@ -35,7 +35,7 @@ class EventTap:
     ) -> None:
         self._core = core
         self._wells = wells
-        self._listeners = listeners
+        self.listeners = listeners
         self._stack = stack
         self._replace = replace
         self._liquids: dict[str, tuple[str, str]] = {}
@@ -85,7 +85,7 @@ class EventTap:
             self._replace(target, name, make)
 
     def _tell(self, event: Event) -> None:
-        for listener in self._listeners:
+        for listener in self.listeners:
             listener.event(event)
 
     def _line(self) -> int | None:

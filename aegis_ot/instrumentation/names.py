@@ -145,6 +145,32 @@ class NameCollector:
             self._places.add(binding)
         self._bindings.setdefault(binding)
 
+    @contextmanager
+    def gathering(self, namespace: Mapping[str, Any]) -> Iterator[None]:
+        """As :meth:`watching`, for who asks :meth:`so_far` and needs no last look."""
+        self._reader.own_modules[str(namespace.get("__name__", "builtins"))] = True
+        self._stack.met, self._stack.returned = self._look_at_wells, self._look_at
+        try:
+            yield
+        finally:
+            self._stack.met = self._stack.returned = None
+            self._stack.close()
+            self._last.clear()
+            self._labware.clear()
+
+    def so_far(self, namespace: Mapping[str, Any]) -> tuple[NameBinding, ...]:
+        """What the names hold now, those of functions that are not over yet included.
+
+        Args:
+            namespace: The protocol's globals.
+        """
+        for frame in self._stack.running:
+            self._look_at(frame)
+        for module in helper_modules(namespace):
+            self.look(vars(module), f"{module.__name__}.<module>", 0)
+        self.look(namespace, "<module>", 1)
+        return self.bindings
+
     def _look_at_notes(self) -> None:
         """What the protocol wrote on the wells themselves."""
         notes: dict[str, list[Row]] = {}
@@ -164,25 +190,19 @@ class NameCollector:
         Args:
             namespace: The protocol's globals.
         """
-        self._reader.own_modules[str(namespace.get("__name__", "builtins"))] = True
-        self._stack.met, self._stack.returned = self._look_at_wells, self._look_at
-        try:
+        with self.gathering(namespace):
             yield
             self._stack.close()
-            for module in helper_modules(namespace):
-                self.look(vars(module), f"{module.__name__}.<module>", 0)
-            self.look(namespace, "<module>", 1)
+            self.so_far(namespace)
             with suppress(Exception):
                 self._look_at_notes()
-        finally:
-            self._stack.met = self._stack.returned = None
-            self._stack.close()
-            self._last.clear()
-            self._labware.clear()
 
     def _look_at(self, frame: FrameType) -> None:
         if _may_be_read(frame.f_code):
-            self.look(frame.f_locals, *self._function_of(frame))
+            names = frame.f_locals
+            self.look(names, *self._function_of(frame))
+            if _SHARES_LOCALS:
+                names.clear()  # this copy would keep alive what the function lets go of
 
     def _look_at_wells(self, frame: FrameType) -> None:
         if not _may_be_read(frame.f_code):
@@ -196,7 +216,7 @@ class NameCollector:
                 if self._last.get((function[0], name)) is not value:
                     self.look({name: value}, *function)
         if _SHARES_LOCALS:
-            names.clear()  # this copy would keep alive what the function lets go of
+            names.clear()
 
     def _function_of(self, frame: FrameType) -> tuple[str, int]:
         """Name and first line of a frame's function; see :class:`NameBinding`."""

@@ -42,6 +42,11 @@ class Tap:
         self._protocol = protocol
         self._instead: CallSite | None = None
 
+    def listen(self, listeners: Sequence[Listener]) -> None:
+        """Tell these instead; before :meth:`install`."""
+        self._listeners = tuple(listeners)
+        self._events.listeners = self._listeners
+
     def install(self) -> None:
         """Wrap what is loaded already, and whatever is loaded from now on."""
         self._events.install()

@@ -4,6 +4,7 @@ Each step is a room of its own, and imports run down this list only (a contract 
 ``pyproject.toml``)::
 
     asking      the robot asks the sidecar's model
+    live_judging  the run beside its rehearsal
     opinion     what a model gets to know, what it answers, what of that counts
     checking    a protocol, or what a guard recorded, to a report
     database    the rule files: loaded, validated, their schema

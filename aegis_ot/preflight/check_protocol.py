@@ -52,12 +52,21 @@ def rejection(report: Report) -> str:
     errors = errors_of(report)
     count = "an error" if len(errors) == 1 else f"{len(errors)} errors"
     lines = [f"Layer 1 found {count} in {report.file}; no tip has moved."]
-    lines += [_tell(finding) for finding in errors]
+    lines += [tell_finding(finding) for finding in errors]
     return "\n".join(lines)
 
 
 def summary(report: Report) -> str:
     """One line for the run log."""
+    rules = ", ".join(dict.fromkeys(finding.rule for finding in report.findings))
+    told = f" ({rules})" if rules else ""
+    silence = unanswered(report)
+    model = f" The model was asked in vain: {silence}" if silence else ""
+    return f"Layer 1: {report.verdict.value}{told}: {counts_of(report)}.{model}"
+
+
+def counts_of(report: Report) -> str:
+    """How many errors, warnings and so on there are."""
     errors = len(errors_of(report))
     warnings = len(report.findings) - errors
     parts = [
@@ -69,14 +78,11 @@ def summary(report: Report) -> str:
         parts.append(f"{len(report.waived)} waived")
     if report.remarks:
         parts.append(f"{counted(len(report.remarks), 'remark')} (aegis-ot check shows them)")
-    rules = ", ".join(dict.fromkeys(finding.rule for finding in report.findings))
-    told = f" ({rules})" if rules else ""
-    silence = unanswered(report)
-    model = f" The model was asked in vain: {silence}" if silence else ""
-    return f"Layer 1: {report.verdict.value}{told}: {', '.join(parts)}.{model}"
+    return ", ".join(parts)
 
 
-def _tell(finding: Finding) -> str:
+def tell_finding(finding: Finding) -> str:
+    """One finding in words: rule, what happened, where, how to mend it."""
     lines = ", ".join(str(line) for line in finding.lines)
     wells = ", ".join(str(well) for well in finding.wells)
     where = f" Lines {lines}; wells {wells}." if lines and wells else ""

@@ -229,8 +229,18 @@ class Courier:
         self._outbox.recovery(told)
         self._tell()
 
+    def report_difference(self, text: str) -> None:
+        """Tell likewise that the run does otherwise than its rehearsal."""
+        self._outbox.difference(text)
+        self._tell()
+
     def finish(
-        self, outcome: str, detail: str, abandoned: Mapping[int, str], timeout_s: float
+        self,
+        outcome: str,
+        detail: str,
+        abandoned: Mapping[int, str],
+        timeout_s: float,
+        layer1: Mapping[str, Any] | None = None,
     ) -> None:
         """Tell which trajectories are given up and how the run ended, as the last thing.
 
@@ -242,7 +252,7 @@ class Courier:
             self._outbox.abandon(number, reason)
         self._outbox.flush(deadline)
         left = max(SLICE_S, deadline - time.monotonic())
-        self._link.finish(self.run, outcome, detail[:2000], left)
+        self._link.finish(self.run, outcome, detail[:2000], left, layer1)
 
     def close(self) -> None:
         """Drop the connection."""

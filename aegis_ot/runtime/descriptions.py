@@ -62,10 +62,19 @@ def about_guard(settings: Settings) -> dict[str, Any]:
     }
 
 
-def about_layer1(report: Any) -> dict[str, Any]:
-    """What Layer 1 found (an ``aegis_ot.preflight`` report), short enough for a registration."""
-    return {
-        "verdict": report.verdict.value,
+def about_layer1(report: Any, verdict: str = "", note: str = "") -> dict[str, Any]:
+    """What Layer 1 found (an ``aegis_ot.preflight`` report), short enough for a registration.
+
+    Args:
+        report: ``None``: nothing was judged.
+        verdict: Instead of the report's own, where it is not about the run as a whole.
+        note: Why.
+    """
+    if report is None:
+        return {"verdict": verdict, "note": note[:2000]}
+    words = {} if not note else {"note": note[:2000]}
+    return words | {
+        "verdict": verdict or report.verdict.value,
         "findings": [_about_finding(finding) for finding in report.findings[:_MOST]],
         "more": max(0, len(report.findings) - _MOST),
         "undecided": [

@@ -187,9 +187,23 @@ class SidecarLink:
         body = {"kind": "link", "seconds": round(seconds, 1), "text": text[:1000]}
         self._request("POST", f"/v1/runs/{quote(run, safe='')}/incident", body, timeout_s)
 
-    def finish(self, run: str, outcome: str, detail: str, timeout_s: float) -> None:
-        """Say how the run ended."""
-        body = {"outcome": outcome, "detail": detail}
+    def report_difference(self, run: str, text: str, timeout_s: float) -> None:
+        """Say that the run does otherwise than its rehearsal."""
+        body = {"kind": "layer1", "seconds": 0.0, "text": text[:1000]}
+        self._request("POST", f"/v1/runs/{quote(run, safe='')}/incident", body, timeout_s)
+
+    def finish(
+        self,
+        run: str,
+        outcome: str,
+        detail: str,
+        timeout_s: float,
+        layer1: Mapping[str, Any] | None = None,
+    ) -> None:
+        """Say how the run ended, and what Layer 1 says of it if that has changed."""
+        body: dict[str, Any] = {"outcome": outcome, "detail": detail}
+        if layer1 is not None:
+            body["layer1"] = dict(layer1)
         self._request("POST", f"/v1/runs/{quote(run, safe='')}/finish", body, timeout_s)
 
     def close(self) -> None:

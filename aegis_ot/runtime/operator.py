@@ -55,6 +55,16 @@ class Operator:
         self.busy = False
         """Whether the guard itself is pausing or commenting just now."""
 
+    @property
+    def is_legacy(self) -> bool:
+        """Whether words have to come before an announcement that is kept back for them."""
+        return self._legacy_run is not None
+
+    @property
+    def can_be_answered(self) -> bool:
+        """Whether somebody could answer a pause without the sidecar's page."""
+        return self._simulating or can_be_resumed() or _is_terminal()
+
     def begin(self) -> None:
         """The run begins."""
         if self._legacy_run is not None:

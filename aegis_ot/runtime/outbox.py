@@ -50,6 +50,10 @@ class Outbox:
         """For how long there was no link, and what was said of it."""
         self._messages.append(lambda most: self._link.report_outage(self.run, seconds, said, most))
 
+    def difference(self, text: str) -> None:
+        """What the run does otherwise than its rehearsal."""
+        self._messages.append(lambda most: self._link.report_difference(self.run, text, most))
+
     def flush(self, deadline: float) -> None:
         """Send what there is until a moment of ``time.monotonic``, s; the rest stays.
 

@@ -20,6 +20,8 @@ from ..errors import AegisError
 PATIENCE = 3
 """Refused operations after which a protocol is taken to try again and again."""
 
+_OVER = "Nothing moves with this protocol context any more: a new run needs a new one."
+
 # What a core is asked and not told.
 _QUESTIONS = ("get_", "is_", "has_", "api_")
 
@@ -77,7 +79,7 @@ class _Refusal:
         setattr(target, name, MethodType(refused, target))
 
     def _error(self) -> AegisError:
-        return self._kind(self._text)
+        return self._kind(f"{self._text} {_OVER}")
 
 
 def _throw_out(file_name: str, make: Callable[[], AegisError]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import time
 import uuid
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -15,10 +15,11 @@ from ..instrumentation import Event, Operation, Tap
 from ..settings import Settings
 from ..vocabulary import Keyframe, KeyframeKind
 from .courier import Courier
-from .descriptions import about_guard, about_layer1, about_run, working_volume
+from .descriptions import about_guard, about_run, working_volume
 from .holding import Holding
 from .link import SidecarLink
 from .linkloss import LinkLoss
+from .objecting import object_to
 from .operator import Operator
 from .page_answers import PageAnswers
 from .probes import liquid_found, never_asked
@@ -63,7 +64,7 @@ class Watcher:
         protocol: Any,
         settings: Settings,
         file_name: str,
-        layer1: Any = None,
+        layer1: Mapping[str, Any] | None = None,
         tips: TipKnowledge | None = None,
         text: str = "",
     ) -> None:
@@ -84,7 +85,7 @@ class Watcher:
         self._line: _Line | None = None
         self._about = about_run(protocol, self.run_id, file_name, self._simulating) | {
             "guard": about_guard(settings),
-            "layer1": None if layer1 is None else about_layer1(layer1),
+            "layer1": layer1,
             "protocol_sha256": hashlib.sha256(text.encode()).hexdigest() if text else "",
         }
         self._refuse: Callable[[RunAborted], None] = lambda error: refuse_everything(
@@ -92,6 +93,8 @@ class Watcher:
         )
         self._stopped = False
         self._aborted = ""
+        self.acting = False
+        """Whether what moves now is the guard's own doing."""
 
     # What the guard calls
 
@@ -139,12 +142,36 @@ class Watcher:
         if self._perform(self._tracker.event(event)):
             self._operator.proceed()
 
-    def end(self, error: BaseException | None, told: str = "") -> None:
+    @property
+    def may_object(self) -> bool:
+        """Of :class:`aegis_ot.runtime.objecting.Hands`."""
+        return True
+
+    def object_to(self, text: str) -> None:
+        """Layer 1 finds that what the protocol does next breaks a rule: as ``on_fail`` says.
+
+        Raises:
+            RunAborted: The policy, or the operator, ends the run.
+        """
+        self._stoppable(lambda: object_to(text, self._settings, self._operator))
+
+    def tell_difference(self, text: str) -> None:
+        """The run does otherwise than its rehearsal: the sidecar's page says so at once."""
+        if self._line is not None:
+            self._line.courier.report_difference(text)
+
+    def end(
+        self,
+        error: BaseException | None,
+        told: str = "",
+        layer1: Mapping[str, Any] | None = None,
+    ) -> None:
         """After the protocol's last command, or when it raised ``error``.
 
         Args:
             error: What it raised, or ``None``.
             told: What there is to say of it, where it is not ``error`` itself.
+            layer1: What Layer 1 says in the end, where that is not what it said at the beginning.
 
         Raises:
             RunAborted: A last well failed, and the policy says so.
@@ -169,7 +196,7 @@ class Watcher:
             if outcome in ("succeeded", "failed") and (self._stopped or self._state.stopping):
                 outcome, detail = "stopped", ""  # what Opentrons raises then is no news
             self._operator.end()
-            self._say_goodbye(outcome, detail)
+            self._say_goodbye(outcome, detail, layer1)
 
     def summary(self) -> str:
         """One line for the run log."""
@@ -205,13 +232,19 @@ class Watcher:
     def _recover(self, recovery: Recovery, operation: Operation) -> None:
         """Put right what failed, before ``operation``; what is done is watched like the rest."""
         while recovery.is_due and not self._stopped:
-            with self._operator.aside():
-                self._stoppable(recovery.carry_out)
+            self._act(recovery.carry_out)
             self._perform(self._tracker.before(operation), operation)
         if not self._stopped and recovery.needs_clean_tip(operation):
-            with self._operator.aside():
-                self._stoppable(lambda: recovery.give_clean_tip(operation))
+            self._act(lambda: recovery.give_clean_tip(operation))
             self._perform(self._tracker.before(operation), operation)
+
+    def _act(self, action: Callable[[], None]) -> None:
+        self.acting = True
+        try:
+            with self._operator.aside():
+                self._stoppable(action)
+        finally:
+            self.acting = False
 
     def _capture(self, keyframe: Keyframe) -> None:
         if keyframe.kind is KeyframeKind.DISPENSE:
@@ -297,7 +330,9 @@ class Watcher:
             raise RuntimeError("begin() was not called, or end() was")
         return self._line
 
-    def _say_goodbye(self, outcome: str, detail: str) -> None:
+    def _say_goodbye(
+        self, outcome: str, detail: str, layer1: Mapping[str, Any] | None = None
+    ) -> None:
         line, self._line = self._line, None
         self._lift = lambda operation: None
         self._recovery = None
@@ -313,7 +348,7 @@ class Watcher:
         if outcome == "stopped" or courier.away:
             given_up = {}
         try:
-            courier.finish(outcome, detail, given_up, patience)
+            courier.finish(outcome, detail, given_up, patience, layer1)
         except (LinkError, Stopping):
             pass  # it was lost before, and the policy has had its say; or nobody wants to wait
         finally:

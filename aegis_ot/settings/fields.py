@@ -14,8 +14,9 @@ class Settings:
     Attributes:
         assay: Assay family, several as ``"serial_dilution, generic"``, or ``None`` to let the
             guard find out. Families of your own rule files are accepted as well.
-        rules: ``"on"``: errors refuse the run; ``"strict"``: warnings are errors; ``"warn"``:
-            findings are reported and the run goes on; ``"off"``.
+        rules: ``"on"``: errors refuse the run, and so does a rehearsal that fails or takes too
+            long; ``"strict"``: warnings are errors; ``"warn"``: all of this is reported, and the
+            run goes on; ``"off"``.
         select: Rule ids to use; empty for all.
         ignore: Rule ids to leave out.
         rules_path: Folder or file of further rules.
@@ -26,7 +27,8 @@ class Settings:
             alone.
         token: Bearer token that the sidecar expects, or ``None``.
         hold: ``"boundary"``, ``"well"`` or ``"off"``; see ``docs/reference/keyframes.md``.
-        on_fail: What a failed well does: ``"pause"``, ``"continue"`` or ``"abort"``.
+        on_fail: What a failed well does, and a step that was not rehearsed and breaks a rule:
+            ``"pause"``, ``"continue"`` or ``"abort"``.
         on_undecided: The same for a well that no gate could settle.
         on_link_loss: The same for a sidecar that is away, refuses, answers nonsense, or gives
             no frame or no verdict in time.

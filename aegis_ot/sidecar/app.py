@@ -216,6 +216,9 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         run: Run, body: Annotated[Incident, body_as(Incident)], start: Start = ""
     ) -> dict[str, Any]:
         await run_in_threadpool(sidecar.session, run, start)
+        if body.kind == "layer1":
+            await run_in_threadpool(sidecar.differs, run, body.text)
+            return {}
         said = f"The robot was not served for {body.seconds:.0f} s. {body.text}".strip()
         await run_in_threadpool(sidecar.note, run, body.kind, said, body.seconds)
         return {}

@@ -14,6 +14,7 @@ TODO = {
     "model": "Look at the model's service, key and network; flagged wells come to you meanwhile.",
     "recovered": "Nothing has to be done; the well is marked in the report.",
     "hold": "Look at the robot, and at the sidecar's page.",
+    "layer1": "Compare the run with its protocol; pause or stop it on the page if it is not meant.",
     "silent": "See whether the robot is on and in the network.",
 }
 

@@ -208,10 +208,18 @@ class Sidecar:
         self._incidents.note(run, kind, seen, lasted_s)
         self.bell.ring()
 
+    def differs(self, run: str, text: str) -> None:
+        """The run does otherwise than its rehearsal: people are told, once."""
+        self.require(run)
+        self.tell(Notice(run, "layer1", "the run is not as rehearsed", text))
+
     def finish(self, run: str, finish: Finish) -> None:
         """Keep how the run ended."""
         session = self.session(run)  # after a restart: judges what had not been judged
         self.store.finish(run, finish)
+        if finish.layer1 is not None:
+            self.store.add_layer1(run, finish.layer1.model_dump())
+        self._incidents.end(run, "layer1")
         session.catch_up()
         event("finish", run=run, outcome=finish.outcome, detail=finish.detail)
         self._look_back(run)

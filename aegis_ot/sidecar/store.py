@@ -98,7 +98,7 @@ class Store(Records):
         )
 
     def add_layer1(self, run: str, said: dict[str, Any]) -> None:
-        """Keep what Layer 1 said of a run whose robot did not tell it."""
+        """Keep what Layer 1 says of a run, in the place of what it said before."""
         self._write(
             "UPDATE runs SET start = json_set(start, '$.layer1', json(?)) WHERE run = ?",
             (json.dumps(said), run),

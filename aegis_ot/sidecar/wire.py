@@ -94,6 +94,7 @@ class Layer1Words(Body):
     findings: Annotated[list[Layer1Finding], Field(max_length=50)] = []
     more: Count = 0
     undecided: Annotated[list[Layer1Open], Field(max_length=50)] = []
+    note: Text = ""
 
 
 class RunStart(Body):
@@ -164,18 +165,20 @@ class Recovery(Body):
 
 
 class Incident(Body):
-    """What befell a run on the robot's side: for so long the sidecar did not serve it."""
+    """What befell a run on the robot's side: for so long the sidecar did not serve it, or it does
+    otherwise than its rehearsal."""
 
-    kind: Literal["link"]
+    kind: Literal["link", "layer1"]
     seconds: Annotated[float, Field(ge=0, le=1e7)]
     text: Text = ""
 
 
 class Finish(Body):
-    """A run ends."""
+    """A run ends; ``layer1`` where that says another thing than at the start."""
 
     outcome: Literal["succeeded", "failed", "stopped", "aborted"]
     detail: Text = ""
+    layer1: Layer1Words | None = None
 
 
 class Decision(Body):

@@ -3,7 +3,8 @@
 A sidecar in a process of its own, killed and restarted 20 times within a run, then runs in which
 its disk is full, its camera is unplugged and back, its vision model is down, its clock and the
 robot's are set, the connection is cut for 30 s, 400 silent connections crowd it, the camera hands
-on old frames, and verdicts are open at the end. The robot is Opentrons' own engine on its hardware
+on old frames, verdicts are open at the end, and the protocol moves in another order than in its
+rehearsal. The robot is Opentrons' own engine on its hardware
 simulator; frames are simulated. After each: no record that was acknowledged may be lost, no hold
 may hang, no frame may be older than its trigger, no delivery without a verdict may count as passed,
 and the run's report must name what happened.
@@ -25,7 +26,7 @@ from pathlib import Path
 from typing import Any
 
 from .examining import problems
-from .robot import Robot
+from .robot import OTHERWISE, Robot
 from .workstation import Cable, Crowd, Person, Sidecar, StreamCamera, VisionModel, closing
 
 RESTARTS = 20
@@ -54,6 +55,7 @@ class Drill:
         wells: Of the run.
         settings: Of the sidecar, beside the camera.
         guard: Settings of the guard.
+        text: The protocol, if not the usual one.
         wanted: Incidents that the report must name.
         most_pauses: More of them are wrong; ``None``: as many as it takes.
         happened: What was done, in words.
@@ -70,6 +72,7 @@ class Drill:
     guard: dict[str, Any] = field(default_factory=dict)
     wanted: dict[str, int] = field(default_factory=dict)
     happened: str = ""
+    text: str = ""
     may_resume: Callable[[], bool] = lambda: True
     model: VisionModel | None = None
     robot: Robot | None = None
@@ -89,7 +92,7 @@ class Drill:
         with closing(camera, cable):
             sidecar.start()
             try:
-                robot = Robot(name, cable.url, self.wells, camera.show, self.guard)
+                robot = Robot(name, cable.url, self.wells, camera.show, self.guard, self.text)
                 self.robot = robot
                 failed = robot.play(
                     incident(self, sidecar, camera, cable), lambda: self.may_resume()
@@ -249,9 +252,15 @@ def late(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> 
     return lambda keyframes: None
 
 
+def course(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> Step:
+    """The protocol does otherwise than in its rehearsal, which Layer 1 had passed."""
+    drill.wanted, drill.happened = {"layer1": 1}, "moved in another order than rehearsed"
+    return lambda keyframes: None
+
+
 INCIDENTS = {
     "restarts": restarts, "disk": disk, "camera": camera, "vlm": vlm, "clock": clock, "cut": cut,
-    "page": page, "crowd": crowd, "stale": stale, "late": late,
+    "page": page, "crowd": crowd, "stale": stale, "late": late, "course": course,
 }  # fmt: skip
 
 
@@ -286,6 +295,8 @@ def _drill(name: str, folder: Path, given: argparse.Namespace) -> bool:
     if name == "stale":
         drill.camera = {"fps": STALE_FPS, "lengths": False, "behind": 1}
         drill.camera_settings = {"timeout_s": 5.0}
+    if name == "course":
+        drill.text = OTHERWISE
     if name == "cut":
         drill.guard = {"capture_timeout_s": 10.0 * given.scale}
     with closing(model):

@@ -109,6 +109,9 @@ def _unnamed(url: str, run: str, wanted: Mapping[str, int]) -> Iterator[str]:
     for incident in report["incidents"]:
         if incident["kind"] not in page:
             yield f"the HTML report does not name the incident {incident['kind']!r}"
+    said = (report["layer1"] or {}).get("verdict", "")
+    if "layer1" in wanted and said != "not as rehearsed":
+        yield f"the report says of Layer 1: {said!r}"
 
 
 def _get(url: str) -> bytes:

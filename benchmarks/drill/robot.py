@@ -50,6 +50,7 @@ class Robot:
         wells: How many it fills.
         show: Told of each keyframe before it is sent: what the camera sees from now on.
         more: Settings of the guard.
+        text: The protocol, where it is not :func:`fill` under Layer 2 alone.
     """
 
     run: str
@@ -57,6 +58,7 @@ class Robot:
     wells: int
     show: Callable[[Keyframe], None]
     more: dict[str, Any]
+    text: str = ""
     told: Acknowledged = field(default_factory=Acknowledged)
     clock_ahead_s: float = 0.0
     pauses: int = 0
@@ -75,9 +77,11 @@ class Robot:
         settings = Settings(sidecar=self.url, run_id=self.run, **self.more)
         began = time.monotonic()
         with self._recorded(), robot_server() as server:
-            live = LiveRun(lambda protocol: fill(protocol, self.wells), settings)
+            live = LiveRun(self._protocol(), settings)
             server.run = live
             live.start()
+            if self.text:
+                live.play()
             paused = False
             while live._thread.is_alive():
                 if time.monotonic() - began > PATIENCE_S:
@@ -95,6 +99,13 @@ class Robot:
             except BaseException as error:
                 return f"{type(error).__name__}: {error}"
         return "" if live.error is None else f"{type(live.error).__name__}: {live.error}"
+
+    def _protocol(self) -> Callable[[Any], None] | str:
+        if not self.text:
+            return lambda protocol: fill(protocol, self.wells)
+        given = {"sidecar": self.url, "run_id": self.run, **self.more}
+        settings = ", ".join(f"{name}={value!r}" for name, value in given.items())
+        return self.text.format(settings=settings, wells=self.wells)
 
     @contextlib.contextmanager
     def _recorded(self) -> Iterator[None]:
@@ -143,6 +154,26 @@ def robot_server() -> Iterator[RobotServer]:
     finally:
         server.server.shutdown()
         server.server.server_close()
+
+
+OTHERWISE = """
+from aegis_ot import guard
+metadata = {{"apiLevel": "2.15"}}
+
+@guard({settings})
+def run(protocol):
+    tips = protocol.load_labware("opentrons_96_tiprack_300ul", "1")
+    source = protocol.load_labware("nest_12_reservoir_15ml", "2")["A1"]
+    plate = protocol.load_labware("corning_96_wellplate_360ul_flat", "3")
+    dye = protocol.define_liquid(name="red dye", description="", display_color="#FF0000")
+    source.load_liquid(liquid=dye, volume=14_000)
+    pipette = protocol.load_instrument("p300_single_gen2", "left", [tips])
+    wells = plate.wells()[:{wells}]
+    if not protocol.is_simulating():
+        wells.reverse()
+    pipette.transfer(100, source, wells, new_tip="always")
+"""
+"""The same, in another order than in its rehearsal."""
 
 
 def fill(protocol: Any, wells: int) -> None:

@@ -100,3 +100,18 @@ def test_a_lost_link_is_told_by_the_robot(robot: Robot) -> None:
     assert one["ended"] - one["at"] == pytest.approx(31.0)
     assert "The robot was not served for 31 s." in one["text"]
     assert robot.post("incident", body | {"kind": "else"}).status_code == 422
+
+
+def test_a_run_that_is_not_as_rehearsed_is_trouble_until_it_ends(robot: Robot) -> None:
+    text = "The run did otherwise than its rehearsal."
+    body = {"kind": "layer1", "seconds": 0.0, "text": text}
+    assert robot.post("incident", body).status_code == 200
+    assert incidents(robot) == [("layer1", False)]
+    words = {"verdict": "not as rehearsed", "note": f"{text} What was run ..."}
+    ended = {"outcome": "succeeded", "detail": "", "layer1": words}
+    assert robot.post("finish", ended).status_code == 200
+    assert incidents(robot) == [("layer1", True)]
+    assert robot.overview()["layer1"]["verdict"] == "not as rehearsed"
+    report = robot.http.get(f"/runs/{robot.run}/report.html").text
+    assert "Not as rehearsed." in report
+    assert "No findings" not in report

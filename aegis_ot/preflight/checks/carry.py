@@ -42,6 +42,8 @@ class Carry(Check):
         not_into: Roles whose wells are let be, although they have a role of ``into`` as well.
     """
 
+    lasting = True
+
     carried: tuple[str, ...] = role_names(required=True)
     into: tuple[str, ...] = role_names(required=True)
     stock: bool = False

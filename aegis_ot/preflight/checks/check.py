@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from ...vocabulary import Site, WellRef
 from ..trace import Contact, Well
@@ -77,7 +77,13 @@ def microlitres(volume: float) -> str:
 
 @dataclass(frozen=True)
 class Check:
-    """A predicate over trace and roles, with its parameters as fields."""
+    """A predicate over trace and roles, with its parameters as fields.
+
+    Attributes:
+        lasting: Whether nothing that may follow mends what it finds.
+    """
+
+    lasting: ClassVar[bool] = False
 
     def demanded(self, case: Case) -> Collection[str]:
         """Roles without which it does not hold; what else is not there cannot break it."""

@@ -26,6 +26,8 @@ class DoseOrder(Check):
         wells: Roles of the wells that are dosed.
     """
 
+    lasting = True
+
     liquid: tuple[str, ...] = role_names(required=True)
     wells: tuple[str, ...] = role_names(required=True)
 

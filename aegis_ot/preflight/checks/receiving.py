@@ -238,6 +238,8 @@ class NeverReceives(Check):
         liquid: Roles of the liquid.
     """
 
+    lasting = True
+
     wells: tuple[str, ...] = role_names(required=True)
     liquid: tuple[str, ...] = role_names(required=True)
 

@@ -32,6 +32,8 @@ class VolumeBookkeeping(Check):
     Waste may fill its well to the brim.
     """
 
+    lasting = True
+
     def find(self, case: Case) -> Iterator[Result]:
         """Report each kind of imbalance once in each well: the first that is sure, or the first."""
         by_hand = {

@@ -11,6 +11,7 @@ from ..checks import Case, Doubt, Violation, make_check
 from ..evidence import Kind, unknown_places
 from ..roles import Roles
 from ..rules import RuleSpec
+from ..source import chances
 from ..trace import Contact, Well, places
 from .doubts import UNKNOWN_ASSAY, missing_needs, missing_roles, undecided_by, unnamed_wells
 from .findings import findings_of
@@ -21,14 +22,19 @@ from .waivers import apply_waivers, read_waivers, waiver_remarks
 _NOT_SURELY = "{}, or only came near the liquid: it is not sure how high that stands"
 _IN_PROSE = "Only a comment or docstring says which assay this is ({})."
 _DOUBTFUL = "It rests on what is only read of a well: {}."
+_CHANCE = (
+    "What is moved depends on {}: another run may move otherwise than what was judged here. The "
+    "guard follows the run, and says where it differs."
+)
 _IDLE = Remark("It moves no liquid: there is nothing to judge.")
 
 
 @uncollected()
-def judge(reading: Reading) -> Report:
-    """Judge a protocol by all rules in force."""
+def judge(reading: Reading, so_far: bool = False) -> Report:
+    """Judge a protocol by all rules in force; ``so_far``: a run that goes on, by what nothing
+    that may follow mends."""
     judged = {
-        rule.id: _judge_rule(rule, case)
+        rule.id: _judge_rule(rule, case, so_far)
         for rule, case in reading.cases()
         if reading.options.severity_of(rule) != "off"
     }
@@ -48,9 +54,13 @@ def _beside(reading: Reading) -> Iterable[Undecided]:
             yield Undecided(rule.id, told, f'@guard(assay="{both}")', "write, to have that judged")
 
 
-def _judge_rule(rule: RuleSpec, case: Case) -> tuple[list[Violation], Undecided | None]:
+def _judge_rule(
+    rule: RuleSpec, case: Case, so_far: bool = False
+) -> tuple[list[Violation], Undecided | None]:
     """Where a rule is broken, or why that cannot be said (``None`` if it can)."""
     checks = [make_check(check, rule.id) for check in rule.checks]
+    if so_far:
+        checks = [check for check in checks if check.lasting]
     missing = missing_needs(rule, case.roles)
     if missing and not _are_supposed(missing, case.roles):
         demanded = {role for check in checks for role in check.demanded(case)}
@@ -171,6 +181,7 @@ def _report(
             *map(Remark, misplaced),
             *_conflicts(reading.roles),
             *waiver_remarks(waivers, waived, judged, known),
+            *_chances(reading),
         ),
         judged=tuple(judged),
         unnamed=unnamed_wells(reading),
@@ -185,6 +196,12 @@ def _conflicts(all_roles: Sequence[Roles]) -> Iterable[Remark]:
             wells.setdefault(conflict, {}).update(dict.fromkeys(refs))
     for conflict, found in wells.items():
         yield Remark(f"What {places(list(found))} is for is said in two ways: {conflict}.")
+
+
+def _chances(reading: Reading) -> Iterable[Remark]:
+    """What lets another run move otherwise than this one did."""
+    for source, line in chances(reading.recording.text, reading.facts.nodes).items():
+        yield Remark(_CHANCE.format(source), line)
 
 
 def _evidence(all_roles: Sequence[Roles]) -> Iterable[RoleEvidence]:

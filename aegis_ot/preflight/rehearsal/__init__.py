@@ -8,26 +8,30 @@ from .loading import load
 from .parameters import Parameter, declared_parameters, plain_values, undeclared
 from .recording import Record, Recorder, Recording
 from .refusals import in_words, line_of
-from .rehearsing import is_rehearsing, play, record
+from .rehearsing import play, record, rehearsal_under_way
+from .run_plan import Comparison, RunPlan, step_of
 from .script import Script, find_home, find_script
 
 __all__ = [
+    "Comparison",
     "Parameter",
     "Record",
     "Recorder",
     "Recording",
+    "RunPlan",
     "Script",
     "declared_parameters",
     "find_home",
     "find_script",
     "in_words",
     "interrupted_after",
-    "is_rehearsing",
     "line_of",
     "load",
     "plain_values",
     "play",
     "record",
+    "rehearsal_under_way",
     "second_clock",
+    "step_of",
     "undeclared",
 ]

@@ -6,7 +6,7 @@ does on every load: nothing that the live protocol has at module level is touche
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import partial
@@ -19,17 +19,61 @@ from .loading import load
 from .parameters import Limit, copied_parameters, lacking_files, plain_values, runtime_parameters
 from .recording import Recorder, Recording
 from .refusals import refuse_unexecuted, stopped
+from .run_plan import RunPlan
 from .script import Script
 from .simulated_context import simulated_context
 from .virtual_time import builtins_in_virtual_time
 
 Run = Callable[[Any], Any]
 
-_REHEARSING: ContextVar[bool] = ContextVar("aegis_ot_rehearsing", default=False)
+
+class Rehearsal:
+    """One that is under way, as the guards in its protocol see it.
+
+    Args:
+        recorder: Of all that is done.
+        listeners: Those that want to know where the run's guard begins and ends.
+    """
+
+    def __init__(self, recorder: Recorder, listeners: Sequence[Listener]) -> None:
+        self._recorder = recorder
+        self._plans = [one for one in listeners if isinstance(one, RunPlan)]
+        self._first: Mapping[str, Any] | None = None
+
+    def guarded(
+        self,
+        settings: Mapping[str, Any],
+        refuse_second: Callable[[Mapping[str, Any], Mapping[str, Any]], None],
+        call: Callable[[], Any] | None = None,
+    ) -> Any:
+        """Call what a guard is around, which has nothing else to do here; without ``call``, a
+        guard of the rest of the protocol.
+
+        Args:
+            settings: What the guard was given.
+            refuse_second: Given what the first guard was told and what one inside it is told.
+        """
+        if self._first is not None:
+            refuse_second(self._first, settings)
+            return call() if call is not None else None
+        self._first = settings
+        for plan in self._plans:
+            plan.guard_began(len(self._recorder.log))
+        if call is None:
+            return None
+        try:
+            return call()
+        finally:
+            self._first = None
+            for plan in self._plans:
+                plan.guard_ended()
 
 
-def is_rehearsing() -> bool:
-    """Whether the caller runs inside a rehearsal, where a guard has nothing to do."""
+_REHEARSING: ContextVar[Rehearsal | None] = ContextVar("aegis_ot_rehearsing", default=None)
+
+
+def rehearsal_under_way() -> Rehearsal | None:
+    """The rehearsal inside which the caller runs, if it does."""
     return _REHEARSING.get()
 
 
@@ -59,7 +103,7 @@ def record(
     protocol = load(script)
     recorder = Recorder()
     limit = partial(interrupted_after, timeout_s, script.file_name, is_stopping)
-    token = _REHEARSING.set(True)
+    token = _REHEARSING.set(Rehearsal(recorder, listeners))
     try:
         with (
             _stage(protocol, script, live_parameters, limit) as context,

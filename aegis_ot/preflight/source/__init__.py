@@ -1,5 +1,6 @@
 """What a protocol's text says as Python: tokens, comments, names, lines, how values flow."""
 
+from .chance import chances
 from .concentrations import (
     comparable,
     level_in,
@@ -17,6 +18,7 @@ __all__ = [
     "Lexicon",
     "Match",
     "SourceFacts",
+    "chances",
     "comparable",
     "level_in",
     "level_of",

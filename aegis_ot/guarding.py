@@ -1,0 +1,239 @@
+"""What stands on a run from its first move to its last: tap, Layer 1 beside it, Layer 2 in it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from .instrumentation import NameCollector, Operation, Tap
+from .known_tips import KnownTips
+from .settings import Settings
+
+if TYPE_CHECKING:
+    from .followed_run import FollowedRun
+    from .preflight.judging import Report
+    from .preflight.rehearsal import Recording, RunPlan
+    from .runtime import Hands, Watcher
+
+
+class Layer1(NamedTuple):
+    """What Layer 1 says before a run.
+
+    Attributes:
+        text: A line for the run log.
+        report: The verdict on the rehearsal, if there is one.
+        recording, plan: The rehearsal.
+        unjudged: Why there is none; the run is judged as it comes.
+    """
+
+    text: str
+    report: Report | None = None
+    recording: Recording | None = None
+    plan: RunPlan | None = None
+    unjudged: str = ""
+
+    @classmethod
+    def none(cls, why: str, settings: Settings) -> Layer1:
+        """There is nothing to go by."""
+        return cls("") if settings.rules == "off" else cls(why, unjudged=why)
+
+    def words(self) -> dict[str, Any] | None:
+        """The same for the sidecar's page."""
+        from .followed_run import NOT_REHEARSED
+        from .runtime import about_layer1
+
+        if self.report is None and not self.unjudged:
+            return None
+        return about_layer1(self.report, NOT_REHEARSED if self.unjudged else "", self.unjudged)
+
+
+class Guarding:
+    """Both layers on one run. A ``with`` block around it, or :meth:`begin` and :meth:`end`.
+
+    Args:
+        protocol: The context.
+        settings: In force.
+        file_name: ``co_filename`` of the protocol's code.
+        module: The protocol's globals.
+        layer1: What Layer 1 said before.
+        tips: What is gathered for recoveries.
+    """
+
+    def __init__(
+        self,
+        protocol: Any,
+        settings: Settings,
+        file_name: str,
+        module: Mapping[str, Any],
+        layer1: Layer1,
+        tips: KnownTips | None,
+    ) -> None:
+        from .preflight.rehearsal import Recorder
+
+        self._protocol = protocol
+        self._settings = settings
+        self._file_name = file_name
+        self._module = module
+        self._layer1 = layer1
+        self._watcher = new_watcher(protocol, settings, file_name, layer1, tips)
+        self._recorder = tips.recorder if tips else Recorder()
+        self._followed: FollowedRun | None = None
+        self._taken_off = ExitStack()
+
+    @property
+    def moved(self) -> bool:
+        """Whether any operation was seen."""
+        return any(isinstance(one, Operation) for one in self._recorder.log)
+
+    def begin(self) -> None:
+        """Before the protocol's first command; raises what the watcher's ``begin`` raises."""
+        from .runtime import Bystander
+
+        plan, watcher = self._layer1.plan, self._watcher
+        is_followed = bool(self._layer1.unjudged) or (plan is not None and not plan.several)
+        if watcher is None and not is_followed:
+            return
+        hands = watcher or Bystander(self._protocol, self._settings, self._file_name)
+        with ExitStack() as beginning:
+            tap = Tap(self._protocol, [self._recorder, hands], self._file_name)
+            beginning.callback(tap.remove)
+            if is_followed:
+                names = NameCollector(tap.wells, tap.stack, self._file_name)
+                beginning.enter_context(names.gathering(self._module))
+                self._followed = self._follow(tap, names, hands)
+                tap.listen([self._recorder, self._followed, hands])
+            tap.install()
+            if watcher is not None:
+                watcher.begin(tap)
+            self._taken_off = beginning.pop_all()
+
+    def _follow(self, tap: Tap, names: NameCollector, hands: Hands) -> FollowedRun:
+        from .followed_run import FollowedRun
+        from .preflight.live_judging import LiveJudge, Surroundings
+        from .preflight.rehearsal import plain_values
+
+        layer1 = self._layer1
+        around = Surroundings(
+            self._file_name,
+            text_of(self._file_name, self._protocol),
+            lambda: names.so_far(self._module),
+            lambda: tap.wells.labware,
+            plain_values(getattr(self._protocol, "_params", None)),
+        )
+        judge = LiveJudge(self._settings, around, self._recorder, layer1.recording, layer1.plan)
+        return FollowedRun(judge, hands, self._settings, layer1.unjudged)
+
+    def end(self, error: BaseException | None, told: str = "") -> None:
+        """After its last, or when it raised ``error``; as the watcher's ``end``."""
+        followed = self._followed
+        try:
+            if followed is not None:
+                followed.end(error is None)
+            if self._watcher is not None:
+                self._watcher.end(error, told, followed.words() if followed else None)
+        finally:
+            self._taken_off.close()
+
+    def say(self) -> None:
+        """The closing comment."""
+        text = self._followed.summary() if self._followed else ""
+        say(self._protocol, text or self._layer1.text, self._watcher)
+
+    def __enter__(self) -> Guarding:
+        self.begin()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None
+    ) -> None:
+        self.end(error)
+
+
+def new_watcher(
+    protocol: Any,
+    settings: Settings,
+    file_name: str,
+    layer1: Layer1 | None = None,
+    tips: KnownTips | None = None,
+) -> Watcher | None:
+    """Layer 2, where a sidecar is configured.
+
+    In an analysis it only moves as it will in the live run, so that both show the Opentrons App
+    the same sequence of commands.
+    """
+    if settings.sidecar is None:
+        return None
+    from .runtime import Watcher
+
+    knowledge = None if tips is None else tips.knowledge
+    words = None if layer1 is None else layer1.words()
+    return Watcher(protocol, settings, file_name, words, knowledge, text_of(file_name, protocol))
+
+
+def text_of(file_name: str, protocol: Any) -> str:
+    """The source of the protocol that is running, ``""`` where it cannot be had."""
+    from .preflight.rehearsal import find_script
+
+    script = find_script(file_name, protocol)
+    return script.text if script is not None else ""
+
+
+def call_watched(call: Callable[[], Any], watcher: Watcher | None, tap: Tap) -> Any:
+    """Call ``call()`` with Layer 2 around it, if there is one."""
+    if watcher is None:
+        return call()
+    watcher.begin(tap)
+    try:
+        result = call()
+    except BaseException as error:
+        watcher.end(error)
+        raise
+    watcher.end(None)
+    return result
+
+
+def say(protocol: Any, layer1: str, watcher: Watcher | None) -> None:
+    """One closing comment in analysis and live alike."""
+    parts = [layer1] if layer1 else []
+    if watcher is not None:
+        parts.append(watcher.summary())
+    if parts:
+        protocol.comment(f"aegis_ot: {' '.join(parts)}")
+
+
+# At the top level of a notebook's cell or of a program
+
+
+def announce_top_level(protocol: Any, file_name: str) -> None:
+    """What a guard covers that no function is around."""
+    place = _place_of(file_name)
+    _tell(
+        protocol,
+        f"this guard covers what follows in this {place}, and ends with it. Layer 1 has no run() "
+        "to rehearse: it judges each step as it comes, and tells what it found at the end. "
+        f"What other {place}s do is not guarded: put the steps into one {place}, or into a "
+        "function under @guard.",
+    )
+
+
+def tell_of_nothing(protocol: Any, file_name: str) -> str:
+    """What is said of a guard at whose end nothing had moved."""
+    text = (
+        f"WARNING: the guard ended with its {_place_of(file_name)} and saw no pipetting: nothing "
+        "was judged, nothing was watched."
+    )
+    _tell(protocol, text)
+    return text
+
+
+def _place_of(file_name: str) -> str:
+    return "program" if os.path.isfile(file_name) and "ipykernel" not in file_name else "cell"
+
+
+def _tell(protocol: Any, text: str) -> None:
+    protocol.comment(f"aegis_ot: {text}")
+    print(f"aegis_ot: {text}", file=sys.stderr, flush=True)  # noqa: T201

@@ -1,0 +1,163 @@
+"""What a rehearsal moved, step by step, and whether the run that follows it does the same.
+
+Compared are the moves of liquid and tips: in which order, which wells, how much. A run may differ
+from its rehearsal in everything else: which tip is the next, how high the liquid stands, how long
+something takes, how often it is mixed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from ...instrumentation import Event, Operation, OperationKind
+from ...vocabulary import WellRef
+
+_COMPARED = {
+    OperationKind.PICK_UP_TIP: "picks up a tip",
+    OperationKind.DROP_TIP: "drops its tip",
+    OperationKind.ASPIRATE: "aspirates",
+    OperationKind.DISPENSE: "dispenses",
+    OperationKind.BLOW_OUT: "blows out",
+}
+_MIX = "mixes"
+_SAME_UL = 0.01
+_SAME_SHARE = 0.01
+
+
+class Step(NamedTuple):
+    """One move: by which pipette, what, in which wells (of as many tips), how much, µL."""
+
+    mount: str
+    action: str
+    wells: tuple[tuple[str, str, str] | None, ...]
+    volume: float = 0.0
+    line: int | None = None
+
+    def equals(self, other: Step) -> bool:
+        """Whether it is the same move, as far as numbers go."""
+        if self[:3] != other[:3]:
+            return False
+        most = max(self.volume, other.volume)
+        return abs(self.volume - other.volume) <= _SAME_UL + _SAME_SHARE * most
+
+    def __str__(self) -> str:
+        first = next((well for well in self.wells if well is not None), None)
+        into = {"aspirates": "from", "dispenses": "into"}.get(self.action, "in")
+        much = f" {self.volume:.4g} µL" if self.volume else ""
+        where = f" {into} {WellRef('', first[2], first[1], first[0])}" if first else ""
+        return f"the {self.mount} pipette {self.action}{much}{where}"
+
+
+def step_of(operation: Operation) -> Step | None:
+    """The step that an operation is; ``None`` for one that moves neither liquid nor a tip."""
+    kind, mount = operation.kind, operation.pipette.mount
+    action = _COMPARED.get(kind)
+    if action is None or operation.is_air:
+        return None
+    if kind in (OperationKind.PICK_UP_TIP, OperationKind.DROP_TIP):
+        if kind is OperationKind.DROP_TIP and not operation.disposal:
+            action = "puts its tip back"
+        return Step(mount, action, (None,) * len(operation.nozzles), line=operation.line)
+    if operation.mixing:
+        action = _MIX
+    wells = tuple(
+        None if well is None else (well.slot, well.label, well.name) for well in operation.wells
+    )
+    # What was asked for: a simulator that counts below zero cuts a dispense where no robot does.
+    asked = operation.arguments.get("volume") or operation.volume
+    volume = 0.0 if kind is OperationKind.BLOW_OUT else float(asked)
+    return Step(mount, action, wells, volume, operation.line)
+
+
+def _goes_on(last: Step | None, step: Step) -> bool:
+    """Whether a step only goes on with the mixing that came before it."""
+    return step.action == _MIX and last is not None and last[:3] == step[:3]
+
+
+class RunPlan:
+    """A listener of the rehearsal: what the run will do under its guard.
+
+    Attributes:
+        steps: In order.
+        head: Records of the rehearsal from before the guard began.
+        several: Whether the protocol has guards one after another, of which it shows the first.
+    """
+
+    def __init__(self) -> None:
+        self.steps: list[Step] = []
+        self.head = 0
+        self.several = False
+        self._begun = self._ended = False
+
+    def guard_began(self, records: int) -> None:
+        """A guard of the protocol begins, after so many records of the rehearsal."""
+        if self._begun:
+            self.several = True
+            return
+        self._begun, self.head = True, records
+        self.steps.clear()
+
+    def guard_ended(self) -> None:
+        """And ends; what comes then nobody will hear."""
+        self._ended = True
+
+    def before(self, operation: Operation) -> None:
+        """Only what was done counts."""
+
+    def after(self, operation: Operation) -> None:
+        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        step = None if self._ended else step_of(operation)
+        if step is not None and not _goes_on(self.steps[-1] if self.steps else None, step):
+            self.steps.append(step)
+
+    def event(self, event: Event) -> None:
+        """Moves nothing."""
+
+
+class Comparison:
+    """Follows a run along its plan.
+
+    Attributes:
+        difference: Where the run first did otherwise, in a sentence without its end; ``""`` as
+            long as it did not.
+    """
+
+    def __init__(self, steps: Sequence[Step]) -> None:
+        self._steps = steps
+        self._done = 0
+        self._last: Step | None = None
+        self.difference = ""
+
+    def fits(self, operation: Operation) -> bool:
+        """Whether the run does as planned if it does this next."""
+        step = step_of(operation)
+        if self.difference:
+            return False
+        if step is None or _goes_on(self._last, step):
+            return True
+        return self._done < len(self._steps) and self._steps[self._done].equals(step)
+
+    def done(self, operation: Operation) -> bool:
+        """Take in what was done; whether it is the first that differs."""
+        step = step_of(operation)
+        if self.difference or step is None or _goes_on(self._last, step):
+            return False
+        if not self.fits(operation):
+            line = f" at line {step.line}" if step.line else ""
+            self.difference = f"{step}{line}, where {self._planned()}"
+            return True
+        self._last = step
+        self._done += 1
+        return False
+
+    def ended(self) -> None:
+        """The run has ended by itself."""
+        if not self.difference and self._done < len(self._steps):
+            self.difference = f"it ended where {self._planned()}"
+
+    def _planned(self) -> str:
+        if self._done >= len(self._steps):
+            return "the rehearsal had ended" if self._steps else "the rehearsal moved nothing"
+        planned = self._steps[self._done]
+        return f"in the rehearsal {planned}" + (f" at line {planned.line}" if planned.line else "")

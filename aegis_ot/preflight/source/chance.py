@@ -1,0 +1,184 @@
+"""What decides moves and may be another thing in the next run: chance, the clock, files, networks.
+
+A rehearsal sees one course of such a protocol. The values are followed by name through the text, as
+far as plain assignments and loops go; a source that reaches no move is not worth a word.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator, Mapping, Sequence
+
+from .nodes import Nodes
+
+SIMULATING = "is_simulating"
+_MODULES: Mapping[str, str] = {
+    "random": "chance (random)",
+    "secrets": "chance (random)",
+    "numpy.random": "chance (random)",
+    "time": "the clock",
+    "datetime": "the clock",
+    "requests": "the network",
+    "urllib": "the network",
+    "socket": "the network",
+    "http.client": "the network",
+}
+_CALLS: Mapping[str, str] = {
+    "open": "a file",
+    "read_text": "a file",
+    "read_bytes": "a file",
+    "read_csv": "a file",
+    "isfile": "a file",
+    "exists": "a file",
+    "input": "what somebody types",
+    SIMULATING: "whether it is a simulation (is_simulating)",
+}
+_MENTIONED = re.compile(r"\b(?:" + "|".join(map(re.escape, (*_MODULES, *_CALLS))) + r")\b")
+_IDLE = frozenset({"sleep", "strftime", "isoformat"})
+_MOVES = frozenset(
+    {
+        "aspirate", "dispense", "transfer", "distribute", "consolidate", "mix", "pick_up_tip",
+        "drop_tip", "return_tip", "blow_out", "touch_tip", "air_gap", "move_labware",
+        "transfer_with_liquid_class", "distribute_with_liquid_class",
+        "consolidate_with_liquid_class",
+    }
+)  # fmt: skip
+_LOADS = ("load_labware", "load_module", "load_adapter", "load_instrument", "define_liquid")
+_MOST_ROUNDS = 10
+
+
+def chances(text: str, nodes: Nodes) -> dict[str, int]:
+    """What decides moves, in words, with the line where it does so first."""
+    if not _MENTIONED.search(text):
+        return {}
+    return _Chances(nodes).found()
+
+
+class _Chances:
+    def __init__(self, nodes: Nodes) -> None:
+        self._nodes = nodes
+        self._imported = dict(_imports(nodes))
+        self._names: dict[str, str] = {}
+
+    def found(self) -> dict[str, int]:
+        for _ in range(_MOST_ROUNDS):
+            before = len(self._names)
+            self._follow()
+            if len(self._names) == before:
+                break
+        lines: dict[str, int] = {}
+        for source, line in self._reached():
+            lines[source] = min(line, lines.get(source, line))
+        return lines
+
+    def _follow(self) -> None:
+        """Names that hold what comes from a source, one step further."""
+        of = self._nodes.of
+        for assigned in of(ast.Assign):
+            self._name(assigned.targets, assigned.value)
+        for changed in of(ast.AugAssign):
+            self._name([changed.target], changed.value)
+        for walrus in of(ast.NamedExpr):
+            self._name([walrus.target], walrus.value)
+        loops: list[ast.For | ast.comprehension] = [*of(ast.For), *of(ast.comprehension)]
+        for loop in loops:
+            self._name([loop.target], loop.iter)
+        for block in of(ast.With):
+            for item in block.items:
+                if item.optional_vars is not None:
+                    self._name([item.optional_vars], item.context_expr)
+        for call in self._nodes.of(ast.Call):
+            # What is shuffled, or read into, holds it from then on.
+            source = self._source_of(call)
+            if source == _MODULES["random"]:
+                self._name(call.args[:1], call)
+
+    def _name(self, targets: Sequence[ast.expr], value: ast.expr) -> None:
+        source = self._in(value)
+        for target in targets:
+            if source:
+                for part in ast.walk(target):
+                    if isinstance(part, ast.Name):
+                        self._names.setdefault(part.id, source)
+
+    def _reached(self) -> Iterator[tuple[str, int]]:
+        branches: list[ast.If | ast.While] = [*self._nodes.of(ast.If), *self._nodes.of(ast.While)]
+        for branch in branches:
+            source = self._in(branch.test)
+            if source and any(map(_decides, [*branch.body, *branch.orelse])):
+                yield source, branch.lineno
+        for call in self._nodes.of(ast.Call):
+            if isinstance(call.func, ast.Attribute) and call.func.attr in _MOVES:
+                for given in (*call.args, *(word.value for word in call.keywords)):
+                    source = self._in(given)
+                    if source:
+                        yield source, call.lineno
+
+    def _in(self, value: ast.expr) -> str:
+        """The source that an expression draws from, or ``""``."""
+        for part in _parts(value):
+            if isinstance(part, ast.Name) and part.id in self._names:
+                return self._names[part.id]
+            if isinstance(part, ast.Call) and (source := self._source_of(part)):
+                return source
+        return ""
+
+    def _source_of(self, call: ast.Call) -> str:
+        name = _dotted(call.func)
+        first, _, rest = name.partition(".")
+        full = ".".join(filter(None, (self._imported.get(first, ""), rest)))
+        last = name.rpartition(".")[2]
+        if not full or last in _IDLE:
+            return _CALLS.get(last, "") if last not in _IDLE else ""
+        for module, source in _MODULES.items():
+            if full == module or full.startswith(f"{module}."):
+                return source
+        return _CALLS.get(last, "")
+
+
+def _parts(value: ast.expr) -> Iterator[ast.AST]:
+    """All of an expression but what labware is loaded from, which says nothing of moves."""
+    open_: list[ast.AST] = [value]
+    while open_:
+        part = open_.pop()
+        loads = isinstance(part, ast.Call) and _dotted(part.func).rpartition(".")[2]
+        if not (loads and loads.startswith(_LOADS)):
+            yield part
+            open_ += ast.iter_child_nodes(part)
+
+
+def _imports(nodes: Nodes) -> Iterator[tuple[str, str]]:
+    for plain in nodes.of(ast.Import):
+        for alias in plain.names:
+            first = alias.name.partition(".")[0]
+            yield alias.asname or first, alias.name if alias.asname else first
+    for taken in nodes.of(ast.ImportFrom):
+        for alias in taken.names:
+            yield alias.asname or alias.name, f"{taken.module or ''}.{alias.name}"
+
+
+def _dotted(node: ast.expr) -> str:
+    """``np.random.choice`` of such an expression; of another one its last name, or ``""``."""
+    parts: list[str] = []
+    while isinstance(node, ast.Attribute):
+        parts.append(node.attr)
+        node = node.value
+    if isinstance(node, ast.Name):
+        parts.append(node.id)
+    else:
+        parts.append("")
+    return ".".join(reversed(parts))
+
+
+def _decides(statement: ast.stmt) -> bool:
+    """Whether a statement moves something, or leaves out what comes after it."""
+    return any(
+        isinstance(part, (ast.Return, ast.Break, ast.Continue))
+        or (
+            isinstance(part, ast.Call)
+            and isinstance(part.func, ast.Attribute)
+            and part.func.attr in _MOVES
+        )
+        for part in ast.walk(statement)
+    )
