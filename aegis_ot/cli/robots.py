@@ -50,6 +50,13 @@ def run(
     labware: Annotated[
         list[Path] | None, typer.Option(help="Folder or file with custom labware definitions.")
     ] = None,
+    offsets: Annotated[
+        str,
+        typer.Option(
+            help="known: refuse where the robot knows labware offsets, which this run would not "
+            "have; none: run without them."
+        ),
+    ] = "known",
     sidecar: SidecarUrl = None,
     token: Token = None,
     analysis_timeout: Annotated[
@@ -60,11 +67,14 @@ def run(
     """Run a protocol on a robot: upload, analysis, Layer 1, start, verdicts, report."""
     from ..checking.files import labware_files, read_values
     from ..robot import RobotClient
+    from ..robot.offsets import refuse_lost_offsets
     from ..robot.running import Inputs, RobotRun, analyse, run_analysed
+    from .check_settings import one_of
     from .robot_screen import TerminalScreen, show_end
 
     if not protocol.is_file():
         raise ConfigurationError(f"There is no protocol {protocol}.")
+    heeds_offsets = one_of("--offsets", offsets, ("known", "none")) == "known"
     files = labware_files(labware or ())
     inputs = Inputs(tuple(files), read_values(parameter or ()))
     with RobotClient(robot) as client:
@@ -76,6 +86,8 @@ def run(
         refused = _show_analysis(protocol, analysis, labware or (), parameter or ())
         if refused or analyse_only:
             raise typer.Exit(FINDINGS if refused else CLEAN)
+        if heeds_offsets:
+            refuse_lost_offsets(client, analysis.places)
         _ask_to_start(name, yes)
         verdicts = _verdicts(sidecar, token, protocol)
         result = RobotRun(protocol.name, name, client.url, "", analysis)

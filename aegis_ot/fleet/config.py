@@ -30,6 +30,8 @@ class RobotConfig(BaseModel):
         labware: Load names that can be put on it; left out: any.
         remote: Its agent is served elsewhere (``aegis-ot fleet serve``) and found by its name.
         sidecar, token_variable: Of a real robot's sidecar, and the variable with its token.
+        offsets: ``"known"``: a job is refused where a real robot knows labware offsets, which its
+            run would not have; ``"none"``: it runs without them.
         seed: Of a simulated robot's camera.
     """
 
@@ -44,6 +46,7 @@ class RobotConfig(BaseModel):
     remote: bool = False
     sidecar: str | None = None
     token_variable: str = "AEGIS_OT_TOKEN"
+    offsets: Literal["known", "none"] = "known"
     seed: int = 0
 
     @field_validator("modules")

@@ -16,6 +16,7 @@ from ..errors import LinkError
 from ..instrumentation import Operation, OperationKind
 from ..reports.run_html import ReportedRun, report_run
 from ..robot import Command, RobotClient
+from ..robot.offsets import refuse_lost_offsets
 from ..robot.run_report import run_report
 from ..robot.running import RobotRun, analyse, run_analysed
 from ..robot.verdicts import VerdictReader, WellVerdict
@@ -167,6 +168,7 @@ class RobotSession:
         assert robot.address is not None
         self._name = robot.name
         self._address = robot.address
+        self._heeds_offsets = robot.offsets == "known"
         self._sidecar, self._token = robot.sidecar, token
 
     def run(self, job: Job, watch: Watch) -> dict[str, Any]:
@@ -180,6 +182,8 @@ class RobotSession:
             if not analysis.ok:
                 run.status, run.errors = "failed", analysis.errors
                 return _of_robot(run, None)
+            if self._heeds_offsets:
+                refuse_lost_offsets(client, analysis.places)
             reader = self._reader(path.name)
             watch.ask_leave()
             try:

@@ -135,6 +135,19 @@ class RobotClient:
         href = (links.get("current") or {}).get("href")
         return str(href).rpartition("/")[2] if href else None
 
+    def runs(self) -> Sequence[Mapping[str, Any]]:
+        """The runs that the robot keeps, as it tells them."""
+        found: Sequence[Mapping[str, Any]] = self._ask("GET", "/runs")["data"]
+        return found
+
+    def stored_offsets(self) -> Sequence[Mapping[str, Any]]:
+        """The robot's own store of labware offsets (8.4 and newer); none on an older one."""
+        try:
+            found: Sequence[Mapping[str, Any]] = self._ask("GET", "/labwareOffsets")["data"]
+        except RobotRefused:
+            return ()
+        return found
+
     def run(self, run: str) -> RunView:
         """A run as it stands."""
         return read_run(self._ask("GET", f"/runs/{run}")["data"])

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from datetime import datetime, timezone
 from typing import Any
 
+from .places import places_of
+
 ENDED = frozenset({"succeeded", "failed", "stopped"})
 """Run statuses after which nothing moves."""
 PAUSED = frozenset(
@@ -136,6 +138,7 @@ class Analysis:
         errors: What ended it, in words.
         kinds: Types of its commands, in order.
         guard_words: Comments of a guard, without their mark.
+        places: Definition and slot of the labware, wherever it stands in turn.
     """
 
     id: str
@@ -144,6 +147,7 @@ class Analysis:
     errors: tuple[str, ...] = ()
     kinds: tuple[str, ...] = ()
     guard_words: tuple[str, ...] = field(default=())
+    places: tuple[tuple[str, str], ...] = ()
 
 
 def read_analysis(data: Mapping[str, Any]) -> Analysis:
@@ -156,6 +160,7 @@ def read_analysis(data: Mapping[str, Any]) -> Analysis:
         errors=tuple(_tell(error) for error in data.get("errors") or ()),
         kinds=tuple(command.kind for command in commands),
         guard_words=tuple(c.message[len(OWN_WORDS) :] for c in commands if c.is_guards),
+        places=tuple(places_of(data.get("commands") or ())),
     )
 
 

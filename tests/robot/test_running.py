@@ -202,6 +202,27 @@ def test_labware_and_parameters_of_its_own_go_with_it(aegis: Command, robot: Rob
     assert kinds.count("aspirate") == 3
 
 
+def test_offsets_that_the_last_run_of_a_labware_had_are_not_lost_in_silence(
+    aegis: Command, robot: RobotServer
+) -> None:
+    protocol = written(GOOD)
+    assert aegis("run", protocol, "--robot", robot.url, "--yes").code == 0
+    (first,) = robot.runs.values()
+    plate = "opentrons/corning_96_wellplate_360ul_flat/2"
+    offset = {"definitionUri": plate, "location": {"slotName": "2"}, "vector": {"x": 0, "y": 0.4}}
+    first.offsets.append(offset | {"location": {"slotName": "5"}})  # of another slot
+    assert aegis("run", protocol, "--robot", robot.url, "--yes").code == 0
+    first.offsets.append(offset)  # the second run had none: it was made here
+    refused = aegis("run", protocol, "--robot", robot.url, "--yes")
+    assert refused.code == 2
+    assert "corning_96_wellplate_360ul_flat in slot 2 (0, 0.4, 0 mm)" in refused.err
+    assert "--offsets none" in refused.err
+    assert len(robot.runs) == 2
+    done = aegis("run", protocol, "--robot", robot.url, "--yes", "--offsets", "none")
+    assert done.code == 0
+    assert aegis("run", protocol, "--robot", robot.url, "--yes").code == 2, "still measured"
+
+
 def test_without_a_person_to_ask_the_run_needs_a_yes(aegis: Command, robot: RobotServer) -> None:
     done = aegis("run", written(GOOD), "--robot", robot.url)
     assert done.code == 2

@@ -132,7 +132,8 @@ class _Run:
         self._server = server
         self._task: asyncio.Task[Any] | None = None
 
-    async def load(self, values: Any) -> None:
+    async def load(self, values: Any, offsets: Any = ()) -> None:
+        self.offsets = list(offsets or ())
         source = self.protocol["source"]
         self._loop = asyncio.get_running_loop()
         hardware = await API.build_hardware_simulator(
@@ -188,7 +189,7 @@ class _Run:
             "modules": [],
             "labware": [_plain(labware) for labware in summary.labware],
             "liquids": [_plain(liquid) for liquid in summary.liquids],
-            "labwareOffsets": [],
+            "labwareOffsets": self.offsets,
             "runTimeParameters": [],
             "protocolId": self.protocol["id"],
         }
@@ -388,7 +389,7 @@ def _run_routes(app: FastAPI, robot: RobotServer, body: Any) -> None:
             detail = "Current run is not idle or stopped."
             return _error(409, "RunAlreadyActive", "Run Already Active", detail)
         run = _Run(robot, robot.protocols[asked])
-        await run.load(data.get("runTimeParameterValues"))
+        await run.load(data.get("runTimeParameterValues"), data.get("labwareOffsets"))
         robot.runs[run.id] = run
         robot.current = run.id
         return body({"data": run.view()}, 201)
