@@ -29,12 +29,17 @@ from .running import (
     Screen,
     tell_open,
 )
+from .shapes import RunView
 from .verdicts import VerdictReader, WellVerdict, unjudged
 
 LOSSES = (
     "The robot is not held between deliveries: when a delivery fails, the robot has gone on for "
     "some seconds before it is paused. Frames are chosen by the times of its commands and may be "
     "one camera frame off."
+)
+DRIVEN = (
+    "Run {} is driven by single commands and has no protocol: the robot cannot pause it, and it is "
+    "NOT watched. Waiting for the run of a protocol."
 )
 
 
@@ -58,13 +63,17 @@ def await_run(
     Args:
         robot: Where.
         rest: Between two looks.
-        says: Told, once each time, why the robot does not answer.
+        says: Told, once each time, why the robot does not answer, and which run is not watched: one
+            that a program drives by single commands cannot be paused.
     """
-    lost = False
+    lost, unwatched = False, ""
     while True:
         try:
             current = robot.current_run()
             view = None if current is None else robot.run(current)
+            if view is not None and view.id != unwatched and _is_driven(robot, view):
+                unwatched = view.id
+                says(DRIVEN.format(view.id))
         except (RobotUnreachable, RobotRefused) as error:  # refused: its server is starting
             if not lost:
                 says(f"{error} Trying again.")
@@ -74,6 +83,11 @@ def await_run(
             if view is not None and view.status != "idle" and not view.ended:
                 return view.id
         rest(0.5)
+
+
+def _is_driven(robot: RobotClient, view: RunView) -> bool:
+    """Whether a program sends this run its commands one by one: it has no protocol."""
+    return view.status == "idle" and not view.protocol and robot.commands(view.id, 0).total > 0
 
 
 def watch_run(

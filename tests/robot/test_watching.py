@@ -277,6 +277,26 @@ def test_a_robot_that_is_away_is_waited_for() -> None:
     assert "cannot be reached" in words
 
 
+def test_a_run_driven_by_single_commands_is_said_not_to_be_watched() -> None:
+    current = {"data": [], "links": {"current": {"href": "/runs/one"}}}
+    driven = {"data": {"id": "one", "status": "idle"}}
+    commands = {"data": [], "meta": {"cursor": 0, "totalLength": 3}}
+    begun = {"data": {"id": "one", "status": "running", "protocolId": "p"}}
+    looks = iter((driven, driven, begun))
+
+    def answer(request: httpx.Request) -> httpx.Response:
+        if request.url.path == "/runs":
+            return httpx.Response(200, json=current)
+        if request.url.path.endswith("/commands"):
+            return httpx.Response(200, json=commands)
+        return httpx.Response(200, json=next(looks))
+
+    said: list[str] = []
+    with RobotClient("robot", httpx.MockTransport(answer)) as robot:
+        assert await_run(robot, lambda seconds: None, said.append) == "one"
+    assert said == [watching.DRIVEN.format("one")]
+
+
 class Slow(StubAnalyser):
     """Judges the last delivery when it may."""
 
