@@ -34,8 +34,10 @@ class Database:
         self._lock = threading.Lock()
         self._held: IO[str] | None = None
         with self._plain_errors("open"):
-            folder.mkdir(parents=True, exist_ok=True)
-            self._held = _hold(folder) if alone else None
+            folder.mkdir(0o700, parents=True, exist_ok=True)
+            if alone:
+                _close_to_strangers(folder)
+                self._held = _hold(folder)
         try:
             self._db = self._open(alone)
         except BaseException:
@@ -105,6 +107,13 @@ class Database:
             f"Cannot {what} the store in {self.folder}: {error}. "
             "Check free space and permissions there."
         )
+
+
+def _close_to_strangers(folder: Path) -> None:
+    """Frames and names are the laboratory's: take from other users of the machine what an older
+    version gave them. The group's rights stay as somebody has set them."""
+    with contextlib.suppress(PermissionError):  # somebody else's folder: the administrator's choice
+        folder.chmod(folder.stat().st_mode & 0o770)
 
 
 def _hold(folder: Path) -> IO[str]:

@@ -8,7 +8,6 @@ import hmac
 import threading
 import time
 from collections import OrderedDict
-from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qsl, quote, urlencode, urlsplit
 
 from starlette.datastructures import Headers
@@ -44,6 +43,7 @@ class Doorkeeper:
     def __init__(self, app: ASGIApp, config: SidecarConfig) -> None:
         self._app = app
         self._token = None if config.token is None else config.token.get_secret_value()
+        self._url = _netloc(config.url or "")
         self._slowed = 0
         self._inside = 0
         self._rate = RateLimit()
@@ -106,9 +106,12 @@ class Doorkeeper:
         headers = Headers(scope=scope)
         path: str = scope["path"]
         changes = scope["method"] not in ("GET", "HEAD", "OPTIONS")
-        origin = headers.get("origin")
-        if changes and origin is not None and _netloc(origin) != headers.get("host", "").lower():
-            return _refuse(403, "origin", "Another web site sent this request; it is refused.", "")
+        if changes and self._is_foreign(headers):
+            return _refuse(
+                403, "origin", "Another web site sent this request; it is refused.",
+                "If it was the sidecar's own page, behind a proxy: set url to the address that the "
+                "browser shows.",
+            )  # fmt: skip
         if self._token is None:
             host = headers.get("host", "")
             if is_loopback(_host_name(host)):
@@ -123,12 +126,20 @@ class Doorkeeper:
             return None
         return self._judge_token(scope, headers, self._token)
 
+    def _is_foreign(self, headers: Headers) -> bool:
+        """Whether another site's page had the browser send this. Behind a proxy that does not pass
+        ``Host`` on, the browser's own word, which no page can forge, or the settings tell."""
+        origin = headers.get("origin")
+        if origin is None or headers.get("sec-fetch-site") == "same-origin":
+            return False
+        return _netloc(origin) not in (headers.get("host", "").lower(), self._url or None)
+
     def _judge_token(self, scope: Scope, headers: Headers, token: str) -> Response | None:
         path: str = scope["path"]
         scheme, _, given = headers.get("authorization", "").partition(" ")
         if scheme.lower() == "bearer" and same(given.strip(), token):
             return None
-        if same(_cookie(headers), cookie_value(token)):
+        if any(same(cookie, cookie_value(token)) for cookie in _cookies(headers)):
             return None
         query = parse_qsl(scope["query_string"].decode("latin-1"), keep_blank_values=True)
         in_query = next((value for name, value in query if name == "token"), "")
@@ -214,13 +225,11 @@ def set_cookie(answer: Response, token: str) -> None:
     )
 
 
-def _cookie(headers: Headers) -> str:
-    jar: SimpleCookie = SimpleCookie()
-    try:
-        jar.load(headers.get("cookie", ""))
-    except CookieError:
-        return ""
-    return jar[COOKIE].value if COOKIE in jar else ""
+def _cookies(headers: Headers) -> list[str]:
+    """The sidecar's cookies. Others come along from whatever else runs at this host's name, well
+    formed or not; one of ours may stand beside."""
+    parts = (part.partition("=") for part in headers.get("cookie", "").split(";"))
+    return [value.strip().strip('"') for name, _, value in parts if name.strip() == COOKIE]
 
 
 def _netloc(origin: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import os
 import signal
 import socket
 import sys
@@ -55,6 +56,7 @@ def serve(
         ConfigurationError: The address cannot be listened on, or the camera makes no sense.
         StoreError: The data folder cannot be used.
     """
+    os.umask(0o077)  # what it writes is for its own user
     with _listening(config) as (listener, url):
         sys.setswitchinterval(SWITCH_S)
         app = create_app(config, camera, analyser, detector, auditor)

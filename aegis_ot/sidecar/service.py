@@ -39,6 +39,8 @@ SESSIONS_KEPT = 16
 SILENT_S = 3600.0
 """A robot that asked nothing for so long was switched off in its run, or stands in a pause. If it
 does go on, its run is made again from the store."""
+EMPTY_S = 60.0
+"""One that has captured nothing, or has ended, leaves after so long, s."""
 
 
 class Sidecar:
@@ -309,13 +311,17 @@ class Sidecar:
     def _evict(self) -> None:
         if len(self._sessions) < SESSIONS_KEPT:
             return
-        silent_before = time.monotonic() - SILENT_S
+        now = time.monotonic()
         for run, session in list(self._sessions.items()):
-            row = self.store.run(run)
-            finished = row is not None and row["finished"]
-            if session.idle and (finished or session.asked < silent_before):
+            if not session.idle or now - session.asked < EMPTY_S:
+                continue
+            if session.empty or now - session.asked > SILENT_S or self._has_ended(run):
                 session.close()
                 del self._sessions[run]
+
+    def _has_ended(self, run: str) -> bool:
+        row = self.store.run(run)
+        return row is not None and bool(row["finished"])
 
 
 def about_sidecar(config: SidecarConfig, camera: Camera) -> dict[str, Any]:

@@ -101,6 +101,11 @@ class Session:
         """Whether every capture was analysed."""
         return self._worker.idle
 
+    @property
+    def empty(self) -> bool:
+        """Whether nothing was captured yet: then the store alone knows all of it."""
+        return self._next == 0
+
     def capture(self, keyframe: Keyframe, moment: float) -> Captured:
         """Take the frame for a keyframe, keep both, and queue them for the analyser.
 

@@ -21,7 +21,7 @@ def kept_token(data: Path) -> str:
     try:
         if path.exists():
             return path.read_text(encoding="ascii").strip()
-        data.mkdir(parents=True, exist_ok=True)
+        data.mkdir(0o700, parents=True, exist_ok=True)
         token = secrets.token_urlsafe(24)
         with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as file:
             file.write(token + "\n")

@@ -1,4 +1,4 @@
-"""The thread that scores one run while its robot moves on."""
+"""Scores one run while its robot moves on, in a thread that lasts as long as there is work."""
 
 from __future__ import annotations
 
@@ -25,6 +25,9 @@ slow analyser costs time and not memory, and never holds up the robot's answer."
 HEAD_START_S = 0.005
 """How long scoring waits, s, so that the answer to the robot is out before both want the
 interpreter; without it the answer took 3 ms more (measured on two cores)."""
+LINGER_S = 10.0
+"""How long a thread waits for more, s. A run that has nothing to score holds none: a robot may be
+silent for hours, and whoever registers a thousand runs gets no thousand threads."""
 
 
 class AnalysisWorker:
@@ -34,7 +37,7 @@ class AnalysisWorker:
 
     Args:
         run: Identifier of the run.
-        analyser: Makes the run's analyser, in the worker thread.
+        analyser: Makes the run's analyser, in the worker thread, when there is something to score.
         history: What was judged before a restart.
         store: Where waiting frames are read from.
         publish: Called with each verdict and its plain evidence.
@@ -58,11 +61,12 @@ class AnalysisWorker:
         self._frames_waiting = 0
         self._news = threading.Condition()
         self._closed = False
-        self._busy = True
+        self._busy = False
         self._dropped: set[int] = set()
         self._failed: dict[int, str] = {}
-        self._thread = threading.Thread(target=self._work, name=f"analysis-{run}", daemon=True)
-        self._thread.start()
+        self._analysis: RunAnalyser | None = None
+        self._trouble: str | None = None
+        self._thread: threading.Thread | None = None
 
     @property
     def idle(self) -> bool:
@@ -77,13 +81,13 @@ class AnalysisWorker:
                 frame = None
             self._frames_waiting += frame is not None
             self._tasks.append((keyframe, frame, time.monotonic() + HEAD_START_S))
-            self._news.notify()
+            self._wake()
 
     def confirm(self, trajectory: int) -> None:
         """The operator found an undecided trajectory right: told before what comes after it."""
         with self._news:
             self._confirmed.append(trajectory)
-            self._news.notify()
+            self._wake()
 
     def drop(self, trajectory: int) -> None:
         """The trajectory was abandoned: do not judge it."""
@@ -95,29 +99,25 @@ class AnalysisWorker:
         with self._news:
             self._closed = True
             self._news.notify()
-        self._thread.join(timeout)
+            thread = self._thread
+        if thread is not None:
+            thread.join(timeout)
+
+    def _wake(self) -> None:
+        """There is work: a thread takes it. The caller holds the lock."""
+        if self._closed:
+            return
+        if self._thread is None:
+            name = f"analysis-{self._run}"
+            self._thread = threading.Thread(target=self._work, name=name, daemon=True)
+            self._thread.start()
+        self._news.notify()
 
     def _work(self) -> None:
-        run: RunAnalyser | None = None
-        trouble = ""
-        try:
-            run = self._analyser.begin(self._run, self._history)
-        except Exception as error:
-            log.exception("The analyser could not begin run %s", self._run)
-            trouble = f"The analyser could not begin: {_say(error)}"
-        while True:
-            with self._news:
-                self._busy = False
-                while not (self._tasks or self._confirmed or self._closed):
-                    self._news.wait()
-                if self._closed:
-                    return
-                if self._confirmed:
-                    self._confirm(run, self._confirmed.popleft())
-                    continue
-                keyframe, frame, begin = self._tasks.popleft()
-                self._frames_waiting -= frame is not None
-                self._busy = True
+        self._begin()
+        run = self._analysis
+        while (task := self._next(run)) is not None:
+            keyframe, frame, begin = task
             time.sleep(max(0.0, begin - time.monotonic()))
             if keyframe.trajectory in self._dropped:
                 continue
@@ -126,9 +126,41 @@ class AnalysisWorker:
             elif run is not None:
                 self._observe(run, keyframe, frame)
             else:
-                self._failed[keyframe.trajectory] = trouble
+                self._failed[keyframe.trajectory] = self._trouble or ""
             if keyframe.kind is KeyframeKind.POST_DISPENSE:
                 self._publish(*self._judge(run, keyframe.trajectory))
+
+    def _begin(self) -> None:
+        """Make the run's analyser, once."""
+        if self._trouble is not None:
+            return
+        self._trouble = ""
+        try:
+            self._analysis = self._analyser.begin(self._run, self._history)
+        except Exception as error:
+            log.exception("The analyser could not begin run %s", self._run)
+            self._trouble = f"The analyser could not begin: {_say(error)}"
+
+    def _next(self, run: RunAnalyser | None) -> tuple[Keyframe, Frame | None, float] | None:
+        """What is to be scored next; ``None`` if the thread is to end."""
+        with self._news:
+            while True:
+                self._busy = False
+                if not self._closed and not self._tasks and not self._confirmed:
+                    self._news.wait_for(self._has_news, LINGER_S)
+                if self._closed or not (self._tasks or self._confirmed):
+                    self._thread = None
+                    return None
+                self._busy = True
+                if self._confirmed:
+                    self._confirm(run, self._confirmed.popleft())
+                    continue
+                task = self._tasks.popleft()
+                self._frames_waiting -= task[1] is not None
+                return task
+
+    def _has_news(self) -> bool:
+        return bool(self._tasks or self._confirmed or self._closed)
 
     def _observe(self, run: RunAnalyser, keyframe: Keyframe, frame: Frame | None) -> None:
         try:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 import logging
+import os
 import re
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -83,6 +86,68 @@ def test_another_web_site_can_change_nothing(robot: Robot) -> None:
         assert answer.status_code == 403
     rebound = robot.http.get("/v1/runs", headers={"Host": "evil.example:7645"})
     assert rebound.status_code == 403
+
+
+@pytest.mark.parametrize("other", ["a[]=1", 'x="', "aegis_ot=old", "=;;", "é=ü"])
+def test_cookies_of_others_do_not_lock_the_page(guarded: str, other: str) -> None:
+    cookie = f"{other}; aegis_ot={security.cookie_value(TOKEN)}"
+    with httpx.Client(base_url=guarded, trust_env=False) as http:
+        told = {"Cookie": cookie.encode("latin-1")}
+        assert http.get("/v1/runs", headers=told).status_code == 200
+        assert http.get("/v1/runs", headers={"Cookie": other.encode("latin-1")}).status_code == 401
+
+
+def test_the_page_works_behind_a_proxy_that_does_not_pass_host(
+    config: SidecarConfig, tmp_path: Path
+) -> None:
+    behind = {"Origin": "https://lab.example"}
+    with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+        robot.register()
+        order = {"by": "Ada", "answer": "pause"}
+
+        def post(**headers: str) -> int:
+            told = behind | {name.replace("_", "-"): value for name, value in headers.items()}
+            return robot.http.post("/runs/run-1/order", data=order, headers=told).status_code
+
+        assert post(Sec_Fetch_Site="same-origin") == 303
+        for said in ("cross-site", "same-site", "none", ""):
+            assert post(Sec_Fetch_Site=said) == 403
+        assert "set url to the address" in robot.http.post(
+            "/runs/run-1/order", data=order, headers=behind
+        ).text  # fmt: skip
+    told = config.model_copy(update={"url": "https://lab.example/", "data": tmp_path / "other"})
+    with running_sidecar(told, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+        robot.register()
+        assert post() == 303
+
+
+def test_other_users_of_the_machine_read_nothing(config: SidecarConfig) -> None:
+    config.data.mkdir(0o755)
+    config.data.chmod(0o755)
+    with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+        robot.register()
+        robot.cycle(0)
+    assert config.data.stat().st_mode & 0o777 == 0o750
+
+
+@pytest.mark.skipif(os.name != "posix", reason="modes are POSIX's")
+def test_what_the_process_writes_is_its_own_users(tmp_path: Path) -> None:
+    settings = tmp_path / "sidecar.json"
+    told = {"port": 0, "data": str(tmp_path / "data"), "camera": {"spec": "pattern"}}
+    settings.write_text(json.dumps(told | {"log": "json"}))
+    process = subprocess.Popen(
+        [sys.executable, "-m", "aegis_ot.sidecar", str(settings)], stderr=subprocess.PIPE, text=True
+    )
+    assert process.stderr is not None
+    address = next(json.loads(li)["address"] for li in process.stderr if '"ready"' in li)
+    with Robot(address) as robot:
+        robot.register()
+        robot.cycle(0)
+    process.terminate()
+    process.communicate(timeout=30)
+    paths = [tmp_path / "data", *(tmp_path / "data").rglob("*")]
+    assert any(path.suffix == ".jpg" for path in paths)
+    assert [str(path) for path in paths if path.stat().st_mode & 0o077] == []
 
 
 @pytest.mark.parametrize("host", ["0.0.0.0", "192.168.1.20", "::", "lab-pc"])

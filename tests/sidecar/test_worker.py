@@ -10,13 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.sidecar import SidecarConfig, running_sidecar, service, worker
 from aegis_ot.sidecar.analysis import Judged, plain
+from aegis_ot.sidecar.app import create_app
+from aegis_ot.sidecar.wire import RunStart
 from aegis_ot.sidecar.worker import FRAMES_IN_MEMORY
 from aegis_ot.vision.camera import Frame
 from aegis_ot.vocabulary import Keyframe, KeyframeKind, Outcome, Route, Verdict
+from tests.runtime.test_live import in_time
 
-from .helpers import Robot, StubCamera
+from .helpers import Robot, StubAnalyser, StubCamera
 
 
 class Broken:
@@ -142,3 +145,35 @@ def test_evidence_becomes_plain_json() -> None:
             3: Path("x"),
         }
     ) == {"aspirate": 0.5, "nan": None, "boxes": [[1, 2], None, True], "3": "x"}
+
+
+def analysing() -> list[str]:
+    return [thread.name for thread in threading.enumerate() if thread.name.startswith("analysis-")]
+
+
+def test_a_run_that_has_nothing_to_score_holds_no_thread(
+    config: SidecarConfig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(worker, "LINGER_S", 0.05)
+    analyser = StubAnalyser()
+    with running_sidecar(config, StubCamera(), analyser) as url, Robot(url) as robot:
+        for number in range(40):
+            assert robot.http.put(f"/v1/runs/{number}", json={"run": str(number)}).is_success
+        assert analysing() == []
+        robot.register()
+        for trajectory in range(2):  # the second one finds the first one's thread gone
+            robot.cycle(trajectory)
+            assert robot.verdict(trajectory)["verdict"]["outcome"] == "pass"
+            in_time(lambda: analysing() == [])
+    assert len(analyser.histories) == 1
+
+
+def test_runs_that_only_registered_leave_memory(
+    config: SidecarConfig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(service, "EMPTY_S", 0.0)
+    sidecar = create_app(config, StubCamera(), StubAnalyser()).state.sidecar
+    for number in range(40):
+        sidecar.register(RunStart(run=str(number)))
+    assert len(sidecar._sessions) <= service.SESSIONS_KEPT
+    sidecar.close()
