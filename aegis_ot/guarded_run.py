@@ -27,6 +27,7 @@ from .instrumentation import NameCollector, tapped
 from .known_tips import KnownTips, recovers_by_itself
 from .protocol_frames import at_return_of, line_of, make_final, outermost, raise_in_protocol
 from .settings import Settings, load_settings
+from .vocabulary import one_line
 
 if TYPE_CHECKING:
     from .guarding import Layer1
@@ -177,7 +178,7 @@ def _announce(protocol: Any, settings: Settings) -> None:
 def _announce_result(protocol: Any, settings: Settings, text: str) -> None:
     """Before the first move, where a run goes on whatever Layer 1 says. In analysis likewise."""
     if settings.rules == "warn":
-        protocol.comment(f"aegis_ot: {text}")
+        protocol.comment(f"aegis_ot: {one_line(text, 4000)}")
 
 
 def _rehearse_by_running(

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from .instrumentation import NameCollector, Operation, Tap
 from .known_tips import KnownTips
 from .settings import Settings
+from .vocabulary import one_line
 
 if TYPE_CHECKING:
     from .followed_run import FollowedRun
@@ -202,7 +203,7 @@ def say(protocol: Any, layer1: str, watcher: Watcher | None) -> None:
     if watcher is not None:
         parts.append(watcher.summary())
     if parts:
-        protocol.comment(f"aegis_ot: {' '.join(parts)}")
+        protocol.comment(f"aegis_ot: {one_line(' '.join(parts), 4000)}")
 
 
 # At the top level of a notebook's cell or of a program

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.table import Table
+from rich.text import Text
 
 from ..errors import ConfigurationError
-from ..vocabulary import counted
+from ..vocabulary import counted, one_line
 from .paths import empty_folder, tip_finder, write_text
 from .printing import PlainConsole, echo
 
@@ -54,7 +55,7 @@ def list_runs(
     for row in rows:
         ended = row["finished"]
         wells = ", ".join(f"{count} {outcome}" for outcome, count in sorted(row["wells"].items()))
-        table.add_row(
+        cells = (
             time.strftime("%Y-%m-%d %H:%M", time.localtime(row["registered"])),
             row["run"],
             row["protocol"] + (" (simulated)" if row["simulated"] else ""),
@@ -62,6 +63,7 @@ def list_runs(
             ended["outcome"] if ended else "running",
             wells,
         )
+        table.add_row(*(Text(one_line(cell)) for cell in cells))
     # What is piped is not folded.
     PlainConsole(highlight=False, width=None if sys.stdout.isatty() else 200).print(table)
 

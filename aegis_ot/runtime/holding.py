@@ -10,12 +10,12 @@ from ..errors import LinkError, RunAborted
 from ..http_client import SLICE_S, CheckStop
 from ..instrumentation import Operation
 from ..settings import Settings
-from ..vocabulary import Gate, Outcome, Verdict, unobserved
+from ..vocabulary import Gate, Outcome, Verdict, one_line, unobserved
 from .courier import Courier
 from .descriptions import tell_unobserved, tell_verdict
 from .link import SidecarLink
 from .linkloss import LinkLoss
-from .operator import Operator, no_news
+from .operator import LONGEST, Operator, no_news
 from .page_answers import PageAnswers, act_on_current_run
 from .recovering import Recovery
 from .runstate import RunState, can_be_resumed
@@ -158,6 +158,7 @@ class Holding:
             policy = "recover"
         elif refused:
             text = f"{text} {refused}"
+        text = one_line(text, LONGEST)
         answered = self._courier.report_hold(number, seconds, ended_by, policy)
         if policy == "continue":
             self._operator.comment(f"{text} The run goes on, as configured.")

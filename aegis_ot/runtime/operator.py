@@ -11,6 +11,7 @@ from enum import Enum
 from typing import Any
 
 from ..errors import RunAborted
+from ..vocabulary import one_line
 from .legacyrun import LegacyRun
 from .page_answers import PageAnswers
 from .runstate import can_be_resumed
@@ -27,6 +28,10 @@ class Answer(Enum):
     RESUME = "resume"
     ABORT = "abort"
 
+
+LONGEST = 4000
+"""Characters of one comment. It is one line: what a person or a protocol named must not look like
+a line of somebody else's in the run log, or in that of a CI job."""
 
 Poll = Callable[[], "Answer | None"]
 
@@ -89,7 +94,7 @@ class Operator:
     def comment(self, text: str) -> None:
         """Write into the run log."""
         with self._speaking():
-            self._protocol.comment(f"aegis_ot: {text}")
+            self._protocol.comment(f"aegis_ot: {one_line(text, LONGEST)}")
 
     def pause(self, text: str, poll: Poll, page: PageAnswers | None = None) -> str:
         """Wait until the operator resumes the run, or cancels it.
@@ -109,6 +114,7 @@ class Operator:
             RunAborted: The operator chose so at the console or on the sidecar's page.
             Exception: Whatever Opentrons raises when the run is cancelled during its pause.
         """
+        text = one_line(text, LONGEST)
         if self._simulating:
             self.comment(f"{text} (Simulation: on a robot the run would pause here.)")
             return ""

@@ -8,8 +8,9 @@ import sys
 from datetime import datetime, timezone
 from typing import Any
 
-from ..vocabulary import without_secrets
+from ..vocabulary import one_line, printable, without_secrets
 
+_LONGEST = 8000
 EVENTS = logging.getLogger("aegis_ot.sidecar.events")
 
 
@@ -54,8 +55,10 @@ class _Text(logging.Formatter):
     def format(self, record: logging.LogRecord) -> str:
         facts = getattr(record, "facts", {})
         told = " ".join(f"{k}={v}" for k, v in facts.items() if v not in (None, ""))
-        text = f"{_moment(record)} {record.levelname.lower():7} {record.getMessage()} {told}"
+        # What a robot or a person says must neither look like a line of ours nor steer a terminal.
+        said = one_line(f"{record.getMessage()} {told}", _LONGEST)
+        text = f"{_moment(record)} {record.levelname.lower():7} {said}"
         if record.exc_info:
-            text += "\n" + self.formatException(record.exc_info)
-        # What a robot says of itself must not look like a line of ours.
-        return without_secrets(text.rstrip().replace("\r", " "))
+            trace = self.formatException(record.exc_info)
+            text += "".join(f"\n    {printable(line)}" for line in trace.splitlines())
+        return without_secrets(text.rstrip())

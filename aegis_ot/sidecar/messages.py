@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
+from ..vocabulary import one_line
 from .notices import Notice
 from .notifications import Message
 from .overview import run_overview
@@ -42,7 +43,8 @@ def compose(store: Store, notices: Sequence[Notice], address: str) -> Message:
     if address:
         well = "" if first.trajectory is None else f"?well={first.trajectory}"
         lines.append(f"{address}/runs/{quote(first.run, safe='')}{well}")
-    return Message(f"aegis-ot: {what}, {protocol}", "\n".join(lines), _frames(store, first))
+    said = "\n".join(one_line(line, 2000) for line in lines)
+    return Message(one_line(f"aegis-ot: {what}, {protocol}"), said, _frames(store, first))
 
 
 def _short(wells: Sequence[str]) -> str:

@@ -8,9 +8,9 @@ import math
 from collections.abc import Callable
 from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
-from ..vocabulary import Keyframe, Outcome, to_json
+from ..vocabulary import Keyframe, Outcome, one_line, to_json
 
 WIRE = 1
 MAX_BODY = 64 * 1024
@@ -22,7 +22,9 @@ MAX_WAIT = 1.0
 
 T = TypeVar("T")
 Count = Annotated[int, Field(ge=0, le=MAX_COUNT)]
-Word = Annotated[str, Field(max_length=200)]
+Word = Annotated[str, Field(max_length=200), AfterValidator(one_line)]
+"""A name: one line that can be shown anywhere."""
+Person = Annotated[str, Field(min_length=1, max_length=200), AfterValidator(one_line)]
 Text = Annotated[str, Field(max_length=5000)]
 
 
@@ -185,7 +187,7 @@ class Decision(Body):
     """The operator decides a flagged trajectory."""
 
     outcome: Literal[Outcome.PASS, Outcome.FAIL]
-    by: Annotated[str, Field(min_length=1, max_length=200)]
+    by: Person
     note: Text = ""
 
 
@@ -193,7 +195,7 @@ class Action(Body):
     """The operator tells a paused robot to go on, or to end the run."""
 
     action: Literal["resume", "stop"]
-    by: Annotated[str, Field(min_length=1, max_length=200)]
+    by: Person
     note: Text = ""
 
 
@@ -201,7 +203,7 @@ class Order(Body):
     """The operator tells a robot that moves to pause, or to end the run."""
 
     action: Literal["pause", "stop"]
-    by: Annotated[str, Field(min_length=1, max_length=200)]
+    by: Person
     note: Text = ""
 
 

@@ -72,7 +72,11 @@ class AnalysisWorker:
     def idle(self) -> bool:
         """Whether everything submitted was dealt with."""
         with self._news:
-            return not (self._tasks or self._busy) or not self._thread.is_alive()
+            return not (self._tasks or self._busy) or not self._at_work
+
+    @property
+    def _at_work(self) -> bool:
+        return self._thread is not None and self._thread.is_alive()
 
     def submit(self, keyframe: Keyframe, frame: Frame | None) -> None:
         """Queue a capture; ``None`` reads its frame from the store. Never blocks."""
@@ -107,7 +111,7 @@ class AnalysisWorker:
         """There is work: a thread takes it. The caller holds the lock."""
         if self._closed:
             return
-        if self._thread is None:
+        if not self._at_work:
             name = f"analysis-{self._run}"
             self._thread = threading.Thread(target=self._work, name=name, daemon=True)
             self._thread.start()

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from .sentences import printable
+
 
 @dataclass(frozen=True)
 class WellRef:
@@ -27,8 +29,8 @@ class WellRef:
     @property
     def address(self) -> str:
         """Short form for reports and benchmark labels: ``slot:well``, ``"4:H12"``."""
-        return f"{self.slot or self.label or self.labware}:{self.name}"
+        return printable(f"{self.slot or self.label or self.labware}:{self.name}")
 
     def __str__(self) -> str:
         place = f"slot {self.slot}" if self.slot else "off deck"
-        return f"{self.name} of {self.label} ({place})" if self.label else self.address
+        return printable(f"{self.name} of {self.label} ({place})") if self.label else self.address

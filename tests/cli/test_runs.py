@@ -49,6 +49,24 @@ def test_a_run_is_shown_and_its_report_written(aegis: Command, data: Path, tmp_p
     assert aegis("runs", "list", "--data", tmp_path / "nowhere").code == 2
 
 
+def test_names_neither_begin_a_line_of_their_own_nor_steer_the_terminal(
+    aegis: Command, data: Path
+) -> None:
+    """An older sidecar kept what robots told as it came."""
+    evil = "[/b]a\n::error::owned\r\x1b[2J.py"
+    store = Store(data)
+    told = (json.dumps({"protocol": evil, "robot_name": evil}),)
+    store._write("UPDATE runs SET start = json_patch(start, ?)", told)
+    store.add_incident("dilution", "link", evil, 1.0, 2.0)
+    store.close()
+    for arguments in (("list",), ("show", "dilution")):
+        said = aegis("runs", *arguments, "--data", data)
+        assert said.code == 0, said.err
+        assert "owned" in said.out
+        assert "\x1b[2J" not in said.out
+        assert not any(line.lstrip().startswith("::error") for line in said.out.splitlines())
+
+
 def test_prune_says_what_it_would_do_and_then_does_it(aegis: Command, data: Path) -> None:
     said = aegis("runs", "prune", "--days", 30, "--data", data)
     assert "1 run" in said.out

@@ -393,3 +393,24 @@ def test_a_row_of_which_no_tip_was_seen_has_not_passed(sidecar: FakeSidecar) -> 
     sidecar.channels = {0: channels(2, "uuuuuuuu"), 1: channels(3, "........")}
     watcher, _, _ = watch(columns, settings(sidecar))
     assert "1 passed" in watcher.summary()
+
+
+@pytest.mark.parametrize("policy", ["continue", "pause", "abort"])
+def test_what_a_protocol_names_begins_no_line_of_the_run_log(
+    policy: str, sidecar: FakeSidecar
+) -> None:
+    """A CI job that simulates would take it for a command of its own."""
+    evil = "plate\n::error::owned\x1b[2J"
+
+    def protocol(context: Any) -> None:
+        tips = context.load_labware("opentrons_96_tiprack_300ul", "1")
+        plate = context.load_labware("corning_96_wellplate_360ul_flat", "2", label=evil)
+        pipette = context.load_instrument("p300_single_gen2", "left", [tips])
+        pipette.transfer(50, plate["A1"], plate["B1"])
+
+    sidecar.outcomes[0] = "fail"
+    sidecar.findings[0] = {"reason": f"Ada decided fail: {evil}"}
+    watcher, texts, error = watch(protocol, settings(sidecar, on_fail=policy))
+    told = [*said(texts), watcher.summary(), str(error or "")]
+    assert any("owned" in text for text in told)
+    assert not any("\n" in text or "\x1b" in text for text in told)

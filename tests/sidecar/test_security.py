@@ -258,6 +258,36 @@ def test_no_secret_is_in_the_log_or_the_store(
         assert secret not in everything
 
 
+EVIL = "a\n::error::owned\r\x1b[2J\u2028.py"
+
+
+@pytest.mark.parametrize("form", ["text", "json"])
+def test_what_robots_and_people_say_is_one_line_of_the_log(
+    form: str, config: SidecarConfig, capfd: pytest.CaptureFixture[str]
+) -> None:
+    set_up(form)
+    try:
+        with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+            about = {"run": "run-1", "protocol": EVIL, "robot_name": EVIL}
+            robot.http.put("/v1/runs/run-1", json=about)
+            robot.cycle(0)
+            robot.post("order", {"action": "pause", "by": EVIL, "note": EVIL})
+            robot.post("finish", {"outcome": "failed", "detail": EVIL})
+            logging.getLogger("aegis_ot.else").error("It said %s", EVIL)
+            try:
+                raise ValueError(EVIL)
+            except ValueError:
+                logging.getLogger("aegis_ot.else").exception("Failed")
+            assert robot.overview()["protocol"] == "a ::error::owned [2J .py"
+    finally:
+        logging.getLogger("aegis_ot").handlers.clear()
+        logging.getLogger("aegis_ot").propagate = True
+    said = capfd.readouterr().err
+    assert said.count("owned") >= 4
+    assert "\x1b" not in said
+    assert not any(line.startswith("::error") for line in said.splitlines())
+
+
 @pytest.mark.parametrize(
     ("host", "opens"), [("0.0.0.0", r"http://[\d.]+:\d+"), ("127.0.0.1", r"http://127.0.0.1:\d+")]
 )
