@@ -12,8 +12,8 @@ from typing import Any
 import cv2
 
 from ..errors import AegisError
+from ..sidecar.opening import open_store
 from ..vision.detection import load_detector
-from ..worldmodel.recorded import open_store
 from .auditing import audit_run
 from .models import world_model
 

@@ -4,12 +4,38 @@ Doors: :func:`check_files`, and :func:`check_projects` where protocols are judge
 both give a :class:`CheckRun`.
 """
 
-from .configuration import Configuration, configurations_of, find_configuration
-from .modelled import Asking
-from .projects import Project, check_files, check_projects
-from .rehearser import Rehearser, TaskFailed
-from .result import Broken, CheckedProtocol, CheckRun, Exploration, Problem
-from .run import CheckSettings
+from typing import TYPE_CHECKING
+
+from ..lazy import door
+
+if TYPE_CHECKING:
+    from .configuration import Configuration, configurations_of, find_configuration
+    from .modelled import Asking
+    from .projects import Project, check_files, check_projects
+    from .rehearser import Rehearser, TaskFailed
+    from .result import Broken, CheckedProtocol, CheckRun, Exploration, Problem
+    from .run import CheckSettings
+
+__getattr__ = door(
+    __name__,
+    {
+        "Asking": "modelled",
+        "Broken": "result",
+        "CheckRun": "result",
+        "CheckSettings": "run",
+        "CheckedProtocol": "result",
+        "Configuration": "configuration",
+        "Exploration": "result",
+        "Problem": "result",
+        "Project": "projects",
+        "Rehearser": "rehearser",
+        "TaskFailed": "rehearser",
+        "check_files": "projects",
+        "check_projects": "projects",
+        "configurations_of": "configuration",
+        "find_configuration": "configuration",
+    },
+)
 
 __all__ = [
     "Asking",

@@ -17,7 +17,7 @@ def main() -> None:
             raise
         print(
             f"aegis-ot: the command line needs the package {error.name!r}, which is not "
-            "installed. Install it with: pip install 'aegis-ot[ot2,sidecar]'",
+            "installed. Install it with: pip install 'aegis-ot[check]'",
             file=sys.stderr,
         )
         raise SystemExit(2) from None

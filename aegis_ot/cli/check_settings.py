@@ -2,50 +2,16 @@
 
 from __future__ import annotations
 
-import contextlib
-import difflib
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from ..checking import CheckSettings, Configuration
 from ..checking.configuration import TABLE, ConfiguredWaiver
 from ..checking.files import read_csv_paths, read_labware, read_values
 from ..errors import ConfigurationError
 from ..preflight import Database, Options, load_database
-
-DEFAULT_TIMEOUT_S = 120.0
-
-Files = Annotated[list[Path], typer.Argument(help="Python protocols.")]
-Assay = Annotated[
-    list[str] | None, typer.Option("--assay", help="Assay family, if it should not be inferred.")
-]
-Rules = Annotated[
-    list[Path] | None, typer.Option("--rules", help="File or folder of further rules.")
-]
-Select = Annotated[list[str] | None, typer.Option("--select", help="Only these rules.")]
-Ignore = Annotated[list[str] | None, typer.Option("--ignore", help="Not these rules.")]
-Strict = Annotated[bool, typer.Option("--strict", help="Warnings are errors.")]
-Parameters = Annotated[
-    list[str] | None, typer.Option("--parameter", help="Runtime parameter as NAME=VALUE.")
-]
-CsvParameters = Annotated[
-    list[str] | None, typer.Option("--csv", help="File of a CSV runtime parameter as NAME=PATH.")
-]
-Labware = Annotated[
-    list[Path] | None,
-    typer.Option("--labware", help="Folder or file with custom labware definitions."),
-]
-Timeout = Annotated[
-    float | None,
-    typer.Option(
-        "--timeout",
-        help=f"Longest rehearsal of one protocol, s ({DEFAULT_TIMEOUT_S:g} if left out).",
-    ),
-]
+from .options import known_name, known_rule, seconds_of, split
 
 
 def settings_of(
@@ -88,66 +54,6 @@ def settings_of(
     return settings, database
 
 
-def one_of(option: str, value: str, accepted: Sequence[str]) -> str:
-    """Check a choice.
-
-    Raises:
-        ConfigurationError: It is none of them.
-    """
-    if value not in accepted:
-        raise ConfigurationError(f"{option}: {value!r} is not one of {', '.join(accepted)}.")
-    return value
-
-
-def spared(option: str, written: Path | None, read: Iterable[Path]) -> None:
-    """Refuse to write over what the same call reads.
-
-    Raises:
-        ConfigurationError: ``written`` is one of the files that are read.
-    """
-    if written is None:
-        return
-    for path in read:
-        with contextlib.suppress(OSError):  # one of them is not there, or not to be looked at
-            if path.samefile(written):
-                raise ConfigurationError(
-                    f"{option} {written}: the call reads this file; it would be overwritten."
-                )
-
-
-def known_rule(name: str, database: Database, place: str = "") -> str:
-    """A rule's identifier in the spelling of its file, or the nearest ones as a hint.
-
-    Raises:
-        ConfigurationError: There is no such rule.
-    """
-    return _known(name, [rule.id for rule in database.rules], f"{place}there is no rule")
-
-
-def split(option: str, values: Sequence[str] | None) -> list[str]:
-    """``PCR-1,PCR-2`` and repeated options mean the same.
-
-    Raises:
-        ConfigurationError: The option is given, and names nothing.
-    """
-    names = [part for value in values or () for part in value.split(",") if part.strip()]
-    if values and not names:
-        raise ConfigurationError(f"{option}: names nothing; leave it out, or give it a value.")
-    return names
-
-
-def _known(name: str, names: Iterable[str], complaint: str) -> str:
-    by_key = {known.casefold(): known for known in names}
-    found = by_key.get(name.strip().casefold())
-    if found is None:
-        near = difflib.get_close_matches(name.strip().casefold(), by_key, n=3, cutoff=0.6)
-        hint = f"did you mean {' or '.join(by_key[key] for key in near)}?" if near else ""
-        raise ConfigurationError(
-            f"{complaint} {name!r}; {hint or 'known are ' + ', '.join(by_key.values()) + '.'}"
-        )
-    return found
-
-
 def _table(configured: Configuration) -> str:
     """The project's table with its file, for a complaint."""
     return f"{configured.name}: {TABLE}"
@@ -164,7 +70,7 @@ def _options(
     named, selected, table = split("--assay", assay), split("--select", select), _table(configured)
     return Options(
         assay=tuple(
-            _known(name, families, f"{place}there is no assay family")
+            known_name(name, families, f"{place}there is no assay family")
             for name, place in _placed("assay", named, () if named else configured.assay, table)
         ),
         select=tuple(
@@ -200,16 +106,3 @@ def _waivers(database: Database, configured: Configuration) -> tuple[ConfiguredW
         for rule in waiver.rules:
             known_rule(rule, database, place)
     return configured.waivers
-
-
-def seconds_of(given: float | None, configured: float | None = None) -> float:
-    """The longest rehearsal, s.
-
-    Raises:
-        ConfigurationError: It is no length of time.
-    """
-    if given is None:
-        return configured or DEFAULT_TIMEOUT_S
-    if not 0 < given <= 86_400:
-        raise ConfigurationError(f"--timeout: expected seconds greater than 0, found {given:g}.")
-    return given

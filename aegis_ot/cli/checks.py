@@ -16,9 +16,14 @@ from ..checking.baseline import baseline_text, read_baseline
 from ..checking.roles_template import roles_template
 from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
-from ..reports import RENDERERS, SHOW_ROLES, check_text
+from ..reports import FORMATS, SHOW_ROLES, renderer
+from ..reports.check_text import check_text
 from ..vocabulary import VerdictWord, counted
-from .check_settings import (
+from .check_settings import settings_of
+from .counting import Counting
+from .exit_codes import BROKEN, CLEAN
+from .models import ModelName, RecordFolder, backend_of
+from .options import (
     Assay,
     CsvParameters,
     Files,
@@ -30,12 +35,8 @@ from .check_settings import (
     Strict,
     Timeout,
     one_of,
-    settings_of,
     spared,
 )
-from .counting import Counting
-from .exit_codes import BROKEN, CLEAN
-from .models import ModelName, RecordFolder, backend_of
 from .paths import write_text
 
 app = typer.Typer()
@@ -45,7 +46,7 @@ app = typer.Typer()
 def check(
     files: Files,
     output_format: Annotated[
-        str, typer.Option("--format", "-f", help=f"One of {', '.join(RENDERERS)}.")
+        str, typer.Option("--format", "-f", help=f"One of {', '.join(FORMATS)}.")
     ] = "text",
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Write here, not to the terminal.")
@@ -97,7 +98,7 @@ def check(
     Exit codes: 0 clean, 1 findings, 2 a protocol could not be judged, a model that was asked
     gave no answer, or the call is wrong.
     """
-    one_of("--format", output_format, tuple(RENDERERS))
+    one_of("--format", output_format, FORMATS)
     if baseline and write_baseline:
         raise ConfigurationError("--baseline and --write-baseline cannot be given together.")
     if write_baseline and output:
@@ -169,13 +170,13 @@ def _show(run: CheckRun, output_format: str, output: Path | None) -> None:
         told = f"--explain-roles: {output_format} has no place for roles"
         typer.echo(f"aegis-ot: {told}; {', '.join(SHOW_ROLES)} show them.", err=True)
     if output is not None:
-        write_text(output, RENDERERS[output_format](run))
+        write_text(output, renderer(output_format)(run))
         typer.echo(f"{output_format} report: {output}", err=True)
         return
     if output_format == "text":
         text = check_text(run, colour=_colours())
     else:
-        text = RENDERERS[output_format](run)
+        text = renderer(output_format)(run)
     # Bytes: a Windows console's own encoding may lack the µ of a message. A protocol's text may
     # hold half a surrogate pair.
     sys.stdout.buffer.write(text.encode("utf-8", "backslashreplace"))

@@ -7,13 +7,16 @@ commands join by entry points, so that this package knows their names only.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from importlib import import_module, metadata
+from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 from ..errors import ConfigurationError
+
+if TYPE_CHECKING:
+    from importlib import metadata
 
 GROUP = "aegis_ot.commands"
 """Entry points of commands: ``name = module:Typer``."""
@@ -83,7 +86,7 @@ COMMANDS = {
     ),
     "wrap": Command(
         "Write a protocol with the guard inside, for a robot on which nothing may be installed.",
-        "check",
+        "sidecar",
         "onto_robot",
     ),
     "reproduce": Command(
@@ -139,6 +142,8 @@ def joined(name: str, group: str = GROUP) -> Any:
         ConfigurationError: Nothing does.
         ModuleNotFoundError: It, or a library that it needs, is not installed.
     """
+    from importlib import metadata
+
     found = metadata.entry_points(group=group) or _of_checkout(group)
     for entry in found:
         if entry.name == name:
@@ -151,6 +156,8 @@ def joined(name: str, group: str = GROUP) -> Any:
 
 def _of_checkout(group: str) -> list[metadata.EntryPoint]:
     """The entry points of a checkout that was installed at an older commit."""
+    from importlib import metadata
+
     file = Path(__file__).parents[2] / "pyproject.toml"
     try:
         tomllib = import_module("tomllib")
@@ -164,12 +171,14 @@ def _of_checkout(group: str) -> list[metadata.EntryPoint]:
 def what_to_install(name: str, missing: ModuleNotFoundError) -> str:
     """One sentence on a library that a command needs."""
     library = (missing.name or "").partition(".")[0]
-    extra = COMMANDS[name].extra
-    if library == "opentrons":
+    if library.startswith("opentrons"):
         return (
-            f"{name} needs opentrons, which is not installed. Install the one of your robot with: "
-            "pip install 'aegis-ot[ot2]' or pip install 'aegis-ot[flex]'"
+            f"{name} needs opentrons, which is not installed. Install your robot's with: "
+            "pip install 'aegis-ot[ot2]' (OT-2) or 'aegis-ot[flex]' (Flex)"
         )
+    extra = COMMANDS[name].extra
+    if extra == "check":  # all of it is here, or no command would be
+        extra = "sidecar"
     return (
         f"{name} needs the package {library!r}, which is not installed. Install what it needs "
         f"with: pip install 'aegis-ot[{extra}]'"

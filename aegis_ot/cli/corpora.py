@@ -27,8 +27,8 @@ from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
 from ..preflight import load_database
 from ..vocabulary import counted
-from .check_settings import Rules
 from .exit_codes import CLEAN, FINDINGS
+from .options import Rules
 from .printing import PlainConsole, echo
 
 _TELLING = ("fail", "crash")

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from ..settings import load_settings
-from .check_settings import Timeout, one_of, seconds_of
+from .options import Timeout, one_of, seconds_of
 
 app = typer.Typer()
 

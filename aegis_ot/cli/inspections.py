@@ -71,7 +71,7 @@ def inspect_wells(
 
 
 def _is_store(folder: Path) -> bool:
-    from ..worldmodel.recorded import is_store
+    from ..sidecar.opening import is_store
 
     return is_store(folder)
 
@@ -94,8 +94,8 @@ def _dataset(
 def _run(what: str, run: str | None, most: int, shown: Progress) -> Inspection:
     from ..inspection import inspect_run
     from ..sidecar import SidecarConfig
+    from ..sidecar.opening import open_store
     from ..sidecar.token_file import known_token
-    from ..worldmodel.recorded import open_store
 
     folder = Path(what)
     if not folder.exists():

@@ -69,7 +69,7 @@ def run(
     from ..robot import RobotClient
     from ..robot.offsets import refuse_lost_offsets
     from ..robot.running import Inputs, RobotRun, analyse, run_analysed
-    from .check_settings import one_of
+    from .options import one_of
     from .robot_screen import TerminalScreen, show_end
 
     if not protocol.is_file():
@@ -130,7 +130,7 @@ def watch(
     from ..robot.running import RobotRun
     from ..robot.verdicts import VerdictReader
     from ..robot.watching import WatchPolicies, await_run, watch_run
-    from .check_settings import one_of
+    from .options import one_of
     from .robot_screen import TerminalScreen, show_end
 
     choices = ("pause", "continue")

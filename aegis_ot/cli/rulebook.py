@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..checking import Rehearser, TaskFailed
-from ..checking.rule_examples import ExampleResult
-from ..checking.tasks import RunExamples
 from ..errors import ConfigurationError
-from ..preflight import Database, load_database
-from ..preflight.database import shipped_rules
-from ..reports import rule_list, rule_pages, rule_text
+from ..preflight.database import load_database, shipped_rules
+from ..reports.rule_text import rule_list, rule_text
 from ..vocabulary import counted
-from .check_settings import known_rule, one_of, split
 from .exit_codes import CLEAN, FINDINGS
+from .options import known_rule, one_of, split
 from .paths import write_text
+
+if TYPE_CHECKING:
+    from ..checking.rule_examples import ExampleResult
+    from ..preflight import Database
 
 RulesOption = Annotated[list[Path] | None, typer.Option(help="File or folder of further rules.")]
 
@@ -78,6 +78,10 @@ def run_rule_examples(
 
     Exit codes: 0 all as promised, 1 some are not, 2 a rule file is wrong.
     """
+    from ..checking import Rehearser, TaskFailed
+    from ..checking.rule_examples import ExampleResult
+    from ..checking.tasks import RunExamples
+
     given = [*([path] if path is not None else []), *(rules or ())]
     database = _database(given)
     wanted = [known_rule(rule, database, "--select: ") for rule in split("--select", select)]
@@ -112,6 +116,8 @@ def write_docs(
     ] = False,
 ) -> None:
     """Write the documentation pages of the rules from the rule files."""
+    from ..reports.rule_pages import rule_pages
+
     pages = rule_pages(_database(rules))
     if check:
         stale = [name for name, text in pages.items() if _text(out / name) != text]

@@ -182,7 +182,7 @@ def _folder(data: Path | None) -> Path:
 
 def open_data(data: Path | None, alone: bool = False) -> Store:
     """The store in a folder, or in the sidecar's usual one."""
-    from ..worldmodel.recorded import open_store
+    from ..sidecar.opening import open_store
 
     return open_store(_folder(data), alone)
 

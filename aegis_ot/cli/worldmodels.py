@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import ConfigurationError
-from .check_settings import one_of
+from .options import one_of
 from .paths import open_dataset, tip_finder
 
 if TYPE_CHECKING:
@@ -38,8 +38,8 @@ def fit(
 
     Exit codes: 0 written, 2 nothing could be learned, or the file cannot be written.
     """
+    from ..sidecar.opening import is_store
     from ..worldmodel.fitting import STORED, fit_model
-    from ..worldmodel.recorded import is_store
     from .progress import Shown
 
     one_of("--scorer", scorer, STORED)

@@ -18,11 +18,31 @@ Each step is a room of its own, and imports run down this list only (a contract 
     rehearsal   the protocol run in the simulator, and recorded
 """
 
-from .check_protocol import check_script
-from .database import load_database
-from .judging import Options, Reading, Report, judge
-from .rehearsal import Script, record
-from .rules import Database
+from typing import TYPE_CHECKING
+
+from ..lazy import door
+
+if TYPE_CHECKING:
+    from .check_protocol import check_script
+    from .database import load_database
+    from .judging import Options, Reading, Report, judge
+    from .rehearsal import Script, record
+    from .rules import Database
+
+__getattr__ = door(
+    __name__,
+    {
+        "Database": "rules",
+        "Options": "judging",
+        "Reading": "judging",
+        "Report": "judging",
+        "Script": "rehearsal",
+        "check_script": "check_protocol",
+        "judge": "judging",
+        "load_database": "database",
+        "record": "rehearsal",
+    },
+)
 
 __all__ = [
     "Database",

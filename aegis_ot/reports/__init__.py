@@ -1,40 +1,26 @@
 """One renderer per output. Pure: values in, text out."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
+from importlib import import_module
+from typing import TYPE_CHECKING
 
-from ..checking import CheckRun
-from .check_github import check_github
-from .check_html import check_html
-from .check_json import check_json
-from .check_junit import check_junit
-from .check_sarif import check_sarif
-from .check_text import check_text
-from .rule_pages import rule_pages
-from .rule_text import rule_list, rule_text
+if TYPE_CHECKING:
+    from ..checking import CheckRun
 
-RENDERERS: dict[str, Callable[[CheckRun], str]] = {
-    "text": check_text,
-    "json": check_json,
-    "sarif": check_sarif,
-    "github": check_github,
-    "junit": check_junit,
-    "html": check_html,
-}
-"""Renderers of checked protocols, by the name of their format."""
+FORMATS = ("text", "json", "sarif", "github", "junit", "html")
+"""Of a report on checked protocols."""
 
 SHOW_ROLES = ("text", "json", "html")
 """Formats that show what the wells are taken for, where that is asked for."""
 
-__all__ = [
-    "RENDERERS",
-    "SHOW_ROLES",
-    "check_github",
-    "check_html",
-    "check_json",
-    "check_junit",
-    "check_sarif",
-    "check_text",
-    "rule_list",
-    "rule_pages",
-    "rule_text",
-]
+__all__ = ["FORMATS", "SHOW_ROLES", "renderer"]
+
+
+def renderer(name: str) -> Callable[[CheckRun], str]:
+    """What writes a report in one of :data:`FORMATS`; only its own libraries are loaded."""
+    render: Callable[[CheckRun], str] = getattr(
+        import_module(f".check_{name}", __name__), f"check_{name}"
+    )
+    return render

@@ -9,11 +9,12 @@ from pathlib import Path
 
 from ..errors import DatasetError, StoreError
 from ..progress import Progress
+from ..sidecar.opening import open_store
 from ..vision.dataset_writer import DatasetWriter
 from ..vision.tips import tip_for
 from ..vision.types import Detector
 from ..vocabulary import KeyframeKind
-from .recorded import StoredFrames, open_store, recorded_runs
+from .recorded import StoredFrames, recorded_runs
 from .tips import named_detector
 
 

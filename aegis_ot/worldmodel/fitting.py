@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from ..errors import ConfigurationError, DatasetError, StoreError
 from ..progress import Progress
+from ..sidecar.opening import is_store, open_store
 from ..vision.dataset import Dataset, TrueBoxes, load_dataset
 from ..vision.models import ModelFile, save_model
 from ..vision.scorers import make_scorer
 from ..vision.types import Detector, TrajectorySample
 from .detection_limits import smallest_caught
-from .recorded import is_store, open_store, recorded_runs
+from .recorded import recorded_runs
 from .tips import find_detector, named_detector
 
 STORED = ("pca", "column", "patches", "ensemble")
@@ -65,12 +66,12 @@ def fit_model(
         ModelError: If the file cannot be written.
     """
     progress = progress or Progress()
-    fitted = make_scorer(scorer, STORED)
-    if not isinstance(fitted, Storable):
+    if scorer not in STORED:
         raise ConfigurationError(
-            f"scorer {scorer!r} is for comparison only: it has no model file; choose one of "
-            f"{', '.join(STORED)}"
+            f"scorer {scorer!r} has no model file; choose one of {', '.join(STORED)}"
         )
+    fitted = make_scorer(scorer)
+    assert isinstance(fitted, Storable)
     normals: list[TrajectorySample] = []
     used: list[dict[str, Any]] = []
     for number, item in enumerate(recordings):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import cv2
@@ -12,7 +11,7 @@ import numpy as np
 
 from ..errors import ConfigurationError, StoreError
 from ..sidecar.overview import run_overview
-from ..sidecar.store import DATABASE, Store
+from ..sidecar.store import Store
 from ..vision.dataset import LazyDetections
 from ..vision.dataset_checks import in_data_sets
 from ..vision.types import Detector, Image, TrajectorySample
@@ -57,30 +56,11 @@ def run_source(row: Mapping[str, Any]) -> str:
     return "synthetic" if row.get("simulated") else "real"
 
 
-def is_store(folder: Path) -> bool:
-    """Whether a folder holds a sidecar's store."""
-    return (folder / DATABASE).is_file()
-
-
-def open_store(folder: Path, alone: bool = False) -> Store:
-    """Open an existing store, ``alone`` for who writes to it.
-
-    Raises:
-        ConfigurationError: The folder holds none. One is never made.
-        StoreError: It cannot be read.
-    """
-    if not is_store(folder):
-        raise ConfigurationError(
-            f"{folder} holds no {DATABASE}: name the data folder of a sidecar (its setting 'data')."
-        )
-    return Store(folder, alone)
-
-
 def recorded_runs(store: Store, detector: Detector, runs: Sequence[str] = ()) -> list[RecordedRun]:
     """Runs of a store, oldest first; frames are decoded, and tips found, when asked for.
 
     Args:
-        store: See :func:`open_store`.
+        store: See :func:`~aegis_ot.sidecar.opening.open_store`.
         detector: Finds the tips anew: a store keeps boxes, but no axes.
         runs: Which runs; all if left out.
 

@@ -11,10 +11,10 @@ import typer
 
 from aegis_ot.checking import Asking, CheckSettings
 from aegis_ot.checking.files import read_labware
-from aegis_ot.cli.check_settings import Labware, Rules, one_of, split
 from aegis_ot.cli.counting import Counting
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
 from aegis_ot.cli.models import ModelNames, RecordFolder, backend_of
+from aegis_ot.cli.options import Labware, Rules, one_of, split
 from aegis_ot.cli.paths import writable_folder, write_text
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.preflight import load_database

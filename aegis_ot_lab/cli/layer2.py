@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from aegis_ot.cli.check_settings import one_of, split
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
 from aegis_ot.cli.models import ModelName, RecordFolder, backend_of
+from aegis_ot.cli.options import one_of, split
 from aegis_ot.cli.paths import open_dataset, tip_finder, writable_folder, write_text
 from aegis_ot.errors import ConfigurationError
 from aegis_ot.vocabulary import counted

@@ -9,7 +9,10 @@ from typing import Annotated
 import typer
 
 from aegis_ot.checking import Asking, check_files, configurations_of
-from aegis_ot.cli.check_settings import (
+from aegis_ot.cli.check_settings import settings_of
+from aegis_ot.cli.exit_codes import BROKEN
+from aegis_ot.cli.models import ASKING
+from aegis_ot.cli.options import (
     Assay,
     CsvParameters,
     Files,
@@ -20,12 +23,9 @@ from aegis_ot.cli.check_settings import (
     Select,
     Timeout,
     one_of,
-    settings_of,
     spared,
     split,
 )
-from aegis_ot.cli.exit_codes import BROKEN
-from aegis_ot.cli.models import ASKING
 from aegis_ot.reasoning import ScriptedBackend, request_in
 from aegis_ot.vocabulary import counted
 

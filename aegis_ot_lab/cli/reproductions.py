@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from aegis_ot.cli.check_settings import one_of, split
 from aegis_ot.cli.exit_codes import BROKEN, CLEAN
 from aegis_ot.cli.models import ModelNames, RecordFolder, backend_of
+from aegis_ot.cli.options import one_of, split
 from aegis_ot.cli.paths import open_dataset, writable_folder, write_text
 
 if TYPE_CHECKING:

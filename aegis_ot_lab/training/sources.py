@@ -2,41 +2,56 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 from collections.abc import Collection
 from pathlib import Path
 
 SOURCES = {
-    "training": (
+    "aegis_ot_lab/training": (
         *("axes", "examples", "fitting", "frame_pool", "network", "photometry", "pipettes"),
         *("recorded", "rooms", "scenes", "simulated", "strokes", "transplant"),
     ),
-    "simulation": (
-        *("backdrop", "dyes", "exposure", "optics", "plans", "random_frames", "reflections"),
+    "aegis_ot_lab/drawing": ("plans", "random_frames"),
+    "aegis_ot/simulation": (
+        *("backdrop", "dyes", "exposure", "optics", "reflections"),
         *("render", "scene", "session", "shading", "truth"),
     ),
-    "vision": ("detection/decode", "detection/views", "tips"),
-    "vocabulary": ("pipette_names",),
+    "aegis_ot/vision": ("detection/decode", "detection/views", "tips"),
+    "aegis_ot/vocabulary": ("pipette_names",),
 }
 """Modules, by room: what makes the frames, cuts and paints the examples, and fits the network."""
 
 
 def sources_digest(without: Collection[str] = ()) -> str:
-    """SHA-256 of the modules of :data:`SOURCES`.
+    """SHA-256 of what the modules of :data:`SOURCES` do, wherever they stand.
 
     Args:
-        without: Modules to leave out (``"vision/tips"``): those that were changed on purpose
-            since weights were made, as their description's ``changed_since`` says.
+        without: Modules to leave out (``"aegis_ot/vision/tips"``): those that were changed on
+            purpose since weights were made, as their description's ``changed_since`` says.
 
     Weights whose description has another digest were made by other code: the same command gives
     weights of the same kind today, not the same weights.
     """
-    package = Path(__file__).parents[1]
+    top = Path(__file__).parents[2]
     digest = hashlib.sha256()
-    for room, names in SOURCES.items():
-        for name in names:
-            if f"{room}/{name}" in without:
-                continue
-            digest.update(f"{room}/{name}\0".encode())
-            digest.update((package / room / f"{name}.py").read_bytes())
+    modules = {
+        name.rpartition("/")[2]: f"{room}/{name}"
+        for room, names in SOURCES.items()
+        for name in names
+    }
+    for name, module in sorted(modules.items()):
+        if module not in without:
+            digest.update(f"{name}\0".encode())
+            digest.update(_decisive((top / f"{module}.py").read_text(encoding="utf-8")).encode())
     return digest.hexdigest()
+
+
+def _decisive(text: str) -> str:
+    """A module without its imports and blank lines: where another one stands decides nothing."""
+    lines = text.split("\n")
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            for number in range(node.lineno - 1, node.end_lineno or node.lineno):
+                lines[number] = ""
+    return "\n".join(line for line in lines if line.strip())

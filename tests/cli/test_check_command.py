@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.reports import RENDERERS
+from aegis_ot.reports import FORMATS
 
 from .commands import Command
 
@@ -251,7 +251,7 @@ def test_nothing_that_the_call_reads_is_written_over(
     assert (exported.code, "would be overwritten" in exported.err) == (2, True)
 
 
-@pytest.mark.parametrize("name", RENDERERS)
+@pytest.mark.parametrize("name", FORMATS)
 def test_a_format_without_roles_says_so_where_they_are_asked_for(
     aegis: Command, tmp_path: Path, name: str
 ) -> None:

@@ -1,14 +1,55 @@
-"""A check starts without the libraries of cameras, services and models."""
+"""A command loads what it needs, and nothing else."""
 
 from __future__ import annotations
 
 import subprocess
 import sys
+from pathlib import Path
 
-HEAVY = ("cv2", "numpy", "fastapi", "onnxruntime", "sklearn", "matplotlib", "anthropic", "openai")
+import pytest
+
+from aegis_ot.sidecar.store import Store
+from tests.sidecar.test_store import fill
+
+HEAVY = {"cv2", "numpy", "fastapi", "onnxruntime", "sklearn", "scipy", "matplotlib", "anthropic"}
+HEAVY |= {"openai", "jinja2", "uvicorn", "opentrons", "httpx"}
 
 
-def test_the_command_line_loads_no_heavy_library() -> None:
-    code = f"import sys, aegis_ot.cli.app; print([m for m in {HEAVY!r} if m in sys.modules])"
+def loaded_by(*arguments: str) -> set[str]:
+    """The modules that a command has loaded when it ends."""
+    code = (
+        "import sys\n"
+        f"sys.argv = ['aegis-ot', *{arguments!r}]\n"
+        "from aegis_ot.cli import main\n"
+        "try:\n    main()\nexcept SystemExit as end:\n    assert not end.code, end.code\n"
+        "print('loaded:', *sys.modules)"
+    )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+    return set(done.stdout.rpartition("loaded:")[2].split())
+
+
+def test_the_command_line_itself_loads_no_command() -> None:
+    for option in ("--version", "--help"):
+        loaded = loaded_by(option)
+        assert not loaded & HEAVY
+        rooms = {name.split(".")[1] for name in loaded if name.startswith("aegis_ot.")}
+        assert rooms <= {"_version", "cli", "errors", "guard"}
+
+
+@pytest.mark.parametrize("arguments", [("explain", "PCR-2"), ("rules", "list")])
+def test_rules_are_shown_without_what_judges_by_them(arguments: tuple[str, ...]) -> None:
+    loaded = loaded_by(*arguments)
+    assert not loaded & (HEAVY | {"asyncio"})
+    rooms = {name.split(".")[2] for name in loaded if name.startswith("aegis_ot.preflight.")}
+    assert rooms == {"database", "rules"}
+
+
+def test_runs_are_listed_without_the_service(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    fill(store, "pcr", 40)
+    store.close()
+    assert not loaded_by("runs", "list", "--data", str(tmp_path)) & HEAVY
+
+
+def test_a_check_loads_no_library_of_cameras_services_and_models() -> None:
+    assert not loaded_by("check", "--help") & HEAVY

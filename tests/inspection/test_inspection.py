@@ -10,13 +10,13 @@ import pytest
 from aegis_ot.account import SeenWell
 from aegis_ot.inspection import inspect_run, inspection_html
 from aegis_ot.inspection.choosing import pictured
+from aegis_ot.sidecar.opening import open_store
 from aegis_ot.vision.dataset import load_dataset
 from aegis_ot.vision.models import SHIPPED, load_model
 from aegis_ot.vision.scorers.ensemble import EnsembleScorer
 from aegis_ot.vocabulary import KeyframeKind
 from aegis_ot.worldmodel.cascade import run_cascade
 from aegis_ot.worldmodel.leave_one_out import score_with
-from aegis_ot.worldmodel.recorded import open_store
 from aegis_ot.worldmodel.tips import find_tips
 from aegis_ot_lab.inspection import inspect_dataset
 from tests.sidecar.browser import CHROMIUM, chromium

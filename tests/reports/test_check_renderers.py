@@ -14,8 +14,12 @@ from syrupy.assertion import SnapshotAssertion
 from aegis_ot.checking import CheckedProtocol, CheckRun
 from aegis_ot.preflight.opinion import no_answer
 from aegis_ot.reasoning import Configuration, Judgement, Reply, State, Usage
-from aegis_ot.reports import RENDERERS, check_github, check_html, check_json, check_sarif
+from aegis_ot.reports import FORMATS, renderer
+from aegis_ot.reports.check_github import check_github
+from aegis_ot.reports.check_html import check_html
+from aegis_ot.reports.check_json import check_json
 from aegis_ot.reports.check_junit import check_junit
+from aegis_ot.reports.check_sarif import check_sarif
 from aegis_ot.reports.check_text import check_text
 from aegis_ot.vocabulary import Finding, Opinion, Severity, Site
 
@@ -25,14 +29,14 @@ from .sarif_constraints import SARIF
 EMPTY = CheckRun((), DATABASE, "1.2.3")
 
 
-@pytest.mark.parametrize("name", RENDERERS)
+@pytest.mark.parametrize("name", FORMATS)
 def test_snapshot(name: str, snapshot: SnapshotAssertion) -> None:
-    assert RENDERERS[name](RUN) == snapshot
+    assert renderer(name)(RUN) == snapshot
 
 
-@pytest.mark.parametrize("name", RENDERERS)
+@pytest.mark.parametrize("name", FORMATS)
 def test_nothing_checked_is_rendered_too(name: str) -> None:
-    assert RENDERERS[name](EMPTY).endswith("\n") or name == "html"
+    assert renderer(name)(EMPTY).endswith("\n") or name == "html"
 
 
 def test_text_has_colours_only_when_asked() -> None:
@@ -144,9 +148,9 @@ def test_junit_counts_agree_with_its_cases() -> None:
     assert root.get("errors") == "3"
 
 
-@pytest.mark.parametrize("name", RENDERERS)
+@pytest.mark.parametrize("name", FORMATS)
 def test_every_format_tells_of_a_stale_waiver(name: str) -> None:
-    assert "The waiver of PCR-5 is stale: nothing is found there." in RENDERERS[name](RUN)
+    assert "The waiver of PCR-5 is stale: nothing is found there." in renderer(name)(RUN)
 
 
 def test_junit_survives_control_characters() -> None:
@@ -174,24 +178,24 @@ BEYOND = Finding(
 )
 
 
-@pytest.mark.parametrize("name", RENDERERS)
+@pytest.mark.parametrize("name", FORMATS)
 def test_what_the_model_found_is_marked_and_what_the_checks_found_is_not(name: str) -> None:
     reply = Reply(State.ANSWERED, "some-model", {}, usage=Usage(100, 300, 0, 50), seconds=2.0)
     mark = '"source": "model"' if name == "json" else "found by the model"
     for finding in (dataclasses.replace(CARRY, source="model"), BEYOND):
-        shown = RENDERERS[name](_asked(reply, finding))
+        shown = renderer(name)(_asked(reply, finding))
         assert shown.count(mark) == 1, shown
         assert finding.message in shown
-    assert mark not in RENDERERS[name](_asked(reply, CARRY))
+    assert mark not in renderer(name)(_asked(reply, CARRY))
 
 
-@pytest.mark.parametrize("name", RENDERERS)
+@pytest.mark.parametrize("name", FORMATS)
 def test_a_model_that_gave_no_answer_is_told_by_its_state(name: str) -> None:
     reply = Reply(State.RATE_LIMITED, "some-model", detail="slow down")
     question = no_answer(Opinion("rate_limited", "some-model", "slow down"))
     run = _asked(reply, undecided=(question,))
     assert run.exit_code == 2
-    shown = RENDERERS[name](run)
+    shown = renderer(name)(run)
     assert "some-model gave no answer (rate_limited): slow down" in shown
     assert "error" in shown or name == "json"
 

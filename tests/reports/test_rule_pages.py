@@ -20,7 +20,8 @@ from aegis_ot.preflight.rules import (
     ShapeSignal,
     Signal,
 )
-from aegis_ot.reports import rule_list, rule_pages, rule_text
+from aegis_ot.reports.rule_pages import rule_pages
+from aegis_ot.reports.rule_text import rule_list, rule_text
 
 from .sample import DATABASE, FAMILY
 

@@ -9,6 +9,7 @@ import pytest
 
 from aegis_ot.errors import ConfigurationError, DatasetError, ModelError
 from aegis_ot.sidecar.analysers import load_scorer
+from aegis_ot.sidecar.opening import open_store
 from aegis_ot.sidecar.store import Store
 from aegis_ot.sidecar.wire import Decision
 from aegis_ot.vision.dataset import load_dataset
@@ -16,7 +17,7 @@ from aegis_ot.vision.detection import load_detector
 from aegis_ot.vocabulary import Outcome
 from aegis_ot.worldmodel.exporting import export_runs
 from aegis_ot.worldmodel.fitting import fit_model
-from aegis_ot.worldmodel.recorded import open_store, recorded_runs
+from aegis_ot.worldmodel.recorded import recorded_runs
 from tests.worldmodel.stores import make_store
 
 

@@ -12,21 +12,23 @@ import pytest
 import aegis_ot
 from aegis_ot_lab.training.sources import SOURCES, sources_digest
 
-PACKAGE = Path(aegis_ot.__file__).parent
-ONLY_TYPES = {"vision/types"}
+TOP = Path(aegis_ot.__file__).parents[1]
+ONLY_TYPES = {"aegis_ot/vision/types"}
 
 
 def _imported(module: str) -> set[str]:
-    """Modules of the three rooms that a module imports by their own name, not through a door."""
+    """Modules of the rooms that a module imports by their own name, not through a door."""
     folder = Path(module).parent
     found = set()
-    for node in ast.walk(ast.parse((PACKAGE / f"{module}.py").read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.level and node.module:
-            origin = folder
-            for _ in range(node.level - 1):
-                origin = origin.parent
+    for node in ast.walk(ast.parse((TOP / f"{module}.py").read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            origin = Path()
+            if node.level:
+                origin = folder
+                for _ in range(node.level - 1):
+                    origin = origin.parent
             name = (origin / node.module.replace(".", "/")).as_posix()
-            if (PACKAGE / f"{name}.py").is_file() and name.split("/")[0] in SOURCES:
+            if (TOP / f"{name}.py").is_file() and any(name.startswith(f"{r}/") for r in SOURCES):
                 found.add(name)
     return found
 

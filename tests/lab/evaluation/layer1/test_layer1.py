@@ -193,7 +193,7 @@ def test_the_rules_judge_a_real_folder() -> None:
     from aegis_ot.preflight import load_database
 
     database = load_database()
-    benchmark = Path(__file__).parents[3] / "examples" / "benchmark"
+    benchmark = Path(__file__).parents[4] / "examples" / "benchmark"
     families = [family.family for family in database.families]
     labels = read_labels(benchmark, families, [rule.id for rule in database.rules])
     assert sum(entry.is_bad for entry in labels) == 13
