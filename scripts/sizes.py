@@ -7,7 +7,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 
 BUDGETS = {
-    "aegis_ot": 62_000,
+    "aegis_ot": 64_000,
     "aegis_ot_lab": 10_500,
     "aegis_ot/preflight": 10_500,
     "aegis_ot/vision": 12_600,

@@ -13,7 +13,7 @@ from .. import __version__
 from ..errors import AegisError, ConfigurationError
 from .commands import COMMANDS, load_command, what_to_install
 from .exit_codes import BROKEN, INTERRUPTED
-from .printing import echo
+from .plain_text import echo
 
 
 class _Commands(TyperGroup):

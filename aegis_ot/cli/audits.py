@@ -14,7 +14,7 @@ from ..vocabulary import counted
 from .exit_codes import BROKEN, CLEAN, FINDINGS
 from .models import ModelName, RecordFolder, backend_of
 from .paths import tip_finder, write_text
-from .printing import echo
+from .plain_text import echo
 from .runs import DataFolder, known_run, open_data
 
 if TYPE_CHECKING:

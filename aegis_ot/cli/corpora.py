@@ -29,7 +29,8 @@ from ..preflight import load_database
 from ..vocabulary import counted
 from .exit_codes import CLEAN, FINDINGS
 from .options import Rules
-from .printing import PlainConsole, echo
+from .plain_text import echo
+from .printing import PlainConsole
 
 _TELLING = ("fail", "crash")
 """Verdicts that are told at once, while the others are counted."""

@@ -11,7 +11,7 @@ from ..errors import ConfigurationError
 from ..vocabulary import counted
 from .commands import joined
 from .paths import open_dataset, tip_finder, write_text
-from .printing import echo
+from .plain_text import echo
 
 if TYPE_CHECKING:
     from ..inspection import Inspection

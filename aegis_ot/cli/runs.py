@@ -15,7 +15,8 @@ from rich.text import Text
 from ..errors import ConfigurationError
 from ..vocabulary import counted, one_line
 from .paths import empty_folder, tip_finder, write_text
-from .printing import PlainConsole, echo
+from .plain_text import echo
+from .printing import PlainConsole
 
 if TYPE_CHECKING:
     from ..sidecar.store import Store
