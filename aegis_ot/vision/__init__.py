@@ -1,5 +1,21 @@
 """The vision room: frames to detections, crops, scores, calibration, routes and gates."""
 
-from .types import Detector, Image, Scorer, TipDetection, TrajectorySample
+from typing import TYPE_CHECKING
+
+from ..lazy import door
+
+if TYPE_CHECKING:
+    from .types import Detector, Image, Scorer, TipDetection, TrajectorySample
+
+__getattr__ = door(
+    __name__,
+    {
+        "Detector": "types",
+        "Image": "types",
+        "Scorer": "types",
+        "TipDetection": "types",
+        "TrajectorySample": "types",
+    },
+)
 
 __all__ = ["Detector", "Image", "Scorer", "TipDetection", "TrajectorySample"]

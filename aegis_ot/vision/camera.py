@@ -7,10 +7,12 @@ what the simulated pipette would show (``aegis_ot.simulation``).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from ..vocabulary import Keyframe
-from .types import Image
+
+if TYPE_CHECKING:
+    from .types import Image
 
 
 @dataclass(frozen=True)
