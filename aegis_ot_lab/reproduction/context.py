@@ -207,13 +207,18 @@ def version() -> str:
     return f"{aegis_ot.__version__}+{_digest_of_source()}"
 
 
+def source_files() -> list[Path]:
+    """What a result is made by: code, prompts, rules, weights and models of both packages."""
+    roots = (Path(aegis_ot.__file__).parent, Path(__file__).parents[1])
+    kinds = (".py", ".json", ".md", ".onnx", ".npz")
+    return [path for root in roots for path in sorted(root.rglob("*")) if path.suffix in kinds]
+
+
 @cache
 def _digest_of_source() -> str:
-    root = Path(aegis_ot.__file__).parent
     digest = hashlib.sha256()
-    for path in sorted(root.rglob("*")):
-        if path.suffix in (".py", ".json", ".md", ".onnx", ".npz"):
-            digest.update(path.relative_to(root).as_posix().encode() + path.read_bytes())
+    for path in source_files():
+        digest.update(path.name.encode() + path.read_bytes())
     return digest.hexdigest()[:8]
 
 

@@ -20,6 +20,7 @@ from aegis_ot_lab.reproduction import (
     reproduction_json,
     runner,
 )
+from aegis_ot_lab.reproduction.context import source_files
 from aegis_ot_lab.reproduction.experiment import NOT_RUN, Picture, table
 from aegis_ot_lab.reproduction.paper import ROWS
 
@@ -152,3 +153,8 @@ def test_the_page_says_what_each_figure_stands_on(tmp_path: Path) -> None:
         "A note.", "data:image/png;base64,",
     ):  # fmt: skip
         assert shown in page
+
+
+def test_a_result_is_kept_for_the_code_of_both_packages() -> None:
+    made_by = {path.parent.name + "/" + path.name for path in source_files()}
+    assert {"vision/monitor.py", "reproduction/live.py", "drawing/plans.py"} <= made_by
