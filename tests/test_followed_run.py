@@ -170,3 +170,18 @@ def test_what_came_before_the_guard_belongs_to_neither():
     run = played(text)
     assert run.status == "succeeded"
     assert "Layer 1: pass" in comments(run)[-1]
+
+
+def test_an_error_pauses_a_watched_run_where_its_page_can_answer():
+    with FakeSidecar() as sidecar:
+        settings = f'assay="pcr", sidecar="{sidecar.url}", run_id="run"'
+        run = LiveRun(protocol(SHARES_A_TIP, settings)).start()
+        run.play()
+        run.wait_for_status("paused", 30)
+        asked = [one for one in sidecar.holds if one["resolution"] == "layer1"]
+        assert [one["policy"] for one in asked] == ["pause"]
+        run.play()
+        run.join()
+        last = [one for one in sidecar.holds if one["resolution"] == "layer1"][-1]
+    assert run.status == "succeeded"
+    assert last["answered"] == "robot"

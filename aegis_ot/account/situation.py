@@ -22,6 +22,10 @@ _DOES = {
 }
 
 
+_BREAKS = (
+    "What it does next was not rehearsed, and breaks a rule; the run log has the finding. Resume "
+    "to do it all the same, or stop the run."
+)
 _UNSERVED = {
     "camera": (
         "no frame",
@@ -146,6 +150,9 @@ def _paused(overview: Mapping[str, Any]) -> Iterator[Situation]:
             who = _who_paused(overview)
             text = f"{who} paused it from this page.{told}"
             yield Situation("paused", "The robot is paused", text, *where)
+            continue
+        if hold["resolution"] == "layer1":
+            yield Situation("paused", "The robot is paused by Layer 1", f"{_BREAKS}{told}", *where)
             continue
         if hold["resolution"] in _UNSERVED:
             what, text = _UNSERVED[hold["resolution"]]

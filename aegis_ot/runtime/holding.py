@@ -197,6 +197,18 @@ class Holding:
         )
         return time.monotonic() - began
 
+    def pause(self, number: int, text: str) -> None:
+        """Layer 1 has found an error in what comes next: wait for a person, on the page too.
+
+        Args:
+            number: Trajectory at which the robot stands.
+            text: What there is to say.
+
+        Raises:
+            RunAborted, Stopping: The person ends the run.
+        """
+        self._pause(number, text, self._courier.report_hold(number, 0.0, "layer1", "pause"))
+
     def _end(self, text: str) -> NoReturn:
         """Stop as the App's button does; where nobody can, by an error."""
         if can_be_resumed() and act_on_current_run("stop"):

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any, Protocol
 
 from ..errors import RunAborted
 from ..instrumentation import Event, Operation
 from ..settings import Settings
-from .operator import Operator
+from .operator import Operator, no_news
 from .refusal import refuse_everything
 from .runstate import RunState
 from .stopping import Stopping, Waits
@@ -31,8 +32,16 @@ class Hands(Protocol):
         """The run does otherwise than its rehearsal."""
 
 
-def object_to(text: str, settings: Settings, operator: Operator) -> None:
+def object_to(
+    text: str, settings: Settings, operator: Operator, on_page: Callable[[str], None] | None = None
+) -> None:
     """Pause, go on or end the run, as ``on_fail`` says.
+
+    Args:
+        text: What is about to be done, and which rule it breaks.
+        settings: In force.
+        operator: Asked, or told.
+        on_page: Pauses in a way that the sidecar's page can answer, where there is one.
 
     Raises:
         RunAborted: The policy, or the operator, ends the run.
@@ -40,18 +49,19 @@ def object_to(text: str, settings: Settings, operator: Operator) -> None:
     """
     if settings.on_fail == "continue":
         operator.comment(f"{text} The run goes on, as configured.")
-    elif settings.on_fail == "abort":
+        return
+    if settings.on_fail == "abort":
         raise RunAborted(f"{text} The run ends here, as configured.")
+    paused = f"{text} Paused before that. Resume to do it all the same, or cancel the run."
+    if on_page is not None:
+        on_page(paused)
     elif not operator.can_be_answered:
         raise RunAborted(
             f"{text} The run ends here: nobody can answer a pause in this program "
             '(on_fail="continue" lets it go on).'
         )
     else:
-        operator.pause(
-            f"{text} Paused before that. Resume to do it all the same, or cancel the run.",
-            lambda: None,
-        )
+        operator.pause(paused, no_news)
 
 
 class Bystander:

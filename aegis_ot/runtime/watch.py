@@ -153,7 +153,13 @@ class Watcher:
         Raises:
             RunAborted: The policy, or the operator, ends the run.
         """
-        self._stoppable(lambda: object_to(text, self._settings, self._operator))
+        line, number = self._line, max(0, self._tracker.trajectories - 1)
+
+        def on_page(paused: str) -> None:
+            self._connected().holding.pause(number, paused)
+
+        ask = on_page if line is not None and not self._simulating else None
+        self._stoppable(lambda: object_to(text, self._settings, self._operator, ask))
 
     def tell_difference(self, text: str) -> None:
         """The run does otherwise than its rehearsal: the sidecar's page says so at once."""

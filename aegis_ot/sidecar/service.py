@@ -30,7 +30,7 @@ from .messages import compose
 from .notices import Notice
 from .notifications import Message, Notifier
 from .overview import run_overview
-from .sessions import OPERATOR, UNSERVED, Session
+from .sessions import LAYER1, OPERATOR, UNSERVED, Session
 from .store import Store
 from .wire import Finish, Hold, Recovery, RunStart, WireError
 
@@ -178,6 +178,8 @@ class Sidecar:
             what, seen = "a hold ended without a verdict", f"After {hold.seconds:.1f} s: "
             if hold.resolution in UNSERVED:
                 what, seen = "the robot is paused", "It was not served: "
+            elif hold.resolution == LAYER1:
+                what, seen = "the robot is paused", "What it does next breaks a rule: "
             seen += f"{hold.resolution}{policy}."
             self.tell(Notice(run, "hold", what, seen, hold.trajectory))
 

@@ -32,6 +32,7 @@ raises CameraError."""
 
 
 UNSERVED = ("camera", "busy", "link")
+LAYER1 = "layer1"
 """Resolutions of a pause that began because the robot was not served."""
 OPERATOR = "operator"
 """Resolution of a hold that a person ordered."""
@@ -200,7 +201,7 @@ class Session:
         """The robot says how a hold ended: by a pause, if the operator is to look at the well."""
         with self._state:
             self._known.add(hold.trajectory)
-            if hold.resolution in (OPERATOR, *UNSERVED):
+            if hold.resolution in (OPERATOR, LAYER1, *UNSERVED):
                 self._orders.taken()
                 return
             verdict = self._verdicts.get(hold.trajectory)

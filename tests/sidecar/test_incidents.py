@@ -115,3 +115,10 @@ def test_a_run_that_is_not_as_rehearsed_is_trouble_until_it_ends(robot: Robot) -
     report = robot.http.get(f"/runs/{robot.run}/report.html").text
     assert "Not as rehearsed." in report
     assert "No findings" not in report
+
+
+def test_a_pause_of_layer_1_is_shown_as_one(robot: Robot) -> None:
+    robot.cycle(0)
+    hold = {"number": 0, "trajectory": 0, "seconds": 0.0, "resolution": "layer1", "policy": "pause"}
+    assert robot.post("hold", hold).status_code == 200
+    assert "The robot is paused by Layer 1" in robot.http.get(f"/runs/{robot.run}").text
