@@ -187,3 +187,11 @@ class TestTopLevel:
             exec(compile(cell, "<ipython-input-0>", "exec"), names)
         with pytest.raises(Exception, match="a new run needs a new one"):
             exec(compile("protocol.home()", "<ipython-input-1>", "exec"), names)
+
+    def test_pooling_is_no_error_half_way(self):
+        pooled = (
+            'samples = plate.columns()[0][:3]\np300.transfer(30, samples, plate["A3"])\n'
+            'p300.transfer(40, plate["A3"], plate["A5"])\n'
+        )
+        told = in_cells(SETUP.format(settings=', on_fail="abort"') + pooled)
+        assert "judged as it ran" in told[-1]

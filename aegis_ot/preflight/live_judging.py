@@ -83,6 +83,7 @@ class LiveJudge:
         self._recorder = recorder
         self._rehearsal = rehearsal
         self._head = plan.head if plan else 0
+        self._plans = plan is not None and bool(plan.steps)
         self._comparison = None if plan is None else Comparison(plan.steps)
         self._told: set[tuple[str, tuple[int, ...]]] = set()
         self._spent_s = self._last_s = 0.0
@@ -154,14 +155,19 @@ class LiveJudge:
         now = self._around.labware()
         report = self._judged(log, now, so_far=True)
         errors = errors_of(report) if report else []
-        if errors and self._rehearsal is not None and self._knows_its_labware():
-            # What looks wrong now may be what the protocol is about: pooling, say. The rest of
-            # the plan shows it.
+        # What looks wrong now may be what the protocol is about: pooling, say. The rest of the plan
+        # shows it; without one, such rules wait for the end.
+        if self._rehearsal is None or not self._plans or not self._knows_its_labware():
+            return [one for one in errors if not self._may_be_meant(one.rule)]
+        if errors:
             log += self._rehearsal.log[self._head :]
             whole = self._judged(log, {**self._rehearsal.labware, **now}, so_far=True)
             still = {(one.rule, one.lines) for one in errors_of(whole)} if whole else set()
             errors = [one for one in errors if (one.rule, one.lines) in still]
         return errors
+
+    def _may_be_meant(self, rule: str) -> bool:
+        return any(check.get("pooled") for check in self._database.rule(rule)[1].checks)
 
     def _log(self) -> list[Record]:
         """All that was done, from before the guard began on."""
