@@ -11,7 +11,7 @@ BUDGETS = {
     "aegis_ot_lab": 10_500,
     "aegis_ot/preflight": 10_500,
     "aegis_ot/vision": 12_600,
-    "aegis_ot/sidecar": 7_600,
+    "aegis_ot/sidecar": 7_700,
     "aegis_ot/runtime": 4_400,
 }
 """The aims: 50,000 for ``aegis_ot``, 9,500 for ``preflight``, 9,000 for ``vision``."""

@@ -44,7 +44,7 @@ class Situation:
 
     Attributes:
         kind: ``"paused"``, ``"ordered"``, ``"question"``, ``"holding"``, ``"camera"``, ``"store"``,
-            ``"notification"`` or ``"silent"``.
+            ``"unrecorded"``, ``"notification"`` or ``"silent"``.
         title: In a few words.
         text: What was seen.
         trajectory: The delivery that it is about; ``None`` for trouble.
@@ -85,6 +85,7 @@ def situations(overview: Mapping[str, Any], now: float) -> list[Situation]:
     for incident in overview.get("incidents") or ():
         if incident["ended"] is None:
             found.append(_trouble(incident))
+    found += _unrecorded(overview)
     silent = now - last_word(overview)
     if not found and silent > _SILENT_S:
         found.append(
@@ -95,6 +96,19 @@ def situations(overview: Mapping[str, Any], now: float) -> list[Situation]:
             )
         )
     return found
+
+
+def _unrecorded(overview: Mapping[str, Any]) -> Iterator[Situation]:
+    """What people said counts, but the store has no room for it."""
+    told = overview.get("unrecorded") or ()
+    if told:
+        what = ", ".join(f"{one['by']}: {one.get('action') or one['outcome']}" for one in told[-5:])
+        yield Situation(
+            "unrecorded",
+            "Not yet on record",
+            f"{what}. It counts already; the workstation's disk takes nothing now, and it is "
+            "written down as soon as there is room. Do not switch the workstation off before.",
+        )
 
 
 def doing(overview: Mapping[str, Any]) -> str:

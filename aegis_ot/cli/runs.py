@@ -146,7 +146,7 @@ def prune(
         raise ConfigurationError("--days and --gigabytes must be above 0.")
     store = open_data(data, alone=yes)
     settings = RetentionSettings(days=days, gigabytes=gigabytes)
-    done = tidy(store, settings, time.time(), pretend=not yes)
+    done = tidy(store, settings, store.ages_by_clock(time.time()), pretend=not yes)
     store.close()
     for name in done.removed:
         echo(name)

@@ -18,6 +18,8 @@ from ..http_client import CheckStop, HttpClient
 from ..vocabulary import Keyframe, Verdict, from_json, to_json
 
 WIRE_VERSION = 1
+_WAY_S = 0.5
+"""A request may be on its way for so long, s."""
 
 
 class RunUnknown(LinkError):
@@ -139,6 +141,8 @@ class SidecarLink:
         path = f"/v1/runs/{quote(keyframe.run, safe='')}/keyframes"
         if ago_s:
             path += f"?ago={ago_s:.4f}"
+        elif not keyframe.late:  # whoever waits for the answer stands still, but the way takes time
+            path += f"?stands={timeout_s - min(_WAY_S, timeout_s / 4):.3f}"
         answer = self._request("POST", path, to_json(keyframe), timeout_s)
         if answer.get("captured") is not True or answer.get("sequence") != keyframe.sequence:
             raise self._garbled(f"it did not acknowledge keyframe {keyframe.sequence}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import math
 import time
 from collections.abc import AsyncIterator
 from typing import Annotated, Any
@@ -150,14 +151,16 @@ def _robot_routes(app: FastAPI, sidecar: Sidecar) -> None:
         arrived: Annotated[float, Depends(_now)],
         request: Request,
         ago: Ago = 0.0,
+        stands: Within = None,
         start: Start = "",
     ) -> dict[str, Any]:
         keyframe = parse(Keyframe, await read_body(request))
         _must_match(run, keyframe.run)
         moment = arrived - ago
+        until = math.inf if stands is None else arrived + stands
         session = await run_in_threadpool(sidecar.session, run, start)
         try:
-            captured = await run_in_threadpool(session.capture, keyframe, moment)
+            captured = await run_in_threadpool(session.capture, keyframe, moment, until)
         except (CameraError, StoreError) as error:
             raise trouble_of(error, **_order(session)) from None
         return {

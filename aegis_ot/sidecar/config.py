@@ -165,9 +165,11 @@ class RetentionSettings(Section):
     """How long runs are kept; a run that has not ended is never removed.
 
     Attributes:
-        days: Remove runs that ended longer ago; ``None``: never.
+        days: Remove runs that ended longer ago, in days that the sidecar was at work; ``None``:
+            never.
         gigabytes: Remove the oldest runs while all frames take more; ``None``: never.
-        silent_h: A robot that said nothing for so long has ended its run without a word, h.
+        silent_h: A robot that said nothing for so long has ended its run without a word, in hours
+            that the sidecar was at work.
     """
 
     days: Annotated[float, Field(gt=0)] | None = None

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import sqlite3
 import threading
 from collections.abc import Iterator
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, Any, TypeVar
 
 from ..errors import StoreError
+from .frames import FRAMES
 from .schema import migrate
+
+T = TypeVar("T")
 
 DATABASE = "sidecar.sqlite"
 LOCK = "sidecar.lock"
@@ -35,6 +39,7 @@ class Database:
         self._held: IO[str] | None = None
         with self._plain_errors("open"):
             folder.mkdir(0o700, parents=True, exist_ok=True)
+            self._refuse_emptied()
             if alone:
                 _close_to_strangers(folder)
                 self._held = _hold(folder)
@@ -50,11 +55,31 @@ class Database:
             self._db.close()
         self._let_go()
 
+    def _refuse_emptied(self) -> None:
+        """An empty file is no new store where one was: opening it would throw the log away, too.
+
+        Raises:
+            StoreError: The database has 0 bytes, and the folder holds what belongs to one.
+        """
+        path = self.folder / DATABASE
+        if not path.is_file() or path.stat().st_size:
+            return
+        log, frames = path.with_name(f"{DATABASE}-wal"), self.folder / FRAMES
+        kept = next(frames.iterdir(), None) if frames.is_dir() else None
+        if kept is not None or (log.is_file() and log.stat().st_size):
+            raise StoreError(
+                f"The store {path} is empty (0 bytes), but there was one: frames or a log of it "
+                "are in the folder. Nothing was changed. Restore it from a backup, or move it away "
+                "to begin anew: the frames stay in their folder."
+            )
+
     def _open(self, alone: bool) -> sqlite3.Connection:
         with self._plain_errors("open"):
             db = sqlite3.connect(
                 self.folder / DATABASE, check_same_thread=False, isolation_level=None, timeout=5.0
             )
+            # What rots is one row's, and not an error of the whole table.
+            db.text_factory = lambda text: text.decode("utf-8", "replace")
             try:
                 db.execute("PRAGMA journal_mode = WAL")
                 # With the write-ahead log the database stays whole in a power cut.
@@ -92,6 +117,11 @@ class Database:
             yield
         except sqlite3.OperationalError as error:  # busy, full, read-only: not the file's fault
             raise self._trouble(what, error) from error
+        except sqlite3.ProgrammingError as error:
+            raise StoreError(
+                f"Cannot {what} the store in {self.folder}: {str(error).rstrip('.')}. A sidecar "
+                "that is being stopped closes it; nothing is damaged."
+            ) from error
         except sqlite3.DatabaseError as error:
             raise StoreError(
                 f"The store {self.folder / DATABASE} is damaged: {error}. Nothing was changed. "
@@ -114,6 +144,15 @@ def _close_to_strangers(folder: Path) -> None:
     version gave them. The group's rights stay as somebody has set them."""
     with contextlib.suppress(PermissionError):  # somebody else's folder: the administrator's choice
         folder.chmod(folder.stat().st_mode & 0o770)
+
+
+def readable(text: Any, kind: type[T]) -> T | None:
+    """JSON of the store; ``None`` where one row's is damaged."""
+    try:
+        value = json.loads(text)
+    except (TypeError, ValueError, RecursionError):
+        return None
+    return value if isinstance(value, kind) else None
 
 
 def _hold(folder: Path) -> IO[str]:

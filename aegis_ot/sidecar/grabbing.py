@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import math
 import threading
 import time
 from typing import Any
@@ -53,13 +54,16 @@ class Grabber:
             return Health(False, self._said)
         return health
 
-    def grab(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
+    def grab(
+        self, keyframe: Keyframe, moment: float, view: ViewWatch | None, until: float = math.inf
+    ) -> Frame:
         """The first frame exposed at or after a moment that tells something.
 
         Args:
             keyframe: What it is for.
             moment: ``time.monotonic``, s.
             view: Looks at each frame; ``None``: every one counts.
+            until: How long the robot surely stands still, ``time.monotonic``, s.
 
         Raises:
             CameraError: There is none in time.
@@ -67,7 +71,7 @@ class Grabber:
         try:
             with self._lock:
                 self._camera.announce(keyframe)
-                frame = self._usable(keyframe, moment, view)
+                frame = self._usable(keyframe, moment, view, until)
         except Exception as error:
             if not isinstance(error, AegisError):
                 log.exception("The camera failed")
@@ -90,12 +94,19 @@ class Grabber:
             self._troubles.over(keyframe.run, "camera")
         return frame
 
-    def _usable(self, keyframe: Keyframe, moment: float, view: ViewWatch | None) -> Frame:
+    def _usable(
+        self, keyframe: Keyframe, moment: float, view: ViewWatch | None, until: float
+    ) -> Frame:
         """A frame that tells something; a second one is taken before that is given up."""
         trouble = None
         for again in (True, False):
             frame = self._camera.frame_after(moment, self._timeout_s)
             _check_frame(frame, moment)
+            if frame.exposed_at > until:
+                raise CameraError(
+                    f"The camera's frame came {frame.exposed_at - until:.2f} s after the robot may "
+                    "have gone on: it is too slow."
+                )
             trouble = None if view is None else view.look(keyframe, frame.image, again=again)
             if trouble is None:
                 return frame

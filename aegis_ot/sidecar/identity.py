@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from datetime import datetime
 
 from .wire import RunStart, WireError
@@ -46,6 +47,7 @@ def _describe(start: RunStart) -> str:
     told = [start.protocol] if start.protocol else []
     if start.robot_name:
         told.append(f"on {start.robot_name}")
-    if start.started:
-        told.append(f"begun {datetime.fromtimestamp(start.started):%Y-%m-%d %H:%M:%S}")
+    with contextlib.suppress(ValueError, OverflowError, OSError):  # a moment that no calendar has
+        if start.started:
+            told.append(f"begun {datetime.fromtimestamp(start.started):%Y-%m-%d %H:%M:%S}")
     return ", ".join(told) or "of which its robot told nothing"

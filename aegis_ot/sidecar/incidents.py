@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from dataclasses import dataclass, field
+from typing import Any
 
 from ..errors import StoreError
 from .journal import event
@@ -34,6 +35,15 @@ class Incidents:
         if new:
             event("incident", run=run, kind=kind, seen=seen)
         return new
+
+    def waiting(self, run: str) -> list[dict[str, Any]]:
+        """Trouble that lasts and could not be kept, as :meth:`.Store.incidents` gives it."""
+        with self._lock:
+            return [
+                {"kind": kind, "text": seen, "at": at, "ended": None}
+                for (whose, kind), (seen, at) in self._waiting.items()
+                if whose == run
+            ]
 
     def end(self, run: str, kind: str) -> bool:
         """Trouble is over; whether there was any. Raises StoreError if that cannot be kept."""

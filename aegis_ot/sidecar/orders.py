@@ -57,22 +57,22 @@ class Orders:
                 "If it still moves, press stop on its own screen.",
             )
 
-    def order(self, order: Order) -> None:
+    def order(self, order: Order, at: float) -> None:
         """A robot that moves is to do this; the last order counts, a stop for good."""
         if not self._ending:
-            self.pending = order.model_dump() | {"at": time.time()}
+            self.pending = order.model_dump() | {"at": at}
 
     def taken(self) -> None:
         """The robot is paused, as it was told."""
         if not self._ending:
             self.pending = None
 
-    def answer(self, trajectory: int, action: Action) -> None:
+    def answer(self, trajectory: int, action: Action, at: float) -> None:
         """A robot that is paused at this trajectory is to do this. Who presses stop does not ask
         whether the robot is paused there still."""
         self._answers[trajectory] = time.monotonic(), action.model_dump()
         if action.action == "stop":
-            self.order(Order(action="stop", by=action.by, note=action.note))
+            self.order(Order(action="stop", by=action.by, note=action.note), at)
 
     def answered(self, trajectory: int, within_s: float | None) -> Told | None:
         """The last answer at this trajectory, unless it is older: then it was to another pause.

@@ -13,6 +13,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 
 from ..account import run_account
+from ..errors import StoreError
 from ..reports.audit_html import audit_html
 from ..reports.html_page import html_page, shared_file
 from ..reports.run_html import ReportedRun, report_run, run_report_html
@@ -137,6 +138,8 @@ def _answering(router: APIRouter, sidecar: Sidecar) -> None:
             return await _run_page(
                 sidecar, request, run, number, run_address(run), "run", error.message, error.status
             )
+        except StoreError as error:  # a person gets a page, never raw JSON
+            return _show(sidecar, "welcome.html", "live", 503, problem=str(error), token=False)
         response = RedirectResponse(back if back.startswith("/runs/") else "/", 303)
         response.set_cookie(NAME, by.encode().hex(), max_age=COOKIE_S, samesite="strict")
         return response

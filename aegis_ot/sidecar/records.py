@@ -6,8 +6,8 @@ import json
 import time
 from typing import Any
 
-from ..vocabulary import Verdict, from_json, to_json
-from .database import Database
+from ..vocabulary import Outcome, Route, Verdict, from_json, to_json
+from .database import Database, readable
 from .wire import Action, Decision, Hold, Order, Recovery
 
 OF_A_RUN = (
@@ -51,8 +51,8 @@ class Records(Database):
         rows = self._read("SELECT * FROM verdicts WHERE run = ? ORDER BY trajectory", run)
         return [
             (
-                from_json(Verdict, json.loads(row["verdict"])),
-                json.loads(row["evidence"]),
+                _verdict(run, row["trajectory"], row["verdict"]),
+                readable(row["evidence"], dict) or {},
                 row["judged"],
             )
             for row in rows
@@ -76,7 +76,9 @@ class Records(Database):
         over those without a verdict are undecided.
         """
         rows = self._read(
-            "SELECT CASE WHEN d.outcome IS NULL AND json_array_length(v.verdict, '$.channels') > 0 "
+            "SELECT CASE WHEN d.outcome IS NULL AND NOT json_valid(v.verdict) THEN 'undecided' "
+            "WHEN NOT json_valid(v.verdict) THEN d.outcome "
+            "WHEN d.outcome IS NULL AND json_array_length(v.verdict, '$.channels') > 0 "
             "AND NOT EXISTS (SELECT 1 FROM json_each(v.verdict, '$.channels') c "
             "WHERE json_extract(c.value, '$.outcome') <> 'unobserved') THEN 'unobserved' "
             "WHEN coalesce(d.outcome, json_extract(v.verdict, '$.outcome')) = 'fail' "
@@ -98,7 +100,7 @@ class Records(Database):
         )
         return found | ({"undecided": found.get("undecided", 0) + open_} if open_ else {})
 
-    def add_hold(self, run: str, hold: Hold) -> None:
+    def add_hold(self, run: str, hold: Hold, at: float | None = None) -> None:
         """Keep how long the robot held; the last word on each hold counts."""
         self._write(
             "INSERT OR REPLACE INTO holds (run, number, trajectory, seconds, resolution, policy, "
@@ -112,7 +114,7 @@ class Records(Database):
                 hold.policy,
                 hold.paused_s,
                 hold.answered,
-                time.time(),
+                time.time() if at is None else at,
             ),
         )
 
@@ -144,12 +146,21 @@ class Records(Database):
         """Failed deliveries whose well was put right in the end, failed attempts included."""
         return {trajectory for (trajectory,) in self._read(_PUT_RIGHT, run)}
 
-    def add_decision(self, run: str, trajectory: int, decision: Decision) -> None:
+    def add_decision(
+        self, run: str, trajectory: int, decision: Decision, at: float | None = None
+    ) -> None:
         """Keep the operator's decision; every one is kept, the last one counts."""
         self._write(
             'INSERT INTO decisions (run, trajectory, outcome, "by", note, at) '
             "VALUES (?, ?, ?, ?, ?, ?)",
-            (run, trajectory, decision.outcome.value, decision.by, decision.note, time.time()),
+            (
+                run,
+                trajectory,
+                decision.outcome.value,
+                decision.by,
+                decision.note,
+                time.time() if at is None else at,
+            ),
         )
 
     def decisions(self, run: str) -> dict[int, list[dict[str, Any]]]:
@@ -161,12 +172,21 @@ class Records(Database):
             )
         return found
 
-    def add_action(self, run: str, trajectory: int, action: Action | Order) -> None:
+    def add_action(
+        self, run: str, trajectory: int, action: Action | Order, at: float | None = None
+    ) -> None:
         """Keep what a person told the robot to do."""
         self._write(
             'INSERT INTO actions (run, trajectory, action, "by", note, at) '
             "VALUES (?, ?, ?, ?, ?, ?)",
-            (run, trajectory, action.action, action.by, action.note, time.time()),
+            (
+                run,
+                trajectory,
+                action.action,
+                action.by,
+                action.note,
+                time.time() if at is None else at,
+            ),
         )
 
     def actions(self, run: str) -> list[dict[str, Any]]:
@@ -186,7 +206,7 @@ class Records(Database):
     def audit(self, run: str) -> dict[str, Any] | None:
         """What the look back at a run found; ``None`` before there was one."""
         rows = self._read("SELECT audit FROM audits WHERE run = ?", run)
-        return json.loads(rows[0]["audit"]) if rows else None
+        return readable(rows[0]["audit"], dict) if rows else None
 
     def begin_incident(self, run: str, kind: str, text: str) -> bool:
         """Keep that trouble began; whether it is new, and not the one that goes on."""
@@ -219,3 +239,12 @@ class Records(Database):
         names = ("kind", "text", "at", "ended")
         rows = self._read("SELECT * FROM incidents WHERE run = ? ORDER BY id", run)
         return [{name: row[name] for name in names} for row in rows]
+
+
+def _verdict(run: str, trajectory: int, text: Any) -> Verdict:
+    """A record that is damaged is no pass."""
+    try:
+        return from_json(Verdict, json.loads(text))
+    except (TypeError, ValueError):
+        why = "The record of its verdict is damaged; please look at the frames."
+        return Verdict(run, trajectory, Outcome.UNDECIDED, Route.UNCALIBRATED, reason=why)

@@ -79,6 +79,12 @@ MIGRATIONS: tuple[str, ...] = (
         answered, at FROM one_hold_each;
     DROP TABLE one_hold_each;
     """,
+    # Ages are counted in the sidecar's own time at work: a clock that is set removes nothing.
+    """
+    CREATE TABLE at_work (seconds REAL NOT NULL);
+    INSERT INTO at_work VALUES (0.0);
+    ALTER TABLE runs ADD COLUMN heard REAL NOT NULL DEFAULT 0.0;
+    """,
 )
 """One script per version, ``user_version`` counting those done. Only ever append."""
 

@@ -14,7 +14,6 @@ from ..errors import StoreError
 from ..vision.camera import Camera
 from ..vision.types import Detector
 from ..vision.view import ViewWatch
-from ..vocabulary import to_json
 from .aiming import Aim
 from .analysis import Analyser
 from .auditing import Auditor, Audits
@@ -90,7 +89,9 @@ class Sidecar:
         self._audits = None
         if auditor is not None and config.audit:
             self._audits = Audits(auditor, self.store, self._settled, self.bell.ring)
-        self._housekeeper = Housekeeper(self.store, config.retention, self._tidied)
+        self._housekeeper = Housekeeper(
+            self.store, config.retention, self._tidied, self._heard_within
+        )
 
     def register(self, start: RunStart) -> str:
         """A run starts, or the robot says again that it has.
@@ -166,11 +167,8 @@ class Sidecar:
 
     def hold(self, run: str, hold: Hold) -> None:
         """Keep how a hold ended. People hear of it unless a verdict, or they, ended it."""
-        self.store.add_hold(run, hold)
         watched = (self.store.run(run) or {}).get("mode") == "watch"
-        if not watched or hold.resolution == OPERATOR:  # there keyframes come in a pause
-            self.session(run).held(hold)
-        self.bell.ring()
+        self.session(run).held(hold, watched)
         event("hold", run=run, **hold.model_dump())
         expected = hold.resolution in ("verdict", "stopped", OPERATOR)
         if not expected and hold.paused_s is None:
@@ -220,11 +218,10 @@ class Sidecar:
     def finish(self, run: str, finish: Finish) -> None:
         """Keep how the run ended."""
         session = self.session(run)  # after a restart: judges what had not been judged
-        self.store.finish(run, finish)
-        if finish.layer1 is not None:
-            self.store.add_layer1(run, finish.layer1.model_dump())
-        self._incidents.end(run, "layer1")
-        session.catch_up()
+        session.ended(finish)
+        with contextlib.suppress(StoreError):
+            self._incidents.end(run, "layer1")
+            session.catch_up()
         event("finish", run=run, outcome=finish.outcome, detail=finish.detail)
         self._look_back(run)
         self.bell.ring()
@@ -238,7 +235,10 @@ class Sidecar:
         version = self.bell.rings
         self.require(run)
         session = self._sessions.get(run)
-        overview = run_overview(self.store, run, session is not None and not session.idle)
+        waiting = None if session is None else session.unrecorded
+        at_work = session is not None and not session.idle
+        overview = run_overview(self.store, run, at_work, waiting)
+        overview["incidents"] += self._incidents.waiting(run)
         overview["order"] = None if session is None else session.ordered()
         for trajectory in overview["trajectories"]:
             number = trajectory["trajectory"]
@@ -246,11 +246,6 @@ class Sidecar:
             trajectory["awaiting"] = "operator" if waits else None
             trajectory["awaiting_s"] = session.operator_has(number) if session and waits else None
             trajectory["held_for_s"] = session.held_for(number) if session else None
-            if session is not None and trajectory["verdict"] is None:
-                # Judged, but the store could not keep it.
-                verdict = session.verdict(number)
-                if verdict is not None:
-                    trajectory |= {"verdict": to_json(verdict), "unjudged": None}
         return overview | {"version": version}
 
     def camera_health(self) -> Health:
@@ -276,11 +271,16 @@ class Sidecar:
         if run in self._met:
             return
         self._met.add(run)
-        for kind in ("camera", "store", "model"):  # of an earlier process; what goes on begins anew
-            self.store.end_incidents(run, kind)
-        row = self.store.run(run)
-        if row is not None and not row["finished"] and self.store.next_sequence(run):
-            self._incidents.note(run, "restart", "The sidecar was started anew within this run.")
+        with contextlib.suppress(StoreError):  # a full disk must not keep people from their run
+            for kind in ("camera", "store", "model"):  # of an earlier process
+                self.store.end_incidents(run, kind)
+            row = self.store.run(run)
+            if row is not None and not row["finished"] and self.store.next_sequence(run):
+                self._incidents.note(run, "restart", "The sidecar was started anew in this run.")
+
+    def _heard_within(self, seconds: float) -> list[str]:
+        since = time.monotonic() - seconds
+        return [run for run, session in list(self._sessions.items()) if session.asked > since]
 
     def _tidied(self, done: Tidied) -> None:
         for run in done.removed:
@@ -315,7 +315,7 @@ class Sidecar:
             return
         now = time.monotonic()
         for run, session in list(self._sessions.items()):
-            if not session.idle or now - session.asked < EMPTY_S:
+            if not session.idle or session.unrecorded or now - session.asked < EMPTY_S:
                 continue
             if session.empty or now - session.asked > SILENT_S or self._has_ended(run):
                 session.close()

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 import logging
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -21,14 +23,15 @@ from .orders import Orders
 from .overview import run_overview
 from .run_trouble import RunTrouble, Troubles
 from .store import SILENT, Captured, Store
-from .wire import Action, Decision, Hold, Order, WireError
+from .unrecorded import Record, Unrecorded
+from .wire import Action, Decision, Finish, Hold, Order, WireError
 from .worker import AnalysisWorker
 
 log = logging.getLogger(__name__)
 
-Grab = Callable[[Keyframe, float, ViewWatch | None], Frame]
-"""Grabs the first frame exposed at or after a moment, in which the view shows what it should;
-raises CameraError."""
+Grab = Callable[[Keyframe, float, ViewWatch | None, float], Frame]
+"""Grabs the first frame exposed at or after a moment and before another, in which the view shows
+what it should; raises CameraError."""
 
 
 UNSERVED = ("camera", "busy", "link")
@@ -73,7 +76,7 @@ class Session:
         self._bell = bell
         self._grab = grab
         self._trouble = RunTrouble(run, troubles)
-        self._unkept: list[tuple[Verdict, dict[str, Any]]] = []
+        self.unrecorded = Unrecorded(lambda why: self._trouble.begins("store", str(why)), bell.ring)
         self._operator_timeout = operator_timeout
         self._view = view
         self._capturing = threading.Lock()
@@ -107,12 +110,13 @@ class Session:
         """Whether nothing was captured yet: then the store alone knows all of it."""
         return self._next == 0
 
-    def capture(self, keyframe: Keyframe, moment: float) -> Captured:
+    def capture(self, keyframe: Keyframe, moment: float, until: float = math.inf) -> Captured:
         """Take the frame for a keyframe, keep both, and queue them for the analyser.
 
         Args:
             keyframe: From the robot.
             moment: When the request arrived, ``time.monotonic``, s.
+            until: How long the robot surely stands still, likewise.
 
         Returns:
             What was kept, now or when the same keyframe came before.
@@ -134,7 +138,7 @@ class Session:
                     "Resend from the expected number.",
                     expected=self._next,
                 )
-            frame = self._grab(keyframe, moment, self._view)
+            frame = self._grab(keyframe, moment, self._view, until)
             captured = Captured(keyframe, max(0.0, frame.exposed_at - moment), time.time())
             try:
                 if frame.simulated:
@@ -197,17 +201,42 @@ class Session:
         self._worker.drop(trajectory)
         self._bell.ring()
 
-    def held(self, hold: Hold) -> None:
-        """The robot says how a hold ended: by a pause, if the operator is to look at the well."""
+    def held(self, hold: Hold, watched: bool) -> None:
+        """The robot says how a hold ended: by a pause, if the operator is to look at the well.
+
+        Args:
+            hold: What it says.
+            watched: Whether the run carries no guard: its keyframes come in a pause, too.
+        """
         with self._state:
             self._known.add(hold.trajectory)
+            verdict = self._verdicts.get(hold.trajectory)
+            unsure = verdict is not None and verdict.outcome is Outcome.UNDECIDED
             if hold.resolution in (OPERATOR, LAYER1, *UNSERVED):
                 self._orders.taken()
-                return
-            verdict = self._verdicts.get(hold.trajectory)
-            undecided = verdict is not None and verdict.outcome is Outcome.UNDECIDED
-            if hold.policy == "pause" and undecided:
+            elif hold.policy == "pause" and unsure and not watched:
                 self._paused.add(hold.trajectory)
+        at = time.time()
+        row = hold.model_dump() | {"at": at}
+        self._keep("hold", row, lambda: self._store.add_hold(self.run, hold, at))
+
+    def ended(self, finish: Finish) -> None:
+        """The robot says how its run ended."""
+        at = time.time()
+
+        def write() -> None:
+            self._store.finish(self.run, finish, at)
+            if finish.layer1 is not None:
+                self._store.add_layer1(self.run, finish.layer1.model_dump())
+
+        row = {"at": at, "outcome": finish.outcome, "detail": finish.detail}
+        self._keep("end", row, write)
+
+    def _keep(self, kind: str, row: dict[str, Any], write: Callable[[], object]) -> None:
+        """It counts already. People hear of it at once, the store when it can take it."""
+        self._bell.ring()
+        self.unrecorded.keep(Record(kind, row, write))
+        self._bell.ring()
 
     def _resumed(self) -> None:
         """The robot moves: whoever was asked by a pause has looked, and let the run go on."""
@@ -228,12 +257,15 @@ class Session:
             verdict = self._verdicts.get(trajectory) or self._give_up(trajectory)
             if verdict is None:
                 raise WireError(409, "no_verdict", f"Trajectory {trajectory} has no verdict yet.")
-            self._store.add_decision(self.run, trajectory, decision)
-            self._decisions = self._store.decisions(self.run)
-            decided = effective(verdict, self._decisions[trajectory])
+            at = time.time()
+            row = _row_of(decision, at)
+            decided_so_far = self._decisions.setdefault(trajectory, [])
+            decided_so_far.append(row)
+            decided = effective(verdict, decided_so_far)
         if decision.outcome is Outcome.PASS and verdict.outcome is Outcome.UNDECIDED:
             self._worker.confirm(trajectory)
-        self._bell.ring()
+        write = functools.partial(self._store.add_decision, self.run, trajectory, decision, at)
+        self._keep("decision", row | {"trajectory": trajectory}, write)
         event("decision", run=self.run, trajectory=trajectory, outcome=decision.outcome.value,
               by=decision.by)  # fmt: skip
         return decided
@@ -247,11 +279,12 @@ class Session:
         """
         self._require_known(trajectory)
         self._require_running()
+        at = time.time()
         with self._state:
             self._orders.require_going_on(action)
-            self._store.add_action(self.run, trajectory, action)
-            self._orders.answer(trajectory, action)
-        self._bell.ring()
+            self._orders.answer(trajectory, action, at)
+        write = functools.partial(self._store.add_action, self.run, trajectory, action, at)
+        self._keep("action", _row_of(action, at) | {"trajectory": trajectory}, write)
         event("action", run=self.run, trajectory=trajectory, action=action.action, by=action.by)
 
     def order(self, order: Order) -> None:
@@ -261,11 +294,12 @@ class Session:
             WireError: 409 if the run has ended, or is to end.
         """
         self._require_running()
+        at, trajectory = time.time(), self._at
         with self._state:
             self._orders.require_going_on(order)
-            self._store.add_action(self.run, self._at, order)
-            self._orders.order(order)
-        self._bell.ring()
+            self._orders.order(order, at)
+        write = functools.partial(self._store.add_action, self.run, trajectory, order, at)
+        self._keep("action", _row_of(order, at) | {"trajectory": trajectory}, write)
         event("action", run=self.run, action=order.action, by=order.by)
 
     def action(self, trajectory: int, within_s: float | None = None) -> dict[str, Any] | None:
@@ -282,6 +316,7 @@ class Session:
     def close(self) -> None:
         """End the worker. Idempotent."""
         self._worker.close()
+        self.unrecorded.close()
 
     def _require_known(self, trajectory: int) -> None:
         if trajectory not in self._known:
@@ -293,7 +328,8 @@ class Session:
             )
 
     def _require_running(self) -> None:
-        ended = (self._store.run(self.run) or {}).get("finished")
+        known = (self._store.run(self.run) or {}).get("finished")
+        ended = next(iter(self.unrecorded.rows("end")), known)
         if ended and ended["outcome"] != SILENT:  # such a robot may stand in a pause still
             raise WireError(
                 409,
@@ -362,12 +398,9 @@ class Session:
         with self._state:
             if verdict.trajectory in self._late:
                 verdict = undecided(self.run, verdict.trajectory, tell_late())
-        try:
-            self._store.add_verdict(verdict, evidence)
-        except StoreError as error:
-            log.error("The verdict on trajectory %d was not kept: %s", verdict.trajectory, error)
-            self._unkept.append((verdict, evidence))
-            self._trouble.begins("store", str(error))
+        row = {"verdict": verdict, "evidence": evidence, "at": time.time()}
+        write = functools.partial(self._store.add_verdict, verdict, evidence)
+        self.unrecorded.keep(Record("verdict", row, write))
         with self._state:
             self._verdicts[verdict.trajectory] = verdict
             if verdict.outcome is Outcome.UNDECIDED and self._operator_timeout > 0:
@@ -386,7 +419,10 @@ class Session:
 
     def catch_up(self) -> None:
         """The store takes what is written again: keep what it could not."""
-        while self._unkept and self._trouble.lasts("store"):
-            self._store.add_verdict(*self._unkept[0])
-            del self._unkept[0]
+        self.unrecorded.write()
         self._trouble.is_over("store")
+
+
+def _row_of(told: Decision | Action | Order, at: float) -> dict[str, Any]:
+    """What a person said, as the store gives it back."""
+    return told.model_dump(mode="json") | {"at": at}

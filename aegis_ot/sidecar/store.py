@@ -12,7 +12,7 @@ import dataclasses
 import json
 import sqlite3
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,7 +20,7 @@ from typing import Any
 from ..errors import StoreError
 from ..vision.camera import SIMULATED_KINDS
 from ..vocabulary import Keyframe, from_json, to_json
-from .database import DATABASE
+from .database import DATABASE, readable
 from .frames import FrameFiles, folder_name
 from .records import OF_A_RUN, Records
 from .wire import Finish, RunStart
@@ -67,6 +67,7 @@ class Store(Records):
 
     def __init__(self, folder: Path, alone: bool = False) -> None:
         super().__init__(folder, alone)
+        self._counted = time.monotonic()
         with self._plain_errors("open"):
             self._frames = FrameFiles(folder)
 
@@ -88,11 +89,12 @@ class Store(Records):
             start.model_dump_json(),
             time.time(),
             json.dumps(sidecar),
+            self.at_work(),
         )
         return bool(
             self._write(
-                "INSERT INTO runs (run, folder, start, registered, sidecar) "
-                "VALUES (?, ?, ?, ?, ?) ON CONFLICT (run) DO NOTHING",
+                "INSERT INTO runs (run, folder, start, registered, sidecar, heard) "
+                "VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT (run) DO NOTHING",
                 row,
             )
         )
@@ -120,11 +122,16 @@ class Store(Records):
     def start_of(self, run: str) -> RunStart | None:
         """What its robot said when the run registered; ``None`` if it never did."""
         rows = self._read("SELECT start FROM runs WHERE run = ?", run)
-        return RunStart.model_validate_json(rows[0]["start"]) if rows else None
+        if not rows:
+            return None
+        try:
+            return RunStart.model_validate_json(rows[0]["start"])
+        except ValueError:  # damaged: no start is the same
+            return RunStart(run=run)
 
-    def finish(self, run: str, finish: Finish) -> None:
+    def finish(self, run: str, finish: Finish, at: float | None = None) -> None:
         """Keep how a run ended; the last word counts."""
-        self._end(run, finish.outcome, finish.detail)
+        self._end(run, finish.outcome, finish.detail, at)
 
     def close_silent(self, run: str, detail: str) -> None:
         """Close a run that ended without a word."""
@@ -138,10 +145,10 @@ class Store(Records):
             (run, SILENT),
         )
 
-    def _end(self, run: str, outcome: str, detail: str) -> None:
+    def _end(self, run: str, outcome: str, detail: str, at: float | None = None) -> None:
         self._write(
-            "UPDATE runs SET finished = ?, outcome = ?, detail = ? WHERE run = ?",
-            (time.time(), outcome, detail, run),
+            "UPDATE runs SET finished = ?, outcome = ?, detail = ?, heard = ? WHERE run = ?",
+            (time.time() if at is None else at, outcome, detail, self.at_work(), run),
         )
 
     def runs(self, search: str = "", most: int = -1, skip: int = 0) -> list[dict[str, Any]]:
@@ -166,7 +173,7 @@ class Store(Records):
             _run_row(row)
             | {
                 "keyframes": row["keyframes"],
-                "wells": self.outcomes(json.loads(row["start"])["run"]),
+                "wells": self.outcomes(row["run"]),
             }
             for row in rows
         ]
@@ -176,16 +183,33 @@ class Store(Records):
         rows = self._read(f"{_ROW} FROM runs r WHERE r.run = ?", run)
         return _run_row(rows[0]) if rows else None
 
-    def last_words(self) -> dict[str, float]:
-        """When each unfinished run was last heard of, seconds since the epoch."""
-        rows = self._read(
-            "SELECT r.run, max(r.registered, "
-            "coalesce((SELECT max(captured) FROM keyframes k WHERE k.run = r.run), 0), "
-            "coalesce((SELECT max(at) FROM holds h WHERE h.run = r.run), 0), "
-            "coalesce((SELECT max(at) FROM actions a WHERE a.run = r.run), 0)) AS heard "
-            "FROM runs r WHERE r.finished IS NULL"
-        )
-        return {row["run"]: row["heard"] for row in rows}
+    def unfinished(self) -> list[str]:
+        """Runs that have not ended."""
+        return [run for (run,) in self._read("SELECT run FROM runs WHERE finished IS NULL")]
+
+    def ages(self) -> dict[str, float]:
+        """For how long sidecars were at work on this store since each run ended, or since its
+        robot was heard of, s. Wall clocks do not count: they are set, and some begin in 1970."""
+        now = self.at_work()
+        return {run: now - heard for run, heard in self._read("SELECT run, heard FROM runs")}
+
+    def ages_by_clock(self, now: float) -> dict[str, float]:
+        """Likewise by the wall clock, seconds since the epoch; for a person who looks at it."""
+        rows = self._read("SELECT run, coalesce(finished, registered) FROM runs")
+        return {run: now - at for run, at in rows}
+
+    def at_work(self) -> float:
+        """For how long sidecars were at work on this store, s."""
+        ((seconds,),) = self._read("SELECT seconds FROM at_work")
+        return float(seconds) + time.monotonic() - self._counted
+
+    def count_time(self, heard: Iterable[str]) -> None:
+        """Keep for how long that was until now, and that these runs' robots are there still."""
+        now = self.at_work()
+        self._write("UPDATE at_work SET seconds = ?", (now,))
+        self._counted = time.monotonic()
+        for run in heard:
+            self._write("UPDATE runs SET heard = ? WHERE run = ? AND finished IS NULL", (now, run))
 
     def size(self, run: str) -> int:
         """What a run's frames take on the disk, bytes."""
@@ -229,12 +253,17 @@ class Store(Records):
     def keyframe(self, run: str, sequence: int) -> Captured | None:
         """What was kept under this number, or ``None``."""
         rows = self._read("SELECT * FROM keyframes WHERE run = ? AND sequence = ?", run, sequence)
-        return _captured(rows[0]) if rows else None
+        if not rows:
+            return None
+        captured = _captured(rows[0])
+        if captured is None:
+            raise StoreError(f"The record of keyframe {sequence} of run {run!r} is damaged.")
+        return captured
 
     def keyframes(self, run: str) -> list[Captured]:
         """All keyframes of a run in order."""
         rows = self._read("SELECT * FROM keyframes WHERE run = ? ORDER BY sequence", run)
-        return [_captured(row) for row in rows]
+        return [captured for row in rows if (captured := _captured(row)) is not None]
 
     def told_keyframes(self, run: str) -> list[dict[str, Any]]:
         """All keyframes of a run in order as plain JSON, with ``captured`` and
@@ -243,9 +272,10 @@ class Store(Records):
         rows = self._read("SELECT * FROM keyframes WHERE run = ? ORDER BY sequence", run)
         return [
             LEFT_OUT
-            | json.loads(row["keyframe"])
+            | told
             | {"captured": row["captured"], "exposed_after_s": row["exposed_after_s"]}
             for row in rows
+            if (told := readable(row["keyframe"], dict)) is not None
         ]
 
     def next_sequence(self, run: str) -> int:
@@ -298,32 +328,39 @@ class Store(Records):
 
 
 _SEARCHED = (
-    "lower(r.run || ' ' || json_extract(r.start, '$.protocol') || ' ' || "
-    "json_extract(r.start, '$.robot') || ' ' || "
-    "coalesce(json_extract(r.start, '$.robot_name'), '') || ' ' || "
+    "lower(r.run || ' ' || CASE WHEN json_valid(r.start) THEN "
+    "coalesce(json_extract(r.start, '$.protocol'), '') || ' ' || "
+    "coalesce(json_extract(r.start, '$.robot'), '') || ' ' || "
+    "coalesce(json_extract(r.start, '$.robot_name'), '') ELSE '' END || ' ' || "
     "coalesce(r.outcome, 'running'))"
 )
-_ROW = "SELECT r.start, r.registered, r.finished, r.outcome, r.detail, r.sidecar"
+_ROW = "SELECT r.run, r.start, r.registered, r.finished, r.outcome, r.detail, r.sidecar"
 
 
 def _run_row(row: sqlite3.Row) -> dict[str, Any]:
-    start: dict[str, Any] = json.loads(row["start"])
+    start: dict[str, Any] | None = readable(row["start"], dict)
+    if start is None:
+        start = RunStart(
+            run=row["run"], protocol="(the record of this run is damaged)"
+        ).model_dump()
     finished = row["finished"]
     ended = {"at": finished, "outcome": row["outcome"], "detail": row["detail"]}
-    sidecar = json.loads(row["sidecar"] or "null")
+    sidecar: dict[str, Any] | None = readable(row["sidecar"], dict)
     # Older stores say only what the robot was; the frames are the camera's.
     drawn = (sidecar or {}).get("camera") in SIMULATED_KINDS
     return start | {
         "simulated": bool(start.get("simulated")) or drawn,
         "registered": row["registered"],
         "finished": ended if finished else None,
+        "run": row["run"],
         "sidecar": sidecar,
     }
 
 
-def _captured(row: sqlite3.Row) -> Captured:
-    return Captured(
-        keyframe=from_json(Keyframe, json.loads(row["keyframe"])),
-        exposed_after_s=row["exposed_after_s"],
-        captured=row["captured"],
-    )
+def _captured(row: sqlite3.Row) -> Captured | None:
+    """``None`` where the row is damaged."""
+    try:
+        keyframe = from_json(Keyframe, json.loads(row["keyframe"]))
+    except (TypeError, ValueError):
+        return None
+    return Captured(keyframe, row["exposed_after_s"], row["captured"])

@@ -64,6 +64,7 @@ class AnalysisWorker:
         self._busy = False
         self._dropped: set[int] = set()
         self._failed: dict[int, str] = {}
+        self._seen: dict[int, set[KeyframeKind]] = {}
         self._analysis: RunAnalyser | None = None
         self._trouble: str | None = None
         self._thread: threading.Thread | None = None
@@ -125,6 +126,7 @@ class AnalysisWorker:
             time.sleep(max(0.0, begin - time.monotonic()))
             if keyframe.trajectory in self._dropped:
                 continue
+            self._seen.setdefault(keyframe.trajectory, set()).add(keyframe.kind)
             if keyframe.late:
                 self._failed[keyframe.trajectory] = tell_late(keyframe.kind)
             elif run is not None:
@@ -185,6 +187,8 @@ class AnalysisWorker:
 
     def _judge(self, run: RunAnalyser | None, trajectory: int) -> tuple[Verdict, dict[str, Any]]:
         failed = self._failed.pop(trajectory, None)
+        if self._seen.pop(trajectory, set()) != set(KeyframeKind):
+            failed = failed or "Not all four of its moments are kept: nobody saw the others."
         if run is None or failed is not None:
             return undecided(self._run, trajectory, failed or "There is no analyser."), {}
         try:

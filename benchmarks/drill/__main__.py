@@ -16,6 +16,7 @@ something was wrong. Linux only: the disk is "full" by a limit on the size of th
 from __future__ import annotations
 
 import argparse
+import json
 import random
 import sys
 import tempfile
@@ -25,7 +26,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from .examining import problems
+from .examining import page_at, problems, unnamed
 from .robot import OTHERWISE, Robot
 from .workstation import Cable, Crowd, Person, Sidecar, StreamCamera, VisionModel, closing
 
@@ -62,6 +63,8 @@ class Drill:
         camera: How the camera differs from a usual one.
         camera_settings: Settings of the sidecar for it.
         at_end: Done when the run is over; then deliveries may be left without a verdict.
+        wrong: What the incident itself saw go wrong.
+        afterwards: Done when the robot has ended.
     """
 
     folder: Path
@@ -80,6 +83,8 @@ class Drill:
     camera: dict[str, Any] = field(default_factory=dict)
     camera_settings: dict[str, Any] = field(default_factory=dict)
     at_end: Callable[[], None] | None = None
+    wrong: list[str] = field(default_factory=list)
+    afterwards: Callable[[], None] = lambda: None
 
     def run(
         self, name: str, incident: Callable[[Drill, Sidecar, StreamCamera, Cable], Step]
@@ -97,6 +102,7 @@ class Drill:
                 failed = robot.play(
                     incident(self, sidecar, camera, cable), lambda: self.may_resume()
                 )
+                self.afterwards()
                 if self.at_end is not None:
                     self.at_end()
                 data, may_be_open = self.folder / "data", self.at_end is not None
@@ -105,7 +111,7 @@ class Drill:
                 sidecar.stop()
         if self.most_pauses is not None and robot.pauses > self.most_pauses:
             wrong.append(f"the robot paused {robot.pauses} times, {self.most_pauses} were meant")
-        return robot, [f"the run failed: {failed}"] * bool(failed) + wrong
+        return robot, [f"the run failed: {failed}"] * bool(failed) + wrong + self.wrong
 
 
 def once_at(
@@ -232,6 +238,49 @@ def crowd(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) ->
     return once_at(8, lambda: crowd.come(CROWD), seconds, crowd.go)
 
 
+def orders(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> Step:
+    """A person at the page tells the robot to pause while no file may grow."""
+    seconds = FULL_S * drill.scale
+    drill.wanted = {"store": 1}
+    drill.happened = f"disk full for {seconds:g} s, and a person's pause in it"
+
+    def fill() -> None:
+        sidecar.fill_disk(True)
+        form = {"by": "Ada", "answer": "pause", "back": "/runs/orders"}
+        if "Not yet on record" not in page_at(f"{sidecar.url}/runs/orders/order", form):
+            drill.wrong.append("the page does not say that the order is not yet on record")
+
+    def afterwards() -> None:
+        assert drill.robot is not None
+        if not drill.robot.pauses:
+            drill.wrong.append("the robot did not pause as it was told")
+        told = json.loads(page_at(f"{sidecar.url}/v1/runs/orders"))
+        if [one["action"] for one in told["actions"]] != ["pause"] or told["unrecorded"]:
+            drill.wrong.append("the order is not on record")
+
+    drill.afterwards = afterwards
+    return once_at(8, fill, seconds, lambda: sidecar.fill_disk(False))
+
+
+def twice(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> Step:
+    """When the run has ended another one begins under its name, and the camera is dead."""
+    drill.happened = "its name used again, in front of a dead camera"
+
+    def afterwards() -> None:
+        camera.plug(False)
+        careless = {"on_link_loss": "continue", "capture_timeout_s": 1.0}
+        second = Robot("twice", cable.url, drill.wells, camera.show, careless)
+        failed = second.play(lambda keyframes: None, lambda: True)
+        if failed or second.told.keyframes or second.told.verdicts:
+            drill.wrong.append(
+                f"the second run was told {second.told}; it failed: {failed or 'no'}"
+            )
+        drill.wrong.extend(unnamed(sidecar.url, "twice-2", {"identifier": 1, "camera": 1}))
+
+    drill.afterwards = afterwards
+    return lambda keyframes: None
+
+
 def stale(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -> Step:
     """Nothing befalls the run: its camera hands on old frames."""
     drill.happened = "a slow stream without lengths, one frame behind"
@@ -261,6 +310,7 @@ def course(drill: Drill, sidecar: Sidecar, camera: StreamCamera, cable: Cable) -
 INCIDENTS = {
     "restarts": restarts, "disk": disk, "camera": camera, "vlm": vlm, "clock": clock, "cut": cut,
     "page": page, "crowd": crowd, "stale": stale, "late": late, "course": course,
+    "orders": orders, "twice": twice,
 }  # fmt: skip
 
 

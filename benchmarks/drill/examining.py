@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import urllib.parse
 import urllib.request
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -40,7 +41,7 @@ def problems(
         kept += [*_unseen(store, run, told), *_miscounted(store, url, run)]
     finally:
         store.close()
-    return kept + list(_unnamed(url, run, wanted))
+    return kept + list(unnamed(url, run, wanted))
 
 
 def _lost(store: Store, run: str, told: Acknowledged) -> Iterator[str]:
@@ -99,7 +100,8 @@ def _hanging(store: Store, run: str, may_be_open: bool) -> Iterator[str]:
             yield f"the incident {incident['kind']!r} never ended: {incident['text']}"
 
 
-def _unnamed(url: str, run: str, wanted: Mapping[str, int]) -> Iterator[str]:
+def unnamed(url: str, run: str, wanted: Mapping[str, int]) -> Iterator[str]:
+    """Incidents that the run's report does not name. Arguments as of :func:`problems`."""
     report = json.loads(_get(f"{url}/runs/{run}/report.json"))
     page = _get(f"{url}/runs/{run}/report.html").decode()
     found = Counter(incident["kind"] for incident in report["incidents"])
@@ -112,6 +114,13 @@ def _unnamed(url: str, run: str, wanted: Mapping[str, int]) -> Iterator[str]:
     said = (report["layer1"] or {}).get("verdict", "")
     if "layer1" in wanted and said != "not as rehearsed":
         yield f"the report says of Layer 1: {said!r}"
+
+
+def page_at(url: str, form: Mapping[str, str] | None = None) -> str:
+    """A page as a person sees it, after sending a form if one is given."""
+    body = None if form is None else urllib.parse.urlencode(form).encode()
+    with _DIRECT.open(url, body, timeout=20) as answer:
+        return bytes(answer.read()).decode()
 
 
 def _get(url: str) -> bytes:

@@ -71,7 +71,7 @@ class _Stub(BaseHTTPRequestHandler):
 
     def do_POST(self):
         body = self._body()
-        if self.path.endswith("/keyframes"):
+        if "/keyframes" in self.path:
             self.server.keyframes.append(body)
             self._answer({"sequence": body["sequence"], "captured": True, "exposed_after_s": 0.0})
         else:

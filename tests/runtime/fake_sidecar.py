@@ -100,6 +100,7 @@ class Handler(BaseHTTPRequestHandler):
         length = int(self.headers.get("Content-Length", 0))
         body = json.loads(self.rfile.read(length)) if length else None
         owner = self.owner
+        self.path = self.path.partition("?stands=")[0]  # its camera is never slow
         owner.requests.append((self.command, self.path, body))
         self.body = body
         if owner.fault is not None and owner.fault(self):

@@ -14,6 +14,7 @@ from aegis_ot.runtime.link import SidecarLink
 from aegis_ot.settings import Settings
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.store import Store
+from aegis_ot.vocabulary import to_json
 
 from ..runtime.live import LiveRun
 from .helpers import Robot, StubAnalyser, StubCamera, make_keyframe
@@ -178,3 +179,21 @@ def test_a_capture_that_the_robot_did_not_wait_for_passes_nothing(
     (trajectory,) = robot.overview()["trajectories"]
     assert trajectory["verdict"]["outcome"] == "undecided"
     assert "moved on" in trajectory["verdict"]["reason"]
+
+
+def test_a_frame_that_came_after_the_robot_had_gone_on_is_none(
+    robot: Robot, camera: StubCamera
+) -> None:
+    """The last keyframe of the last delivery: nobody sends it again."""
+    for sequence in range(3):
+        robot.send(sequence)
+    camera.age = -1.0
+    late = to_json(make_keyframe("run-1", 3))
+    answer = robot.http.post("/v1/runs/run-1/keyframes", params={"stands": 0.5}, json=late)
+    assert (answer.status_code, answer.json()["error"]["code"]) == (503, "camera")
+    assert "after the robot may have gone on" in answer.json()["error"]["message"]
+    (trajectory,) = robot.overview()["trajectories"]
+    assert trajectory["verdict"] is None
+    camera.age = 0.0
+    assert robot.send(3).status_code == 200
+    assert robot.verdict(0)["verdict"]["outcome"] == "pass"

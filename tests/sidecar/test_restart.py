@@ -153,7 +153,7 @@ def test_kill_9_loses_no_acknowledged_keyframe(settings: Path, tmp_path: Path) -
 def test_a_full_disk_is_told_and_nothing_is_half_kept(settings: Path) -> None:
     """Files of the process may not grow beyond a limit: writing fails as on a full disk."""
     refused = None
-    with sidecar_process(settings, limit=150_000) as (_, url), Robot(url) as robot:
+    with sidecar_process(settings, limit=250_000) as (_, url), Robot(url) as robot:
         robot.register()
         kept = 0
         for sequence in range(200):

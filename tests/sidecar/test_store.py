@@ -12,10 +12,13 @@ from typing import Any
 
 import pytest
 
+from aegis_ot.account import run_account
 from aegis_ot.errors import StoreError
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
+from aegis_ot.sidecar.app import create_app
 from aegis_ot.sidecar.config import RetentionSettings
 from aegis_ot.sidecar.housekeeping import tidy
+from aegis_ot.sidecar.overview import run_overview
 from aegis_ot.sidecar.schema import MIGRATIONS
 from aegis_ot.sidecar.store import DATABASE, SILENT, Captured, Store
 from aegis_ot.sidecar.wire import Finish, Hold, Recovery, RunStart
@@ -33,8 +36,15 @@ def fill(store: Store, run: str, ended_days_ago: float | None, frames: int = 1) 
         store.add_keyframe(Captured(keyframe, 0.01, time.time()), make_jpeg())
     if ended_days_ago is not None:
         store.finish(run, Finish(outcome="succeeded"))
-        at = time.time() - ended_days_ago * DAY
-        store._write("UPDATE runs SET finished = ? WHERE run = ?", (at, run))
+        at, later = time.time() - ended_days_ago * DAY, ended_days_ago * DAY
+        store._write(
+            "UPDATE runs SET finished = ?, heard = heard - ? WHERE run = ?", (at, later, run)
+        )
+
+
+def pass_time(store: Store, seconds: float) -> None:
+    """So much more that a sidecar was at work."""
+    store._write("UPDATE at_work SET seconds = seconds + ?", (seconds,))
 
 
 def names(store: Store) -> list[str]:
@@ -128,8 +138,9 @@ def test_a_run_that_ended_without_a_word_is_closed_and_opened_when_it_speaks(
     fill(store, "silent", None)
     fill(store, "ended", 0.1)
     settings = RetentionSettings(silent_h=2)
-    assert tidy(store, settings, time.time() + 3600).closed == ()
-    assert tidy(store, settings, time.time() + 3 * 3600).closed == ("silent",)
+    assert tidy(store, settings).closed == ()
+    pass_time(store, 3 * 3600)
+    assert tidy(store, settings).closed == ("silent",)
     row = store.run("silent")
     assert row is not None
     assert row["finished"]["outcome"] == SILENT
@@ -159,9 +170,9 @@ def test_old_runs_go_and_unfinished_ones_stay(tmp_path: Path) -> None:
     fill(store, "new", 2)
     fill(store, "running", None)
     settings = RetentionSettings(days=30)
-    assert tidy(store, settings, time.time(), pretend=True).removed == ("old",)
+    assert tidy(store, settings, pretend=True).removed == ("old",)
     assert names(store) == ["new", "old", "running"]
-    done = tidy(store, settings, time.time())
+    done = tidy(store, settings)
     assert done.removed == ("old",)
     assert done.freed == len(make_jpeg())
     assert names(store) == ["new", "running"]
@@ -174,7 +185,7 @@ def test_the_oldest_go_until_the_size_is_kept(tmp_path: Path) -> None:
     each = 5 * len(make_jpeg())
     for number, name in enumerate(("a", "b", "c")):
         fill(store, name, 3 - number, frames=5)
-    done = tidy(store, RetentionSettings(gigabytes=1.5 * each / 1e9), time.time())
+    done = tidy(store, RetentionSettings(gigabytes=1.5 * each / 1e9))
     assert done.removed == ("a", "b")
     assert names(store) == ["c"]
 
@@ -213,3 +224,129 @@ def test_an_incident_is_kept_once_until_it_is_over(tmp_path: Path) -> None:
     assert store.begin_incident("run", "camera", "again")
     told: list[Any] = [one["text"] for one in store.incidents("run")]
     assert told == ["no frame", "again"]
+
+
+@pytest.mark.parametrize("ahead", [366 * DAY, -30 * 366 * DAY])
+def test_a_clock_that_is_set_removes_and_closes_nothing(
+    tmp_path: Path, ahead: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    store = Store(tmp_path, alone=True)
+    fill(store, "ended", 2)
+    fill(store, "running", None)
+    real = time.time
+    monkeypatch.setattr(time, "time", lambda: real() + ahead)
+    for _ in range(2):  # and when the sidecar is started anew
+        store.count_time(())
+        done = tidy(store, RetentionSettings(days=30, silent_h=24))
+        assert (done.closed, done.removed) == ((), ())
+        store.close()
+        store = Store(tmp_path, alone=True)
+    monkeypatch.undo()
+    pass_time(store, 31 * DAY)
+    assert tidy(store, RetentionSettings(days=30, silent_h=24)).removed == ("ended",)
+    store.close()
+
+
+def test_a_run_whose_robot_asks_is_alive(config: SidecarConfig) -> None:
+    """It is paused for days, and asks the page twice a second."""
+    retention = RetentionSettings(gigabytes=1e-9)
+    config = config.model_copy(update={"retention": retention})
+    app = create_app(config, StubCamera(), StubAnalyser())
+    sidecar = app.state.sidecar
+    for run in ("asks", "left"):
+        sidecar.register(RunStart(run=run))
+    pass_time(sidecar.store, 25 * 3600)
+    sidecar._sessions["left"].asked -= 25 * 3600
+    sidecar.session("asks", "").action(0)
+    sidecar._housekeeper.look()
+    assert {row["run"]: bool(row["finished"]) for row in sidecar.store.runs()} == {
+        "asks": False, "left": True,
+    }  # fmt: skip
+    sidecar.close()
+
+
+def test_a_silent_run_is_not_removed_at_once_for_its_size(tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    fill(store, "incubates", None)
+    pass_time(store, 25 * 3600)
+    settings = RetentionSettings(gigabytes=1e-9)
+    assert tidy(store, settings).closed == ("incubates",)
+    assert tidy(store, settings).removed == ()
+    pass_time(store, 8 * DAY)
+    assert tidy(store, settings).removed == ("incubates",)
+
+
+class TestRot:
+    """One row that cannot be read spoils itself alone."""
+
+    @pytest.mark.parametrize("rotten", ["{not json", "[1, 2]", "", b"\xff\xfe\x00"])
+    def test_the_history_shows_the_others(self, tmp_path: Path, rotten: Any) -> None:
+        store = Store(tmp_path, alone=True)
+        for run in ("good", "bad"):
+            fill(store, run, 1, frames=4)
+            store.add_verdict(Verdict(run, 0, Outcome.PASS, Route.SILENT_PASS), {"drawn_ul": 3.0})
+        store.add_audit("bad", {})
+        for table, column in (
+            ("runs", "start"), ("runs", "sidecar"), ("verdicts", "verdict"),
+            ("verdicts", "evidence"), ("audits", "audit"),
+        ):  # fmt: skip
+            store._write(f"UPDATE {table} SET {column} = ? WHERE run = 'bad'", (rotten,))
+        store._write(
+            "UPDATE keyframes SET keyframe = ? WHERE run = 'bad' AND sequence = 2", (rotten,)
+        )
+        rows = {row["run"]: row for row in store.runs()}
+        assert rows["good"]["wells"] == {"pass": 1}
+        assert rows["bad"]["wells"].get("pass") is None
+        assert "damaged" in rows["bad"]["protocol"]
+        assert [row["run"] for row in store.runs("good")] == ["good"]
+        overview = run_overview(store, "bad")
+        assert overview["trajectories"][0]["verdict"]["outcome"] == "undecided"
+        assert len(overview["trajectories"][0]["keyframes"]) == 3
+        assert run_account(overview)["counts"] == {"undecided": 1, "wells": 1}
+        store.close()
+
+    def test_a_well_with_a_moment_that_is_lost_does_not_pass(self, config: SidecarConfig) -> None:
+        stuck = StubAnalyser()
+        stuck.gate.clear()
+        with running_sidecar(config, StubCamera(), stuck) as url, Robot(url) as robot:
+            robot.register()
+            for sequence in range(3):
+                robot.send(sequence)
+            stuck.gate.set()
+        store = Store(config.data)
+        store._write("UPDATE keyframes SET keyframe = '{' WHERE sequence = 1", ())
+        store.close()
+        with running_sidecar(config, StubCamera(), StubAnalyser()) as url, Robot(url) as robot:
+            robot.send(3)
+            assert robot.verdict(0)["verdict"]["outcome"] == "undecided"
+
+
+def test_a_store_that_is_closed_is_not_called_damaged(tmp_path: Path) -> None:
+    store = Store(tmp_path, alone=True)
+    store.close()
+    with pytest.raises(StoreError, match="being stopped") as caught:
+        store.runs()
+    assert "backup" not in str(caught.value)
+
+
+@pytest.mark.parametrize("log", [True, False])
+def test_a_database_of_no_bytes_is_no_new_store(tmp_path: Path, log: bool) -> None:
+    store = Store(tmp_path, alone=True)
+    fill(store, "run", 1)
+    store.close()
+    path = tmp_path / DATABASE
+    path.write_bytes(b"")
+    if log:
+        (tmp_path / "frames").rename(tmp_path / "elsewhere")
+        path.with_name(f"{DATABASE}-wal").write_bytes(b"a log")
+    for alone in (True, False):
+        with pytest.raises(StoreError, match=r"is empty \(0 bytes\), but there was one"):
+            Store(tmp_path, alone=alone)
+    assert path.read_bytes() == b""
+    path.unlink()
+    Store(tmp_path, alone=True).close()  # moved away: begun anew
+
+
+def test_a_first_start_that_was_cut_short_is_a_new_store(tmp_path: Path) -> None:
+    (tmp_path / DATABASE).write_bytes(b"")
+    Store(tmp_path, alone=True).close()
