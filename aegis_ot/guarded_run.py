@@ -116,7 +116,7 @@ def guard_rest_of(frame: FrameType, protocol: Any, keywords: dict[str, Any]) -> 
             return
         settings = load_settings(**keywords)
         if run is None:
-            announce_top_level(protocol, file_name)
+            announce_top_level(protocol, settings, file_name)
             layer1 = Layer1.none("At the top level there is no run() to rehearse.", settings)
             tips = None
         else:

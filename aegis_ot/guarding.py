@@ -209,14 +209,20 @@ def say(protocol: Any, layer1: str, watcher: Watcher | None) -> None:
 # At the top level of a notebook's cell or of a program
 
 
-def announce_top_level(protocol: Any, file_name: str) -> None:
+def announce_top_level(protocol: Any, settings: Settings, file_name: str) -> None:
     """What a guard covers that no function is around."""
     place = _place_of(file_name)
+    layer1 = (
+        ""
+        if settings.rules == "off"
+        else (
+            "Layer 1 has no run() to rehearse: it judges each step as it comes, and tells what it "
+            "found at the end. "
+        )
+    )
     _tell(
         protocol,
-        f"this guard covers what follows in this {place}, and ends with it. Layer 1 has no run() "
-        "to rehearse: it judges each step as it comes, and tells what it found at the end. "
-        f"What other {place}s do is not guarded: put the steps into one {place}, or into a "
+        f"this guard covers what follows in this {place}, and ends with it. {layer1}What other {place}s do is not guarded: put the steps into one {place}, or into a "
         "function under @guard.",
     )
 
