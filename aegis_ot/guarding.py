@@ -222,7 +222,8 @@ def announce_top_level(protocol: Any, settings: Settings, file_name: str) -> Non
     )
     _tell(
         protocol,
-        f"this guard covers what follows in this {place}, and ends with it. {layer1}What other {place}s do is not guarded: put the steps into one {place}, or into a "
+        f"this guard covers what follows in this {place}, and ends with it. {layer1}"
+        f"What other {place}s do is not guarded: put the steps into one {place}, or into a "
         "function under @guard.",
     )
 
