@@ -53,6 +53,11 @@ class Carry(Check):
     unnamed: bool = False
     not_into: tuple[str, ...] = role_names()
 
+    def claims(self, case: Case, origin: Well, well: Well) -> bool:
+        """As it is of the liquids and of the wells that it looks at."""
+        kept = case.has(well, self.into) and not case.has(well, self.not_into)
+        return kept and case.has(origin, self.carried)
+
     def find(self, case: Case) -> Iterator[Result]:
         carriers = set(case.wells(self.carried))
         if self.unnamed:
@@ -82,6 +87,8 @@ class Carry(Check):
             for origin, met in carried:
                 if origin not in carriers or origin is well:
                     continue
+                if (claimed := case.is_claimed(origin, well)) is True:
+                    continue
                 near = min(met.contact(visit.index), visit.contact) is Contact.NEAR
                 if near and (*key, origin) in found:
                     again = True  # nothing new
@@ -89,12 +96,20 @@ class Carry(Check):
                     again = not once
                     if case.are_twins(origin, well):
                         twins.setdefault(origin, well)
-                elif case.left_over and self.pooled and _is_rising(case, origin, well):
+                elif claimed is None or (
+                    case.left_over and self.pooled and _is_rising(case, origin, well)
+                ):
                     rising.setdefault(origin, well)
                     again = False
                 else:
                     again = near
-                    surest(found, (*key, origin), self._violation(case, visit, origin, met))
+                    violation = self._violation(case, visit, origin, met)
+                    # In an assay that is known, a trace of a reagent, or of what all that is made
+                    # of a stock is given as well, is accepted practice.
+                    if not case.beside or not (
+                        violation.warning == _IN_ALL or self._is_reagent(case, origin)
+                    ):
+                        surest(found, (*key, origin), violation)
                 if again:
                     open_.setdefault(key, []).append((origin, met))
             judged[key] = visit.carried
@@ -135,6 +150,9 @@ class Carry(Check):
             if met.well is well or (origin.liquids and origin.liquids == well.liquids):
                 return True  # it was in the stock already, or is loaded as the same
             drawn_for = case.destinations.get(well, {})
+            told = case.beside and self.via_destination == "not" and origin.liquids
+            if told and all(origin.liquids == dest.liquids for dest in drawn_for):
+                return True  # cells of one name stand in all wells that it serves
             if len(drawn_for) == 1 and all(origin in case.meant[dest] for dest in drawn_for):
                 return True  # all that is drawn from it goes to one well, which holds that as well
             return origin in case.meant.get(well, {}) and (
@@ -181,7 +199,9 @@ class Carry(Check):
             for origin, met in carried_liquids(visit) if met_before else ():
                 if origin not in met_before:
                     continue
-                if origin in case.meant.get(well, {}) or self._let_be(case, visit, origin, met):
+                if case.is_claimed(origin, well) or origin in case.meant.get(well, {}):
+                    continue
+                if self._let_be(case, visit, origin, met):
                     continue
                 if case.of(well):
                     enters = f"its tip enters the {case.title(well)} {well.ref} {case.at(visit)}"
@@ -228,12 +248,18 @@ class Carry(Check):
         Then nothing made of the well afterwards is given such a liquid in another way.
         """
         well = visit.well
-        if not any(
-            origin in one.liquid
+        given = [
+            one
             for one in well.received
-            if one.visit.tip is visit.tip and one.visit.index <= visit.index
-        ):
+            if origin in one.liquid
+            and one.visit.tip is visit.tip
+            and one.visit.index <= visit.index
+        ]
+        if not given:
             return False
+        before = (one.well for one in visit.tip.visits if one.index < visit.index)
+        if all(one is origin or one is well for one in before):
+            return True  # a part of what is made there, brought by a tip of its own
         drawn_for = case.destinations.get(well, {})
         later = [dest for dest, index in drawn_for.items() if index > visit.index]
         if drawn_for and not later:
@@ -265,11 +291,15 @@ class Carry(Check):
             ),
             (visit.line, met.line, what),
             (origin, well),
+            tip=(visit.tip.number, what, case.title(well)),
             contact=contact,
             warning=self._why_warning(case, visit, origin, met) if self.pooled else "",
             # A liquid that stands in all wells may be meant to come along.
             in_any_assay=contact is Contact.WET and not case.is_one_liquid(origin),
         )
+
+    def _is_reagent(self, case: Case, origin: Well) -> bool:
+        return self.via_destination == "only" and case.is_one_liquid(origin)
 
     def _why_warning(self, case: Case, visit: Visit, origin: Well, met: Met) -> str:
         """Why it is a warning at most, in a sentence; empty for what is surely wrong."""

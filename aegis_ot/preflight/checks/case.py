@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import islice
@@ -34,6 +34,9 @@ class Case:
         left_over: Whether the family is judged only because no other one fits.
         in_prose: Whether only comments and docstrings tell that it is of this family.
         absent: Roles that no well has, as the guard's arguments say: ``{"ntc": []}``.
+        is_claimed: Whether a rule of the assay judges what a tip brings from one well into
+            another; ``None`` if it may.
+        beside: Whether the protocol is of another family, and this one judges by composition.
     """
 
     trace: Trace
@@ -45,6 +48,8 @@ class Case:
     left_over: bool = False
     in_prose: bool = False
     absent: frozenset[str] = frozenset()
+    is_claimed: Callable[[Well, Well], bool | None] = lambda origin, well: False
+    beside: bool = False
     _of: dict[Well, frozenset[str]] = field(default_factory=dict, init=False)
     _same: dict[tuple[Well, Well], bool] = field(default_factory=dict, init=False)
 

@@ -19,6 +19,7 @@ class Violation:
         message: One sentence in plain words about this place.
         sites: Both ends; the well that suffers stands last.
         cause: Violations of one cause become one finding.
+        tip: What one tip does in one way: that is one finding as well.
         rests_on: Wells without whose roles nothing would be wrong.
         contact: How surely the tips touched what it rests on.
         warning: Why it is a warning at most, in a sentence; empty for what surely ruins the assay.
@@ -32,6 +33,7 @@ class Violation:
     contact: Contact = Contact.WET
     warning: str = ""
     in_any_assay: bool = False
+    tip: tuple[Any, ...] = ()
 
     @property
     def well(self) -> WellRef:
@@ -88,6 +90,13 @@ class Check:
     def demanded(self, case: Case) -> Collection[str]:
         """Roles without which it does not hold; what else is not there cannot break it."""
         return ()
+
+    def claims(self, case: Case, origin: Well, well: Well) -> bool | None:
+        """Whether it judges what a tip brings from one well into another: then that is right or
+        wrong by its family's rule, and not by composition. ``None``: it may, were it known what
+        these wells are for.
+        """
+        return False
 
     def find(self, case: Case) -> Iterable[Result]:
         """Places where it does not hold, and places that it cannot judge."""

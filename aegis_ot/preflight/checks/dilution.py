@@ -171,6 +171,20 @@ class SeriesTip(SeriesCheck):
     The two wells of the first step that it makes are excepted.
     """
 
+    def claims(self, case: Case, origin: Well, well: Well) -> bool | None:
+        """As one well of a series, or what is diluted along it, in another; two series may be two
+        samples or one.
+        """
+        of_origin, of_well = (
+            {
+                id(series)
+                for series in case.series.found
+                if one in series.position or any(step.source is one for step in series.steps)
+            }
+            for one in (origin, well)
+        )
+        return True if of_origin & of_well else None if of_origin and of_well else False
+
     def along(self, case: Case, series: Series) -> Iterator[Result]:
         if not series.entered:
             yield _unknown_direction(case, series)

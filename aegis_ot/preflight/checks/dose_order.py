@@ -31,6 +31,13 @@ class DoseOrder(Check):
     liquid: tuple[str, ...] = role_names(required=True)
     wells: tuple[str, ...] = role_names(required=True)
 
+    def claims(self, case: Case, origin: Well, well: Well) -> bool | None:
+        """As a dose, or a dosed well, in another of them; and back into the dose's tube."""
+        dosed = (*self.liquid, *self.wells)
+        if any(case.of(one) and not case.has(one, dosed) for one in (origin, well)):
+            return False
+        return True if case.of(origin) and case.of(well) else None
+
     def find(self, case: Case) -> Iterator[Result]:
         doses = self._doses(case)
         found: dict[tuple[int, int], Result] = {}

@@ -144,6 +144,15 @@ class RisingOrder(Check):
 
     liquid: tuple[str, ...] = role_names(required=True)
 
+    def claims(self, case: Case, origin: Well, well: Well) -> bool | None:
+        """As one of its liquids in another, or where another is given."""
+        held = (well, *case.meant.get(well, ()))
+        if case.of(origin) and not case.has(origin, self.liquid):
+            return False
+        if any(case.has(one, self.liquid) for one in held):
+            return True if case.of(origin) else None
+        return False if all(map(case.of, held)) else None
+
     def find(self, case: Case) -> Iterator[Result]:
         last: dict[tuple[int, int], Transfer] = {}
         done: set[tuple[int, int, Well]] = set()

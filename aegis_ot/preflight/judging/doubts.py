@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from ...vocabulary import Undecided, WellRef
 from ..checks import Case, Doubt
@@ -43,10 +43,11 @@ def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
     if doubt.roles_of:
         specs = case.family.roles.items()
         fitting = [role for role, spec in specs if spec.side in (doubt.side, "any")]
-        role = doubt.role or "|".join(fitting)
-        how = RIGHT_WELLS if doubt.role else "write, with one of these roles and its wells only"
-        wells = spelled(well.ref for well in doubt.roles_of)
-        return Undecided(rule.id, doubt.reason, pasted({role: wells}), how)
+        finer = {role for role in fitting if case.family.closure(role) & set(fitting) - {role}}
+        offered = (doubt.role,) if doubt.role else [role for role in fitting if role not in finer]
+        how = RIGHT_WELLS if doubt.role else "write, with each of these wells in its one role"
+        wells = spelled(well.ref for well in doubt.roles_of if well.ref not in case.roles.by_well)
+        return Undecided(rule.id, doubt.reason, pasted(dict.fromkeys(offered, wells)), how)
     leveled: dict[str, dict[str, None]] = {}
     for well in doubt.levels_of:
         assigned = case.roles.by_well.get(well.ref)
@@ -56,11 +57,11 @@ def undecided_by(doubt: Doubt, rule: RuleSpec, case: Case) -> Undecided:
     return Undecided(rule.id, doubt.reason, pasted(leveled), how)
 
 
-def pasted(roles: Mapping[str, Iterable[str]]) -> str:
+def pasted(roles: Mapping[str, Collection[str]]) -> str:
     """The decorator that gives places their roles; empty without any."""
     # Texts and lists of texts in JSON are such as Python writes them as well.
-    given = json.dumps({role: list(wells) for role, wells in roles.items()}, ensure_ascii=False)
-    return f"@guard(roles={given})" if roles else ""
+    told = {role: list(wells) for role, wells in roles.items() if wells}
+    return f"@guard(roles={json.dumps(told, ensure_ascii=False)})" if told else ""
 
 
 def unnamed_wells(reading: Reading) -> tuple[WellRef, ...]:
@@ -71,19 +72,16 @@ def unnamed_wells(reading: Reading) -> tuple[WellRef, ...]:
 
 
 def _offered(role: str, case: Case) -> list[str]:
-    """Wells on the role's side, as a guard takes them: to be cut down to the right ones.
-
-    Those of a more general role (an NTC is one of the reactions), else those of which nothing is
-    said, else all: some well is called what it is not.
+    """Wells on the role's side of which nothing is known, as a guard takes them: to be cut down to
+    the right ones. Where there are none, some well is called what it is not: that is no line to
+    paste.
     """
     roles, family = case.roles, case.family
     side = family.roles[role].side
     used = (well.ref for well in case.trace.wells.values() if well.visits)
     fitting = [ref for ref in dict.fromkeys(used) if side in ("any", case.trace.sides(ref)[0])]
-    general = family.closure(role) - {role}
-    kin = [r for r in fitting if r in roles.by_well and roles.by_well[r].role in general]
-    offered = kin or [ref for ref in fitting if ref not in roles.by_well] or fitting
-    return spelled(offered)[:_MOST_SHOWN]
+    unknown = [r for r in fitting if not roles.is_known(r) and r not in case.waste]
+    return spelled(unknown)[:_MOST_SHOWN]
 
 
 def spelled(wells: Iterable[WellRef]) -> list[str]:

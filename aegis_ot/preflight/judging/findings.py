@@ -20,23 +20,43 @@ def findings_of(
         _, rule = database.rule(name)
         # A more telling rule reports these already.
         replaced = set().union(*(wells.get(other, ()) for other in rule.unless_reported))
-        groups: dict[tuple[object, ...], list[Violation]] = {}
-        for violation in found:
-            if violation.well not in replaced:
-                groups.setdefault(violation.cause, []).append(violation)
-        findings += [_joined(group, rule, options) for group in groups.values()]
+        left = [violation for violation in found if violation.well not in replaced]
+        findings += [_joined(group, rule, options) for group in _by_cause(left)]
     return sorted(findings, key=lambda finding: (min(finding.lines, default=0), finding.rule))
+
+
+def _by_cause(violations: Sequence[Violation]) -> list[list[Violation]]:
+    """Violations of one cause together, and those that one tip makes in the same way: the count
+    grows with the tips, and not with all the wells that each has been in.
+    """
+    group_of: dict[object, list[Violation]] = {}
+    groups: dict[int, list[Violation]] = {}
+    for violation in violations:
+        keys = [violation.cause, *([violation.tip] if violation.tip else [])]
+        known = {id(group_of[key]): group_of[key] for key in keys if key in group_of}
+        joined = [one for group in known.values() for one in group]
+        for group in known.values():
+            groups.pop(id(group), None)
+        joined.append(violation)
+        groups[id(joined)] = joined
+        for one in joined:
+            group_of[one.cause] = joined
+            if one.tip:
+                group_of[one.tip] = joined
+    order = {id(violation): at for at, violation in enumerate(violations)}
+    found = [sorted(group, key=lambda one: order[id(one)]) for group in groups.values()]
+    return sorted(found, key=lambda group: order[id(group[0])])
 
 
 def _joined(group: Sequence[Violation], rule: RuleSpec, options: Options) -> Finding:
     """The finding on violations of one cause, with all the wells that they spoil."""
-    first = group[0]
-    wells = list(dict.fromkeys(violation.well for violation in group))
+    first = min(group, key=lambda violation: bool(violation.warning))  # the worst of one cause
+    wells = list(dict.fromkeys(violation.well for violation in (first, *group)))
     likewise = f" Likewise {_listed(wells)}." if len(wells) > 1 else ""
     severity = Severity.WARNING if first.warning else Severity(options.severity_of(rule))
     if options.strict:
         severity = Severity.ERROR
-    sites = tuple(dict.fromkeys(site for one in group for site in one.sites))
+    sites = tuple(dict.fromkeys(site for one in (first, *group) for site in one.sites))
     told = f"{first.message}{likewise} {first.warning}".rstrip()
     return Finding(rule.id, severity, told, sites, why=rule.rationale, fix=rule.fix)
 

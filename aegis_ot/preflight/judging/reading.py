@@ -9,13 +9,13 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from ...vocabulary import WellRef
-from ..checks import Case
+from ..checks import Case, make_check
 from ..evidence import Deck, Evidence, Kind, gather
 from ..rehearsal import Recording
 from ..roles import Inference, Roles, assign_roles, derive, implied_contents, infer_families
-from ..rules import Database, RuleSpec
+from ..rules import Database, Family, RuleSpec
 from ..source import lexicon_of, read_source
-from ..trace import build_trace
+from ..trace import Well, build_trace
 from .options import Options, check_options
 
 _PLAUSIBLE = 1.0
@@ -90,7 +90,7 @@ class Reading:
         for one in self.roles:
             derive(one, self.trace)
         self.deck = Deck(self.trace, recording.names)
-        self.waste = self._called(common.waste)
+        self.waste = self._over_channels(self._called(common.waste))
         self.unsure = self._called(common.prefilled) | self._implied_elsewhere()
 
     @property
@@ -100,34 +100,50 @@ class Reading:
         return bool(self.options.assay or (first and first.sure and not first.left_over))
 
     def cases(self) -> Iterator[tuple[RuleSpec, Case]]:
-        """Every rule that concerns this protocol, with the case that it is judged on."""
-        applying = [inference for inference in self.families if inference.applies]
-        known = {roles.family.family: roles for roles in self.roles}
-        for inference, roles in zip(applying, self.roles, strict=True):
-            case = self._case(roles, inference)
-            for rule in roles.family.rules:
-                if rule.scope == "family":
-                    yield rule, case
-        for family in self.database.families:
-            for rule in family.rules:
-                if rule.scope == "all":
-                    yield rule, self._case(known.get(family.family, Roles(family)))
+        """Every rule that concerns this protocol, with the case that it is judged on.
 
-    def cases_beside(self) -> Iterator[tuple[RuleSpec, Case]]:
-        """The rules of the fallback family, with their case, where all that is judged are rules of
-        dilution series: those say nothing of what else the run moves. Roles that the guard gives
-        are meant in the sense of the series' family: its stock may be a row of samples.
+        A rule of all assays is judged by composition: what a rule of the assay itself judges is
+        left to that one.
         """
-        if self.options.assay or not all(one.family.series.stock for one in self.roles):
-            return
-        for inference in self.families:
-            family = self.database.family(inference.family)
-            if family.default and self.roles:
-                told = [one for one in self.evidence if one.kind is not Kind.GIVEN]
-                roles = assign_roles(family, self.database.common, told, self.trace)
-                derive(roles, self.trace)
-                case = self._case(roles, inference)
-                yield from ((rule, case) for rule in family.rules if rule.scope == "family")
+        applying = [inference for inference in self.families if inference.applies]
+        cases = [self._case(*pair) for pair in zip(self.roles, applying, strict=True)]
+        for case in cases:
+            yield from ((rule, case) for rule in case.family.rules if rule.scope == "family")
+        claims = [
+            (make_check(check, rule.id), case)
+            for case in cases
+            for rule in case.family.rules
+            if rule.scope == "family"
+            for check in rule.checks
+        ]
+
+        @functools.cache
+        def is_claimed(origin: Well, well: Well) -> bool | None:
+            if any(case.roles.is_control(role) for case in cases for role in case.of(origin)):
+                return True  # what a control holds spoils nothing
+            told = {check.claims(case, origin, well) for check, case in claims}
+            return True in told or (None if None in told else False)
+
+        known = {case.family.family: case for case in cases}
+        for family in self.database.families:
+            shared = [rule for rule in family.rules if rule.scope == "all"]
+            if shared:
+                case = known.get(family.family) or self._case_beside(family, applying)
+                case.is_claimed = is_claimed
+                yield from ((rule, case) for rule in shared)
+
+    def _case_beside(self, family: Family, applying: Sequence[Inference]) -> Case:
+        """A protocol of other families, seen with the eyes of one that does not apply.
+
+        Roles that the guard gives are meant in the sense of theirs: a dilution's stock may be a
+        row of samples.
+        """
+        told = [one for one in self.evidence if one.kind is not Kind.GIVEN]
+        roles = assign_roles(family, self.database.common, told, self.trace)
+        derive(roles, self.trace)
+        case = self._case(roles, max(applying, key=lambda one: one.sure, default=None))
+        case.beside = True
+        return case
 
     def with_evidence(self, more: Sequence[Evidence], assay: Sequence[str] = ()) -> Reading:
         """The same recording read with more evidence, and as another ``assay`` if one is named:
@@ -153,6 +169,11 @@ class Reading:
         """Wells whose names, labels or liquids have one of these words."""
         lexicon = lexicon_of({"called": words})
         return frozenset(ref for e in self.evidence if lexicon.find(e.text) for ref in e.wells)
+
+    def _over_channels(self, wells: frozenset[WellRef]) -> frozenset[WellRef]:
+        """These wells, and those that the other channels reach where the first one goes there."""
+        groups = self.trace.groups.items()
+        return wells.union(*(group for first, group in groups if first in wells))
 
     def _implied_elsewhere(self) -> frozenset[WellRef]:
         """Wells that held liquid before the run in the eyes of a family that is not judged.

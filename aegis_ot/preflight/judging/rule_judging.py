@@ -40,18 +40,7 @@ def judge(reading: Reading, so_far: bool = False) -> Report:
     }
     violations = {rule: found for rule, (found, _) in judged.items()}
     undecided = [open_ for _, open_ in judged.values() if open_]
-    return _report(reading, violations, [*undecided, *_beside(reading)])
-
-
-def _beside(reading: Reading) -> Iterable[Undecided]:
-    """What a rule would find beside the series that alone are judged."""
-    for rule, case in reading.cases_beside():
-        found = _judge_rule(rule, case)[0] if reading.options.severity_of(rule) != "off" else []
-        if found:
-            both = ", ".join([*(one.family.family for one in reading.roles), case.family.family])
-            said = _begun(found[0].message)
-            told = f"beside the dilution series, which is judged, {said}"
-            yield Undecided(rule.id, told, f'@guard(assay="{both}")', "write, to have that judged")
+    return _report(reading, violations, undecided)
 
 
 def _judge_rule(
@@ -88,9 +77,10 @@ def _judge_rule(
             elif (result.message, result.sites) not in told:  # two checks may see the same
                 told.add((result.message, result.sites))
                 warning = _why_warning(result, case)
-                cause = (number, warning, *result.cause)
-                violations.append(replace(result, cause=cause, warning=warning))
-    if not case.confident and not violations:
+                tip = (number, warning, *result.tip) if result.tip else ()
+                cause = (number, *result.cause)
+                violations.append(replace(result, cause=cause, tip=tip, warning=warning))
+    if not case.confident and not violations and rule.scope == "family":
         doubts.append(UNKNOWN_ASSAY)
     if violations:
         return violations, None
@@ -138,22 +128,25 @@ def _why_warning(violation: Violation, case: Case) -> str:
         if roles.is_doubtful(well.ref):
             return _DOUBTFUL.format(roles.by_well[well.ref].evidence[0].citation)
     wells = violation.rests_on
-    if case.family.default and not all(w.liquids or _is_named(w, roles) for w in wells):
+    if case.family.default and not all(w.liquids or _is_named(w, case) for w in wells):
         return "Nothing in the protocol says what these wells hold."
     return ""
 
 
-def _is_named(well: Well, roles: Roles) -> bool:
+def _is_named(well: Well, case: Case) -> bool:
     """Whether a name, a label or an argument says what a well is for.
 
     A "sample plate" that is only given water may be one for samples.
     """
+    roles = case.roles
     assigned = roles.by_well.get(well.ref)
     if assigned is None or assigned.kind < Kind.NAME:
         return False
     drawn = any(visit.kind is OperationKind.ASPIRATE for visit in well.visits)
     # Some roles only say where something comes from or goes: others are kinds of them.
     general = any(assigned.role in spec.parents for spec in roles.family.roles.values())
+    if case.beside and general and drawn:
+        return False  # a variable is called `source`, in an assay whose own words do not say more
     return drawn or general or not assigned.evidence[0].whole
 
 

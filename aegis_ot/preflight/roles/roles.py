@@ -98,6 +98,10 @@ class Roles:
         assigned = self.by_well.get(ref)
         return assigned is not None and not self.family.closure(assigned.role).isdisjoint(wanted)
 
+    def is_known(self, ref: WellRef) -> bool:
+        """Whether it is known what a well is for: something names it, or the liquid put there."""
+        return ref in self.by_well or ref in self.derived
+
     def is_given(self, ref: WellRef) -> bool:
         """Whether the guard's arguments say what a well is for."""
         return ref in self.by_well and self.by_well[ref].kind is Kind.GIVEN

@@ -81,8 +81,8 @@ class _Builder:
             self._box.refill_rack(event.labware)
         elif kind is EventKind.LABWARE_MOVED:
             self._slots[event.labware] = event.text
-            if not event.text:
-                self._replace(event.labware)
+            if not event.text:  # the same plate comes back, but nobody saw what was done to it
+                self._plates.forget_volumes(event.labware)
         elif kind is EventKind.PAUSED:
             self._paused(event)
         elif kind is EventKind.MODULE and "shake" in topics_in(event.text, self._words):

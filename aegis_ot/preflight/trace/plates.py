@@ -54,9 +54,11 @@ class Plates:
         """Another plate stands for this labware from now on."""
         self._generation[key] += 1
 
-    def forget_volumes(self) -> None:
-        """Someone may have filled or emptied wells by hand."""
+    def forget_volumes(self, labware: str = "") -> None:
+        """Someone may have filled or emptied wells by hand: of one labware, or of all."""
         for well in self._known.values():
+            if labware not in ("", well.ref.labware):
+                continue
             stands = well.generation == self._generation[well.ref.labware]
             if stands and (well.visits or well.prefilled):
                 well.known = False
