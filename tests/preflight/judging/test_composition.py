@@ -106,10 +106,10 @@ def test_one_tip_in_many_wells_is_one_finding_however_the_steps_are_written() ->
         f"one.aspirate(20, source['{name}'])\none.dispense(20, plate['{name}'])" for name in wells
     )
     report = _report(
-        f"""
+        """
         source = protocol.load_labware("nest_96_wellplate_200ul_flat", "B2", "patient samples")
         for n, well in enumerate(source.wells()[:24]):
-            load(well, f"Patient {{n}}", 100)
+            load(well, f"Patient {n}", 100)
         one.pick_up_tip()
 """
         + textwrap.indent(steps, "        ")

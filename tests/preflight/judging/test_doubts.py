@@ -127,7 +127,7 @@ p300.transfer(50, samples, plate.rows()[1][:3], new_tip="always")
     assert "nothing says what A2 of " in asked.reason
     assert "and the tip that met A1 of " in asked.reason
     assert asked.paste == '@guard(roles={"source": ["2:A1-A6"], "stock": ["2:A1-A6"]})'
-    assert asked.to_write == "write, with one of these roles and its wells only"
+    assert asked.to_write == "write, with each of these wells in its one role"
     roles = {"material": ["2:A1-A6", "2:B1-B3"]}
     report = checked(named + ONE_TIP_FOR_TUBES, roles=roles)
     assert {one.rule for one in report.findings} == {"GEN-1"}
