@@ -49,8 +49,14 @@ class Pipette:
     max_volume: float
 
 
-def _no_core() -> None:
-    """Stands for the core of an operation that was made by hand."""
+class _NoCore:
+    """Stands for the core of an operation that was made by hand, or comes from elsewhere.
+
+    No function: who receives a recording from another process takes objects only.
+    """
+
+    def __call__(self) -> None:
+        return None
 
 
 @dataclass(frozen=True)
@@ -97,7 +103,7 @@ class Operation:
     call: str = ""
     mixing: bool = False
     probes: bool = False
-    core: Callable[[], Any] = field(default=_no_core, repr=False, compare=False)
+    core: Callable[[], Any] = field(default=_NoCore(), repr=False, compare=False)
     """Gives the instrument core, as a weak reference does: ``None`` once the run is over."""
     method: str = field(default="", repr=False, compare=False)
     """Name of the core's method that was called."""
@@ -106,7 +112,7 @@ class Operation:
 
     def detached(self) -> Operation:
         """The same without its core, to be kept after the run or sent to another process."""
-        return replace(self, core=_no_core, arguments={})
+        return replace(self, core=_NoCore(), arguments={})
 
     @property
     def well(self) -> WellRef | None:
