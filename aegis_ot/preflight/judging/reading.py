@@ -70,7 +70,13 @@ class Reading:
         self.recording, self.database, self.options = recording, database, options
         self.facts = read_source(recording.text)
         common, log, labware = database.common, recording.log, recording.labware
-        self.trace = trace = build_trace(log, labware, common.pauses)
+        named = lexicon_of({"through": common.flow_through})
+        through = {
+            key
+            for key, info in labware.items()
+            if any(map(named.find, (info.label, info.display_name, info.load_name)))
+        }
+        self.trace = trace = build_trace(log, labware, common.pauses, through=through)
         gathered = gather(trace, recording.names, self.facts, options.roles, common)
         self.evidence = evidence = (*gathered, *more)
 
@@ -86,7 +92,7 @@ class Reading:
         usage = trace.usage
         prefilled -= {ref for ref, used in usage.items() if used.first_drawn or used.prefilled}
         if prefilled & usage.keys():
-            self.trace = build_trace(log, labware, common.pauses, prefilled.__contains__)
+            self.trace = build_trace(log, labware, common.pauses, prefilled.__contains__, through)
         for one in self.roles:
             derive(one, self.trace)
         self.deck = Deck(self.trace, recording.names)

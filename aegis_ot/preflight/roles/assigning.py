@@ -51,6 +51,8 @@ def assign_roles(
                     role = next(iter(family.roles[role].parents), None)
                 else:  # "blank (5 mg/mL sucrose)" holds none of what is measured
                     level = 0.0
+            if role is not None and family.roles[role].one_liquid:
+                level = None  # "buffer 4x" is no dose
             if not one.whole:
                 roles.marked.update([ref] if control else ())
                 said = roles.also.setdefault(ref, {})

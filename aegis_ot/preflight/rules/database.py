@@ -17,6 +17,7 @@ class Common:
         pauses: What a pause's message says may have been done, see ``trace.pauses``.
         prefilled: Names of wells that held liquid before the run.
         waste: Names of wells that are waste.
+        flow_through: Names of labware that liquid runs through: it holds nothing.
         levels: Words for concentrations, with their value: ``blank`` is 0.
         amounts: Words for concentrations or doses: ``conc``.
         aliases: Abbreviations and what they stand for, word by word.
@@ -33,6 +34,7 @@ class Common:
     pauses: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     prefilled: tuple[str, ...] = ()
     waste: tuple[str, ...] = ()
+    flow_through: tuple[str, ...] = ()
     levels: Mapping[str, float] = field(default_factory=dict)
     amounts: tuple[str, ...] = ()
     aliases: Mapping[str, str] = field(default_factory=dict)

@@ -42,7 +42,12 @@ _WITH_UNIT = re.compile(
     re.IGNORECASE,
 )
 _GLUED = re.compile(r"(?<=[A-Za-z])(\d+(?:\.\d+)?)(?=[pnum]M\b)")
-_LONG_NUMBER = re.compile(r"(?<![\d.])((?!0\d)\d{2,}(?:\.\d+)?|\d+\.\d+|0)(?![\d.])")
+_LONG_NUMBER = re.compile(
+    r"(?<![\d.])(?<!\d-)(?<!\b[a-z])((?!0\d)\d{2,}(?:\.\d+)?|\d+\.\d+|0)"
+    r"(?![\d.]|-[a-z]|\s*(?:h|hrs?|hours?|mins?|minutes?|sec|s|d|days?)\b)"
+)
+"""Not of a catalogue number (RD5-18), a sample (S10), a substance (25-OH) or a time (24 h)."""
+_WAVELENGTH = re.compile(r"\b[3-8]\d\d ?nm\b")
 _RATIO = re.compile(r"\b1\s*(?::|/|to|in)\s*(\d+)\b", re.IGNORECASE)
 _STRENGTH = re.compile(r"(?<![\w.])\d+(?:[.,]\d+)?\s?[x×](?!\w)", re.IGNORECASE)
 
@@ -51,7 +56,7 @@ def level_in(text: str, words: Mapping[str, float], plain_numbers: bool = True) 
     """The one level that a name or label states: with a unit, in words (``{"blank": 0.0}``), or, if
     they count, as a plain number.
     """
-    plain = _with_u(text).lower()
+    plain = _with_u(_WAVELENGTH.sub(" ", text)).lower()
     found = _WITH_UNIT.findall(plain)
     # "3 uM (100x)" is 3 uM, and "1 mM in 0.5 % DMSO" is 1 mM.
     found = [(value, unit) for value, unit in found if unit not in ("%", "x")] or found

@@ -7,7 +7,7 @@ module is where those words become values. One pass over the recorded steps, no 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from ...instrumentation import Event, EventKind, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
@@ -31,6 +31,7 @@ def build_trace(
     labware: Mapping[str, LabwareInfo],
     words: Words,
     prefilled: Callable[[WellRef], bool] = lambda ref: False,
+    through: Collection[str] = (),
 ) -> Trace:
     """Read a recorded run.
 
@@ -39,8 +40,16 @@ def build_trace(
         labware: Facts of each labware, by key.
         words: Of pauses: was a plate replaced, shaken, refilled?
         prefilled: Whether a well's role implies that it held liquid before the run.
+        through: Keys of filters and columns. One that the run draws from holds something.
     """
-    return _Builder(labware, words, prefilled).run(log)
+    drawn = {
+        ref.labware
+        for step in log
+        if isinstance(step, Operation) and step.kind is OperationKind.ASPIRATE
+        for ref in (step.wells if through else ())
+        if ref is not None
+    }
+    return _Builder(labware, words, prefilled, set(through) - drawn).run(log)
 
 
 class _Builder:
@@ -49,11 +58,12 @@ class _Builder:
         labware: Mapping[str, LabwareInfo],
         words: Words,
         prefilled: Callable[[WellRef], bool],
+        through: Collection[str],
     ) -> None:
         self._box = TipBox()
         self._trace = Trace(labware, tips=self._box.tips)
         self._words = words
-        self._plates = Plates(labware, prefilled, self._trace.wells)
+        self._plates = Plates(labware, prefilled, self._trace.wells, through)
         self._slots = {key: info.slot for key, info in labware.items()}
         self._index = 0
         self._last: dict[Tip, Visit] = {}

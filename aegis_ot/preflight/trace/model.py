@@ -53,6 +53,7 @@ class Well:
         most: What it holds at most while that is unknown, µL: a full well less what was taken.
         unsure: µL of ``volume`` that may not be there: air drawn beyond what a source held, or
             what was there before somebody may have changed it by hand.
+        runs_through: Whether it is a filter or a column: what is given to it runs on.
         fallen: µL let go so high over it that they may land elsewhere.
     """
 
@@ -73,6 +74,7 @@ class Well:
     most: float = math.inf
     unsure: float = 0.0
     fallen: float = 0.0
+    runs_through: bool = False
     order: tuple[int, int] = field(init=False)
     last: Composition = field(init=False)
 
@@ -147,6 +149,8 @@ class Well:
 
     def add(self, volume: float, liquid: Composition, unsure: float = 0.0) -> None:
         """Put liquid in; ``unsure`` µL of it may be air."""
+        if self.runs_through:
+            return
         self.volume += volume
         self.most = min(self.most + volume, self.capacity)
         self.unsure += unsure

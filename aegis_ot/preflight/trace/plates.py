@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 
 from ...instrumentation import LabwareInfo, WellInfo
 from ...vocabulary import WellRef
@@ -22,6 +22,7 @@ class Plates:
         labware: Facts of each labware, by key.
         prefilled: Whether a well's role implies that it held liquid before the run.
         known: Every well of the run, by place; new ones are added.
+        runs_through: Labware that holds nothing, by key.
     """
 
     def __init__(
@@ -29,7 +30,9 @@ class Plates:
         labware: Mapping[str, LabwareInfo],
         prefilled: Callable[[WellRef], bool],
         known: dict[PlaceKey, Well],
+        runs_through: Collection[str] = (),
     ) -> None:
+        self._runs_through = runs_through
         self._labware = labware
         self._prefilled = prefilled
         self._known = known
@@ -46,7 +49,8 @@ class Plates:
             capacity = info.max_volume if info and info.max_volume > 0 else math.inf
             geometry = self._geometry(info) if info else None
             well = self._known[key] = Well(ref, key[1], capacity, geometry)
-            if self._prefilled(ref):
+            well.runs_through = ref.labware in self._runs_through
+            if self._prefilled(ref) and not well.runs_through:
                 well.fill_before_run(None)
         return well
 
