@@ -106,9 +106,8 @@ class Carry(Check):
                     violation = self._violation(case, visit, origin, met)
                     # In an assay that is known, a trace of a reagent, or of what all that is made
                     # of a stock is given as well, is accepted practice.
-                    if not case.beside or not (
-                        violation.warning == _IN_ALL or self._is_reagent(case, origin)
-                    ):
+                    trace = self.via_destination == "only" and case.is_one_liquid(origin)
+                    if not (case.beside and (trace or violation.warning == _IN_ALL)):
                         surest(found, (*key, origin), violation)
                 if again:
                     open_.setdefault(key, []).append((origin, met))
@@ -297,9 +296,6 @@ class Carry(Check):
             # A liquid that stands in all wells may be meant to come along.
             in_any_assay=contact is Contact.WET and not case.is_one_liquid(origin),
         )
-
-    def _is_reagent(self, case: Case, origin: Well) -> bool:
-        return self.via_destination == "only" and case.is_one_liquid(origin)
 
     def _why_warning(self, case: Case, visit: Visit, origin: Well, met: Met) -> str:
         """Why it is a warning at most, in a sentence; empty for what is surely wrong."""

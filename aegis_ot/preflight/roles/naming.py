@@ -33,17 +33,11 @@ class RoleNames:
         )
 
         liquids = {role for spec in family.roles.values() for role in spec.follows}
-        words = {
-            at_control: {
-                word[0]
-                for name, spec in family.roles.items()
-                if bool(spec.follows) is at_control and (at_control or name in liquids)
-                for word in map(self._lexicon.words, spec.words)
-                if len(word) == 1
-            }
-            for at_control in (True, False)
-        }
-        self._of_control = words[True] - words[False]
+        names: dict[bool, set[tuple[str, ...]]] = {True: set(), False: set()}
+        for name, spec in family.roles.items():
+            if spec.follows or name in liquids:
+                names[bool(spec.follows)].update(map(self._lexicon.words, spec.words))
+        self._of_control = {name[0] for name in names[True] - names[False] if len(name) == 1}
 
     def has_word_of_control(self, text: str) -> bool:
         """Whether one of a name's words says that it is a control, not what liquid: "control"."""
@@ -107,11 +101,8 @@ class RoleNames:
             (at for at, word in enumerate(words) if at and word in self._joints), len(words)
         )
         behind = {match.topic for match in self._lexicon.find(text) if match.start >= start}
-        controls = {role for role in behind & self._family.roles.keys() if self._is_control(role)}
-        return controls if behind == controls else set()
-
-    def _is_control(self, role: str) -> bool:
-        return bool(self._family.roles[role].follows)
+        controls = {role for role, spec in self._family.roles.items() if spec.follows}
+        return behind if behind <= controls else set()
 
     def _may_serve(self, named: Sequence[str], control: str) -> bool:
         """Whether what is named, if anything, may be a control's liquid: water is, a mix not."""
