@@ -56,9 +56,17 @@ def check_text(run: CheckRun, colour: bool = False) -> str:
     """
     paint = _Paint(colour)
     names = {rule.id: rule.name for rule in run.database.rules}
+    volumes = {
+        rule.id
+        for rule in run.database.rules
+        if all(check["check"] == "volume_bookkeeping" for check in rule.checks)
+    }
     blocks: list[str] = []
     for checked in map(fit_to_print, run.protocols):
         blocks += _protocol(checked, names, run.explain_roles, paint)
+        judged = checked.report.judged if checked.report else ()
+        if judged and volumes.issuperset(judged):
+            blocks.append(f"{checked.file}: only volumes could be judged\n")
     blocks.append(paint(summary_line(run), _BOLD))
     return no_commands("\n".join(blocks) + "\n")
 
