@@ -45,7 +45,8 @@ class FollowedRun:
             self._hands.tell_difference(self._difference())
 
     def event(self, event: Event) -> None:
-        """Moves nothing."""
+        """Of :class:`aegis_ot.instrumentation.Listener`."""
+        self._judge.event(event)
 
     def end(self, by_itself: bool) -> None:
         """The run is over."""

@@ -44,6 +44,8 @@ class _Guarded(NamedTuple):
 # Which context is guarded, and not merely that one is: a robot server runs the next protocol
 # in a thread of the same pool, and a mark left there must not leave that one unguarded.
 _GUARDED: ContextVar[_Guarded | None] = ContextVar("aegis_ot_guarded", default=None)
+_GUARDS: weakref.WeakKeyDictionary[Any, int] = weakref.WeakKeyDictionary()
+"""How many guards a run has had so far, one after another."""
 
 
 def _first_guard_of(protocol: Any) -> Mapping[str, Any] | None:
@@ -232,6 +234,8 @@ def _preflight(
     from .preflight.rehearsal import RunPlan, find_script, record
     from .runtime.runstate import RunState
 
+    earlier = _GUARDS.get(protocol, 0)
+    _GUARDS[protocol] = earlier + 1
     if settings.rules == "off" and tips is None:
         return Layer1("")
     script = find_script(file_name, protocol)
@@ -239,7 +243,7 @@ def _preflight(
         layer1 = Layer1.none("Layer 1 cannot find the protocol's text to rehearse it.", settings)
         _announce_result(protocol, settings, layer1.text)
         return layer1
-    state, plan = RunState(protocol), RunPlan()
+    state, plan = RunState(protocol), RunPlan(earlier)
     try:
         recording = record(
             script,

@@ -94,8 +94,8 @@ class Guarding:
         """Before the protocol's first command; raises what the watcher's ``begin`` raises."""
         from .runtime import Bystander
 
-        plan, watcher = self._layer1.plan, self._watcher
-        is_followed = bool(self._layer1.unjudged) or (plan is not None and not plan.several)
+        watcher = self._watcher
+        is_followed = bool(self._layer1.unjudged) or self._layer1.plan is not None
         if watcher is None and not is_followed:
             return
         hands = watcher or Bystander(self._protocol, self._settings, self._file_name)

@@ -185,3 +185,78 @@ def test_an_error_pauses_a_watched_run_where_its_page_can_answer():
         last = [one for one in sidecar.holds if one["resolution"] == "layer1"][-1]
     assert run.status == "succeeded"
     assert last["answered"] == "robot"
+
+
+USED_AGAIN = """
+for n in range(3):
+    p300.pick_up_tip(tips.wells()[n if protocol.is_simulating() else 0])
+    p300.transfer(20, tubes.wells()[n], plate.wells()[n], new_tip="never")
+    p300.return_tip()
+"""
+
+
+@pytest.mark.parametrize("form", ["decorator", "call"])
+def test_a_tip_that_was_on_before_is_not_a_fresh_one(form):
+    run = played(protocol(USED_AGAIN, 'assay="generic", rules="warn"', form))
+    assert run.status == "succeeded"
+    how = r"picks up again the tip of its pick-up 1 at line \d+, where .* picks up a tip"
+    assert re.search(rf"Layer 1: not as rehearsed\..*{how}", comments(run)[-1])
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        # Each sample has a tip of its own, which is used again; the first one is another.
+        "first = 0 if protocol.is_simulating() else 5\n"
+        "for n in (0, 1, 0, 1):\n"
+        "    p300.pick_up_tip(tips.wells()[first + n])\n"
+        "    p300.transfer(20, tubes.wells()[n], plate.wells()[n], new_tip='never')\n"
+        "    p300.return_tip()",
+        # The rack is filled at another moment.
+        "for n in range(3):\n"
+        "    if n == (2 if protocol.is_simulating() else 1): p300.reset_tipracks()\n"
+        "    p300.transfer(20, tubes.wells()[0], plate.wells()[n], trash=False)",
+    ],
+)
+def test_which_tip_of_those_that_are_fresh_is_no_difference(body):
+    run = played(protocol(body, 'assay="generic", rules="warn"'))
+    assert run.status == "succeeded"
+    assert "Layer 1: not as rehearsed" not in comments(run)[-1]
+
+
+def test_each_of_several_guards_is_held_against_its_own_part_of_the_rehearsal():
+    text = protocol(
+        "for column, turned in zip(plate.columns(), (False, False, True)):\n"
+        "    wells = column[:2]\n"
+        "    if turned and not protocol.is_simulating(): wells.reverse()\n"
+        "    part(protocol, p300, tubes['A1'], wells)"
+    ).replace(
+        "@guard()\n",
+        "@guard(assay='generic', rules='warn')\n"
+        "def part(protocol, p300, source, wells):\n"
+        "    p300.transfer(50, source, wells, new_tip='always')\n\n",
+    )
+    run = played(text)
+    assert run.status == "succeeded"
+    last = [said for said in comments(run) if "undecided" in said][1::2]
+    assert [said.startswith("aegis_ot: Layer 1: not as rehearsed.") for said in last] == [
+        False, False, True,
+    ]  # fmt: skip
+    assert "into B3 of plate" in last[-1]
+
+
+def test_a_rehearsal_leaves_chance_as_it_was():
+    """What a protocol draws from a seed of its own is what it draws without a guard."""
+    body = "wells = plate.wells()\nrandom.shuffle(wells)\n"
+    body += "p300.transfer(50, tubes['A1'], wells[:3], new_tip='always')"
+    seeded = protocol(body, 'assay="generic"').replace(
+        "metadata", "import random\nrandom.seed(7)\nmetadata", 1
+    )
+    unguarded = played(seeded.replace('@guard(assay="generic")\n', ""))
+    run = played(seeded)
+    filled = [
+        [c.params.wellName for c in one.commands if c.commandType == "dispense"]
+        for one in (unguarded, run)
+    ]
+    assert filled[0] == filled[1]
+    assert "Layer 1: pass" in comments(run)[-1]

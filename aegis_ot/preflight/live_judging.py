@@ -128,6 +128,11 @@ class LiveJudge:
         """Take in what was done; whether it is the first that the rehearsal did not do."""
         return self._comparison is not None and self._comparison.done(operation)
 
+    def event(self, event: Event) -> None:
+        """Take in what happened beside."""
+        if self._comparison is not None:
+            self._comparison.event(event)
+
     def ended(self, by_itself: bool) -> None:
         """The run is over: judge what it did as a whole, where nobody has yet.
 

@@ -9,7 +9,7 @@ from .parameters import Parameter, declared_parameters, plain_values, undeclared
 from .recording import Record, Recorder, Recording
 from .refusals import in_words, line_of
 from .rehearsing import play, record, rehearsal_under_way
-from .run_plan import Comparison, RunPlan, step_of
+from .run_plan import Comparison, RunPlan
 from .script import Script, find_home, find_script
 
 __all__ = [
@@ -32,6 +32,5 @@ __all__ = [
     "record",
     "rehearsal_under_way",
     "second_clock",
-    "step_of",
     "undeclared",
 ]

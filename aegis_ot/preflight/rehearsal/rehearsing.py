@@ -6,6 +6,8 @@ does on every load: nothing that the live protocol has at module level is touche
 
 from __future__ import annotations
 
+import random
+import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -106,6 +108,7 @@ def record(
     token = _REHEARSING.set(Rehearsal(recorder, listeners))
     try:
         with (
+            _chance_kept(),
             _stage(protocol, script, live_parameters, limit) as context,
             tapped(context, [recorder, *listeners], script.file_name) as tap,
         ):
@@ -139,6 +142,19 @@ def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.
     limit = partial(interrupted_after, timeout_s, script.file_name)
     with _stage(protocol, script, None, limit) as context:
         _perform(protocol, context, limit, {}, wrap)
+
+
+@contextmanager
+def _chance_kept() -> Iterator[None]:
+    """The live protocol draws what it would without a rehearsal; and the rehearsal draws the same."""
+    numbers = sys.modules.get("numpy.random")  # the protocol's own affair; never imported here
+    drawn = random.getstate(), numbers and numbers.get_state()
+    try:
+        yield
+    finally:
+        random.setstate(drawn[0])
+        if numbers:
+            numbers.set_state(drawn[1])
 
 
 @contextmanager

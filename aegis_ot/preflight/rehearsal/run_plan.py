@@ -1,8 +1,8 @@
 """What a rehearsal moved, step by step, and whether the run that follows it does the same.
 
-Compared are the moves of liquid and tips: in which order, which wells, how much. A run may differ
-from its rehearsal in everything else: which tip is the next, how high the liquid stands, how long
-something takes, how often it is mixed.
+Compared are the moves of liquid and tips: in which order, which wells, how much, and whether a tip
+is one that was on before. A run may differ from its rehearsal in everything else: which fresh tip is
+the next, how high the liquid stands, how long something takes, how often it is mixed.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ...instrumentation import Event, Operation, OperationKind
+from ...instrumentation import Event, EventKind, Operation, OperationKind
 from ...vocabulary import WellRef
 
 _COMPARED = {
@@ -49,25 +49,52 @@ class Step(NamedTuple):
         return f"the {self.mount} pipette {self.action}{much}{where}"
 
 
-def step_of(operation: Operation) -> Step | None:
-    """The step that an operation is; ``None`` for one that moves neither liquid nor a tip."""
-    kind, mount = operation.kind, operation.pipette.mount
-    action = _COMPARED.get(kind)
-    if action is None or operation.is_air:
-        return None
-    if kind in (OperationKind.PICK_UP_TIP, OperationKind.DROP_TIP):
-        if kind is OperationKind.DROP_TIP and not operation.disposal:
-            action = "puts its tip back"
-        return Step(mount, action, (None,) * len(operation.nozzles), line=operation.line)
-    if operation.mixing:
-        action = _MIX
-    wells = tuple(
-        None if well is None else (well.slot, well.label, well.name) for well in operation.wells
-    )
-    # What was asked for: a simulator that counts below zero cuts a dispense where no robot does.
-    asked = operation.arguments.get("volume") or operation.volume
-    volume = 0.0 if kind is OperationKind.BLOW_OUT else float(asked)
-    return Step(mount, action, wells, volume, operation.line)
+class Steps:
+    """Tells operations as steps; knows which tips were on before, until their rack is filled."""
+
+    def __init__(self) -> None:
+        self._used: dict[WellRef, int] = {}
+        self._pick_ups = 0
+
+    def of(self, operation: Operation) -> Step | None:
+        """The step that an operation is; ``None`` for one that moves neither liquid nor a tip."""
+        kind, mount = operation.kind, operation.pipette.mount
+        action = _COMPARED.get(kind)
+        if action is None or operation.is_air:
+            return None
+        if kind in (OperationKind.PICK_UP_TIP, OperationKind.DROP_TIP):
+            if kind is OperationKind.PICK_UP_TIP:
+                # By when it was on, not by its place: the first tip may be another one.
+                used = [self._used[well] for well in operation.wells if well in self._used]
+                action = f"picks up again the tip of its pick-up {min(used)}" if used else action
+            elif not operation.disposal:
+                action = "puts its tip back"
+            return Step(mount, action, (None,) * len(operation.nozzles), line=operation.line)
+        if operation.mixing:
+            action = _MIX
+        wells = tuple(
+            None if well is None else (well.slot, well.label, well.name) for well in operation.wells
+        )
+        # What was asked for: a simulator that counts below zero cuts a dispense where no robot does.
+        asked = operation.arguments.get("volume") or operation.volume
+        volume = 0.0 if kind is OperationKind.BLOW_OUT else float(asked)
+        return Step(mount, action, wells, volume, operation.line)
+
+    def done(self, operation: Operation) -> None:
+        """It was done."""
+        if operation.kind is OperationKind.PICK_UP_TIP:
+            self._pick_ups += 1
+            for well in operation.wells:
+                if well is not None:
+                    self._used.setdefault(well, self._pick_ups)
+
+    def event(self, event: Event) -> None:
+        """A rack may have been filled, or taken away to be."""
+        refilled = event.kind is EventKind.LABWARE_MOVED and not event.text
+        if refilled or event.kind is EventKind.TIPS_RESET:
+            self._used = {
+                well: number for well, number in self._used.items() if well.labware != event.labware
+            }
 
 
 def _goes_on(last: Step | None, step: Step) -> bool:
@@ -81,38 +108,45 @@ class RunPlan:
     Attributes:
         steps: In order.
         head: Records of the rehearsal from before the guard began.
-        several: Whether the protocol has guards one after another, of which it shows the first.
+
+    Args:
+        earlier: How many guards of the same run are over: it may have several, one after another.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, earlier: int = 0) -> None:
         self.steps: list[Step] = []
         self.head = 0
-        self.several = False
-        self._begun = self._ended = False
+        self._earlier = earlier
+        self._listens, self._begun = not earlier, False
+        self._steps = Steps()
 
     def guard_began(self, records: int) -> None:
         """A guard of the protocol begins, after so many records of the rehearsal."""
-        if self._begun:
-            self.several = True
+        if self._earlier or self._begun:
+            self._earlier = max(0, self._earlier - 1)
             return
-        self._begun, self.head = True, records
+        self._listens = self._begun = True
+        self.head, self._steps = records, Steps()
         self.steps.clear()
 
     def guard_ended(self) -> None:
-        """And ends; what comes then nobody will hear."""
-        self._ended = True
+        """And ends; what comes then this one will not hear."""
+        if self._begun:
+            self._listens = False
 
     def before(self, operation: Operation) -> None:
         """Only what was done counts."""
 
     def after(self, operation: Operation) -> None:
         """Of :class:`aegis_ot.instrumentation.Listener`."""
-        step = None if self._ended else step_of(operation)
+        step = self._steps.of(operation) if self._listens else None
+        self._steps.done(operation)
         if step is not None and not _goes_on(self.steps[-1] if self.steps else None, step):
             self.steps.append(step)
 
     def event(self, event: Event) -> None:
-        """Moves nothing."""
+        """Likewise."""
+        self._steps.event(event)
 
 
 class Comparison:
@@ -124,26 +158,28 @@ class Comparison:
     """
 
     def __init__(self, steps: Sequence[Step]) -> None:
-        self._steps = steps
+        self._plan = steps
+        self._steps = Steps()
         self._done = 0
         self._last: Step | None = None
         self.difference = ""
 
     def fits(self, operation: Operation) -> bool:
         """Whether the run does as planned if it does this next."""
-        step = step_of(operation)
+        step = self._steps.of(operation)
         if self.difference:
             return False
         if step is None or _goes_on(self._last, step):
             return True
-        return self._done < len(self._steps) and self._steps[self._done].equals(step)
+        return self._done < len(self._plan) and self._plan[self._done].equals(step)
 
     def done(self, operation: Operation) -> bool:
         """Take in what was done; whether it is the first that differs."""
-        step = step_of(operation)
+        step, fits = self._steps.of(operation), self.fits(operation)
+        self._steps.done(operation)
         if self.difference or step is None or _goes_on(self._last, step):
             return False
-        if not self.fits(operation):
+        if not fits:
             line = f" at line {step.line}" if step.line else ""
             self.difference = f"{step}{line}, where {self._planned()}"
             return True
@@ -151,13 +187,17 @@ class Comparison:
         self._done += 1
         return False
 
+    def event(self, event: Event) -> None:
+        """Something happened that is no operation."""
+        self._steps.event(event)
+
     def ended(self) -> None:
         """The run has ended by itself."""
-        if not self.difference and self._done < len(self._steps):
+        if not self.difference and self._done < len(self._plan):
             self.difference = f"it ended where {self._planned()}"
 
     def _planned(self) -> str:
-        if self._done >= len(self._steps):
-            return "the rehearsal had ended" if self._steps else "the rehearsal moved nothing"
-        planned = self._steps[self._done]
+        if self._done >= len(self._plan):
+            return "the rehearsal had ended" if self._plan else "the rehearsal moved nothing"
+        planned = self._plan[self._done]
         return f"in the rehearsal {planned}" + (f" at line {planned.line}" if planned.line else "")
