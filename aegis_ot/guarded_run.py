@@ -310,13 +310,16 @@ def _unjudged(error: Exception, protocol: Any, settings: Settings, file_name: st
     else:
         why = f"Layer 1 failed and judged nothing ({type(error).__name__}: {error})."
     layer1 = Layer1.none(why, settings)
+    longer = f"rehearsal_timeout_s={10 * settings.rehearsal_timeout_s:g}"
+    is_slow = isinstance(error, RehearsalTimeout)
     # An analysis of a protocol that fails by itself fails with its own error; and what a run that
     # is being stopped raises is Opentrons' to say.
     lets_be = RunState(protocol).stopping or (fails_itself and protocol.is_simulating())
     if settings.rules in ("on", "strict") and not lets_be:
         raise _rejected(
             f"{why} Nobody has judged what it would do, so it does not begin; no tip has moved. "
-            'To run it all the same: @guard(rules="warn").',
+            + (f"If it only takes long: @guard({longer}). " if is_slow else "")
+            + 'To run it all the same: @guard(rules="warn").',
             getattr(error, "line", None),
             layer1.words(),
             protocol,

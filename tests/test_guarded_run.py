@@ -48,6 +48,7 @@ class TestNoRehearsal:
         assert why in run.told
         assert "no tip has moved" in run.told
         assert 'rules=\\"warn\\"' in run.told
+        assert ("rehearsal_timeout_s" in run.told) == (body is ENDLESS)
         assert not MOVES & {c.commandType for c in run.commands[1:]}  # the engine homes
         assert finished["outcome"] == "failed"
         assert why in finished["detail"]

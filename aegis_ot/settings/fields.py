@@ -68,7 +68,7 @@ class Settings:
     lift: bool = True
     capture_timeout_s: float = 10.0
     verdict_timeout_s: float = 60.0
-    rehearsal_timeout_s: float = 120.0
+    rehearsal_timeout_s: float = 600.0
     opinion: str = "off"
     opinion_timeout_s: float = 20.0
     run_id: str | None = None
