@@ -146,7 +146,7 @@ def play(script: Script, wrap: Callable[[Run], Run], *, timeout_s: float = 3600.
 
 @contextmanager
 def _chance_kept() -> Iterator[None]:
-    """The live protocol draws what it would without a rehearsal; and the rehearsal draws the same."""
+    """The live protocol draws what it would without a rehearsal, and this draws the same."""
     numbers = sys.modules.get("numpy.random")  # the protocol's own affair; never imported here
     drawn = random.getstate(), numbers and numbers.get_state()
     try:

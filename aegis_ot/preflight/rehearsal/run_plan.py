@@ -1,8 +1,8 @@
 """What a rehearsal moved, step by step, and whether the run that follows it does the same.
 
 Compared are the moves of liquid and tips: in which order, which wells, how much, and whether a tip
-is one that was on before. A run may differ from its rehearsal in everything else: which fresh tip is
-the next, how high the liquid stands, how long something takes, how often it is mixed.
+is one that was on before. A run may differ from its rehearsal in everything else: which fresh tip
+is the next, how high the liquid stands, how long something takes, how often it is mixed.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class Steps:
         wells = tuple(
             None if well is None else (well.slot, well.label, well.name) for well in operation.wells
         )
-        # What was asked for: a simulator that counts below zero cuts a dispense where no robot does.
+        # What was asked for: a simulator that counts below zero cuts a dispense, and no robot.
         asked = operation.arguments.get("volume") or operation.volume
         volume = 0.0 if kind is OperationKind.BLOW_OUT else float(asked)
         return Step(mount, action, wells, volume, operation.line)
