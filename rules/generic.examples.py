@@ -165,7 +165,7 @@ p300.drop_tip()
 for sample, target in zip(samples, targets):
     p300.transfer(120, sample, target, air_gap=20)
 
-# GEN-3 fails: the table asks for more than the tube holds
+# GEN-3 warns: the table asks for more than the tube holds
 for sample, target, volume in zip(samples, targets, (60, 110, 190)):
     p300.transfer(volume, sample, target)
 

@@ -67,7 +67,7 @@ wells = plate.columns()[3][::-1]
 p300.distribute(90, diluent, wells[1:])
 p300.transfer(100, stock, wells[0])
 for n in range(7):
-    p300.transfer(10 if n else 30, wells[n], wells[n + 1], mix_after=(5, 50))
+    p300.transfer(20 if n else 30, wells[n], wells[n + 1], mix_after=(5, 50))
 
 # SD-2 passes: factors that skip no well, over two rows
 long_series = plate.rows()[2][:5] + plate.rows()[3][:5]

@@ -79,7 +79,7 @@ def _refused_unknown(
     if None in declared:  # it cannot be judged either, and might declare them
         unknown = []
     for checked, names in zip(protocols, declared, strict=True):
-        if unknown and names is not None and checked.problem is None:
+        if unknown and names is not None:  # a file under another name is lacking elsewhere
             problem = Problem(undeclared(unknown, names))
             yield CheckedProtocol(checked.file, problem=problem, lines=checked.lines)
         else:

@@ -66,7 +66,7 @@ def _options(
     select: Sequence[str] | None,
     ignore: Sequence[str] | None,
 ) -> Options:
-    families = [family.family for family in database.families]
+    families = [family.family for family in database.assays]
     named, selected, table = split("--assay", assay), split("--select", select), _table(configured)
     return Options(
         assay=tuple(

@@ -7,6 +7,7 @@ from .repeating import is_repeatable
 from .tap import Tap, tapped
 from .tip_layers import expel
 from .value_reader import Row, is_spot
+from .wells import wells_under
 
 __all__ = [
     "Event",
@@ -25,4 +26,5 @@ __all__ = [
     "is_repeatable",
     "is_spot",
     "tapped",
+    "wells_under",
 ]

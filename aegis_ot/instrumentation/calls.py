@@ -7,12 +7,14 @@ import inspect
 import weakref
 from collections import deque
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from ..vocabulary import WellRef
 from .callsite import CallSite
 from .labware import LabwareInfo
 from .operation import Operation, OperationKind, Pipette
+from .tip_layers import ROUNDING_UL
 from .wells import Nozzles, WellResolver
 
 CORE_METHODS: Mapping[str, OperationKind] = {
@@ -36,6 +38,7 @@ CORE_METHODS: Mapping[str, OperationKind] = {
 }
 
 _PROBES = frozenset(name for name in CORE_METHODS if "liquid_p" in name)
+_EMPTYING = frozenset({OperationKind.PICK_UP_TIP, OperationKind.DROP_TIP, OperationKind.BLOW_OUT})
 _RECENT = 4
 
 
@@ -55,6 +58,8 @@ class CallReader:
         self._move_to = core.move_to
         self._targets: deque[tuple[Operation, Any, Any]] = deque(maxlen=_RECENT)
         self._nozzles: Nozzles | None = None
+        self._counts_below_none = not hasattr(core, "pipette_id")
+        self._below = 0.0
         self.busy = False
 
     def read(
@@ -70,6 +75,10 @@ class CallReader:
             return self._operation(name, values, site)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError):
             return None
+
+    def set_anew(self) -> None:
+        """The pipette was set for other volumes."""
+        self._pipette = replace(self._pipette, min_volume=least_volume(self._core))
 
     def move_above(self, operation: Operation) -> None:
         """Move to the top of the first well of a recent operation, unheard by listeners.
@@ -113,18 +122,22 @@ class CallReader:
                 disposal = True
             else:
                 target = str(well_core.get_name())
-                aside = self._aside(values, location, info, target, well_core)
+                several = len(nozzles.names) > 1
+                aside = self._aside(values, location, info, target, well_core, several)
                 wells = self._wells.covered(info, target, nozzles, aside)
                 from_top = self._height(name, values, location, info, target, well_core)
                 if from_top is not None:
                     from_bottom = from_top + info.wells[target].depth
+        volume, written = self._volumes(kind, values, site.volume)
         operation = Operation(
             kind=kind,
             pipette=self._pipette,
             nozzles=nozzles.names,
             wells=wells,
             disposal=disposal,
-            volume=self._volume(kind, values),
+            volume=volume,
+            written=written,
+            lead=nozzles.lead,
             from_top=from_top,
             from_bottom=from_bottom,
             from_liquid=0.0 if name in _PROBES else _over_liquid(values),
@@ -143,16 +156,25 @@ class CallReader:
         self._targets.append((operation, location, well_core if aimed else None))
         return operation
 
-    def _volume(self, kind: OperationKind, values: Mapping[str, Any]) -> float:
+    def _volumes(
+        self, kind: OperationKind, values: Mapping[str, Any], asked: Any
+    ) -> tuple[float, float | None]:
+        """The volume that moves, and the one that is written if that is another."""
         if kind is OperationKind.TOUCH_TIP:
-            return 0.0
+            return 0.0, None
         volume = float(values.get("volume") or 0.0)
-        if kind is OperationKind.DISPENSE:
-            # Older apiLevels clamp a dispense to what is in the tip, air included; their
-            # simulator does not, and then counts below zero, which says nothing of the tip.
-            held = float(self._core.get_current_volume() or 0.0)
-            return min(volume, held) if held > 0 else volume
-        return volume
+        if kind in _EMPTYING:
+            self._below = 0.0
+        elif kind is OperationKind.DISPENSE or self._counts_below_none:
+            # Older apiLevels clamp a dispense to what is in the tip, air included. The oldest ones'
+            # simulator does not: it counts below nothing, and so short until the tip is emptied.
+            count = float(self._core.get_current_volume() or 0.0)
+            self._below = min(self._below, count)
+            held = count - self._below
+            if kind is OperationKind.DISPENSE and volume > held + ROUNDING_UL:
+                return (held if held > ROUNDING_UL else volume), volume
+        # They take 0 for "as much as there is room for", or as there is in the tip.
+        return volume, 0.0 if asked == 0 and volume > 0 else None
 
     def _aside(
         self,
@@ -161,11 +183,12 @@ class CallReader:
         info: LabwareInfo,
         target: str,
         well_core: Any,
+        several: bool,
     ) -> tuple[float, float]:
         point = getattr(location, "point", None)
         if values.get("meniscus_tracking") is not None or not hasattr(point, "x"):
             return (0.0, 0.0)  # a place by the meniscus is no place on the deck
-        return self._wells.aside(info, target, well_core, point)
+        return self._wells.aside(info, target, well_core, point, several)
 
     def _height(
         self,
@@ -186,6 +209,11 @@ class CallReader:
         if point is None or not isinstance(getattr(point, "z", None), (int, float)):
             return None
         return round(float(point.z) - self._wells.top_of(info, target, well_core), 3)
+
+
+def least_volume(core: Any) -> float:
+    """The least that a pipette is made to move as it is set now, µL; 0 if unknown."""
+    return float(core.get_min_volume()) if hasattr(core, "get_min_volume") else 0.0
 
 
 @functools.cache

@@ -10,13 +10,15 @@ import os
 import sys
 from collections.abc import Callable
 from types import FrameType
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .own_code import is_helper_file
 
 # Functions that mix when they stand between the protocol and a core: the context's own, and
 # the liquid-class transfers' (``pre_wet`` aspirates and dispenses in the source to wet the tip).
 _MIXING = frozenset({"mix", "dynamic_mix", "pre_wet"})
+_MEASURED = frozenset({"aspirate", "dispense"})
+"""Methods that take the volume which is written, before older apiLevels make another of it."""
 _API = os.sep + os.path.join("opentrons", "protocol_api", "")
 
 _NEAREST = 8
@@ -33,11 +35,13 @@ class CallSite(NamedTuple):
         lines: Lines of all protocol frames on the stack, innermost first.
         call: The Opentrons method that the protocol called.
         mixing: Whether a mixing function stands between protocol and core.
+        volume: What ``aspirate`` or ``dispense`` was called with, if the stack was asked to look.
     """
 
     lines: tuple[int, ...]
     call: str
     mixing: bool
+    volume: Any = None
 
     @property
     def line(self) -> int | None:
@@ -57,11 +61,13 @@ class ProtocolStack:
     Attributes:
         met: Gets the innermost of these frames at each walk; ``None`` while nobody asks for them.
         returned: Gets each such frame once its function has returned, innermost first.
+        looks_for_volumes: Whether call sites tell the volume that was written.
     """
 
     def __init__(self, file_name: str) -> None:
         self.met: Callable[[FrameType], None] | None = None
         self.returned: Callable[[FrameType], None] | None = None
+        self.looks_for_volumes = False
         self._kinds = {file_name: _PROTOCOL}
         self._running: list[FrameType] = []
         self._outermost: FrameType | None = None
@@ -77,7 +83,7 @@ class ProtocolStack:
         lines: list[int] = []
         own: list[FrameType] = []
         within = 0  # how many of them the protocol's outermost frame called, itself included
-        call, mixing = "", False
+        call, mixing, volume = "", False, None
         while frame is not None:
             code = frame.f_code
             kind = kinds.get(code.co_filename)
@@ -100,6 +106,8 @@ class ProtocolStack:
                 # Decorators stand in frames of their own; the methods are what users know.
                 if kind == _CONTEXT and name[0] not in "_<":
                     call = name
+                    if self.looks_for_volumes and volume is None and name in _MEASURED:
+                        volume = frame.f_locals.get("volume")
             frame = frame.f_back
         if self.returned is not None and within:
             del own[within:]
@@ -107,7 +115,7 @@ class ProtocolStack:
             if self.met is not None:
                 for frame in own[:_NEAREST]:
                     self.met(frame)
-        return CallSite(tuple(lines), call, mixing)
+        return CallSite(tuple(lines), call, mixing, volume)
 
     @property
     def running(self) -> tuple[FrameType, ...]:

@@ -40,6 +40,7 @@ class Pipette:
         mount: ``"left"`` or ``"right"``.
         channels: Number of nozzles it has.
         max_volume: µL.
+        min_volume: The least it is made to move as it is set now, µL.
     """
 
     key: str
@@ -47,6 +48,7 @@ class Pipette:
     mount: str
     channels: int
     max_volume: float
+    min_volume: float = 0.0
 
 
 class _NoCore:
@@ -84,6 +86,9 @@ class Operation:
             ``"transfer"``, ``"mix"``, ``"aspirate"``, ``"transfer_with_liquid_class"``...
         mixing: Whether it is part of a mix (``mix``, ``mix_before``, ``mix_after``, or the mix
             step of a liquid class).
+        written: What the protocol asks for, µL, where older apiLevels move another volume; else
+            ``None``.
+        lead: Which of the nozzles is sent to the place that the protocol names.
         probes: Whether it looks for liquid with the pipette's pressure sensor (Flex).
     """
 
@@ -102,6 +107,8 @@ class Operation:
     lines: tuple[int, ...] = ()
     call: str = ""
     mixing: bool = False
+    written: float | None = None
+    lead: int = 0
     probes: bool = False
     core: Callable[[], Any] = field(default=_NoCore(), repr=False, compare=False)
     """Gives the instrument core, as a weak reference does: ``None`` once the run is over."""

@@ -14,12 +14,15 @@ from contextlib import ExitStack, contextmanager
 from types import MethodType
 from typing import Any
 
-from .calls import CORE_METHODS, CallReader
+from .calls import CORE_METHODS, CallReader, least_volume
 from .callsite import CallSite, ProtocolStack
 from .events import EventTap
 from .operation import Listener, Operation, Pipette
 from .repeating import repeated
 from .wells import WellResolver
+
+_MOVES_WHAT_IS_WRITTEN = (2, 17)
+"""From this apiLevel on a volume of 0 is none, and what a tip does not hold is refused."""
 
 
 class Tap:
@@ -35,6 +38,7 @@ class Tap:
         self._core = protocol._core
         self._listeners = tuple(listeners)
         self.stack = ProtocolStack(file_name)
+        self.stack.looks_for_volumes = tuple(protocol.api_version) < _MOVES_WHAT_IS_WRITTEN
         self.wells = WellResolver(self._core)
         self._undo = ExitStack()
         self._readers: dict[str, CallReader] = {}
@@ -107,11 +111,14 @@ class Tap:
             mount=mount,
             channels=int(core.get_channels()),
             max_volume=float(core.get_max_volume()),
+            min_volume=least_volume(core),
         )
         reader = self._readers[mount] = CallReader(core, pipette, self.wells)
         for name in CORE_METHODS:
             if hasattr(core, name):
                 self._replace(core, name, functools.partial(self._tapped_method, reader, name))
+        if hasattr(core, "configure_for_volume"):
+            self._replace(core, "configure_for_volume", functools.partial(_setting_anew, reader))
 
     def _tapped_method(
         self, reader: CallReader, name: str, original: Callable[..., Any]
@@ -154,6 +161,15 @@ class Tap:
                     delattr(target, name)
 
         self._undo.callback(undo)
+
+
+def _setting_anew(reader: CallReader, original: Callable[..., Any]) -> Callable[..., Any]:
+    def configure_for_volume(_core: Any, *args: Any, **kwargs: Any) -> Any:
+        result = original(*args, **kwargs)
+        reader.set_anew()
+        return result
+
+    return configure_for_volume
 
 
 @contextmanager

@@ -7,6 +7,7 @@ that knows both.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -37,6 +38,8 @@ class Nozzles:
     offsets: tuple[tuple[float, float], ...]
     source: Any = None
     """Opentrons' own map, which is another one after each change."""
+    lead: int = 0
+    """Which of them is aimed at the target well."""
 
     @classmethod
     def of(cls, core: Any, known: Nozzles | None = None) -> Nozzles:
@@ -51,7 +54,8 @@ class Nozzles:
         points = nozzle_map.map_store
         lead = points[nozzle_map.starting_nozzle]
         offsets = tuple((point.x - lead.x, point.y - lead.y) for point in points.values())
-        return cls(tuple(points), offsets, nozzle_map)
+        names = tuple(points)
+        return cls(names, offsets, nozzle_map, names.index(nozzle_map.starting_nozzle))
 
 
 def _nozzle_map(core: Any) -> Any:
@@ -160,7 +164,7 @@ class WellResolver:
         cache_key = (info.key, target, nozzles, aside)
         refs = self._covered.get(cache_key)
         if refs is None:
-            names = _wells_under(info, target, nozzles, aside)
+            names = wells_under(info, target, nozzles.offsets, aside)
             refs = tuple(None if name is None else self.ref(info.key, name) for name in names)
             self._covered[cache_key] = refs
         return refs
@@ -177,16 +181,20 @@ class WellResolver:
         return float(self._top(info, name, well_core).z)
 
     def aside(
-        self, info: LabwareInfo, name: str, well_core: Any, point: Any
+        self, info: LabwareInfo, name: str, well_core: Any, point: Any, several: bool
     ) -> tuple[float, float]:
         """How far beside a well a point lies, x and y, mm; 0 if it is over the well.
 
-        ``well.top().move(Point(y=36))`` takes a pipette with half its tips to another row.
+        ``well.top().move(Point(y=36))`` takes a pipette with half its tips to another row. In a
+        well so wide that ``several`` nozzles may find room, each place in it is another one.
         """
         top, well = self._top(info, name, well_core), info.wells[name]
         x, y = round(float(point.x - top.x), 2), round(float(point.y - top.y), 2)
-        reach_x = (well.diameter or well.x_size or 0.0) / 2 + _BESIDE_MM
-        reach_y = (well.diameter or well.y_size or 0.0) / 2 + _BESIDE_MM
+        wide = several and not info.centers_channels
+        reach_x, reach_y = (
+            _SLACK_MM if wide and size > _NOZZLE_PITCH_MM else size / 2 + _BESIDE_MM
+            for size in (well.diameter or well.x_size or 0.0, well.diameter or well.y_size or 0.0)
+        )
         return (x, y) if abs(x) > reach_x or abs(y) > reach_y else (0.0, 0.0)
 
     def _top(self, info: LabwareInfo, name: str, well_core: Any) -> Any:
@@ -222,20 +230,31 @@ class _EngineLabware:
         return self._state.labware.get_user_specified_display_name(self.labware_id)
 
 
-def _wells_under(
-    info: LabwareInfo, target: str, nozzles: Nozzles, aside: tuple[float, float]
+def wells_under(
+    info: LabwareInfo,
+    target: str,
+    offsets: Sequence[tuple[float, float]],
+    aside: tuple[float, float] = (0.0, 0.0),
 ) -> tuple[str | None, ...]:
+    """The name of the well under each nozzle, of which the leading one is aimed at ``target``.
+
+    Args:
+        info: The labware.
+        target: Name of a well.
+        offsets: Where the nozzles are from the leading one, x and y, mm.
+        aside: How far from the middle of the well that is sent, mm.
+    """
     aim = info.wells[target]
     shift_x = shift_y = 0.0
-    if info.centers_channels and len(nozzles.offsets) > 1:
+    if info.centers_channels and len(offsets) > 1:
         # The pipette's middle, not its leading nozzle, goes to the middle of the well.
-        shift_x = sum(x for x, _ in nozzles.offsets) / len(nozzles.offsets)
-        shift_y = sum(y for _, y in nozzles.offsets) / len(nozzles.offsets)
+        shift_x = sum(x for x, _ in offsets) / len(offsets)
+        shift_y = sum(y for _, y in offsets) / len(offsets)
     return tuple(
         target
         if (x, y) == (shift_x, shift_y) and not any(aside)
         else _well_at(info, aim.x + x - shift_x + aside[0], aim.y + y - shift_y + aside[1])
-        for x, y in nozzles.offsets
+        for x, y in offsets
     )
 
 

@@ -50,7 +50,7 @@ def blind_request(dossier: Dossier, database: Database) -> Request:
 
 def llm_only_request(dossier: Dossier, database: Database) -> Request:
     """API reference and source; rules withheld, the families' names given."""
-    families = "Assay families: " + ", ".join(f.family for f in database.families) + "."
+    families = "Assay families: " + ", ".join(f.family for f in database.assays) + "."
     return Request(
         PURPOSE,
         _system("llm_only", families),
@@ -62,7 +62,7 @@ def llm_only_request(dossier: Dossier, database: Database) -> Request:
 def rules_text(database: Database) -> str:
     """All rules, by family, with the roles that the families know."""
     lines = ["# Rules", ""]
-    for family in database.families:
+    for family in database.assays:
         lines.append(f"## {family.family}: {family.title}")
         lines.append(_roles_by_side(family))
         for rule in family.rules:

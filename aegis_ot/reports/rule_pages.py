@@ -52,11 +52,11 @@ def _index(database: Database) -> Iterator[str]:
     yield "# Rules"
     yield ""
     yield (
-        f"{len(database.rules)} rules in {len(database.families)} assay families. A rule is data: "
-        "a JSON file per family in `rules/` names the words that reveal the family, the roles "
-        "that its wells play, and its rules; each rule names [checks](checks.md) and their "
-        "parameters. All that such a file may hold: [fields](fields.md). `aegis-ot explain RULE` "
-        "shows a rule in the terminal."
+        f"{len(database.rules)} rules: of {len(database.assays)} assay families, and of handling, "
+        "which concerns every protocol. A rule is data: a JSON file per family in `rules/` names "
+        "the words that reveal the family, the roles that its wells play, and its rules; each "
+        "rule names [checks](checks.md) and their parameters. All that such a file may hold: "
+        "[fields](fields.md). `aegis-ot explain RULE` shows a rule in the terminal."
     )
     yield ""
     yield "| rule | name | severity | statement |"

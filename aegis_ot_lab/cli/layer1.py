@@ -67,7 +67,7 @@ def layer1(
     database = load_database(tuple(str(path) for path in rules or ()))
     labels = read_labels(
         folder,
-        [family.family for family in database.families],
+        [family.family for family in database.assays],
         [rule.id for rule in database.rules],
     )
     if figures is not None:

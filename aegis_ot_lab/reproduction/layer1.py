@@ -61,7 +61,7 @@ def judge_benchmark(
 
 def labels_of(name: str, database: Database) -> list[Label]:
     """Of a benchmark folder."""
-    families = [family.family for family in database.families]
+    families = [family.family for family in database.assays]
     return read_labels(benchmark_folder(name), families, [rule.id for rule in database.rules])
 
 

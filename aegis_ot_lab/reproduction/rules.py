@@ -12,8 +12,8 @@ from .experiment import Experiment, Outcome, table
 def run(context: Context) -> Outcome:
     """Count."""
     database = load_database()
-    families = [family.family for family in database.families]
-    rules = {family.family: len(family.rules) for family in database.families}
+    families = [family.family for family in database.assays]
+    rules = {family.family: len(family.rules) for family in database.assays}
     known = families, [rule.id for rule in database.rules]
     labels = read_labels(benchmark_folder("benchmark"), *known)
     several = read_labels(benchmark_folder("benchmark-multi"), *known)

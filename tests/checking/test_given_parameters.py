@@ -58,7 +58,7 @@ def test_a_value_that_is_refused_is_told_with_its_name_and_what_is_taken(
 
 @pytest.mark.parametrize(
     ("text", "words"),
-    [(PLAIN, "the protocol declares none"), (DECLARES, "declared are count, vol, fresh, mount")],
+    [(PLAIN, "the protocol declares none"), (DECLARES, "there are count, vol, fresh, mount")],
 )
 def test_a_value_without_a_parameter_is_an_error(tmp_path: Path, text: str, words: str) -> None:
     with pytest.raises(RehearsalError, match=words):
@@ -67,7 +67,7 @@ def test_a_value_without_a_parameter_is_an_error(tmp_path: Path, text: str, word
     (problem,) = (protocol.problem for protocol in run.protocols)
     assert run.exit_code == 2
     assert problem is not None
-    assert problem.message.startswith("there is no runtime parameter foo; ")
+    assert problem.message.startswith("there is no parameter foo; ")
     assert words in problem.message
 
 

@@ -23,12 +23,13 @@ IDS = (
     + [f"CELL-{n}" for n in range(1, 5)]
     + [f"GEN-{n}" for n in range(1, 4)]
 )
+HANDLING = [f"HND-{n}" for n in range(1, 7)]
 
 
-def test_all_22_rules_are_there() -> None:
+def test_all_22_rules_are_there_and_those_of_handling() -> None:
     rules = load_database().rules
-    assert sorted(rule.id for rule in rules) == sorted(IDS)
-    assert {rule.id for rule in rules if rule.severity == "warning"} == {"PCR-6"}
+    assert sorted(rule.id for rule in rules) == sorted([*IDS, *HANDLING])
+    assert {r.id for r in rules if r.severity == "warning"} == {"PCR-6", "HND-3", "HND-5"}
     for rule in rules:
         assert rule.prompt
         assert rule.reference

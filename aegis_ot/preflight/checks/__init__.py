@@ -15,11 +15,15 @@ from .case import Case
 from .check import Check, Doubt, Violation
 from .dilution import SeriesDirection, SeriesMixed, SeriesTip
 from .dose_order import DoseOrder
+from .emptied import NothingFromNothing, StockSuffices
 from .filling import SeriesFilledFirst, SeriesFilledFrom
+from .handling import TipAboveBottom, TipsOverWells
 from .order import MixedAfter, ReceivedBefore, RisingOrder
+from .range import VolumeInRange
 from .receiving import NeverReceives, Receives
 from .uniform_volume import UniformVolume
 from .volumes import VolumeBookkeeping
+from .written import WrittenIsMoved
 
 CHECKS: dict[str, type[Check]] = {
     "carry": Carry,
@@ -36,6 +40,12 @@ CHECKS: dict[str, type[Check]] = {
     "series_filled_from": SeriesFilledFrom,
     "series_tip": SeriesTip,
     "volume_bookkeeping": VolumeBookkeeping,
+    "tips_over_wells": TipsOverWells,
+    "tip_above_bottom": TipAboveBottom,
+    "volume_in_range": VolumeInRange,
+    "written_is_moved": WrittenIsMoved,
+    "nothing_from_nothing": NothingFromNothing,
+    "stock_suffices": StockSuffices,
 }
 
 

@@ -13,7 +13,7 @@ from ...vocabulary import WellRef
 from ..roles import Roles
 from ..rules import Common, Family
 from ..source import name_without_level, without_strength
-from ..trace import Met, Trace, Transfer, Visit, Well
+from ..trace import Load, Met, Trace, Transfer, Visit, Well, loads_of
 from .series import SeriesFinder
 
 RoleSet = Collection[str]
@@ -143,6 +143,16 @@ class Case:
         drawn off: a wash is gone. A blow-out ends what a dispense began.
         """
         return {well: _fillings(well) for well in self.trace.wells.values()}
+
+    @cached_property
+    def loads(self) -> Sequence[Load]:
+        """What the pipettes take up and give, load by load."""
+        return list(loads_of(self.trace))
+
+    def is_waste(self, well: Well) -> bool:
+        """Whether what goes into a well is not needed any more."""
+        used = self.trace.usage.get(well.ref)
+        return well.ref in self.waste or (used is not None and used.drain)
 
     @cached_property
     def series(self) -> SeriesFinder:

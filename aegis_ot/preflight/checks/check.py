@@ -23,6 +23,7 @@ class Violation:
         rests_on: Wells without whose roles nothing would be wrong.
         contact: How surely the tips touched what it rests on.
         warning: Why it is a warning at most, in a sentence; empty for what surely ruins the assay.
+        told_by: A rule that, where it finds something in the same well, says this better.
         in_any_assay: Whether it holds by what happened and by names alone, whatever the assay is.
     """
 
@@ -32,6 +33,7 @@ class Violation:
     rests_on: tuple[Well, ...] = ()
     contact: Contact = Contact.WET
     warning: str = ""
+    told_by: str = ""
     in_any_assay: bool = False
     tip: tuple[Any, ...] = ()
 

@@ -18,6 +18,11 @@ _FAR_SHORT = 2.0
 _INEXACT = 0.05
 """What a draw may lack, as a share of it: pipettes and people who fill tubes are no more exact."""
 
+_DECLARED = "It rests on the declared volume (load_liquid): that, or the draw, is wrong."
+
+STOCK_SUFFICES = "HND-6"
+"""The rule that tells of wells which cannot hold what is drawn from them at all."""
+
 _TO_EMPTY = 1.25
 """So many times what a well holds is drawn from it to leave nothing behind."""
 
@@ -47,6 +52,8 @@ class VolumeBookkeeping(Check):
             well = one.visit.well
             if one.overfilled and well.ref in case.waste and one.volume <= well.brim:
                 continue
+            if well.runs_through:
+                continue  # what runs through is not there to overflow, or to be drawn
             if not one.overfilled and well.declared is None:
                 if (
                     well.ref in case.unsure
@@ -64,7 +71,8 @@ class VolumeBookkeeping(Check):
             found.setdefault((well, one.overfilled), []).append(one)
         for together in found.values():
             told = [(one, _why_practice(case, one)) for one in together]
-            first, warning = next((one for one in told if not one[1]), told[0])
+            # An error speaks for all; of warnings what is delivered, not what is mixed or wasted.
+            first, warning = min(told, key=lambda one: (bool(one[1]), one[1] != _DECLARED))
             later = together[together.index(first) :]
             yield _violation(first, warning, max(one.volume for one in later))
 
@@ -91,10 +99,12 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
     """Why an imbalance is a warning, in a sentence; empty for an error."""
     visit, well = imbalance.visit, imbalance.visit.well
     if imbalance.overfilled:
-        if well.declared is not None and imbalance.volume <= well.declared:
+        if well.declared and imbalance.volume <= well.declared:
             return "So much is declared for it before the run: that, or the labware, is wrong."
         if imbalance.volume - well.fallen <= well.capacity:
             return "Drops that fall from so high over it may land elsewhere."
+        if well.declared and imbalance.volume - well.declared <= well.capacity:
+            return f"{microlitres(well.declared)} of that are only declared (load_liquid)."
         if imbalance.volume > well.brim or _is_filled_again(case, visit):
             return ""
         return f"It stays below the brim ({microlitres(well.brim)})."
@@ -102,14 +112,10 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
         return "What is lacking is within what filling and pipetting are exact to."
     if visit.mixing:
         return "It is drawn to mix, not to be delivered."
-    fed = {
-        given.well
-        for given in visit.tip.visits
-        if given.index > visit.index
-        if given.session == visit.session and any(one.source is well for one in given.brought)
-    }
-    if all(one.ref in case.waste or case.trace.usage[one.ref].drain for one in fed):
+    if goes_to_waste(case, visit):
         return "What is drawn goes to the waste."
+    if well.declared:
+        return _DECLARED
     last = all(v.index <= visit.index for v in well.visits if v.kind is OperationKind.ASPIRATE)
     if (
         last
@@ -118,6 +124,17 @@ def _why_practice(case: Case, imbalance: Imbalance) -> str:
     ):
         return "It is drawn to empty the well."
     return ""
+
+
+def goes_to_waste(case: Case, visit: Visit) -> bool:
+    """Whether nothing of what is drawn comes into a well that matters."""
+    fed = {
+        given.well
+        for given in visit.tip.visits
+        if given.index > visit.index and given.session == visit.session
+        if any(one.source is visit.well for one in given.brought)
+    }
+    return all(case.is_waste(one) for one in fed)
 
 
 def _is_filled_again(case: Case, visit: Visit) -> bool:
@@ -142,10 +159,16 @@ def _violation(imbalance: Imbalance, warning: str, most: float) -> Violation:
         message = f"{well.ref} is filled to {volume} {at(visit.line)}{later}; it holds {limit}."
         sites = [Site(visit.line, well.ref, f"filled to {volume}")]
     else:
-        message = f"{volume} are drawn from {well.ref} {at(visit.line)}, which holds {limit} then."
+        holds = f"which holds {limit} then"
+        if well.declared:
+            holds = f"of whose declared {microlitres(well.declared)} {limit} are left then"
+            if any(one.brought for one in well.visits if one.index < visit.index):
+                holds = f"which holds {limit} then, its declared volume included"
+        message = f"{volume} are drawn from {well.ref} {at(visit.line)}, {holds}."
         sites = [Site(visit.line, well.ref, f"drew {volume} of {limit}")]
     lines = [v.line for v in well.visits if v.index < visit.index and v.brought]
     if lines and lines[-1] != visit.line:
         sites.insert(0, Site(lines[-1], well.ref, "last filled here"))
     cause = (visit.line, imbalance.overfilled)
-    return Violation(message, tuple(sites), cause, warning=warning)
+    told_by = "" if imbalance.overfilled else STOCK_SUFFICES
+    return Violation(message, tuple(sites), cause, warning=warning, told_by=told_by)

@@ -20,7 +20,11 @@ def findings_of(
         _, rule = database.rule(name)
         # A more telling rule reports these already.
         replaced = set().union(*(wells.get(other, ()) for other in rule.unless_reported))
-        left = [violation for violation in found if violation.well not in replaced]
+        left = [
+            one
+            for one in found
+            if one.well not in replaced and one.well not in wells.get(one.told_by, ())
+        ]
         findings += [_joined(group, rule, options) for group in _by_cause(left)]
     return sorted(findings, key=lambda finding: (min(finding.lines, default=0), finding.rule))
 

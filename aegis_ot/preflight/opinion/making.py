@@ -106,7 +106,7 @@ def _levels(items: Sequence[RoleEvidence]) -> str:
 
 def _rules(reading: Reading, report: Report) -> Iterable[RuleBrief]:
     shipped = str(shipped_rules())
-    for family in reading.database.families:
+    for family in reading.database.assays:
         for rule in family.rules:
             severity = reading.options.severity_of(rule)
             if severity != "off":

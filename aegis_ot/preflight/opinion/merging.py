@@ -85,7 +85,7 @@ def _judged_again(
 ) -> tuple[Mapping[Evidence, Sequence[str]], list[str], Report | None]:
     """The roles that stand, why others do not, and what the checks say with them."""
     # The family that the model reads, where the checks only guess.
-    known = {family.family for family in reading.database.families if not family.default}
+    known = {family.family for family in reading.database.assays if not family.default}
     assay = (opinion.family,) if opinion.family in known and not reading.family_known else ()
     seen = reading.with_evidence((), assay) if assay else reading
     accepted, rejected = verify_proposals(opinion.proposals, seen, opinion.model)

@@ -91,8 +91,8 @@ def runtime_parameters(protocol: Any, script: Script, limit: Limit) -> Any:
 def undeclared(names: Iterable[str], declared: Iterable[str]) -> str:
     """That there are no parameters of these names, and which there are."""
     known = ", ".join(declared)
-    told = f"declared are {known}" if known else "the protocol declares none"
-    return f"there is no runtime parameter {' or '.join(names)}; {told}."
+    told = f"there are {known}" if known else "the protocol declares none"
+    return f"there is no parameter {' or '.join(names)}; {told}."
 
 
 def lacking_files(context: Any) -> list[str]:

@@ -34,8 +34,8 @@ class Recorder:
         """Nothing yet: an operation that raises never happened."""
 
     def after(self, operation: Operation) -> None:
-        """Keep one operation."""
-        if operation.kind is not OperationKind.MOVE:
+        """Keep one operation; of mere moves those below a well's bottom."""
+        if operation.kind is not OperationKind.MOVE or (operation.from_bottom or 0.0) < 0:
             self.log.append(operation.detached())
 
     def event(self, event: Event) -> None:

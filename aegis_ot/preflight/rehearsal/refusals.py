@@ -5,6 +5,7 @@ Opentrons wraps an error in its own codes and names, and tells some at length.
 
 from __future__ import annotations
 
+import ast
 import inspect
 import re
 import traceback
@@ -13,6 +14,7 @@ from typing import Any
 
 from ...errors import RehearsalError
 
+_NOZZLES = "configure_nozzle_layout"
 _WRAPPED = re.compile(r"^\w+: Error \d+ [A-Z_]+ \((?P<kind>\w+)\): (?P<text>.*)$", re.DOTALL)
 _NAMED = re.compile(r"^(?:PythonException: )?(?=\w+(?:Error|Exception): )")
 
@@ -35,19 +37,39 @@ def in_words(error: BaseException) -> str:
 
 
 def stopped(
-    error: Exception, file_name: str, run: Any = None, lacking: Sequence[str] = ()
+    error: Exception, file_name: str, run: Any = None, lacking: Sequence[str] = (), text: str = ""
 ) -> RehearsalError:
     """The error of a protocol that raised: at ``run`` if no line of it ran. It may be that CSV
-    parameters are ``lacking`` a file.
+    parameters are ``lacking`` a file. Its ``text`` tells where a pipette lost its racks.
     """
     line = line_of(error, file_name)
     if line is None and callable(run):
         code = getattr(inspect.unwrap(run), "__code__", None)
         line = getattr(code, "co_firstlineno", None)
-    told = in_words(error)
+    told = _without_racks(error, line, text) or in_words(error)
     if type(error).__name__ == "RuntimeParameterRequired" and lacking:
         told = f"the CSV parameter {lacking[0]} needs a file, and has none."
     return error_at(file_name, line, told)
+
+
+def _without_racks(error: Exception, line: int | None, text: str) -> str:
+    """That a pipette has no tip rack at all, and which statement left it without; else nothing."""
+    if type(error).__name__ != "OutOfTipsError":
+        return ""
+    racks: Any = None
+    for frame, _ in traceback.walk_tb(error.__traceback__):
+        racks = getattr(frame.f_locals.get("self"), "_tip_racks", racks)
+    if racks is None or racks:
+        return ""
+    layouts = [
+        node.lineno
+        for node in ast.walk(ast.parse(text))
+        if isinstance(node, ast.Call) and getattr(node.func, "attr", "") == _NOZZLES
+        if all(word.arg not in ("tip_racks", None) for word in node.keywords)
+    ]
+    before = [at for at in layouts if line is None or at <= line] or layouts
+    where = f"{_NOZZLES} at line {max(before)} names none" if before else "none was given"
+    return f"the pipette has no tip rack: {where}. Write tip_racks=[...] there."
 
 
 def refuse_unexecuted(result: Any, file_name: str) -> None:

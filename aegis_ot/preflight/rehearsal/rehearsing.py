@@ -197,4 +197,5 @@ def _perform(
     except AegisError:
         raise
     except Exception as error:
-        raise stopped(error, file_name, namespace.get("run"), lacking_files(context)) from error
+        lacking = lacking_files(context)
+        raise stopped(error, file_name, namespace.get("run"), lacking, protocol.text) from error

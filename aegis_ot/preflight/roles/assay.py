@@ -87,7 +87,7 @@ def infer_families(
         return len(code) < len(texts) and not _is_known(signals(family, code))
 
     scored = []
-    for family in database.families:
+    for family in database.assays:
         found = signals(family, texts)
         scored.append((max(_score(found), 0.0), family, found))
     scored.sort(key=lambda item: -item[0])

@@ -56,6 +56,11 @@ class Database:
     common: Common
 
     @property
+    def assays(self) -> tuple[Family, ...]:
+        """The families that a protocol may be of; the others hold rules for every protocol."""
+        return tuple(family for family in self.families if family.is_assay)
+
+    @property
     def rules(self) -> tuple[RuleSpec, ...]:
         """Every rule, in file order."""
         return tuple(rule for family in self.families for rule in family.rules)

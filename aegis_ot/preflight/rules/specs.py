@@ -263,6 +263,11 @@ class Family:
     default: bool = False
     path: str = field(default="", compare=False, metadata={"internal": True})
 
+    @property
+    def is_assay(self) -> bool:
+        """Whether a protocol may be of it: it has roles, and not only rules that hold for all."""
+        return bool(self.roles)
+
     def closure(self, role: str) -> frozenset[str]:
         """A role and all roles above it."""
         return self._closures[role]

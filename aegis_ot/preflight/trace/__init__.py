@@ -5,15 +5,19 @@ Door: :func:`build_trace` gives a :class:`Trace`.
 
 from .building import build_trace, touched_by_tip
 from .geometry import Contact
+from .loads import Given, Load, loads_of
 from .model import EMPTY_UL, Transfer, Visit, Well, row_column
 from .table import places, trace_table
 from .tips import Met, Tip
-from .trace import Imbalance, Trace, Usage, chains_of
+from .trace import Beside, Imbalance, Trace, Usage, chains_of
 
 __all__ = [
     "EMPTY_UL",
+    "Beside",
     "Contact",
+    "Given",
     "Imbalance",
+    "Load",
     "Met",
     "Tip",
     "Trace",
@@ -23,6 +27,7 @@ __all__ = [
     "Well",
     "build_trace",
     "chains_of",
+    "loads_of",
     "places",
     "row_column",
     "touched_by_tip",

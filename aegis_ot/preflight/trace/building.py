@@ -17,10 +17,15 @@ from .model import Layer, Transfer, Visit, Well
 from .pauses import Words, read_pause, topics_in
 from .plates import Plates
 from .tips import Tip, TipBox
-from .trace import Imbalance, Trace
+from .trace import Beside, Imbalance, Trace
 
 _MOST = 0.5
 """A mix gives back at least this share of what it drew."""
+
+_TO_EMPTY = 1.25
+"""So many times what a well can hold is drawn from it to leave nothing behind."""
+
+_MOVING = (OperationKind.ASPIRATE, OperationKind.DISPENSE, OperationKind.BLOW_OUT)
 
 _FALLS_MM = 20.0
 """A drop let go higher over a well's top than this may land anywhere."""
@@ -69,8 +74,10 @@ class _Builder:
         self._last: dict[Tip, Visit] = {}
         self._heights: dict[Tip, tuple[Well, float]] = {}
         self._cycle: dict[str, tuple[object, set[OperationKind]]] = {}
+        self._strayed: dict[Tip, Beside] = {}
 
     def run(self, log: Sequence[Record]) -> Trace:
+        self._trace.log = log
         for record in log:
             # Wherever it stands in the text, it tells what is there before the run.
             if isinstance(record, Event) and record.kind is EventKind.LIQUID_LOADED:
@@ -138,6 +145,8 @@ class _Builder:
             self._box.drop(step.pipette.key, step.nozzles, homes)
         elif not self._repeats(step):
             self._note_group(step)
+            if None in step.wells or self._strayed:
+                self._note_beside(step)
             for nozzle, ref in zip(step.nozzles, step.wells, strict=False):
                 tip = self._box.on(step.pipette.key, nozzle)
                 if tip is None:
@@ -167,6 +176,26 @@ class _Builder:
         elif step.wells and step.wells[0] is not None and len(set(refs)) > 1:
             self._trace.groups.setdefault(refs[0], refs)
 
+    def _note_beside(self, step: Operation) -> None:
+        """Tips that stand over no well of a labware, and wells that get air from them later."""
+        if step.kind not in _MOVING or step.disposal or not any(step.wells):
+            return
+        tips = [self._box.on(step.pipette.key, nozzle) for nozzle in step.nozzles]
+        placed = [
+            (n, tip, ref) for n, tip, ref in zip(step.nozzles, tips, step.wells, strict=False)
+        ]
+        bare = {nozzle: tip for nozzle, tip, ref in placed if tip is not None and ref is None}
+        if bare:
+            holding = any(one.source is not None for tip in bare.values() for one in tip.layers)
+            beside = Beside(step, tuple(bare), holding)
+            self._trace.beside.append(beside)
+            if step.kind is OperationKind.ASPIRATE:
+                self._strayed.update(dict.fromkeys(bare.values(), beside))
+        if step.kind is OperationKind.DISPENSE:
+            for _, tip, ref in placed:
+                if tip in self._strayed and ref is not None:
+                    self._strayed.pop(tip).missed = True
+
     def _act(self, step: Operation, tip: Tip, well: Well | None) -> None:
         kind = step.kind
         draws = kind is OperationKind.ASPIRATE
@@ -188,7 +217,7 @@ class _Builder:
             self._touch(visit)
 
     def _visit(self, step: Operation, tip: Tip, well: Well) -> Visit:
-        visit = Visit(step.kind, tip, well, self._index, step.line, step.mixing)
+        visit = Visit(step.kind, tip, well, self._index, step.line, step.mixing, step=step)
         if len(step.lines) > 1:
             visit.caller = step.lines[1]
             self._trace.callers.setdefault(step.lines[0], set()).add(step.lines[1])
@@ -210,11 +239,24 @@ class _Builder:
             and step.from_bottom is not None
             and step.from_bottom >= height + CLEARANCE_MM
             and well.contact(step.from_top, step.from_bottom) is Contact.CLEAR
+        ) or self._is_over(step, tip, well)
+
+    def _is_over(self, step: Operation, tip: Tip, well: Well) -> bool:
+        """Whether a tip draws from above what it has just given to a well: air, too."""
+        gave = tip.visits[-1] if tip.visits else None
+        return (
+            gave is not None
+            and gave.well is well
+            and gave.kind is not OperationKind.ASPIRATE
+            and well.known
+            and not step.mixing
+            and well.contact(step.from_top, step.from_bottom) is Contact.CLEAR
         )
 
     def _aspirate(self, step: Operation, tip: Tip, well: Well) -> None:
         if well.empty and not well.fed and not well.prefilled and well.declared is None:
             well.fill_before_run(None)  # first drawn from: it must have held something
+            well.assumed = True
         visit = self._visit(step, tip, well)
         visit.volume = step.volume
         visit.contact = Contact.WET
@@ -222,6 +264,8 @@ class _Builder:
         if step.from_bottom is not None:
             self._heights[tip] = (well, step.from_bottom)
         liquid, held, least = well.liquid(), well.volume, well.least
+        if well.full * _TO_EMPTY < step.volume and not step.mixing:
+            self._trace.overdrawn.setdefault(well, visit)
         missing = well.draw(step.volume)
         if well.known or not well.prefilled:
             tip.unsure += max(step.volume - least, 0.0)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...instrumentation import OperationKind
+from ...instrumentation import Operation, OperationKind
 from ...vocabulary import WellRef
 from .geometry import CLEARANCE_MM, Contact, Geometry
 
@@ -55,6 +55,8 @@ class Well:
             what was there before somebody may have changed it by hand.
         runs_through: Whether it is a filter or a column: what is given to it runs on.
         fallen: µL let go so high over it that they may land elsewhere.
+        full: What it holds at most by its shape, µL: a brimful of liquid less what was taken.
+        assumed: Whether nothing but a draw says that it held liquid before the run.
     """
 
     ref: WellRef
@@ -75,11 +77,14 @@ class Well:
     unsure: float = 0.0
     fallen: float = 0.0
     runs_through: bool = False
+    full: float = field(init=False)
+    assumed: bool = False
     order: tuple[int, int] = field(init=False)
     last: Composition = field(init=False)
 
     def __post_init__(self) -> None:
         self.most = self.capacity
+        self.full = self.brim
         self.order = row_column(self.ref.name)
         self.last = {self: 1.0}
 
@@ -131,6 +136,7 @@ class Well:
     def draw(self, volume: float) -> float:
         """Take liquid out; returns how much of it the well did not hold (0 if unknown)."""
         self.most = max(self.most - volume, 0.0)
+        self.full = max(self.full - volume, 0.0)
         missing = volume - self.volume if self.known and volume > self.volume else 0.0
         least = max(self.least - volume, 0.0)
         self.volume = max(self.volume - volume, 0.0)
@@ -153,6 +159,7 @@ class Well:
             return
         self.volume += volume
         self.most = min(self.most + volume, self.capacity)
+        self.full = min(self.full + volume, self.brim)
         self.unsure += unsure
         self.fed = self.fed or volume > 0
         for origin, share in liquid.items() if volume > EMPTY_UL else ():
@@ -213,6 +220,7 @@ class Visit:
         mixing: Whether it is part of a mix.
         carried: How many liquids the tip had met before (a prefix of ``tip.origins``).
         met: How many wells the tip had touched before (a prefix of ``tip.touched``).
+        step: The operation that it is a part of.
     """
 
     kind: OperationKind
@@ -226,6 +234,7 @@ class Visit:
     contact: Contact = Contact.CLEAR
     brought: list[Transfer] = field(default_factory=list)
     air: float = 0.0
+    step: Operation | None = None
     session: int = field(init=False)
     empty_before: bool = field(init=False)
     carried: int = field(init=False)

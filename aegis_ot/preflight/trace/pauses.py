@@ -72,7 +72,8 @@ def read_pause(
     if not things and not named:
         aside = not said.isdisjoint(("tips", "covers"))
         if "replace" not in said or aside:
-            return Intervention(tips=tips, shaken=shaken, volumes_unsure=not aside)
+            filled = "refill" in said and "tips" not in said  # "Refill the tube"
+            return Intervention(tips=tips, shaken=shaken, volumes_unsure=filled or not aside)
         things = frozenset({"plate"})  # "Replace and resume"
     # What is brought back is the same plate.
     away = "away" in said and "back" not in said

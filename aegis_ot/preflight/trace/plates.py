@@ -66,7 +66,7 @@ class Plates:
             stands = well.generation == self._generation[well.ref.labware]
             if stands and (well.visits or well.prefilled):
                 well.known = False
-                well.most = well.capacity
+                well.most, well.full = well.capacity, well.brim
                 well.unsure = well.volume
 
     def _geometry(self, info: WellInfo) -> Geometry | None:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from ...instrumentation import LabwareInfo, OperationKind
+from ...instrumentation import Event, LabwareInfo, Operation, OperationKind
 from ...vocabulary import WellRef
 from .model import Transfer, Visit, Well
 from .tips import Tip
@@ -31,6 +31,23 @@ class Imbalance:
     overfilled: bool
     volume: float
     limit: float
+
+
+@dataclass
+class Beside:
+    """Tips that stood over no well while others of the same pipette drew or gave.
+
+    Attributes:
+        step: When.
+        nozzles: Theirs.
+        holding: Whether one of them held liquid.
+        missed: Whether one that drew air so was to give liquid to a well later.
+    """
+
+    step: Operation
+    nozzles: tuple[str, ...]
+    holding: bool
+    missed: bool = False
 
 
 @dataclass
@@ -72,6 +89,9 @@ class Trace:
         shaken: Index, labware keys (``None``: any) of each time a plate was shaken.
         descriptions: What the run says of a liquid, by the liquid's name.
         callers: By line of a function that did something, the lines that called the function.
+        log: What all this was read from.
+        beside: Each time that tips stood over no well, as told.
+        overdrawn: Wells from which more was drawn than they can hold, with the first such draw.
     """
 
     labware: Mapping[str, LabwareInfo]
@@ -85,6 +105,9 @@ class Trace:
     groups: dict[WellRef, tuple[WellRef, ...]] = field(default_factory=dict)
     singles: set[WellRef] = field(default_factory=set)
     callers: dict[int, set[int]] = field(default_factory=dict)
+    log: Sequence[Operation | Event] = ()
+    beside: list[Beside] = field(default_factory=list)
+    overdrawn: dict[Well, Visit] = field(default_factory=dict)
 
     @cached_property
     def links(self) -> Sequence[Transfer]:

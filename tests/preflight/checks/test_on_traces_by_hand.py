@@ -597,7 +597,7 @@ def test_a_mix_that_draws_air_makes_no_liquid() -> None:
         transfer(bench, "source:A1", target, 70)
     found = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
     assert [one.message for one in found] == [
-        "70 µL are drawn from source:A1 at line 10, which holds 50 µL then."
+        "70 µL are drawn from source:A1 at line 10, of whose declared 120 µL 50 µL are left then."
     ]
 
 
@@ -679,18 +679,27 @@ def test_filled_twice_what_its_neighbours_get_once() -> None:
     assert not found.warning
 
 
+@pytest.mark.parametrize("declared", [True, False])
 @pytest.mark.parametrize(
     ("drawn", "targets", "warns"),
     [(110, ["plate:A1"], True), (150, ["plate:A1"], False), (60, ["plate:A1", "plate:B1"], False)],
 )
-def test_a_draw_beyond_what_is_there(drawn: float, targets: list[str], warns: bool) -> None:
-    """A well of 100 µL: a little more to leave nothing, far too much, and a stock that runs out."""
+def test_a_draw_beyond_what_is_there(
+    drawn: float, targets: list[str], warns: bool, declared: bool
+) -> None:
+    """A well of 100 µL: a little more to leave nothing, far too much, and a stock that runs out.
+    What was only declared makes no error.
+    """
     bench = Bench()
-    bench.load("source:A1", 100)
+    if declared:
+        bench.load("source:A1", 100)
+    else:
+        transfer(bench, "source:H1", "source:A1", 100)
     for target in targets:
         transfer(bench, "source:A1", target, drawn)
     (found,) = broken(case_of(bench.trace(), "generic", {}), "GEN-3")
-    assert bool(found.warning) is warns
+    assert bool(found.warning) is (warns or declared)
+    assert ("declared" in found.message) is declared
 
 
 def test_a_supernatant_is_drawn_with_room_to_spare() -> None:

@@ -22,7 +22,7 @@ def run(ctx):
     for assay in MIXES.values():
         master_mix = block[assay["master_mix"]]
         p300.transfer(8 * assay["ul"], block[assay["buffer"]], master_mix)
-        p300.transfer(2 * assay["ul"], block[assay["enzyme"]], master_mix, mix_after=(5, 40))
+        p300.transfer(3 * assay["ul"], block[assay["enzyme"]], master_mix, mix_after=(5, 40))
         *reactions, ntc = plate.columns()[assay["column"]][:6]
         p20.transfer(assay["ul"], master_mix, [*reactions, ntc], new_tip="once")
         p20.transfer(assay["dna"], water, ntc, new_tip="always")

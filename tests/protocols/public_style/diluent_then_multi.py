@@ -9,9 +9,9 @@ def run(ctx):
 
     # fill, same tips
     m300.pick_up_tip()
-    for plate in plates:
+    for plate, diluent in zip(plates, trough.wells()):
         for col in plate.columns()[1:]:
-            m300.aspirate(100, trough['A1'])
+            m300.aspirate(100, diluent)
             m300.dispense(100, col[0])
     m300.drop_tip()
 

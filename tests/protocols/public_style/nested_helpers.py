@@ -38,7 +38,7 @@ def run(ctx):
         m300.mix(4, 150, deep.rows()[0][column])
         move(volume, deep.rows()[0][column], elution.rows()[0][column])
 
-    buffer_to_all(res['A1'], 400)
+    buffer_to_all(res['A1'], 300)
     buffer_to_all(res['A4'], 200)
     ctx.pause('Vortex, spin, put back.')
     for column in range(6):

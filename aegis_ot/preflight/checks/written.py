@@ -1,0 +1,180 @@
+"""The check that what is written is what moves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+from ...instrumentation import Operation, OperationKind
+from ...vocabulary import Site, WellRef
+from ..trace import Given, Load, Visit, Well
+from .case import Case, at
+from .check import Check, Result, Violation, microlitres
+from .handling import called
+
+_SMALL = 0.05
+"""A share of what is written that may be missing with no more than a warning."""
+
+_ROUNDING = 0.1
+_GAP = 0.5
+"""Of what was just given so much, at most, is taken along by an air gap that draws liquid."""
+
+
+@dataclass(frozen=True)
+class WrittenIsMoved(Check):
+    """What is written is what moves.
+
+    0 µL that older apiLevels take for a full tip, or for all that is in it; a dispense of more
+    than the tip holds; an air gap that leaves first, or is drawn from the liquid.
+    """
+
+    def find(self, case: Case) -> Iterator[Result]:
+        # What is sure comes first, and so speaks for all of one cause.
+        yield from sorted(self._found(case), key=lambda violation: bool(violation.warning))
+
+    def _found(self, case: Case) -> Iterator[Violation]:
+        for step in case.trace.log:
+            if isinstance(step, Operation) and step.mixing and step.written == 0:
+                yield from _full_mix(step)
+        for load in case.loads:
+            found = _drawn_full(case, load)
+            yield from found or _given_otherwise(case, load)
+            yield from _short_by_the_gap(case, load)
+        for before, load in pairwise(case.loads):
+            yield from _taken_along(case, before, load)
+
+
+def _full_mix(step: Operation) -> Iterator[Violation]:
+    if step.well is not None and step.kind is OperationKind.ASPIRATE:
+        told = (
+            f"A mix of 0 µL is written {at(step.line)}; at this apiLevel the {called(step)} mixes "
+            f"a full tip, {microlitres(step.volume)}, in {step.well}: leave such mixes out."
+        )
+        yield _violation(told, step, step.well, "mix", "It goes back where it came from.")
+
+
+def _matters(case: Case, one: Given, load: Load) -> bool:
+    """Whether liquid reaches a well that is neither waste nor where it came from."""
+    well = one.well
+    return well is not None and well not in load.sources and not case.is_waste(well)
+
+
+def _drawn_full(case: Case, load: Load) -> list[Violation]:
+    found = []
+    for visit in load.drawn:
+        step = visit.step
+        if step is None or step.written != 0:
+            continue
+        reached = [g for g in load.given if g.liquid > 0 and _matters(case, g, load)]
+        told = (
+            f"0 µL are written to be drawn from {visit.well.ref} {at(step.line)}; at this apiLevel "
+            f"that fills the tip, so the {called(step)} draws {microlitres(step.volume)}"
+        )
+        end = visit.well
+        if reached and reached[0].well is not None:
+            end, given = reached[0].well, microlitres(reached[0].liquid)
+            told += f" and gives {given} of them to {end.ref} {at(reached[0].step.line)}"
+        told += ": leave wells of 0 µL out, or raise the apiLevel."
+        why = "" if reached else "None of it reaches a well that matters."
+        found.append(_violation(told, step, end.ref, "drawn", why))
+    return found
+
+
+def _given_otherwise(case: Case, load: Load) -> Iterator[Violation]:
+    last: Well | None = None
+    others: set[Well] = set()
+    for one in load.given:
+        step, well = one.step, one.well
+        if well is None:
+            continue
+        if step.written == 0 and one.liquid > 0 and _matters(case, one, load):
+            told = (
+                f"0 µL are written for {well.ref} {at(step.line)}; at this apiLevel that gives "
+                f"all that is in the tip: the {called(step)} gives it {microlitres(one.liquid)}. "
+                "Leave wells of 0 µL out, or raise the apiLevel."
+            )
+            yield _violation(told, step, well.ref, "given")
+        elif step.written and _matters(case, one, load):
+            yield from _cut(one, well, step.written, others - {well}, last)
+        if one.liquid > 0:
+            others.add(well)
+        last = well
+
+
+def _cut(
+    one: Given, well: Well, written: float, others: set[Well], last: Well | None
+) -> Iterator[Violation]:
+    moved = one.liquid + one.air
+    short, step = written - moved, one.step
+    touched = last or (one.visit and _before(one.visit))
+    if short <= _ROUNDING or (moved < _ROUNDING and touched is well):
+        return  # an empty tip is blown out where it just was
+    told = (
+        f"{microlitres(written)} are written for {well.ref} {at(step.line)}, and the tip of the "
+        f"{called(step)} holds {microlitres(moved)} then: at this apiLevel the dispense is "
+        f"cut in silence. Draw at least as much as is given, or give less."
+    )
+    why = ""
+    if short <= _SMALL * written:
+        why = f"{microlitres(short)} are lacking."
+    elif not others and moved >= _ROUNDING:
+        why = "All that was drawn goes to this well."
+    yield _violation(told, step, well.ref, "cut", why)
+
+
+def _before(visit: Visit) -> Well | None:
+    """The well that a tip was in before."""
+    mine = [one for one in visit.tip.visits if one.session == visit.session]
+    earlier = [one.well for one in mine if one.index < visit.index]
+    return earlier[-1] if earlier else None
+
+
+def _short_by_the_gap(case: Case, load: Load) -> Iterator[Violation]:
+    """An air gap leaves first; where as much liquid stays in the tip, it was forgotten."""
+    given = [one for one in load.given if _matters(case, one, load)]
+    air = sum(one.air for one in given if one.liquid > 0)
+    drawn = sum(visit.volume for visit in load.drawn)
+    planned = sum(one.step.volume for one in given if one.step.kind is OperationKind.DISPENSE)
+    left = drawn - sum(one.liquid for one in load.given if one.well is not None)
+    if load.parked or air <= _ROUNDING or abs(air - left) > _ROUNDING:
+        return
+    first = next(one for one in given if one.air > 0 and one.liquid > 0)
+    if abs(planned - drawn) > _ROUNDING or first.well is None:
+        return
+    told = (
+        f"{microlitres(first.step.volume)} are written for {first.well.ref} "
+        f"{at(first.step.line)}, and the air gap leaves the tip of the {called(first.step)} first: "
+        f"{microlitres(first.liquid)} of liquid reach it. Give the gap as well: "
+        f"{microlitres(first.step.volume + air)}, or blow out there."
+    )
+    why = f"{microlitres(left)} stay in the tip."
+    yield _violation(told, first.step, first.well.ref, "gap", why)
+
+
+def _taken_along(case: Case, before: Load, load: Load) -> Iterator[Violation]:
+    """A tip that goes to the waste with some of what it has just given."""
+    if (before.pipette, before.session) != (load.pipette, load.session) or load.parked:
+        return
+    last = before.given[-1] if before.given else None
+    if last is None or last.well is None or not _matters(case, last, before):
+        return
+    well, delivered = last.well, sum(g.liquid for g in before.given if g.well is last.well)
+    drawn = sum(visit.volume for visit in load.drawn)
+    kept = any(one.well is not None and not case.is_waste(one.well) for one in load.given)
+    if load.sources != {well} or kept or not 0 < drawn <= _GAP * delivered:
+        return
+    step = load.drawn[0].step
+    if step is None:
+        return
+    told = (
+        f"The {called(step)} draws {microlitres(drawn)} from {well.ref} {at(step.line)}, where it "
+        f"has just given {microlitres(delivered)}, and takes them along into the trash: the well "
+        f"ends short. For an air gap draw above the liquid: aspirate({drawn:g}, well.top())."
+    )
+    yield _violation(told, step, well.ref, "along", "It goes to the waste.")
+
+
+def _violation(told: str, step: Operation, well: WellRef, kind: str, why: str = "") -> Violation:
+    site = Site(step.line, well, "moves another volume than is written")
+    return Violation(told, (site,), (kind, step.line, step.pipette.key), warning=why)

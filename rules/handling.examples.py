@@ -1,0 +1,104 @@
+"""What the rules of handling accept and refuse; `aegis-ot rules test` runs each snippet.
+
+A heading says which rules a snippet is for; `deck` stands before all that follow it. Each is the
+body of `run`; plate, tubes, reservoir, strips, deepwell, p20, m20, p300 and m300 are on the deck.
+"""
+
+# deck
+buffer = reservoir["A1"]
+
+# HND-1 passes: columns, named by row A, from a trough
+m300.pick_up_tip()
+for well in plate.rows()[0][:3]:
+    m300.aspirate(30, buffer)
+    m300.dispense(30, well)
+m300.drop_tip()
+
+# HND-1 passes: one tip of eight, in any row
+m300.pick_up_tip(tips300["H1"])
+m300.aspirate(30, buffer)
+m300.dispense(30, plate["C5"])
+m300.drop_tip()
+
+# HND-1 fails: every well of a column, with eight tips each time
+m300.pick_up_tip()
+for well in plate.columns()[0]:
+    m300.aspirate(20, buffer)
+    m300.dispense(20, well.top(-2))
+m300.drop_tip()
+
+# HND-1 fails: eight tips over a rack with four rows of tubes
+m300.transfer(40, tubes["A1"], deepwell["A1"], new_tip="always")
+
+# HND-2 passes: just above the bottom
+p300.transfer(50, buffer, plate["A1"].bottom(0.5))
+
+# HND-2 fails: deeper than the well is, counted from its top
+p300.transfer(50, buffer, plate["A1"].top(-20))
+
+# HND-2 warns: pressed on the bottom
+p300.transfer(50, plate["A1"].bottom(-0.5), plate["B1"])
+
+# HND-3 passes: repetitions, then the volume
+p300.transfer(50, buffer, plate["A1"], mix_after=(3, 40))
+
+# HND-3 warns: the volume, then the repetitions
+p300.transfer(60, buffer, plate["A1"], mix_after=(40, 3))
+
+# HND-3 warns: a few µL with a pipette for 20 to 300 µL
+p300.transfer(4, buffer, plate.rows()[0][:3], new_tip="always")
+
+# HND-4 passes: what need not be topped up is left out
+for well, volume in zip(plate.rows()[0], (40, 0, 25)):
+    if volume:
+        p300.transfer(volume, buffer, well, new_tip="always")
+
+# HND-4 passes: the air gap is given with the liquid
+p300.pick_up_tip()
+p300.aspirate(80, buffer)
+p300.air_gap(20)
+p300.dispense(100, plate["A1"])
+p300.drop_tip()
+
+# HND-4 fails: 0 µL more than the tip holds are all that it holds
+p300.pick_up_tip()
+p300.aspirate(100, buffer)
+for well, volume in zip(plate.rows()[0], (40, 0, 60)):
+    p300.dispense(volume, well)
+p300.drop_tip()
+
+# HND-4 fails: four times 80 µL out of 250 µL
+p300.pick_up_tip()
+p300.aspirate(250, buffer)
+for well in plate.rows()[0][:4]:
+    p300.dispense(80, well)
+p300.drop_tip()
+
+# HND-4 warns: the air gap leaves first, and 20 of 80 µL stay in the tip
+p300.pick_up_tip()
+p300.aspirate(80, buffer)
+p300.air_gap(20)
+p300.dispense(80, plate["A1"])
+p300.drop_tip()
+
+# HND-4 warns: the air gap after the dispense draws liquid
+p300.pick_up_tip()
+p300.aspirate(80, buffer)
+p300.dispense(80, plate["A1"].bottom(1))
+p300.aspirate(20, plate["A1"].bottom(1))
+p300.drop_tip()
+
+# HND-5 passes: all wells that are pooled were filled
+p300.transfer(50, buffer, plate.rows()[0][:6], new_tip="once")
+p300.consolidate(30, plate.rows()[0][:6], tubes["D6"])
+
+# HND-5 warns: six wells are filled, and eight pooled
+p300.transfer(50, buffer, plate.rows()[0][:6], new_tip="once")
+p300.consolidate(30, plate.rows()[0][:8], tubes["D6"])
+
+# HND-6 passes: two tubes for 48 wells
+for tube, rows in zip(tubes.wells(), (plate.rows()[:2], plate.rows()[2:4])):
+    p300.transfer(60, tube, rows, new_tip="once")
+
+# HND-6 fails: one 2 mL tube for 48 wells
+p300.transfer(60, tubes["A1"], plate.rows()[:4], new_tip="once")
