@@ -7,9 +7,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 
 BUDGETS = {
-    "aegis_ot": 64_000,
+    "aegis_ot": 65_500,
     "aegis_ot_lab": 10_500,
-    "aegis_ot/preflight": 10_600,
+    "aegis_ot/preflight": 11_800,
     "aegis_ot/vision": 12_600,
     "aegis_ot/sidecar": 7_700,
     "aegis_ot/runtime": 4_400,
