@@ -21,7 +21,7 @@ test: $(STAMP)
 
 # The tests of numbers once more as an older processor counts: its last digits are others.
 NUMERIC := $(addprefix tests/vision/,column test_calibration.py \
-	test_cascade.py test_reach.py test_signs.py test_tips.py test_tip_scale.py test_usual.py) \
+	test_cascade.py scorers/test_pca.py test_reach.py test_signs.py test_tips.py test_tip_scale.py test_usual.py) \
 	tests/audit/test_patterns.py
 FEATURES := import numpy.core as core; print(*core._multiarray_umath.__cpu_dispatch__)
 numeric: $(STAMP)

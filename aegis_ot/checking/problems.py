@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import os
 import re
 import traceback
 from pathlib import Path
@@ -10,6 +11,9 @@ from pathlib import Path
 from ..errors import AegisError, RehearsalError, RehearsalTimeout
 from ..preflight.rehearsal import in_words, line_of
 from .result import Problem
+
+PASSED_ON = "AEGIS_OT_PROTOCOL_ENV"
+"""Names the environment variables that a rehearsal gets beside what Python and Opentrons need."""
 
 
 def problem_of(error: BaseException, script_name: str) -> Problem:
@@ -56,6 +60,12 @@ def _of_rehearsal(error: RehearsalError, script_name: str) -> Problem:
         return Problem(told, error.line, cause.name)
     if isinstance(cause, ImportError):
         return Problem(f"the protocol cannot import something: {cause}", error.line)
+    if isinstance(cause, KeyError) and (name := _environment_variable(cause)):
+        told = (
+            f"it needs the environment variable {name}, and a rehearsal gets few of them. "
+            f"Set it, and {PASSED_ON}={name}, to pass it on."
+        )
+        return Problem(told, error.line)
     text = str(error)
     start = re.match(
         rf"(?:Opentrons cannot load )?{re.escape(script_name)}"
@@ -78,3 +88,10 @@ def late(told: str, line: int | None) -> Problem:
     if line is None:
         told += " No line of it was running then: this machine is busy, or Opentrons hangs."
     return Problem(told, line)
+
+
+def _environment_variable(error: KeyError) -> str:
+    """The variable that ``os.environ[...]`` did not find, or ``""`` if it was something else."""
+    frames = traceback.extract_tb(error.__traceback__)
+    in_os = frames and os.path.basename(frames[-1].filename) in ("os.py", "<frozen os>")
+    return str(error.args[0]) if in_os and frames[-1].name == "__getitem__" else ""

@@ -17,7 +17,7 @@ from typing import Any
 
 from ..errors import RehearsalError
 from .child import Answer, Link
-from .problems import late
+from .problems import PASSED_ON, late
 from .result import Problem
 from .tasks import Task
 
@@ -27,33 +27,11 @@ from aegis_ot.checking.child import main
 main()"""
 # Not `-m`: that puts the working folder first, where a json.py of the user's may lie.
 
-_NEEDED = {
-    *(
-        "PATH",
-        "PATHEXT",
-        "HOME",
-        "USER",
-        "LOGNAME",
-        "SHELL",
-        "TZ",
-        "LANG",
-        "LANGUAGE",
-        "VIRTUAL_ENV",
-    ),
-    *("TMPDIR", "TMP", "TEMP", "USERPROFILE", "USERNAME", "APPDATA", "LOCALAPPDATA", "PROGRAMDATA"),
-    *("SYSTEMROOT", "SYSTEMDRIVE", "WINDIR", "COMSPEC", "LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH"),
-    *("DEV_ROBOT_NAME", "RUNNING_ON_PI", "RUNNING_ON_VERDIN"),
-}
-_NEEDED_BEGIN = (
-    "LC_",
-    "XDG_",
-    "PYTHON",
-    "OT_",
-    "OPENTRONS_",
-    "AEGIS_OT_",
-    "OPENBLAS_",
-    "OMP_",
-    "NPY_",
+_NEEDED = re.compile(
+    "PATH|PATHEXT|HOME|USER|LOGNAME|SHELL|TZ|LANG|LANGUAGE|VIRTUAL_ENV|TMPDIR|TMP|TEMP|USERPROFILE|"
+    "USERNAME|APPDATA|LOCALAPPDATA|PROGRAMDATA|SYSTEMROOT|SYSTEMDRIVE|WINDIR|COMSPEC|"
+    "(?:DY)?LD_LIBRARY_PATH|DEV_ROBOT_NAME|RUNNING_ON_(?:PI|VERDIN)|"
+    "(?:LC_|XDG_|PYTHON|OT_|OPENTRONS_|AEGIS_OT_|OPENBLAS_|OMP_|NPY_).*"
 )
 _SECRET = re.compile(r"TOKEN|KEY|SECRET|PASS|CREDENTIAL|NOTIFY")
 
@@ -67,19 +45,20 @@ _TIMED_OUT = "Timeout ("
 """How the last words of a process begin that its own clock has ended."""
 
 
-_GARBLED = "the protocol wrote into the pipe that carries what came of its rehearsal."
+_GARBLED = Problem("the protocol wrote into the pipe that carries what came of its rehearsal.")
 
 
 def environment_of_protocols(whole: Mapping[str, str]) -> dict[str, str]:
     """What a rehearsal gets of the environment: what Python, Opentrons and this package need.
 
-    A protocol is somebody's program, and keys of models or of a CI are none of its business.
+    A protocol is somebody's program, and keys of models or of a CI are none of its business. What
+    it does need the user names in :data:`~.problems.PASSED_ON`, parted by commas.
     """
+    named = {name.strip() for name in whole.get(PASSED_ON, "").split(",")}
     return {
         name: value
         for name, value in whole.items()
-        if (name.upper() in _NEEDED or name.upper().startswith(_NEEDED_BEGIN))
-        and not _SECRET.search(name.upper())
+        if name in named or (_NEEDED.fullmatch(name.upper()) and not _SECRET.search(name.upper()))
     }
 
 
@@ -198,22 +177,26 @@ class Rehearser:
         timer = threading.Timer(limit_s, end)
         timer.daemon = True
         timer.start()
+        answer: Answer | None
         try:
             if task is not None:
                 self._link.send(task)
             answer = self._link.receive()
+            if not isinstance(answer, Answer):
+                raise pickle.UnpicklingError
         except pickle.UnpicklingError:
-            answer = Answer(problem=Problem(_GARBLED))
+            answer = Answer(problem=_GARBLED)
         except (EOFError, OSError):
             answer = None
         finally:
             timer.cancel()
-        if answer is None or overdue.is_set():
+        if answer is not None and answer.problem == _GARBLED:
+            self._end()  # what else it wrote would be taken for the next one's answer
+        elif answer is None or overdue.is_set():
             code = self._end()
             if not overdue.is_set():
                 return Answer(died=f"exit status {code}")
             return None
-        assert isinstance(answer, Answer)
         return answer
 
     def _end(self) -> int:

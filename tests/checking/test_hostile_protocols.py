@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from aegis_ot.checking import CheckedProtocol, CheckSettings, check_files
+from aegis_ot.checking import CheckedProtocol, CheckSettings, check_files, rehearser
 from aegis_ot.checking.child import CAN_FORK
 from aegis_ot.preflight import load_database
 from aegis_ot.vocabulary import VerdictWord
@@ -38,7 +38,7 @@ VANDAL = (
 import opentrons.protocol_api as api
 def run(p):
     api.ProtocolContext.load_labware = None
-    for n in range(100_000):
+    for n in range(10_000):
         print("storm", n)
 """
 )
@@ -156,6 +156,36 @@ def test_what_a_protocol_does_to_its_rehearser_spoils_its_own_result_only(
     run = check_files(files, CheckSettings(timeout_s=20), load_database())
     words = [protocol.verdict for protocol in run.protocols]
     assert words == [VerdictWord.PASS, VerdictWord.ERROR, VerdictWord.PASS, VerdictWord.PASS]
+
+
+def test_where_there_is_no_fork_it_spoils_no_other_result_either(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    alone = rehearser._MAIN.replace(
+        "import main", "import main\nmain.__globals__['CAN_FORK'] = False"
+    )
+    monkeypatch.setattr(rehearser, "_MAIN", alone)
+    forges = WRITES.replace('(b"junk", forged)', "(forged,)")
+    for name, text in [("a", WRITES), ("b", AFTER), ("c", forges), ("d", AFTER)]:
+        (tmp_path / f"{name}.py").write_text(text, encoding="utf-8")
+    run = check_files(sorted(tmp_path.iterdir()), CheckSettings(timeout_s=20), load_database())
+    words = [protocol.verdict for protocol in run.protocols]
+    assert words == [VerdictWord.ERROR, VerdictWord.PASS, VerdictWord.ERROR, VerdictWord.PASS]
+
+
+def test_a_variable_that_a_protocol_needs_is_named_and_passed_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PLATE_KEY", "A1")
+    file = tmp_path / "p.py"
+    file.write_text(HEAD + "import os\ndef run(p):\n    os.environ['PLATE_KEY']\n", "utf-8")
+    (protocol,) = check_files([file], CheckSettings(), load_database()).protocols
+    assert protocol.problem is not None
+    assert "AEGIS_OT_PROTOCOL_ENV=PLATE_KEY" in protocol.problem.message
+    assert protocol.problem.line == 4
+    monkeypatch.setenv("AEGIS_OT_PROTOCOL_ENV", "OTHER, PLATE_KEY")
+    (protocol,) = check_files([file], CheckSettings(), load_database()).protocols
+    assert protocol.problem is None
 
 
 def test_a_protocol_gets_no_keys(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

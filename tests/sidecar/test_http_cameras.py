@@ -17,6 +17,7 @@ from aegis_ot.errors import CameraError
 from aegis_ot.sidecar import SidecarConfig
 from aegis_ot.sidecar.cameras import open_camera
 from aegis_ot.sidecar.cameras.codec import encode_jpeg
+from aegis_ot.sidecar.cameras.http import UNKNOWN_PACE_S, Pace
 from aegis_ot.sidecar.config import CameraSettings
 from aegis_ot.sidecar.doctor import examine
 from aegis_ot.vision.types import Image
@@ -138,6 +139,16 @@ def test_a_frame_was_exposed_after_the_moment(kind: str) -> None:
                 assert moment_in(frame.image) >= moment - 0.002  # it holds whole ms
         finally:
             camera.close()
+
+
+def test_pictures_that_a_server_begins_with_tell_no_pace() -> None:
+    pace = Pace()
+    for number in range(6):
+        pace.next(number / 1000)
+    assert pace.longest_s >= UNKNOWN_PACE_S
+    for number in range(1, 50):
+        pace.next(number / 10)
+    assert pace.longest_s == pytest.approx(0.1)
 
 
 def test_a_picture_that_never_changes_is_told(monkeypatch: pytest.MonkeyPatch) -> None:

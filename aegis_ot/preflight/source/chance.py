@@ -23,6 +23,8 @@ _MODULES: Mapping[str, str] = {
     "urllib": "the network",
     "socket": "the network",
     "http.client": "the network",
+    "os.environ": "the environment (os.environ)",
+    "os.getenv": "the environment (os.environ)",
 }
 _CALLS: Mapping[str, str] = {
     "open": "a file",

@@ -175,11 +175,14 @@ class Trace:
 
     @cached_property
     def served(self) -> Mapping[WellRef, Set[WellRef]]:
-        """For each well the wells that liquid drawn from it came into; asked once all is read."""
-        found: dict[WellRef, set[WellRef]] = {}
+        """For each well the wells that liquid drawn from it came into; asked once all is read.
+
+        In the order of the run: a set's own order differs from process to process.
+        """
+        found: dict[WellRef, dict[WellRef, None]] = {}
         for one in self.transfers:
-            found.setdefault(one.source.ref, set()).add(one.well.ref)
-        return found
+            found.setdefault(one.source.ref, {})[one.well.ref] = None
+        return {source: into.keys() for source, into in found.items()}
 
     @cached_property
     def stocks(self) -> Mapping[WellRef, Set[WellRef]]:

@@ -172,17 +172,21 @@ class Pace:
     @property
     def longest_s(self) -> float:
         """The longest pause between two of them, s."""
-        pauses = [later - earlier for earlier, later in itertools.pairwise(self._began)]
-        return max(pauses if len(self._began) >= PACE_OVER else [UNKNOWN_PACE_S, *pauses])
+        began = self._began
+        pauses = [later - earlier for earlier, later in itertools.pairwise(began)]
+        # A server may begin with all that it has kept: pictures at once, and old.
+        known = len(began) >= PACE_OVER and began[-1] - began[0] >= PACE_OVER_S
+        return max(pauses if known else [UNKNOWN_PACE_S, *pauses])
 
 
 class _SameHost(urllib.request.HTTPRedirectHandler):
-    """Follows no redirect to another host: it would get the password."""
+    """Follows no redirect to another host, or to no encryption: that would tell the password."""
 
     def redirect_request(
         self, req: urllib.request.Request, fp: Any, code: int, msg: str, headers: Any, newurl: str
     ) -> urllib.request.Request | None:
-        if urllib.parse.urlsplit(newurl).netloc != urllib.parse.urlsplit(req.full_url).netloc:
+        new, old = urllib.parse.urlsplit(newurl), urllib.parse.urlsplit(req.full_url)
+        if new.netloc != old.netloc or new.scheme not in (old.scheme, "https"):
             raise CameraError(
                 f"{without_secrets(req.full_url)} sends on to another host, which is not followed. "
                 "Name the address where the pictures are."

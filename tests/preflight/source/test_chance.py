@@ -31,6 +31,8 @@ def found(body: str) -> dict[str, int]:
         ("import time\nt = time.time()\nwhile time.time() < t + 9:\n    p.mix(2, 20)", "clock"),
         ("import datetime\nif datetime.datetime.now().hour > 12: p.drop_tip()", "clock"),
         ("import requests\nv = requests.get(u).json()\np.aspirate(v['ul'], a)", "network"),
+        ("import os\np.mix(int(os.environ.get('ROUNDS', 3)), 20)", "environment"),
+        ("import os\nn = int(os.getenv('N'))\np.mix(n, 20)", "environment"),
         ("import json\nwith open(f) as h:\n    d = json.load(h)\np.aspirate(d['ul'], a)", "file"),
         (
             "from pathlib import Path\nfor w in Path(f).read_text().split(): p.dispense(5, b[w])",
