@@ -89,7 +89,7 @@ def run(
         if heeds_offsets:
             refuse_lost_offsets(client, analysis.places)
         _ask_to_start(name, yes)
-        verdicts = _verdicts(sidecar, token, protocol)
+        verdicts = _verdicts(sidecar, token, protocol, name)
         result = RobotRun(protocol.name, name, client.url, "", analysis)
         try:
             with TerminalScreen(console) as screen:
@@ -203,13 +203,15 @@ def _ask_to_start(name: str, yes: bool) -> None:
         raise typer.Exit(CLEAN)
 
 
-def _verdicts(sidecar: str | None, token: str | None, protocol: Path) -> VerdictReader | None:
+def _verdicts(
+    sidecar: str | None, token: str | None, protocol: Path, robot: str
+) -> VerdictReader | None:
     from ..robot.verdicts import VerdictReader
 
     url, secret = _sidecar_of(sidecar, token)
     if url is None:
         return None
-    reader = VerdictReader(url, secret, protocol.name)
+    reader = VerdictReader(url, secret, protocol.name, robot=robot)
     reader.check()
     return reader
 

@@ -184,7 +184,7 @@ class RobotSession:
                 return _of_robot(run, None)
             if self._heeds_offsets:
                 refuse_lost_offsets(client, analysis.places)
-            reader = self._reader(path.name)
+            reader = self._reader(path.name, str(client.health().get("name") or ""))
             watch.ask_leave()
             try:
                 run_analysed(client, identifier, run, screen, reader)
@@ -193,10 +193,10 @@ class RobotSession:
                 if reader is not None:
                     reader.close()
 
-    def _reader(self, protocol: str) -> VerdictReader | None:
+    def _reader(self, protocol: str, robot: str) -> VerdictReader | None:
         if self._sidecar is None:
             return None
-        reader = VerdictReader(self._sidecar, self._token, protocol)
+        reader = VerdictReader(self._sidecar, self._token, protocol, robot=robot)
         reader.check()
         return reader
 

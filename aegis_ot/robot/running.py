@@ -149,6 +149,8 @@ def run_analysed(
     """
     run.id = robot.create_run(identifier, (inputs or Inputs()).values)
     driver = RunDriver(robot, run, screen, verdicts)
+    if verdicts is not None:
+        verdicts.begins()
     robot.act(run.id, "play")
     screen.began(len(run.analysis.kinds))
     began = time.monotonic()

@@ -55,6 +55,7 @@ class VerdictReader:
         token: Its token, or ``None``.
         protocol: File name of the protocol; of several runs it tells which is meant.
         run: Identifier of the run there, where it is known.
+        robot: The robot's name, which tells likewise: others may run the same protocol.
         transport: Instead of the network, for tests.
 
     Attributes:
@@ -69,6 +70,7 @@ class VerdictReader:
         token: str | None,
         protocol: str = "",
         run: str = "",
+        robot: str = "",
         transport: httpx.BaseTransport | None = None,
     ) -> None:
         self.url = url.rstrip("/")
@@ -76,6 +78,8 @@ class VerdictReader:
         self.open: dict[int, str] = {}
         self.ended = False
         self._protocol = protocol
+        self._robot = robot
+        self._is_sure = not protocol
         self._since = time.time() - _EARLY_S
         self._seen: dict[int, WellVerdict] = {}
         headers = {"Authorization": f"Bearer {token}"} if token else {}
@@ -86,6 +90,10 @@ class VerdictReader:
             transport=transport,
             trust_env=False,
         )
+
+    def begins(self) -> None:
+        """The run begins now: what came before is another one's."""
+        self._since = time.time() - _EARLY_S
 
     def close(self) -> None:
         """Drop the connection."""
@@ -146,11 +154,28 @@ class VerdictReader:
         return answer.content if answer.is_success else None
 
     def _find(self) -> bool:
-        if not self.run:
-            for row in self._ask("/v1/runs")["runs"]:
-                if row.get("protocol") == self._protocol and row["registered"] >= self._since:
-                    self.run = str(row["run"])
-                    break
+        """Whether the run is there. Of several it is that of the robot's name; a run that is the
+        only one may be that of a robot which calls itself otherwise.
+
+        Raises:
+            LinkError: It cannot be told which one it is.
+        """
+        if self._is_sure:
+            return bool(self.run)
+        rows = [
+            row
+            for row in self._ask("/v1/runs")["runs"]
+            if row.get("protocol") == self._protocol and row["registered"] >= self._since
+        ]
+        own = [row for row in rows if row.get("robot_name") == self._robot]
+        if len(rows) > 1 and not own:
+            raise SidecarGarbled(
+                f"Several runs of {self._protocol} have begun at the sidecar {self.url}, none by "
+                f"the name of {self._robot or 'this robot'}: whose verdicts are whose cannot be "
+                "told. See the sidecar's page."
+            )
+        for row in (own or rows)[:1]:
+            self.run, self._is_sure = str(row["run"]), bool(own)
         return bool(self.run)
 
     def _get(self, path: str) -> httpx.Response:

@@ -9,6 +9,7 @@ import httpx
 import pytest
 
 from aegis_ot.account import run_account, state_of
+from aegis_ot.errors import LinkError
 from aegis_ot.robot.verdicts import VerdictReader
 from aegis_ot.sidecar import SidecarConfig, running_sidecar
 from aegis_ot.sidecar.overview import NO_VERDICT, run_overview
@@ -16,6 +17,7 @@ from aegis_ot.sidecar.store import Store
 
 from ..cli.commands import Command
 from .helpers import Robot, StubAnalyser, StubCamera
+from .test_identity import guard_of
 
 
 def end(robot: Robot) -> None:
@@ -78,3 +80,36 @@ def test_a_sidecar_that_was_killed_leaves_it_undecided_in_its_store(
     told = Command(capfdbinary)("runs", "list", "--data", config.data, "--json")
     assert json.loads(told.out)[0]["wells"] == {"undecided": 1}
     assert NO_VERDICT in Command(capfdbinary)("runs", "show", "--data", config.data).out
+
+
+class TestWhoseRun:
+    """Robots of one sidecar that run the same protocol at once: nobody reads another's verdicts."""
+
+    @staticmethod
+    def reader(url: str, robot: str) -> VerdictReader:
+        return VerdictReader(url, None, "demo.py", robot=robot)
+
+    def test_of_several_runs_it_is_that_of_the_robots_name(self, config: SidecarConfig) -> None:
+        with running_sidecar(config, StubCamera(), StubAnalyser()) as url:
+            ada, eve = self.reader(url, "ada"), self.reader(url, "eve")
+            for name in ("ada", "eve"):
+                guard_of(url, name[0] * 32, f"of-{name}", robot_name=name).register(2.0)
+            assert [r.overview()["run"] for r in (ada, eve)] == ["of-ada", "of-eve"]  # type: ignore[index]
+
+    def test_one_that_was_there_first_is_given_back(self, config: SidecarConfig) -> None:
+        with running_sidecar(config, StubCamera(), StubAnalyser()) as url:
+            eve = self.reader(url, "eve")
+            guard_of(url, "a" * 32, "of-ada", robot_name="ada").register(2.0)
+            eve.news()
+            guard_of(url, "e" * 32, "of-eve", robot_name="eve").register(2.0)
+            eve.news()
+            assert eve.run == "of-eve"
+
+    def test_what_cannot_be_told_apart_is_said(self, config: SidecarConfig) -> None:
+        with running_sidecar(config, StubCamera(), StubAnalyser()) as url:
+            other = self.reader(url, "OT2CEP")
+            guard_of(url, "a" * 32, "of-ada", robot_name="ada").register(2.0)
+            assert other.overview() is not None  # the only one: it may call itself otherwise
+            guard_of(url, "e" * 32, "of-eve", robot_name="eve").register(2.0)
+            with pytest.raises(LinkError, match="whose verdicts are whose cannot be told"):
+                other.news()
