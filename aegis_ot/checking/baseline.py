@@ -28,10 +28,14 @@ class Baseline:
     Args:
         path: Of the baseline file; files are named relative to its folder.
         known: How often each is known.
+
+    Attributes:
+        path: Of the file.
     """
 
     def __init__(self, path: Path, known: Counter[Key]) -> None:
-        self._folder = path.resolve().parent
+        self.path = path.resolve()
+        self._folder = self.path.parent
         self._known = known
 
     def split(

@@ -3,53 +3,35 @@
 from __future__ import annotations
 
 import contextlib
+import dataclasses
 import hashlib
 import json
 import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from ..errors import ConfigurationError
-from ..preflight import Options, Report
+from ..preflight import Database
 from ..preflight.database import shipped_rules
-from ..preflight.rehearsal import Script
 from ..vocabulary import one_line
 from .corpus_table import CRASHED, SKIPPED, Results, Row, Table, Told, read_results
-from .guard_arguments import guard_arguments
-from .problems import with_helper
-from .rehearser import Rehearser, TaskFailed
-from .result import Problem
-from .run import options_for
+from .projects import Project
+from .result import CheckedProtocol, Problem
+from .run import check_file
 from .shelf import Shelved
 from .side_by_side import LazyRehearser, check_each
-from .tasks import Timed, TimedCheck
+from .surroundings import data_named
 
 _LONGEST_REASON = 500
-
-
-@dataclass(frozen=True)
-class CorpusSettings:
-    """How to judge a corpus.
-
-    Attributes:
-        rules: Files or folders of further rules.
-        timeout_s: Longest rehearsal of one protocol, s.
-        jobs: How many to judge at a time.
-    """
-
-    rules: tuple[str, ...] = ()
-    timeout_s: float = 60.0
-    jobs: int = 1
 
 
 def check_corpus(
     protocols: Sequence[Shelved],
     folders: Sequence[Path],
     table: Path,
-    settings: CorpusSettings,
+    projects: Sequence[Project],
+    jobs: int = 1,
     done: Callable[[Row, bool], None] = lambda row, kept: None,
 ) -> Results:
     """Judge protocols, each in a process of its own, and add a row of each to a table.
@@ -62,7 +44,8 @@ def check_corpus(
         protocols: Of the shelf.
         folders: Where the shelf was looked for.
         table: The CSV file; see :mod:`.corpus_table`.
-        settings: How to judge.
+        projects: How to judge: each of its own protocols, which together are all.
+        jobs: How many to judge at a time.
         done: Told of each row, and whether it stood there already; from any thread, one at a time.
 
     Returns:
@@ -72,9 +55,9 @@ def check_corpus(
         ConfigurationError: The table cannot be read or written, or is something else.
         RehearsalError: The rehearsing process cannot be started.
     """
-    keys = dict(
-        zip((p.path.as_posix() for p in protocols), _keys(protocols, settings), strict=True)
-    )
+    by_file = {file: project for project in projects for file in project.files}
+    digests = {id(project): _judge_digest(project) for project in projects}
+    keys = {p.path.as_posix(): _key(p, digests[id(by_file[p.path])].copy()) for p in protocols}
     old = read_results(table) if table.exists() else {}
     results = {f: old[f] for f, key in keys.items() if f in old and old[f][0].key == key}
     others = [
@@ -89,7 +72,7 @@ def check_corpus(
 
         def check(shelved: Shelved, lazy: LazyRehearser) -> None:
             file = shelved.path.as_posix()
-            row, told = _judged(shelved, keys[file], settings, lazy)
+            row, told = _judged(shelved, keys[file], by_file[shelved.path], lazy)
             with lock:
                 if not lazy.cancelled.is_set():  # else it says nothing of the protocol
                     kept.append(row, told)
@@ -97,7 +80,7 @@ def check_corpus(
                     done(row, False)
 
         left = [p for p in protocols if p.path.as_posix() not in results]
-        check_each(left, settings.jobs, settings.rules, check)
+        check_each(left, jobs, projects[0].settings.rules, check)
     return {file: results[file] for file in keys}
 
 
@@ -106,41 +89,40 @@ def _is_below(file: str, folders: Sequence[Path]) -> bool:
 
 
 def _judged(
-    shelved: Shelved, key: str, settings: CorpusSettings, lazy: LazyRehearser
+    shelved: Shelved, key: str, project: Project, lazy: LazyRehearser
 ) -> tuple[Row, tuple[Told, ...]]:
     file = shelved.path.as_posix()
     if shelved.skipped is not None:
         return _unjudged(file, SKIPPED, shelved.skipped, key), ()
-    script = Script(shelved.text, shelved.path.name, extra_labware=shelved.labware)
-    try:
-        options = options_for(guard_arguments(shelved.text), Options())
-    except ConfigurationError as error:
-        return _unjudged(file, "error", Problem(str(error)), key), ()
-    rehearser: Rehearser = lazy.get()
-    try:
-        timed: Timed = rehearser.perform(
-            TimedCheck(script, options, settings.rules, settings.timeout_s)
-        )
-    except TaskFailed as failed:
-        problem = with_helper(failed.problem, shelved.path.parent)
-        return _unjudged(file, CRASHED if problem.bug else "error", problem, key), ()
-    told = tuple(_told(file, timed.report))
-    return _row(file, timed, key), told
+    settings = dataclasses.replace(
+        project.settings, labware={**shelved.labware, **project.settings.labware}
+    )
+    checked = check_file(shelved.path, settings, project.database, lazy)
+    if checked.problem is not None:
+        return _unjudged(
+            file, CRASHED if checked.problem.bug else "error", checked.problem, key
+        ), ()
+    return _row(checked, project.database, key), tuple(_told(checked))
 
 
-def _row(file: str, timed: Timed, key: str) -> Row:
-    report = timed.report
-    broken = Counter((finding.rule, finding.severity.value) for finding in report.findings)
+def _row(checked: CheckedProtocol, database: Database, key: str) -> Row:
+    broken = Counter((finding.rule, finding.severity.value) for finding in checked.findings)
+    states = checked.states(database)
+    listed = {
+        word: " ".join(rule for rule, state in states.items() if state == word)
+        for word in ("decided", "undecided", "not_applicable")
+    }
     return Row(
-        file,
-        report.verdict.value,
-        report.family,
+        checked.file,
+        checked.verdict.value,
+        checked.family,
         " ".join(f"{rule}:{severity}*{n}" for (rule, severity), n in sorted(broken.items())),
-        len(report.findings),
-        " ".join(dict.fromkeys(undecided.rule for undecided in report.undecided)),
-        round(timed.rehearsal_s, 4),
-        round(timed.verdict_s, 4),
+        len(checked.findings),
+        rehearsal_s=round(checked.rehearsal_s, 4),
+        verdict_s=round(checked.verdict_s, 4),
+        modules=" ".join(checked.modules.values()),
         key=key,
+        **listed,
     )
 
 
@@ -150,8 +132,9 @@ def _unjudged(file: str, verdict: str, problem: Problem, key: str) -> Row:
     return Row(file, verdict, reason=reason, line=line, key=key)
 
 
-def _told(file: str, report: Report) -> Iterator[Told]:
-    for finding in report.findings:
+def _told(checked: CheckedProtocol) -> Iterator[Told]:
+    file = checked.file
+    for finding in checked.findings:
         yield Told(
             file,
             finding.rule,
@@ -161,23 +144,31 @@ def _told(file: str, report: Report) -> Iterator[Told]:
             finding.message,
             finding.fix,
         )
-    for undecided in report.undecided:
+    for undecided in checked.undecided:
         yield Told(file, undecided.rule, "undecided", (), (), undecided.reason)
 
 
-def _keys(protocols: Sequence[Shelved], settings: CorpusSettings) -> Iterator[str]:
-    judge = _judge_digest(settings)
-    for shelved in protocols:
-        digest = judge.copy()
-        digest.update(shelved.text.encode("utf-8", "backslashreplace"))
-        digest.update(json.dumps(shelved.labware, sort_keys=True).encode())
-        digest.update(str(shelved.skipped).encode("utf-8", "backslashreplace"))
-        yield digest.hexdigest()[:12]
+def _key(shelved: Shelved, digest: hashlib._Hash) -> str:
+    """Changes with the protocol, what lies around it and what judges it (already in ``digest``)."""
+    digest.update(shelved.text.encode("utf-8", "backslashreplace"))
+    digest.update(json.dumps(shelved.labware, sort_keys=True).encode())
+    digest.update(str(shelved.skipped).encode("utf-8", "backslashreplace"))
+    for file, text in sorted(shelved.around.texts.items()):
+        digest.update(f"{file}\n{text}".encode("utf-8", "backslashreplace"))
+    for file in data_named(shelved.path, shelved.text):
+        with contextlib.suppress(OSError):
+            digest.update(file.read_bytes())
+    return digest.hexdigest()[:12]
 
 
-def _judge_digest(settings: CorpusSettings) -> hashlib._Hash:
+def _judge_digest(project: Project) -> hashlib._Hash:
     """Of all that a verdict depends on, the protocol apart."""
-    digest = hashlib.sha256(str(settings.timeout_s).encode())
+    settings = project.settings
+    told = (settings.options, settings.timeout_s, settings.waivers, str(settings.waiver_root))
+    digest = hashlib.sha256(repr(told).encode("utf-8", "backslashreplace"))
+    digest.update(json.dumps(settings.labware, sort_keys=True).encode())
+    if settings.baseline is not None:
+        digest.update(settings.baseline.path.read_bytes())
     package = Path(__file__).resolve().parents[1]
     sources = [package / room for room in ("instrumentation", "preflight")]
     for place in [*sources, shipped_rules(), *map(Path, settings.rules)]:

@@ -11,6 +11,7 @@ import dataclasses
 import io
 import json
 import os
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +20,8 @@ from typing import IO, Any
 
 from ..errors import ConfigurationError
 from ..vocabulary import csv_cell, from_csv_cell
+
+SCHEMA = "2"
 
 SKIPPED, CRASHED = "skipped", "crash"
 """Verdicts beside those of a report: there was no use in trying, and aegis-ot itself failed."""
@@ -36,11 +39,15 @@ class Row:
         rules: Broken rules, each with its severity and count: ``PCR-2:error*3 GEN-3:warning*1``.
         findings: How many.
         undecided: Undecided rules, with blanks between.
+        decided: Rules that were judged to the end.
+        not_applicable: Rules of other assays, and those that nothing in it concerns.
         rehearsal_s: Time of the rehearsal, s.
         verdict_s: Time from the recording to the verdict, s.
         reason: Why it was not judged.
         line: The source line of that, if known.
-        key: Changes with the protocol, what lies beside it, and what judges it.
+        modules: Files of its repository that were imported, for the rehearsal only.
+        schema: Version of this table's columns.
+        key: Changes with the protocol, what lies around it, and what judges it.
     """
 
     file: str
@@ -49,10 +56,14 @@ class Row:
     rules: str = ""
     findings: int = 0
     undecided: str = ""
+    decided: str = ""
+    not_applicable: str = ""
     rehearsal_s: float = 0.0
     verdict_s: float = 0.0
     reason: str = ""
     line: str = ""
+    modules: str = ""
+    schema: str = SCHEMA
     key: str = ""
 
 
@@ -83,12 +94,45 @@ Results = dict[str, tuple[Row, tuple[Told, ...]]]
 """Rows with their findings, by file."""
 
 _COLUMNS = [f.name for f in dataclasses.fields(Row)]
+_LATER = {"decided": "", "not_applicable": "", "modules": "", "schema": "1"}
+"""Columns that the first version had not, and what they say of its rows."""
 _NUMBERS = {f.name: float for f in dataclasses.fields(Row) if f.name.endswith("_s")}
 
 
 def findings_path(table: Path) -> Path:
     """Where the findings of a table lie: ``results.csv``, ``results.findings.jsonl``."""
     return table.with_name(f"{table.stem}.findings.jsonl")
+
+
+def summary_path(table: Path) -> Path:
+    """Where the summary of a table lies: ``results.csv``, ``results.summary.json``."""
+    return table.with_name(f"{table.stem}.summary.json")
+
+
+def write_summary(table: Path, rows: Sequence[Row]) -> None:
+    """Write what came of these protocols together, beside their table.
+
+    Raises:
+        ConfigurationError: It cannot be written.
+    """
+    broken = Counter(part.partition("*")[0] for row in rows for part in row.rules.split())
+    states = {
+        word: Counter(rule for row in rows for rule in getattr(row, word).split())
+        for word in ("decided", "undecided", "not_applicable")
+    }
+    data = {
+        "schema_version": SCHEMA,
+        "protocols": len(rows),
+        "verdicts": Counter(row.verdict for row in rows),
+        "findings": sum(row.findings for row in rows),
+        "protocols_by_broken_rule": broken,
+        "protocols_by_rule": states,
+    }
+    path = summary_path(table)
+    try:
+        path.write_text(json.dumps(data, indent=1, sort_keys=True) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise ConfigurationError(f"{path} cannot be written: {error.strerror}.") from None
 
 
 def read_results(table: Path) -> Results:
@@ -103,10 +147,12 @@ def read_results(table: Path) -> Results:
     try:
         with table.open(encoding="utf-8", newline="") as file:
             reader = csv.DictReader(file)
-            if reader.fieldnames is not None and list(reader.fieldnames) != _COLUMNS:
+            names = [*(reader.fieldnames or _COLUMNS)]
+            if names not in (_COLUMNS, [name for name in _COLUMNS if name not in _LATER]):
                 told = "is no table that aegis-ot corpus of this version wrote; give another file."
                 raise ConfigurationError(f"{table} {told}")
             for values in reader:
+                values = {**({} if "schema" in names else _LATER), **values}
                 if all(values.get(name) is not None for name in _COLUMNS):
                     row = _row({name: from_csv_cell(values[name]) for name in _COLUMNS})
                     rows[row.file] = row

@@ -96,7 +96,7 @@ def read_csv_paths(items: Sequence[str]) -> dict[str, Path]:
         path = Path(value)
         if not path.is_file():
             raise ConfigurationError(f"--csv {name}: there is no file {value}.")
-        paths[name] = path
+        paths[name] = path.resolve()  # a rehearsal runs in its protocol's folder
     return paths
 
 
@@ -118,24 +118,33 @@ def read_labware(places: Sequence[Path]) -> dict[str, Mapping[str, Any]]:
     """Custom labware definitions, by URI.
 
     Args:
-        places: Files, or folders that are searched for ``*.json``.
+        places: Files, or folders that are searched for ``*.json``; what is no labware there is
+            passed over.
 
     Raises:
-        ConfigurationError: There is none, or one is no labware definition.
+        ConfigurationError: There is none, or a file that is named is no labware definition.
     """
     found: dict[str, Mapping[str, Any]] = {}
-    for file in labware_files(places):
-        try:
-            definition = json.loads(file.read_text(encoding="utf-8"))
-            name = definition["parameters"]["loadName"]
-            uri = f"{definition['namespace']}/{name}/{definition['version']}"
-        except OSError as error:
-            raise ConfigurationError(f"--labware {file}: {error.strerror}.") from None
-        except (ValueError, KeyError, TypeError):
+    for place in places:
+        here: dict[str, Mapping[str, Any]] = {}
+        for file in labware_files([place]):
+            try:
+                definition = json.loads(file.read_text(encoding="utf-8-sig"))
+                name = definition["parameters"]["loadName"]
+                here[f"{definition['namespace']}/{name}/{definition['version']}"] = definition
+            except OSError as error:
+                raise ConfigurationError(f"--labware {file}: {error.strerror}.") from None
+            except (ValueError, KeyError, TypeError):
+                if file != place:  # of a folder, what is none is passed over
+                    continue
+                raise ConfigurationError(
+                    f"--labware {file}: this is no Opentrons labware definition."
+                ) from None
+        if not here:
             raise ConfigurationError(
-                f"--labware {file}: this is no Opentrons labware definition."
-            ) from None
-        found[uri] = definition
+                f"--labware {place}: no *.json in the folder is an Opentrons labware definition."
+            )
+        found.update(here)
     return found
 
 

@@ -5,12 +5,17 @@ from __future__ import annotations
 import dataclasses
 import os
 import re
+import shlex
 import traceback
+from collections.abc import Iterator
 from pathlib import Path
 
 from ..errors import AegisError, RehearsalError, RehearsalTimeout
 from ..preflight.rehearsal import in_words, line_of
 from .result import Problem
+from .surroundings import NO_SOURCES
+
+_NO_LABWARE = re.compile(r'Labware "[^"]*" not found|Unable to find a labware\s+definition')
 
 PASSED_ON = "AEGIS_OT_PROTOCOL_ENV"
 """Names the environment variables that a rehearsal gets beside what Python and Opentrons need."""
@@ -41,16 +46,36 @@ def problem_of(error: BaseException, script_name: str) -> Problem:
     )
 
 
-def with_helper(problem: Problem, folder: Path) -> Problem:
-    """Tells what to do where the module that is missing lies beside the protocol."""
+def lacks_labware(problem: Problem) -> bool:
+    """Whether labware that nobody defined kept a protocol from being judged."""
+    return _NO_LABWARE.search(problem.message) is not None
+
+
+def with_helper(problem: Problem, file: Path, root: Path) -> Problem:
+    """Tells what to type where a module lacks: its folder, where the repository holds it once."""
     name = problem.missing.partition(".")[0]
-    if not name or not ((folder / f"{name}.py").is_file() or (folder / name).is_dir()):
+    if not name:
         return problem
-    told = (
-        f"it imports {problem.missing}, which lies beside it; but Opentrons loads a protocol "
-        f"alone. Check it with PYTHONPATH={folder}, and mind that the robot needs {name} as well."
-    )
-    return dataclasses.replace(problem, message=told)
+    found = {path.parent for path in _sources(root, name)}
+    if len(found) == 1:
+        folder = shlex.quote(str(found.pop()))
+        told = f"{name} of this repository is found with: PYTHONPATH={folder} aegis-ot check {file}"
+    else:
+        told = (
+            "if it is a file of yours, give its folder: PYTHONPATH=FOLDER aegis-ot check "
+            f"{file}; a package is installed where aegis-ot is, with pip"
+        )
+    return dataclasses.replace(problem, message=f"{problem.message.rstrip('.')}; {told}.")
+
+
+def _sources(root: Path, name: str) -> Iterator[Path]:
+    """The modules of this name anywhere in a repository."""
+    for place, folders, files in os.walk(root):
+        folders[:] = [f for f in folders if not f.startswith(".") and f not in NO_SOURCES]
+        if f"{name}.py" in files:
+            yield Path(place, f"{name}.py")
+        if name in folders and Path(place, name, "__init__.py").is_file():
+            yield Path(place, name)
 
 
 def _of_rehearsal(error: RehearsalError, script_name: str) -> Problem:
@@ -73,8 +98,13 @@ def _of_rehearsal(error: RehearsalError, script_name: str) -> Problem:
         text,
     )
     text = text[start.end() :] if start else text
-    if re.search(r'Labware "[^"]*" not found', text):
-        text = text.rstrip(".") + "; if it is your own, give its definition with --labware."
+    if _NO_LABWARE.search(text):
+        text = f"{' '.join(text.split()).rstrip('.')}; if it is your own, give its definition: --labware FOLDER."
+    if isinstance(cause, FileNotFoundError) and cause.filename:
+        told = f"it reads {cause.filename}, which is not there"
+        return Problem(
+            f"{told}; a rehearsal runs in the protocol's own folder: put it there.", error.line
+        )
     file = re.search(r"CSV parameter (\w+) needs a file", text)
     if file:
         text = f"{text.rstrip('.')}; give it with --csv {file[1]}=PATH."
@@ -85,7 +115,9 @@ def _of_rehearsal(error: RehearsalError, script_name: str) -> Problem:
 
 def late(told: str, line: int | None) -> Problem:
     """A protocol that did not end in time; where it was, if it was anywhere."""
-    if line is None:
+    if line is not None:
+        told += " It stood at this line; --timeout SECONDS gives it more."
+    else:
         told += " No line of it was running then: this machine is busy, or Opentrons hangs."
     return Problem(told, line)
 

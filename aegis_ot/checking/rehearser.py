@@ -140,7 +140,7 @@ class Rehearser:
             _kill(process)
 
     def _start(self) -> None:
-        path = os.pathsep.join(filter(None, sys.path))
+        path = os.pathsep.join(map(os.path.abspath, filter(None, sys.path)))
         self._process = subprocess.Popen(
             [sys.executable, "-c", _MAIN, path, str(self._stacks), *self._rules],
             env=environment_of_protocols(os.environ),

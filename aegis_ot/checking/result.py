@@ -84,6 +84,10 @@ class CheckedProtocol:
         judgement: What came of asking a model, where one was asked.
         dossier: What that model got to know.
         declared: Its runtime parameters, where values were given for some and it could be asked.
+        off: Rules that the options, its guard or the project leave out.
+        modules: Those from around it that its rehearsal imported, with their paths.
+        rehearsal_s: Time of the rehearsal, s, where no model was asked.
+        verdict_s: Time from the recording to the verdict, s.
     """
 
     file: str
@@ -97,6 +101,28 @@ class CheckedProtocol:
     judgement: Judgement | None = None
     dossier: Dossier | None = None
     declared: tuple[str, ...] | None = None
+    off: tuple[str, ...] = ()
+    modules: Mapping[str, str] = field(default_factory=dict)
+    rehearsal_s: float = 0.0
+    verdict_s: float = 0.0
+
+    def states(self, database: Database) -> dict[str, str]:
+        """What became of each rule: ``decided``, ``undecided``, ``not_applicable`` (its assay is
+        not this one, or nothing of it occurs), or ``off``; empty where it could not be judged."""
+        if self.report is None:
+            return {}
+        open_ = {one.rule for one in self.undecided}
+        decided = {*self.report.judged, *(one.rule for one in self.findings)}
+        return {
+            rule.id: "off"
+            if rule.id in self.off
+            else "undecided"
+            if rule.id in open_
+            else "decided"
+            if rule.id in decided
+            else "not_applicable"
+            for rule in database.rules
+        }
 
     @property
     def verdict(self) -> VerdictWord:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
+import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -10,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ConfigurationError, RehearsalError
-from ..preflight import Database, Options, Report
+from ..preflight import Database, Options
 from ..preflight.rehearsal import Script
 from ..preflight.source import source_lines
 from ..settings import Settings
@@ -21,11 +23,13 @@ from .exploring import explore
 from .files import read_protocol
 from .guard_arguments import GuardArguments, guard_arguments
 from .modelled import Asking, ask_model
-from .problems import with_helper
+from .problems import lacks_labware, with_helper
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, Problem, with_findings
+from .shelf import Definition, definitions_below, named_in, with_own_values
 from .side_by_side import LazyRehearser, check_each
-from .tasks import Check, CheckWithDossier, Describe, Examined
+from .surroundings import Placed, Surroundings, root_of, surroundings_of
+from .tasks import CheckWithDossier, Describe, Examined, Timed, TimedCheck
 from .waiving import waive, with_stale_waivers
 
 
@@ -47,6 +51,9 @@ class CheckSettings:
         explain_roles: Whether the reports are to show roles.
         asking: A model to ask, if any.
         jobs: How many files to check at a time; one where a model is asked.
+        shelves: Folders in which, beside the working folder, a protocol's modules are looked for
+            where it lies in no checkout.
+        definitions: Finds custom labware below the root of a checkout, where some lacks.
     """
 
     options: Options = field(default_factory=Options)
@@ -62,6 +69,8 @@ class CheckSettings:
     explain_roles: bool = False
     asking: Asking | None = None
     jobs: int = 1
+    shelves: tuple[Path, ...] = ()
+    definitions: Callable[[Path], Sequence[Definition]] = definitions_below
 
 
 def check_alike(
@@ -81,9 +90,10 @@ def check_alike(
     Raises:
         RehearsalError: The rehearsing process cannot be started.
     """
+    settings = dataclasses.replace(settings, definitions=functools.cache(settings.definitions))
 
     def check(file: Path, rehearser: LazyRehearser) -> CheckedProtocol:
-        return _check_file(file, settings, database, rehearser)
+        return check_file(file, settings, database, rehearser)
 
     # One question at a time to a model: its service counts them.
     jobs = settings.jobs if settings.asking is None else 1
@@ -91,23 +101,29 @@ def check_alike(
     return with_stale_waivers(protocols, settings.waivers, settings.waiver_root)
 
 
-def _check_file(
+def check_file(
     file: Path, settings: CheckSettings, database: Database, rehearser: LazyRehearser
 ) -> CheckedProtocol:
+    """Check one protocol where it lies."""
     name = file.as_posix()
     try:
         text = read_protocol(file)
+        whole = with_own_values(file, text)
     except ConfigurationError as error:
         return CheckedProtocol(name, problem=Problem(str(error)))
     except RehearsalError as error:
         return CheckedProtocol(name, problem=Problem(str(error), error.line))
     lines = tuple(source_lines(text))
-    script = Script(
-        text=text,
+    root = root_of(file, (*settings.shelves, Path.cwd()))
+    around = surroundings_of(file, text, root)
+    script: Script = Placed(
+        text=whole,
         file_name=file.name,
         parameters=settings.parameters,
         csv_parameters=settings.csv_parameters,
         extra_labware=settings.labware,
+        folder=str(file.resolve().parent),
+        modules=around.modules,
     )
     try:
         said = guard_arguments(text)
@@ -122,14 +138,53 @@ def _check_file(
     start = time.monotonic()
     script, declared = _with_own_values(process, script, settings.timeout_s)
     try:
-        judged = _judge(process, script, options, settings, database)
+        judged = _judge_in(root, around, settings, process, script, options, database)
     except TaskFailed as failed:
-        judged = CheckedProtocol(name, problem=with_helper(failed.problem, file.parent))
-    seconds = time.monotonic() - start
+        judged = CheckedProtocol(name, problem=with_helper(failed.problem, file, root))
     checked = dataclasses.replace(
-        judged, file=name, lines=lines, seconds=seconds, declared=declared
+        judged,
+        file=name,
+        lines=lines,
+        seconds=time.monotonic() - start,
+        declared=declared,
+        off=tuple(rule.id for rule in database.rules if options.severity_of(rule) == "off"),
+        modules={module: around.modules[module].path for module in judged.modules},
     )
-    return _settle(checked, said, settings)
+    return _settle(checked, said, settings, around)
+
+
+def _judge_in(
+    root: Path,
+    around: Surroundings,
+    settings: CheckSettings,
+    rehearser: Rehearser,
+    script: Script,
+    options: Options,
+    database: Database,
+) -> CheckedProtocol:
+    """Judge; where custom labware lacks, with the definitions of the same repository."""
+    try:
+        return _judge(rehearser, script, options, settings, database)
+    except TaskFailed as failed:
+        if not lacks_labware(failed.problem):
+            raise
+        texts = [script.text, *around.texts.values()]
+        place = Path(getattr(script, "folder", "")) / script.file_name
+        found = named_in(place, texts, settings.definitions(root))
+        if not found:
+            raise
+    labware = {**{one.uri: one.content for one in found}, **script.extra_labware}
+    script = dataclasses.replace(script, extra_labware=labware)
+    judged = _judge(rehearser, script, options, settings, database)
+    if judged.report is None:
+        return judged
+    notes = [
+        f"the labware {one.load_name} is defined by {os.path.relpath(one.file, place.parent)}, "
+        "of the same repository."
+        for one in found
+    ]
+    report = dataclasses.replace(judged.report, notes=(*judged.report.notes, *notes))
+    return dataclasses.replace(judged, report=report)
 
 
 def _with_own_values(
@@ -164,11 +219,15 @@ def _judge(
     """Rehearse and judge, with other parameters and with a model where that is asked for."""
     how = (script, options, settings.rules, settings.timeout_s)
     examined: Examined | None = None
+    timed: Timed | None = None
     if settings.asking is None:
-        report: Report = rehearser.perform(Check(*how))
+        timed = rehearser.perform(TimedCheck(*how))
+        assert timed is not None
+        report, modules = timed.report, timed.modules
     else:
         examined = rehearser.perform(CheckWithDossier(*how))
-        report = examined.report
+        assert examined is not None
+        report, modules = examined.report, examined.modules
     exploration = judgement = None
     if settings.all_parameters:
         report, exploration = explore(rehearser, *how, report)
@@ -181,6 +240,9 @@ def _judge(
         exploration=exploration,
         judgement=judgement,
         dossier=examined.dossier if examined else None,
+        modules=dict.fromkeys(modules, ""),
+        rehearsal_s=timed.rehearsal_s if timed else 0.0,
+        verdict_s=timed.verdict_s if timed else 0.0,
     )
 
 
@@ -198,15 +260,16 @@ def options_for(arguments: GuardArguments, options: Options) -> Options:
 
 
 def _settle(
-    checked: CheckedProtocol, said: GuardArguments, settings: CheckSettings
+    checked: CheckedProtocol, said: GuardArguments, settings: CheckSettings, around: Surroundings
 ) -> CheckedProtocol:
-    """Apply what the project has waived or put off, and tell what of the guard was not read."""
+    """Apply what the project has waived or put off; tell what of the guard was not read, and what
+    was found around the protocol."""
     report = checked.report
     if report is None:
         return checked
     standing, waived = waive(checked.file, report, settings.waivers, settings.waiver_root)
     known: list[Finding] = []
-    remarks = list(said.unread)
+    remarks = [*said.unread, *(around.modules[name].told(name) for name in checked.modules)]
     if settings.baseline is not None:
         standing, known, gone = settings.baseline.split(checked.file, standing, checked.lines)
         if gone:

@@ -11,7 +11,7 @@ import json
 import os
 import random
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from typing import Any
 from ..errors import ConfigurationError, RehearsalError
 from .files import read_protocol
 from .result import Problem
+from .surroundings import NO_SOURCES, Surroundings, root_of, surroundings_of
 
 FIELDS = "fields.json"
 
@@ -31,7 +32,6 @@ _CALLS_VALUES = re.compile(r"\bget_values\s*\(")
 _DEFINES_VALUES = re.compile(
     r"\bdef\s+get_values\b|^\s*get_values\s*=|\bimport\b.*\bget_values\b", re.M
 )
-_NO_PROTOCOLS = frozenset({"__pycache__", "node_modules", "site-packages"})
 _LARGEST_DEFINITION_BYTES = 5_000_000
 
 Definitions = Mapping[str, Mapping[str, Any]]
@@ -44,7 +44,8 @@ class Shelved:
     Attributes:
         path: Of the file, below the folder that the user gave.
         text: What is rehearsed: the file's text, with ``get_values`` where it needs that.
-        labware: Custom labware definitions that it names, by URI.
+        labware: Custom labware definitions that it, or a module of its, names, by URI.
+        around: The modules that it imports from around it.
         skipped: Why there is no use in rehearsing it.
     """
 
@@ -52,11 +53,14 @@ class Shelved:
     text: str = ""
     labware: Definitions = field(default_factory=dict)
     skipped: Problem | None = None
+    around: Surroundings = field(default_factory=lambda: Surroundings({}, {}))
 
 
 @dataclass(frozen=True)
-class _Definition:
-    folder: Path
+class Definition:
+    """A custom labware definition, and the file that it is from."""
+
+    file: Path
     uri: str
     load_name: str
     content: Mapping[str, Any]
@@ -75,13 +79,36 @@ def find_protocols(folders: Sequence[Path]) -> list[Shelved]:
     for folder in folders:
         if not folder.is_dir():
             raise ConfigurationError(f"{folder}: there is no such folder.")
-        files = sorted(_files(folder))
-        definitions = [d for path in files if path.suffix == ".json" for d in _definition(path)]
-        for path in files:
-            if path.suffix == ".py" and path.resolve() not in found:
-                shelved = _shelved(path, definitions)
+        checkout = root_of(folder / FIELDS, [folder])
+        definitions = definitions_below(checkout)
+        for path in sorted(_files(folder, ".py")):
+            if path.resolve() not in found:
+                shelved = _shelved(path, definitions, root_of(path, [*folders, Path.cwd()]))
                 if shelved is not None:
                     found[path.resolve()] = shelved
+    return list(found.values())
+
+
+def protocols_named(places: Sequence[Path]) -> list[Path]:
+    """The files that are named, and every protocol below the folders that are; each once.
+
+    Raises:
+        ConfigurationError: There is none below a folder.
+    """
+    found: dict[Path, Path] = {}
+    for place in places:
+        here = [place]
+        if place.is_dir():
+            here = [
+                path for path in sorted(_files(place, ".py")) if _is_protocol(_rough_text(path))
+            ]
+            if not here:
+                told = "a protocol defines run(protocol) and names Opentrons or an apiLevel"
+                raise ConfigurationError(
+                    f"{place}: there is no protocol below this folder; {told}."
+                )
+        for path in here:
+            found.setdefault(path.resolve(), path)
     return list(found.values())
 
 
@@ -105,13 +132,40 @@ def sample(protocols: Sequence[Shelved], folders: Sequence[Path], count: int) ->
     return [p for p in protocols if p.path in drawn]
 
 
-def _files(folder: Path) -> Iterator[Path]:
+def definitions_below(folder: Path) -> tuple[Definition, ...]:
+    """The custom labware definitions below a folder; JSON that is none is passed over."""
+    return tuple(d for path in sorted(_files(folder, ".json")) for d in _definition(path))
+
+
+def named_in(
+    path: Path, texts: Iterable[str], definitions: Sequence[Definition]
+) -> list[Definition]:
+    """The definitions that a protocol, or a module of its, names; the nearest of each name last."""
+    texts = list(texts)
+    named = [d for d in definitions if any(d.load_name in text for text in texts)]
+    near = path.resolve().parent
+    named.sort(key=lambda d: len(Path(os.path.commonpath([near, d.file])).parts))
+    return list({d.uri: d for d in named}.values())
+
+
+def with_own_values(path: Path, text: str) -> str:
+    """A protocol's text, with ``get_values`` where it is of Opentrons' library and needs that.
+
+    Raises:
+        ConfigurationError: It needs that, and no file beside it gives the values.
+    """
+    if not _CALLS_VALUES.search(text) or _DEFINES_VALUES.search(text):
+        return text
+    return _with_values(text, _field_values(path.parent / FIELDS))
+
+
+def _files(folder: Path, ending: str) -> Iterator[Path]:
     for place, folders, names in os.walk(folder):
-        folders[:] = [f for f in folders if not f.startswith(".") and f not in _NO_PROTOCOLS]
-        yield from (Path(place, name) for name in names if name.endswith((".py", ".json")))
+        folders[:] = [f for f in folders if not f.startswith(".") and f not in NO_SOURCES]
+        yield from (Path(place, name) for name in names if name.endswith(ending))
 
 
-def _shelved(path: Path, definitions: Sequence[_Definition]) -> Shelved | None:
+def _shelved(path: Path, definitions: Sequence[Definition], root: Path) -> Shelved | None:
     """The protocol in this file, ``None`` if it holds none."""
     try:
         text = read_protocol(path)
@@ -124,14 +178,13 @@ def _shelved(path: Path, definitions: Sequence[_Definition]) -> Shelved | None:
     if not _RUN.search(text):
         told = "it is written for Opentrons' first API (it defines no run), which is gone."
         return Shelved(path, text, skipped=Problem(told))
-    if not _CALLS_VALUES.search(text) or _DEFINES_VALUES.search(text):
-        return Shelved(path, text, _named(path, text, definitions))
     try:
-        values = _field_values(path.parent / FIELDS)
+        whole = with_own_values(path, text)
     except ConfigurationError as error:
         return Shelved(path, text, skipped=Problem(str(error)))
-    text = _with_values(text, values)
-    return Shelved(path, text, _named(path, text, definitions))
+    around = surroundings_of(path, text, root)
+    named = named_in(path, [text, *around.texts.values()], definitions)
+    return Shelved(path, whole, {d.uri: d.content for d in named}, around=around)
 
 
 def _rough_text(path: Path) -> str:
@@ -184,7 +237,7 @@ def _with_values(text: str, values: Mapping[str, Any]) -> str:
     )
 
 
-def _definition(path: Path) -> Iterator[_Definition]:
+def _definition(path: Path) -> Iterator[Definition]:
     """The labware definition in this file, if it is one and not Opentrons' own."""
     try:
         if path.stat().st_size > _LARGEST_DEFINITION_BYTES:
@@ -198,11 +251,4 @@ def _definition(path: Path) -> Iterator[_Definition]:
     except (OSError, ValueError, KeyError, TypeError):
         return
     if namespace != "opentrons":
-        yield _Definition(path.parent, uri, str(name), content)
-
-
-def _named(path: Path, text: str, definitions: Sequence[_Definition]) -> Definitions:
-    """The definitions that a protocol names; of several of one name the nearest."""
-    named = [d for d in definitions if d.load_name in text]
-    named.sort(key=lambda d: len(Path(os.path.commonpath([path.parent, d.folder])).parts))
-    return {d.uri: d.content for d in named}
+        yield Definition(path.resolve(), uri, str(name), content)

@@ -30,6 +30,7 @@ from ..preflight.rehearsal import (
 )
 from ..vocabulary import Dossier
 from .rule_examples import ExampleResult, run_examples
+from .surroundings import standing_in_place
 
 RulePaths = tuple[str, ...]
 
@@ -71,16 +72,18 @@ class Check(_OfProtocol):
 
     def perform(self) -> Report:
         """Judge."""
-        return check_script(self.script, _database(self.rules), self.options, self.timeout_s)
+        with standing_in_place(self.script):
+            return check_script(self.script, _database(self.rules), self.options, self.timeout_s)
 
 
 @dataclass(frozen=True)
 class Timed:
-    """A report, and what it took to come to it, s."""
+    """A report, what it took to come to it, s, and the modules that lay around the protocol."""
 
     report: Report
     rehearsal_s: float
     verdict_s: float
+    modules: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -90,10 +93,12 @@ class TimedCheck(_OfProtocol):
     def perform(self) -> Timed:
         """Judge."""
         start = time.perf_counter()
-        recording = record(self.script, timeout_s=self.timeout_s)
+        with standing_in_place(self.script) as modules:
+            recording = record(self.script, timeout_s=self.timeout_s)
         recorded = time.perf_counter()
         report = judge(Reading(recording, _database(self.rules), self.options))
-        return Timed(report, recorded - start, time.perf_counter() - recorded)
+        seconds = time.perf_counter() - recorded
+        return Timed(report, recorded - start, seconds, tuple(modules))
 
 
 @dataclass(frozen=True)
@@ -103,6 +108,7 @@ class Examined:
     report: Report
     dossier: Dossier
     recording: Recording
+    modules: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -111,10 +117,11 @@ class CheckWithDossier(_OfProtocol):
 
     def perform(self) -> Examined:
         """Judge."""
-        report, dossier, reading = check_with_dossier(
-            self.script, _database(self.rules), self.options, self.timeout_s
-        )
-        return Examined(report, dossier, reading.recording)
+        with standing_in_place(self.script) as modules:
+            report, dossier, reading = check_with_dossier(
+                self.script, _database(self.rules), self.options, self.timeout_s
+            )
+        return Examined(report, dossier, reading.recording, tuple(modules))
 
 
 @dataclass(frozen=True)
@@ -132,7 +139,8 @@ class Describe:
     def perform(self) -> tuple[Parameter, ...]:
         """Run ``add_parameters`` and read what it declared."""
         limit = functools.partial(interrupted_after, self.timeout_s, self.script.file_name)
-        return declared_parameters(load(self.script), self.script, limit)
+        with standing_in_place(self.script):
+            return declared_parameters(load(self.script), self.script, limit)
 
 
 @dataclass(frozen=True)

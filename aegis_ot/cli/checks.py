@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import os
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -14,6 +13,7 @@ import typer
 from ..checking import Asking, CheckRun, Configuration, Project, check_projects, configurations_of
 from ..checking.baseline import baseline_text, read_baseline
 from ..checking.roles_template import roles_template
+from ..checking.shelf import protocols_named
 from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
 from ..reports import FORMATS, SHOW_ROLES, renderer
@@ -26,7 +26,7 @@ from .models import ModelName, RecordFolder, backend_of
 from .options import (
     Assay,
     CsvParameters,
-    Files,
+    FilesOrFolders,
     Ignore,
     Labware,
     Parameters,
@@ -44,7 +44,7 @@ app = typer.Typer()
 
 @app.command()
 def check(
-    files: Files,
+    files: FilesOrFolders,
     output_format: Annotated[
         str, typer.Option("--format", "-f", help=f"One of {', '.join(FORMATS)}.")
     ] = "text",
@@ -93,7 +93,9 @@ def check(
 ) -> None:
     """Check protocols before they run: rehearse them, and judge them by the rules.
 
-    A model, where one is named, adds to what the rules decide, and never takes from it.
+    Of a folder every protocol below it is checked; hidden folders and installed packages are
+    passed over. A model, where one is named, adds to what the rules decide, and never takes from
+    it.
 
     Exit codes: 0 clean, 1 findings, 2 a protocol could not be judged, a model that was asked
     gave no answer, or the call is wrong.
@@ -106,7 +108,7 @@ def check(
             "--output and --write-baseline cannot be given together: a baseline is all that is "
             "written then."
         )
-    files = _each_once(files)
+    files = protocols_named(files)
     if roles_file and len(files) > 1:
         raise ConfigurationError("--roles-template takes one protocol at a time.")
     projects = []
@@ -159,10 +161,6 @@ def check(
 def _asking(model: str | None, record: Path | None, configured: Configuration) -> Asking | None:
     backend = backend_of(model, record, configured.model, configured.folder)
     return None if backend is None else Asking(backend)
-
-
-def _each_once(files: Sequence[Path]) -> list[Path]:
-    return list(dict.fromkeys(files))
 
 
 def _show(run: CheckRun, output_format: str, output: Path | None) -> None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import statistics
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -18,19 +19,33 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from ..checking.corpus import CorpusSettings, check_corpus
+from ..checking import Project, configurations_of
+from ..checking.baseline import read_baseline
+from ..checking.corpus import check_corpus
 from ..checking.corpus_changes import Change, changes
-from ..checking.corpus_table import Results, Row, Told, findings_path, read_results
-from ..checking.shelf import find_protocols
+from ..checking.corpus_table import (
+    CRASHED,
+    Results,
+    Row,
+    Told,
+    findings_path,
+    read_results,
+    summary_path,
+    write_summary,
+)
+from ..checking.shelf import Shelved, find_protocols
 from ..checking.shelf import sample as drawn
 from ..checking.side_by_side import processors
 from ..errors import ConfigurationError
-from ..preflight import load_database
 from ..vocabulary import counted
-from .exit_codes import CLEAN, FINDINGS
-from .options import Rules
+from .check_settings import settings_of
+from .exit_codes import BROKEN, CLEAN, FINDINGS
+from .options import Labware, Rules, Timeout, one_of
 from .plain_text import echo
 from .printing import PlainConsole
+
+_FAILING = {"error": {"fail"}, "warning": {"fail", "warn"}, "never": set[str]()}
+"""Verdicts that end with exit code 1, by ``--fail-on``."""
 
 _TELLING = ("fail", "crash")
 """Verdicts that are told at once, while the others are counted."""
@@ -56,40 +71,84 @@ def corpus(
         ),
     ] = None,
     rules: Rules = None,
-    timeout: Annotated[
-        float, typer.Option(min=0.1, help="Longest rehearsal of one protocol, s.")
-    ] = 60.0,
+    labware: Labware = None,
+    timeout: Timeout = None,
     jobs: Annotated[
         int | None,
         typer.Option("--jobs", "-j", min=1, help="Protocols at a time (one per processor)."),
     ] = None,
+    fail_on: Annotated[
+        str,
+        typer.Option("--fail-on", help="error, warning or never: what ends with exit code 1."),
+    ] = "never",
 ) -> None:
     """Judge every protocol below some folders, and keep what came of each in a table.
 
-    Custom labware definitions are found below the same folders, and get_values of Opentrons'
-    protocol library reads the fields.json beside the protocol. An interrupted run goes on where it
-    was; a rerun judges what has changed. Settings of projects are not heard.
+    Each is judged where it lies, by its project's settings. Custom labware definitions are found
+    in the same repository, and get_values of Opentrons' protocol library reads the fields.json
+    beside the protocol. An interrupted run goes on where it was; a rerun judges what has changed.
 
-    Exit codes: 0 done, 1 something changed since --against, 2 the call is wrong.
+    Exit codes: 0 done, 1 something changed since --against or is found that --fail-on names, 2 the
+    call is wrong, or with --fail-on a protocol could not be judged.
     """
-    load_database(rules or [])  # a faulty rule file is told before anything is done
+    one_of("--fail-on", fail_on, _FAILING)
     before = read_results(_there(against)) if against else {}
     protocols = find_protocols(folders)
     if not protocols:
         raise ConfigurationError("There is no protocol below these folders.")
     if sample is not None:
         protocols = drawn(protocols, folders, sample)
-    settings = CorpusSettings(
-        tuple(str(path.resolve()) for path in rules or ()), timeout, jobs or processors()
-    )
+    projects = list(_projects(protocols, folders, rules, labware, timeout))
     with _Shown(len(protocols)) as shown:
-        after = check_corpus(protocols, folders, out, settings, shown.done)
-    echo(summary([row for row, _ in after.values()]))
-    echo(f"{out}; findings: {findings_path(out)}")
+        after = check_corpus(protocols, folders, out, projects, jobs or processors(), shown.done)
+    rows = [row for row, _ in after.values()]
+    write_summary(out, rows)
+    echo(summary(rows))
+    echo(f"{out}; findings: {findings_path(out)}; summary: {summary_path(out)}")
     if against:
         changed = list(changes(before, after))
         echo(_compared(before, after, changed, against))
-        raise typer.Exit(FINDINGS if changed else CLEAN)
+        if changed:
+            raise typer.Exit(max(FINDINGS, _exit_code(rows, fail_on)))
+    raise typer.Exit(_exit_code(rows, fail_on))
+
+
+def _projects(
+    protocols: Sequence[Shelved],
+    folders: Sequence[Path],
+    rules: list[Path] | None,
+    labware: list[Path] | None,
+    timeout: float | None,
+) -> Iterator[Project]:
+    """The protocols by how their projects want them judged; a faulty file is told before any is."""
+    for configured, own in configurations_of([one.path for one in protocols], Path.cwd()):
+        settings, database = settings_of(
+            configured,
+            assay=None,
+            rules=rules,
+            select=None,
+            ignore=None,
+            parameter=None,
+            csv=None,
+            labware=labware,
+            timeout=timeout,
+        )
+        settings = replace(
+            settings,
+            baseline=read_baseline(Path(configured.baseline)) if configured.baseline else None,
+            shelves=tuple(folders),
+            definitions=lambda _: (),  # found with the protocols
+        )
+        yield Project(own, settings, database)
+
+
+def _exit_code(rows: Sequence[Row], fail_on: str) -> int:
+    verdicts = {row.verdict for row in rows}
+    if fail_on == "never":
+        return CLEAN
+    if verdicts & {"error", CRASHED}:
+        return BROKEN
+    return FINDINGS if verdicts & _FAILING[fail_on] else CLEAN
 
 
 def _there(path: Path) -> Path:

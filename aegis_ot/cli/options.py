@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 DEFAULT_TIMEOUT_S = 120.0
 
 Files = Annotated[list[Path], typer.Argument(help="Python protocols.")]
+FilesOrFolders = Annotated[
+    list[Path], typer.Argument(help="Python protocols, or folders with protocols.")
+]
 Assay = Annotated[
     list[str] | None, typer.Option("--assay", help="Assay family, if it should not be inferred.")
 ]
@@ -46,7 +49,7 @@ Timeout = Annotated[
 ]
 
 
-def one_of(option: str, value: str, accepted: Sequence[str]) -> str:
+def one_of(option: str, value: str, accepted: Collection[str]) -> str:
     """Check a choice.
 
     Raises:

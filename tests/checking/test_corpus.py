@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import dataclasses
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
-from aegis_ot.checking.corpus import CorpusSettings, check_corpus
+from aegis_ot.checking import CheckSettings, Project
+from aegis_ot.checking.corpus import check_corpus
 from aegis_ot.checking.corpus_changes import changes
 from aegis_ot.checking.corpus_table import Results, Row, Told, findings_path, read_results
-from aegis_ot.checking.shelf import find_protocols, sample
+from aegis_ot.checking.shelf import Shelved, find_protocols, sample
 from aegis_ot.errors import ConfigurationError
+from aegis_ot.preflight import load_database
 
 HEAD = 'metadata = {"apiLevel": "2.15"}\n\n\ndef run(protocol):\n'
 
@@ -106,6 +109,11 @@ def shelf(tmp_path: Path) -> Path:
     return folder
 
 
+def projects(protocols: Sequence[Shelved]) -> list[Project]:
+    settings = CheckSettings(timeout_s=2.0, definitions=lambda _: ())
+    return [Project([one.path for one in protocols], settings, load_database())]
+
+
 def judge(folder: Path, table: Path, jobs: int = 1) -> tuple[Results, list[str]]:
     """The results, and the files that were judged anew."""
     anew: list[str] = []
@@ -114,8 +122,8 @@ def judge(folder: Path, table: Path, jobs: int = 1) -> tuple[Results, list[str]]
         if not kept:
             anew.append(Path(row.file).name)
 
-    settings = CorpusSettings(timeout_s=2.0, jobs=jobs)
-    results = check_corpus(find_protocols([folder]), [folder], table, settings, done)
+    protocols = find_protocols([folder])
+    results = check_corpus(protocols, [folder], table, projects(protocols), jobs, done)
     return {Path(file).name: result for file, result in results.items()}, anew
 
 
@@ -178,14 +186,14 @@ def test_an_interrupted_run_keeps_what_was_done(tmp_path: Path) -> None:
             anew.append(Path(row.file).name)
 
     with pytest.raises(KeyboardInterrupt):
-        check_corpus(protocols, [folder], table, CorpusSettings(), stop)
+        check_corpus(protocols, [folder], table, projects(protocols), done=stop)
     assert [Path(file).name for file in read_results(table)] == ["a.py", "b.py"]
     # The power fails in the middle of a row.
     with table.open("a") as file:
         file.write("x.py,pass,gen")
     with findings_path(table).open("a") as file:
         file.write('{"file": "x.py", "ru')
-    check_corpus(protocols, [folder], table, CorpusSettings(), note)
+    check_corpus(protocols, [folder], table, projects(protocols), done=note)
     assert anew == ["c.py", "d.py"]
     assert [Path(file).name for file in read_results(table)] == ["a.py", "b.py", "c.py", "d.py"]
 
