@@ -99,7 +99,8 @@ def _of_rehearsal(error: RehearsalError, script_name: str) -> Problem:
     )
     text = text[start.end() :] if start else text
     if _NO_LABWARE.search(text):
-        text = f"{' '.join(text.split()).rstrip('.')}; if it is your own, give its definition: --labware FOLDER."
+        text = " ".join(text.split()).rstrip(".")
+        text += "; if it is your own, give its definition: --labware FOLDER."
     if isinstance(cause, FileNotFoundError) and cause.filename:
         told = f"it reads {cause.filename}, which is not there"
         return Problem(

@@ -53,7 +53,7 @@ def _annotations(checked: CheckedProtocol, names: dict[str, str]) -> Iterator[st
     questions = [u for u in checked.undecided if u.reason != checked.unanswered]
     if questions:
         rules = listed(list(dict.fromkeys(u.rule for u in questions)), 30)
-        reasons = "\n".join(dict.fromkeys(f"{u.rule}: {u.reason}" for u in questions))
+        reasons = "\n".join(dict.fromkeys(f"{u.rule}: {u.told}" for u in questions))
         yield _command("notice", checked.file, None, f"aegis-ot: undecided: {rules}", reasons)
 
 

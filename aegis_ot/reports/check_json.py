@@ -2,15 +2,21 @@
 
 ::
 
-    {"protocols": [{"file", "family", "verdict": "pass|warn|fail|error",
+    {"schema_version": 2, "version",
+     "summary": {"protocols", "pass", "warn", "fail", "error", "errors", "warnings",
+                 "undecided", "waived", "baselined", "exit_code"},
+     "protocols": [{"file", "family", "verdict": "pass|warn|fail|error",
                     "findings": [{"rule", "severity", "wells", "lines", "message", "fix"}],
-                    "undecided": [{"rule", "reason", "paste"}]}]}
+                    "undecided": [{"rule", "reason", "paste"}],
+                    "rules": {RULE: "decided|undecided|not_applicable|off"}}]}
 
-Wells are ``slot:well``. A protocol has further keys only where there is something to say:
-``error`` (``message``, ``line``) where it could not be judged, ``model`` (``name``, ``state``,
-``detail``, ``seconds``, ``tokens``) where a model was asked, ``waived``, ``baselined``,
-``remarks`` (``line``, ``message``) on conflicting evidence and on waivers that waive nothing,
-``notes``, ``parameters`` and, on request, ``families`` and ``roles``.
+Wells are ``slot:well``. ``rules`` names every rule in force, for a protocol that was judged: those
+of other assays, and those that nothing in it concerns, are not applicable; those left out by the
+options, its guard or its project are off. A protocol has further keys only where there is something
+to say: ``error`` (``message``, ``line``) where it could not be judged, ``model`` (``name``,
+``state``, ``detail``, ``seconds``, ``tokens``) where a model was asked, ``waived``, ``baselined``,
+``remarks`` (``line``, ``message``) on conflicting evidence, modules that were found around it and
+waivers that waive nothing, ``notes``, ``parameters`` and, on request, ``families`` and ``roles``.
 A finding that a model made and no check has ``"source": "model"``.
 """
 
@@ -18,16 +24,43 @@ from __future__ import annotations
 
 import dataclasses
 import json
+from collections import Counter
 from typing import Any
 
 from ..checking import CheckedProtocol, CheckRun, Exploration
 from ..vocabulary import Finding
 
+SCHEMA_VERSION = 2
+
 
 def check_json(run: CheckRun) -> str:
     """Render as JSON text."""
-    data = {"protocols": [protocol_values(c, run.explain_roles) for c in run.protocols]}
+    protocols = [
+        {**protocol_values(c, run.explain_roles), "rules": c.states(run.database)}
+        for c in run.protocols
+    ]
+    data = {
+        "schema_version": SCHEMA_VERSION,
+        "version": run.version,
+        "summary": _summary(run),
+        "protocols": protocols,
+    }
     return json.dumps(data, indent=2, ensure_ascii=False) + "\n"
+
+
+def _summary(run: CheckRun) -> dict[str, int]:
+    verdicts = Counter(checked.verdict.value for checked in run.protocols)
+    severities = Counter(f.severity.value for checked in run.protocols for f in checked.findings)
+    return {
+        "protocols": len(run.protocols),
+        **{word: verdicts[word] for word in ("pass", "warn", "fail", "error")},
+        "errors": severities["error"],
+        "warnings": severities["warning"],
+        "undecided": sum(len(checked.undecided) for checked in run.protocols),
+        "waived": sum(len(checked.waived) for checked in run.protocols),
+        "baselined": sum(len(checked.baselined) for checked in run.protocols),
+        "exit_code": run.exit_code,
+    }
 
 
 def protocol_values(checked: CheckedProtocol, explain_roles: bool = False) -> dict[str, Any]:

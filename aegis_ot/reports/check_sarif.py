@@ -10,12 +10,12 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator, Sequence
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import Any
 from urllib.parse import quote
 
 from ..checking import CheckedProtocol, CheckRun
-from ..preflight.rules import RuleSpec
+from ..preflight.rules import Family, RuleSpec
 from ..vocabulary import Finding, Severity, Site
 from .wording import by_model, site_label, sites_by_line
 
@@ -26,7 +26,7 @@ SCHEMA = (
 
 def check_sarif(run: CheckRun) -> str:
     """Render as a SARIF log with one run."""
-    rules = run.database.rules
+    families, rules = run.database.families, run.database.rules
     index = {rule.id: number for number, rule in enumerate(rules)}
     notifications = [n for checked in run.protocols for n in _notifications(checked, index)]
     log = {
@@ -38,7 +38,9 @@ def check_sarif(run: CheckRun) -> str:
                     "driver": {
                         "name": "aegis-ot",
                         "semanticVersion": run.version,
-                        "rules": [_rule(rule) for rule in rules],
+                        "rules": [
+                            _rule(rule, family) for family in families for rule in family.rules
+                        ],
                     }
                 },
                 "columnKind": "unicodeCodePoints",
@@ -57,8 +59,11 @@ def check_sarif(run: CheckRun) -> str:
     return json.dumps(log, indent=2, ensure_ascii=False) + "\n"
 
 
-def _rule(rule: RuleSpec) -> dict[str, Any]:
+def _rule(rule: RuleSpec, family: Family) -> dict[str, Any]:
+    """A rule; its help is the file that it stands in, with all that it says of it."""
+    place = Path(family.path).resolve().as_uri() if family.path else ""
     return {
+        **({"helpUri": f"{place}#{quote(rule.id)}"} if place else {}),
         "id": rule.id,
         "name": "".join(word.capitalize() for word in rule.name.split("-")),
         "shortDescription": {"text": rule.name.replace("-", " ")},

@@ -23,7 +23,15 @@ if TYPE_CHECKING:
         RuleBrief,
         is_known,
     )
-    from .sentences import counted, csv_cell, from_csv_cell, no_commands, one_line, printable
+    from .sentences import (
+        counted,
+        csv_cell,
+        from_csv_cell,
+        nearest,
+        no_commands,
+        one_line,
+        printable,
+    )
     from .trajectories import (
         ChannelOutcome,
         ChannelVerdict,
@@ -66,6 +74,7 @@ __getattr__ = door(
         "VerdictWord": "findings",
         "WellRef": "wells",
         "counted": "sentences",
+        "nearest": "sentences",
         "csv_cell": "sentences",
         "from_csv_cell": "sentences",
         "from_json": "wire",
@@ -114,6 +123,7 @@ __all__ = [
     "is_known",
     "is_row",
     "named_wells",
+    "nearest",
     "no_commands",
     "one_line",
     "printable",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import difflib
 import re
+from collections.abc import Iterable
 
 _COMMAND = re.compile(r"^(\s*):(?=:)", re.MULTILINE)
 """How a line begins that GitHub's runner takes for a command to itself."""
@@ -51,6 +53,13 @@ def csv_cell(value: object) -> object:
 def from_csv_cell(text: str) -> str:
     """What :func:`csv_cell` was given."""
     return text[1:] if text.startswith("'") and text[1:].startswith(_FORMULA) else text
+
+
+def nearest(name: str, names: Iterable[str]) -> str:
+    """`` (did you mean 'A1'?)``, or nothing where no name is like it."""
+    by_key = {known.casefold(): known for known in names}
+    near = difflib.get_close_matches(name.strip().casefold(), by_key, n=2, cutoff=0.6)
+    return f" (did you mean {' or '.join(repr(by_key[key]) for key in near)}?)" if near else ""
 
 
 def counted(number: int, singular: str, plural: str = "") -> str:

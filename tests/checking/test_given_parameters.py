@@ -85,6 +85,15 @@ def test_of_several_protocols_each_takes_the_values_that_are_for_it(tmp_path: Pa
     ]
 
 
+def test_a_misspelt_file_is_named_though_the_rehearsal_lacks_the_right_one(tmp_path: Path) -> None:
+    file = tmp_path / "table.csv"
+    file.write_text("1,2\n", encoding="utf-8")
+    text = DECLARES.replace("count", "extra")
+    (checked,) = check(tmp_path, [text], csv_parameters={"tabel": file}).protocols
+    assert checked.problem is not None
+    assert checked.problem.message.startswith("there is no parameter tabel; there are ")
+
+
 def test_no_protocol_is_accused_while_another_one_may_declare_the_parameter(tmp_path: Path) -> None:
     plain, broken = check(tmp_path, [PLAIN, "def run(p:\n"], parameters={"foo": 3}).protocols
     assert plain.problem is None

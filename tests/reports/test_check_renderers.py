@@ -6,6 +6,7 @@ import dataclasses
 import json
 import re
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 import jsonschema
 import pytest
@@ -21,7 +22,7 @@ from aegis_ot.reports.check_json import check_json
 from aegis_ot.reports.check_junit import check_junit
 from aegis_ot.reports.check_sarif import check_sarif
 from aegis_ot.reports.check_text import check_text
-from aegis_ot.vocabulary import Finding, Opinion, Severity, Site
+from aegis_ot.vocabulary import Finding, Opinion, Severity, Site, Undecided
 
 from .sample import CARRY, DATABASE, LINES, RUN, report, well
 from .sarif_constraints import SARIF
@@ -87,14 +88,49 @@ def test_json_has_exactly_the_fields_of_the_specification() -> None:
         "1.2.3",
     )
     data = json.loads(check_json(run))
-    assert set(data) == {"protocols"}
+    assert set(data) == {"schema_version", "version", "summary", "protocols"}
     for protocol in data["protocols"]:
-        assert set(protocol) == {"file", "family", "verdict", "findings", "undecided"}
+        assert set(protocol) == {"file", "family", "verdict", "findings", "undecided", "rules"}
     (finding,) = data["protocols"][0]["findings"]
     assert set(finding) == {"rule", "severity", "wells", "lines", "message", "fix"}
     assert finding["wells"] == ["2:B1", "3:H12", "3:G12"]
     assert finding["lines"] == [5, 8]
     assert [p["verdict"] for p in data["protocols"]] == ["fail", "pass"]
+
+
+def test_json_says_of_each_rule_what_became_of_it_and_sums_up() -> None:
+    judged = dataclasses.replace(report(CARRY), judged=("PCR-2", "PCR-6"))
+    open_ = dataclasses.replace(judged, undecided=(Undecided("GEN-3", "No volume is known"),))
+    run = CheckRun(
+        (CheckedProtocol("f.py", open_, off=("PCR-6",)), CheckedProtocol("g.py")), DATABASE, "1.2.3"
+    )
+    data = json.loads(check_json(run))
+    assert data["protocols"][0]["rules"] == {
+        "PCR-2": "decided", "PCR-6": "off", "PCR-1": "not_applicable", "GEN-3": "undecided",
+    }  # fmt: skip
+    assert data["protocols"][1]["rules"] == {}
+    summary = data["summary"]
+    assert (summary["protocols"], summary["fail"], summary["error"]) == (2, 1, 1)
+    assert (summary["errors"], summary["undecided"], summary["exit_code"]) == (1, 1, 2)
+
+
+def test_github_carries_the_line_to_paste() -> None:
+    undecided = Undecided("PCR-2", "No well is known", '@guard(roles={"ntc": ["1:A1"]})')
+    judged = dataclasses.replace(report(), undecided=(undecided,))
+    shown = check_github(CheckRun((CheckedProtocol("f.py", judged),), DATABASE, "1"))
+    assert 'Write: @guard(roles={"ntc": ["1:A1"]})' in shown
+
+
+def test_sarif_says_where_help_on_a_rule_is(tmp_path: Path) -> None:
+    families = tuple(
+        dataclasses.replace(one, path=str(tmp_path / f"{one.family}.json"))
+        for one in DATABASE.families
+    )
+    run = CheckRun((), dataclasses.replace(DATABASE, families=families), "1")
+    log = json.loads(check_sarif(run))
+    jsonschema.Draft202012Validator(SARIF).validate(log)
+    rules = {rule["id"]: rule for rule in log["runs"][0]["tool"]["driver"]["rules"]}
+    assert rules["PCR-2"]["helpUri"] == (tmp_path / "pcr.json").as_uri() + "#PCR-2"
 
 
 def test_json_says_why_a_protocol_was_not_judged() -> None:

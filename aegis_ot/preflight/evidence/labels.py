@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 
-from ...vocabulary import WellRef, one_line
+from ...vocabulary import WellRef, nearest, one_line
 from ..source import level_of, tokens
 from .deck import Deck, parts_of_place
 from .evidence import LONGEST_QUOTE, Evidence, Kind
@@ -36,22 +36,24 @@ def given_roles(
 
 def unknown_places(
     deck: Deck, given: Mapping[str, Sequence[str]], words: Mapping[str, float]
-) -> Iterator[str]:
-    """What is wrong with the places of roles that were given: each, in a sentence."""
+) -> Iterator[tuple[str, bool]]:
+    """What is wrong with places that were given, and whether it is so whatever else is loaded."""
     for role, listed in given.items():
         for place in map(str, listed):
             labware, spec, level = parts_of_place(place)
             found = deck.called(labware)
             told = f"The role {role} is given for '{place}', but "
             if level and level_of(level, words) is None:
-                yield f"{told}'{level}' is no concentration or dose, as 2, '2 mg/mL' or '50 nM' is."
+                yield f"{told}'{level}' is no concentration or dose, as '2 mg/mL' is.", True
             if not found:
-                on_deck = ", ".join(f"'{info.label or info.slot}'" for info in deck.plates())
-                yield f"{told}no labware is called '{labware}'; there are {on_deck}."
+                on_deck = [info.label or info.slot for info in deck.plates()]
+                told += f"no labware is called '{labware}'{nearest(labware, on_deck)}"
+                yield f"{told}; there are {', '.join(map(repr, on_deck))}.", False
                 continue
             left = [not_wells_in(spec, deck.trace.labware[key].wells) for key in found]
             if all(left):
-                yield f"{told}'{left[0]}' is no well of that labware."
+                near = nearest(left[0], deck.trace.labware[found[0]].wells)
+                yield f"{told}'{left[0]}' is no well of that labware{near}.", True
 
 
 def loaded_liquids(deck: Deck) -> Iterator[Evidence]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from ...errors import ConfigurationError
 from ...settings import Settings
+from ...vocabulary import nearest
 from ..rules import Database, RuleSpec
 
 
@@ -69,8 +70,8 @@ def check_options(options: Options, database: Database) -> None:
     ):
         for name in names:
             if name not in known:
-                told = f"there is no {what} {name!r}; known are {', '.join(sorted(known))}"
-                raise ConfigurationError(told)
+                told = f"there is no {what} {name!r}{nearest(name, known)}; "
+                raise ConfigurationError(f"{told}known are {', '.join(sorted(known))}")
     for rule_id, severity in options.severity.items():
         if severity not in ("error", "warning", "off"):
             raise ConfigurationError(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
+from ...errors import ConfigurationError
 from ...instrumentation import OperationKind
 from ...vocabulary import Remark, Site, Undecided, WellRef
 from ..checks import Case, Doubt, Violation, make_check
@@ -26,26 +27,23 @@ _CHANCE = (
     "What is moved depends on {}: another run may move otherwise than what was judged here. The "
     "guard follows the run, and says where it differs."
 )
+_Outcome = tuple[list[Violation], Undecided | None]
 _IDLE = Remark("It moves no liquid: there is nothing to judge.")
 
 
 @uncollected()
-def judge(reading: Reading, so_far: bool = False) -> Report:
-    """Judge a protocol by all rules in force; ``so_far``: a run that goes on, by what nothing
-    that may follow mends."""
+def judge(reading: Reading, so_far: bool | None = None) -> Report:
+    """Judge a rehearsal by all rules in force; ``so_far`` is of a run: whether it goes on, and what
+    may follow mends. Raises ConfigurationError where given roles are misplaced."""
     judged = {
-        rule.id: _judge_rule(rule, case, so_far)
+        rule.id: _judge_rule(rule, case, bool(so_far))
         for rule, case in reading.cases()
         if reading.options.severity_of(rule) != "off"
     }
-    violations = {rule: found for rule, (found, _) in judged.items()}
-    undecided = [open_ for _, open_ in judged.values() if open_]
-    return _report(reading, violations, undecided)
+    return _report(reading, judged, refuses=so_far is None)
 
 
-def _judge_rule(
-    rule: RuleSpec, case: Case, so_far: bool = False
-) -> tuple[list[Violation], Undecided | None]:
+def _judge_rule(rule: RuleSpec, case: Case, so_far: bool) -> _Outcome:
     """Where a rule is broken, or why that cannot be said (``None`` if it can)."""
     checks = [make_check(check, rule.id) for check in rule.checks]
     if so_far:
@@ -150,16 +148,19 @@ def _is_named(well: Well, case: Case) -> bool:
     return drawn or general or not assigned.evidence[0].whole
 
 
-def _report(
-    reading: Reading, violations: Mapping[str, list[Violation]], undecided: Sequence[Undecided]
-) -> Report:
+def _report(reading: Reading, outcomes: Mapping[str, _Outcome], refuses: bool) -> Report:
+    violations = {rule: found for rule, (found, _) in outcomes.items()}
+    undecided = [open_ for _, open_ in outcomes.values() if open_]
     recording, options, database = reading.recording, reading.options, reading.database
     waivers = read_waivers(reading.facts)
     standing, waived = apply_waivers(findings_of(violations, database, options), waivers)
     open_ = {question.rule for question in undecided}
     judged = [rule for rule in violations if rule not in open_]
     known = [rule.id for rule in database.rules]
-    misplaced = unknown_places(reading.deck, options.roles, database.common.levels)
+    misplaced = [*unknown_places(reading.deck, options.roles, database.common.levels)]
+    sure = [told for told, always in misplaced if always or "add_parameters" not in recording.text]
+    if refuses and sure:
+        raise ConfigurationError(" ".join(sure))
     return Report(
         file=recording.file,
         family=reading.families[0].family if reading.families else "",
@@ -171,7 +172,7 @@ def _report(
         waived=tuple(waived),
         remarks=(
             *([] if reading.trace.visits else [_IDLE]),
-            *map(Remark, misplaced),
+            *(Remark(told) for told, _ in misplaced),
             *_conflicts(reading.roles),
             *waiver_remarks(waivers, waived, judged, known),
             *_chances(reading),

@@ -79,17 +79,14 @@ class _Chances:
         of = self._nodes.of
         for assigned in of(ast.Assign):
             self._name(assigned.targets, assigned.value)
-        for changed in of(ast.AugAssign):
+        changes: list[ast.AugAssign | ast.NamedExpr] = [*of(ast.AugAssign), *of(ast.NamedExpr)]
+        for changed in changes:
             self._name([changed.target], changed.value)
-        for walrus in of(ast.NamedExpr):
-            self._name([walrus.target], walrus.value)
         loops: list[ast.For | ast.comprehension] = [*of(ast.For), *of(ast.comprehension)]
         for loop in loops:
             self._name([loop.target], loop.iter)
-        for block in of(ast.With):
-            for item in block.items:
-                if item.optional_vars is not None:
-                    self._name([item.optional_vars], item.context_expr)
+        for item in (one for block in of(ast.With) for one in block.items if one.optional_vars):
+            self._name([*filter(None, [item.optional_vars])], item.context_expr)
         for call in self._nodes.of(ast.Call):
             # What is shuffled, or read into, holds it from then on.
             source = self._source_of(call)
@@ -98,11 +95,9 @@ class _Chances:
 
     def _name(self, targets: Sequence[ast.expr], value: ast.expr) -> None:
         source = self._in(value)
-        for target in targets:
-            if source:
-                for part in ast.walk(target):
-                    if isinstance(part, ast.Name):
-                        self._names.setdefault(part.id, source)
+        for part in (part for target in targets for part in ast.walk(target)):
+            if source and isinstance(part, ast.Name):
+                self._names.setdefault(part.id, source)
 
     def _reached(self) -> Iterator[tuple[str, int]]:
         branches: list[ast.If | ast.While] = [*self._nodes.of(ast.If), *self._nodes.of(ast.While)]
@@ -111,11 +106,9 @@ class _Chances:
             if source and any(map(_decides, [*branch.body, *branch.orelse])):
                 yield source, branch.lineno
         for call in self._nodes.of(ast.Call):
-            if isinstance(call.func, ast.Attribute) and call.func.attr in _MOVES:
-                for given in (*call.args, *(word.value for word in call.keywords)):
-                    source = self._in(given)
-                    if source:
-                        yield source, call.lineno
+            for given in (*call.args, *(word.value for word in call.keywords)):
+                if _moves(call) and (source := self._in(given)):
+                    yield source, call.lineno
 
     def _in(self, value: ast.expr) -> str:
         """The source that an expression draws from, or ``""``."""
@@ -176,11 +169,11 @@ def _dotted(node: ast.expr) -> str:
 def _decides(statement: ast.stmt) -> bool:
     """Whether a statement moves something, or leaves out what comes after it."""
     return any(
-        isinstance(part, (ast.Return, ast.Break, ast.Continue))
-        or (
-            isinstance(part, ast.Call)
-            and isinstance(part.func, ast.Attribute)
-            and part.func.attr in _MOVES
-        )
+        isinstance(part, (ast.Return, ast.Break, ast.Continue)) or _moves(part)
         for part in ast.walk(statement)
     )
+
+
+def _moves(part: ast.AST) -> bool:
+    called = part.func if isinstance(part, ast.Call) else None
+    return isinstance(called, ast.Attribute) and called.attr in _MOVES

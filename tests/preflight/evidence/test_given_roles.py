@@ -5,9 +5,11 @@ from __future__ import annotations
 import functools
 import re
 import textwrap
+from dataclasses import replace
 
 import pytest
 
+from aegis_ot.errors import ConfigurationError
 from aegis_ot.preflight import Options, Reading, Report, Script, judge, load_database, record
 from aegis_ot.preflight.check_protocol import summary
 from aegis_ot.preflight.rehearsal import Recording
@@ -46,7 +48,8 @@ def told(**roles: str) -> Report:
         ("3:A1, B9", "'B9' is no well"),
         (
             "PCR plat:A1",
-            "no labware is called 'PCR plat'; there are 'PCR plate', '3', 'Slot of tubes'",
+            "no labware is called 'PCR plat' (did you mean 'PCR plate'?); there are 'PCR plate', "
+            "'3', 'Slot of tubes'",
         ),
         ("5:A1", "no labware is called '5'"),
         ("A1", "no labware is called ''"),
@@ -55,12 +58,33 @@ def told(**roles: str) -> Report:
         ("PCR plate:A1 = 1e999", "'1e999' is no concentration or dose"),
     ],
 )
-def test_a_place_that_is_not_there_is_told(place: str, wrong: str) -> None:
-    report = told(ntc=place)
-    (remark,) = report.remarks
-    assert f"'{place}'" in remark.message
-    assert wrong in remark.message
+def test_a_place_that_is_not_there_is_refused(place: str, wrong: str) -> None:
+    with pytest.raises(ConfigurationError) as caught:
+        told(ntc=place)
+    assert f"'{place}'" in str(caught.value)
+    assert wrong in str(caught.value)
+
+
+def test_of_a_typo_the_nearest_names_are_told() -> None:
+    with pytest.raises(ConfigurationError, match=r"no well of that labware \(did you mean 'H"):
+        told(ntc="PCR plate:H13")
+    with pytest.raises(ConfigurationError, match=r"there is no role 'ntcs' \(did you mean 'ntc'\?"):
+        told(ntcs="PCR plate:H12")
+
+
+def test_labware_that_a_parameter_may_bring_is_only_remarked() -> None:
+    text = f"{recording().text}\n\ndef add_parameters(parameters): pass\n"
+    options = Options(roles={"ntc": ("second plate:A1",)})
+    report = judge(Reading(replace(recording(), text=text), load_database(), options))
+    assert ["second plate" in remark.message for remark in report.remarks] == [True]
     assert "1 remark" in summary(report)
+
+
+def test_a_run_that_goes_on_is_not_ended_by_a_typo() -> None:
+    options = Options(roles={"ntc": ("PCR plate:H13",)})
+    for so_far in (True, False):
+        report = judge(Reading(recording(), load_database(), options), so_far=so_far)
+        assert any("H13" in remark.message for remark in report.remarks)
 
 
 @pytest.mark.parametrize(
