@@ -163,7 +163,7 @@ class CheckedProtocol:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What a model has to say beyond findings."""
+        """What there is to say beyond findings: of labware, of what it reaches, of a model."""
         return self.report.notes if self.report else ()
 
     @property

@@ -24,6 +24,7 @@ from .files import read_protocol
 from .guard_arguments import GuardArguments, guard_arguments
 from .modelled import Asking, ask_model
 from .problems import lacks_labware, with_helper
+from .reaching import reaches
 from .rehearser import Rehearser, TaskFailed
 from .result import CheckedProtocol, Problem, with_findings
 from .shelf import Definition, definitions_below, named_in, with_own_values
@@ -150,7 +151,7 @@ def check_file(
         off=tuple(rule.id for rule in database.rules if options.severity_of(rule) == "off"),
         modules={module: around.modules[module].path for module in judged.modules},
     )
-    return _settle(checked, said, settings, around)
+    return _settle(_with_notes(checked, reaches(text)), said, settings, around)
 
 
 def _judge_in(
@@ -176,15 +177,20 @@ def _judge_in(
     labware = {**{one.uri: one.content for one in found}, **script.extra_labware}
     script = dataclasses.replace(script, extra_labware=labware)
     judged = _judge(rehearser, script, options, settings, database)
-    if judged.report is None:
-        return judged
     notes = [
         f"the labware {one.load_name} is defined by {os.path.relpath(one.file, place.parent)}, "
         "of the same repository."
         for one in found
     ]
-    report = dataclasses.replace(judged.report, notes=(*judged.report.notes, *notes))
-    return dataclasses.replace(judged, report=report)
+    return _with_notes(judged, notes)
+
+
+def _with_notes(checked: CheckedProtocol, notes: Sequence[str]) -> CheckedProtocol:
+    report = checked.report
+    if report is None or not notes:
+        return checked
+    noted = dataclasses.replace(report, notes=(*report.notes, *notes))
+    return dataclasses.replace(checked, report=noted)
 
 
 def _with_own_values(

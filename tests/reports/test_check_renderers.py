@@ -126,7 +126,7 @@ def test_sarif_says_where_help_on_a_rule_is(tmp_path: Path) -> None:
         dataclasses.replace(one, path=str(tmp_path / f"{one.family}.json"))
         for one in DATABASE.families
     )
-    run = CheckRun((), dataclasses.replace(DATABASE, families=families), "1")
+    run = CheckRun((), dataclasses.replace(DATABASE, families=families), "1.2.3")
     log = json.loads(check_sarif(run))
     jsonschema.Draft202012Validator(SARIF).validate(log)
     rules = {rule["id"]: rule for rule in log["runs"][0]["tool"]["driver"]["rules"]}

@@ -39,7 +39,7 @@ class Report:
         roles: Every role assignment, with evidence.
         families: All families, the likeliest first.
         waived: Findings that a waiver covers.
-        notes: What a model has to say beyond findings.
+        notes: What a model, or a check on a workstation, has to say beyond findings.
         remarks: Conflicting evidence, stale and faulty waivers.
         judged: Rules that were judged to the end.
         unnamed: Wells that the run uses and of which nothing says what they are for.
