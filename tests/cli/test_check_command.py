@@ -265,7 +265,6 @@ def test_a_format_without_roles_says_so_where_they_are_asked_for(
 
 UNREADABLE: list[tuple[str, bytes | None, str]] = [
     ("missing.py", None, "there is no such file"),
-    ("folder", None, "is a folder; name the protocols in it"),
     ("empty.py", b" \n", "is empty"),
     ("binary.py", b"\x7fELF\x02\xff\xfe", "is a binary file"),
     ("nul.py", b"def run(p):\n\0", "is a binary file"),

@@ -42,6 +42,7 @@ RULE = _object(
     shortDescription=MESSAGE,
     fullDescription=MESSAGE,
     help=MESSAGE,
+    helpUri=TEXT,
     defaultConfiguration=_object([], level=LEVEL),
 )
 STEPS = _object(["locations"], locations=_list(_object([], location=LOCATION), minItems=1))
