@@ -18,9 +18,9 @@ import numpy as np
 
 from ..errors import DatasetError
 from ..vocabulary import KeyframeKind
-from .dataset_checks import COLUMNS, Record, read_boxes, read_manifest
+from .dataset_checks import COLUMNS, Record, read_boxes, read_manifest, read_positions
 from .tables import Problems
-from .types import Detector, Image, TipDetection, TrajectorySample
+from .types import Detector, Image, Position, TipDetection, TrajectorySample
 
 __all__ = ["COLUMNS", "Dataset", "Record", "TrueBoxes", "load_dataset"]
 
@@ -119,6 +119,7 @@ class Dataset:
         boxes: Labelled boxes by frame (x, y, w, h, px; ``None``: no tip); empty without a file.
         meta: Content of ``meta.json``.
         warnings: What is odd without being wrong (boxes of frames that no row names, ...).
+        positions: End of the tip on the deck, mm, by trajectory and keyframe; empty without a file.
     """
 
     root: Path
@@ -126,6 +127,9 @@ class Dataset:
     boxes: Mapping[str, tuple[float, float, float, float] | None] = field(repr=False)
     meta: Mapping[str, Any] = field(repr=False)
     warnings: tuple[str, ...] = ()
+    positions: Mapping[str, Mapping[KeyframeKind, Position]] = field(
+        default_factory=dict, repr=False
+    )
 
     @property
     def name(self) -> str:
@@ -181,6 +185,7 @@ class Dataset:
             retained_fraction=record.retained_fraction,
             capacity_ul=(self.meta.get("tips_ul") or {}).get(record.id),
             tip_used=(self.meta.get("tips_used") or {}).get(record.id, ""),
+            positions=self.positions.get(record.id, {}),
         )
 
 
@@ -207,11 +212,12 @@ def load_dataset(folder: str | Path) -> Dataset:
     problems = Problems()
     records = read_manifest(root, problems)
     boxes, warnings = read_boxes(root, records, problems)
+    positions = read_positions(root, records, problems)
     meta = _read_meta(root, problems)
     if problems:
         raise DatasetError(problems.text(root))
     warnings += _strangers(meta, records)
-    return Dataset(root, tuple(records), boxes, meta, tuple(warnings))
+    return Dataset(root, tuple(records), boxes, meta, tuple(warnings), positions)
 
 
 def _strangers(meta: Mapping[str, Any], records: Sequence[Record]) -> list[str]:

@@ -14,6 +14,7 @@ import numpy as np
 from ..vocabulary import KeyframeKind
 from .tables import Note, Problems, number, read_table
 from .tips import pipette_class, tip_for
+from .types import Position
 
 FRAME_COLUMNS = tuple(kind.value for kind in KeyframeKind)
 COLUMNS = (
@@ -30,6 +31,7 @@ COLUMNS = (
 )
 BOX_COLUMNS = ("frame", "x", "y", "w", "h")
 AXIS_COLUMNS = ("frame", "collar_x", "collar_y", "orifice_x", "orifice_y")
+POSITION_COLUMNS = ("trajectory_id", "keyframe", "x", "y", "z")
 LABELS = ("normal", "failure")
 FAILURE_TYPES = (
     "partial_25",
@@ -179,6 +181,32 @@ def read_boxes(
     if lacking := [frame for frame in named if frame not in boxes]:
         warnings.append(f"boxes.csv: {len(lacking)} frames have no row")
     return boxes, warnings
+
+
+def read_positions(
+    root: Path, records: Sequence[Record], problems: Problems
+) -> dict[str, dict[KeyframeKind, Position]]:
+    """Where the tip's end was, mm on the deck, by trajectory; empty without ``positions.csv``."""
+    path = root / "positions.csv"
+    positions: dict[str, dict[KeyframeKind, Position]] = {}
+    if not path.exists():
+        return positions
+    known = {record.id for record in records}
+    for line, row in read_table(path, POSITION_COLUMNS, problems):
+        note = Note(problems, "positions.csv", line)
+        name, kind = row["trajectory_id"], row["keyframe"]
+        if name not in known:
+            note("trajectory_id", f"{name!r} is in no row of manifest.csv")
+        if kind not in FRAME_COLUMNS:
+            note("keyframe", f"{kind!r} must be one of {', '.join(FRAME_COLUMNS)}")
+            continue
+        x, y, z = (number(row[axis], axis, note) for axis in "xyz")
+        of_well = positions.setdefault(name, {})
+        if KeyframeKind(kind) in of_well:
+            note("keyframe", f"{kind!r} of {name!r} stands in an earlier row already")
+        if x is not None and y is not None and z is not None:
+            of_well[KeyframeKind(kind)] = (x, y, z)
+    return positions
 
 
 def _check_label(row: Mapping[str, str], note: Note) -> None:

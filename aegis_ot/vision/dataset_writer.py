@@ -13,7 +13,7 @@ import cv2
 
 from ..errors import DatasetError
 from ..vocabulary import KeyframeKind, csv_cell
-from .dataset_checks import AXIS_COLUMNS, BOX_COLUMNS, COLUMNS
+from .dataset_checks import AXIS_COLUMNS, BOX_COLUMNS, COLUMNS, POSITION_COLUMNS
 from .types import TipDetection, TrajectorySample
 
 
@@ -50,6 +50,9 @@ class DatasetWriter:
         self._rows.writerow(COLUMNS)
         self._box_rows.writerow(BOX_COLUMNS)
         self._axis_rows.writerow(AXIS_COLUMNS)
+        self._positions = (self.root / "positions.csv").open("w", newline="", encoding="utf-8")
+        self._position_rows = csv.writer(self._positions, lineterminator="\n")
+        self._position_rows.writerow(POSITION_COLUMNS)
 
     def __enter__(self) -> DatasetWriter:
         return self
@@ -61,6 +64,7 @@ class DatasetWriter:
         self._manifest.close()
         self._boxes.close()
         self._axes.close()
+        self._positions.close()
 
     def add(
         self,
@@ -103,6 +107,9 @@ class DatasetWriter:
             self._add_tips(
                 path, sample.detections.get(kind), beside.get(kind, ()) if beside else ()
             )
+        for kind, place in sample.positions.items():
+            row = (csv_cell(sample.id), kind.value, *(f"{value:.3f}" for value in place))
+            self._position_rows.writerow(row)
         retained = sample.retained_fraction
         self._rows.writerow(
             csv_cell(value)

@@ -8,7 +8,7 @@ right, y down, and are floats: the centre of the first pixel is ``(0.5, 0.5)``.
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -18,6 +18,8 @@ from ..vocabulary import KeyframeKind
 from .tips import TipGeometry, is_flex, pipette_class, tip_for
 
 Image = NDArray[np.uint8]
+Position = tuple[float, float, float]
+"""A place on the deck, mm: x to the right, y away from the front, z up."""
 
 FREE = (KeyframeKind.TRANSIT, KeyframeKind.POST_DISPENSE)
 """Keyframes in which the tip hangs free above its well; in the others labware may hide it."""
@@ -113,6 +115,7 @@ class TrajectorySample:
         retained_fraction: Fraction of the volume left in the tip, if known.
         capacity_ul: Working volume of its tip, µL; ``None`` for the pipette's own size.
         tip_used: Which tip, where one served several wells; empty: one that served no other.
+        positions: End of the tip on the deck (x, y, z) at each keyframe, mm, where it is known.
     """
 
     id: str
@@ -129,6 +132,7 @@ class TrajectorySample:
     retained_fraction: float | None = None
     capacity_ul: float | None = None
     tip_used: str = ""
+    positions: Mapping[KeyframeKind, Position] = field(default_factory=dict)
 
     @property
     def tip(self) -> TipGeometry:

@@ -128,6 +128,11 @@ def _sample(
         label=label,
         failure_type=failure,
         retained_fraction=retained,
+        positions={
+            kind: (float(place[0]), float(place[1]), float(place[2]))
+            for kind, keyframe in keyframes.items()
+            if (place := keyframe.get("position")) is not None
+        },
     )
 
 

@@ -11,6 +11,7 @@ from ..progress import Progress
 from ..vision.dataset import Dataset, TrueBoxes
 from ..vision.types import Detector, TrajectorySample
 from ..vocabulary import KeyframeKind
+from .registered_tips import registered_samples
 
 D = TypeVar("D")
 
@@ -63,10 +64,19 @@ def find_tips(
     """Look for the tip in every frame of a set.
 
     Raises:
-        DatasetError: If true boxes are asked for and a frame has none.
+        DatasetError: If true boxes are asked for and a frame has none, or ``"registered"`` ones
+            and the set does not say where the robot held the tip.
         ModelError: If a detector's file cannot be used.
     """
+    from aegis_ot.vision.detection import load_detector
+
     progress = progress or Progress()
+    if detector == "registered":
+        shipped = load_detector("default")
+        progress.begin("Registering cameras", 1)
+        located = registered_samples(data, shipped)
+        progress.step()
+        return FoundTips(located, "detector and the robot's positions", shipped)
     finder, name = find_detector(data, detector)
     samples = data.samples(finder)
     progress.begin("Finding tips", len(samples))

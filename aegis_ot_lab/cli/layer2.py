@@ -43,7 +43,10 @@ def layer2(
     ] = "lopo",
     boxes: Annotated[
         str,
-        typer.Option(help="detector (the shipped one), true (boxes.csv), or an .onnx file."),
+        typer.Option(
+            help="detector (the shipped one), registered (it, and positions.csv), "
+            "true (boxes.csv), or an .onnx file."
+        ),
     ] = "detector",
     threshold: Annotated[
         str,

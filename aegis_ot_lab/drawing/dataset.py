@@ -174,6 +174,7 @@ def render_trajectory(
     column = 1 + int(rng.integers(12))
     jpegs: dict[KeyframeKind, bytes] = {}
     truths: dict[KeyframeKind, FrameTruth] = {}
+    positions: dict[KeyframeKind, tuple[float, float, float]] = {}
     for kind, content in states.items():
         if drops and kind is KeyframeKind.POST_DISPENSE:
             content = replace(content, drop_ul=min(4.0, 0.02 * volume) * rng.uniform(0.3, 1.0))
@@ -181,6 +182,7 @@ def render_trajectory(
             session, kind, tip, (content,) * channels, DYES[well.reagent],
             source="A1", destination=f"{name[0]}{column}",
         )  # fmt: skip
+        positions[kind] = state.orifice
         jpegs[kind], truths[kind] = render(state, session, rng)
     sample = TrajectorySample(
         id=identifier,
@@ -198,6 +200,7 @@ def render_trajectory(
         label="failure" if well.failure else "normal",
         failure_type=well.failure,
         retained_fraction=kept,
+        positions=positions,
     )
     beside = {
         kind: tuple(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -164,3 +165,28 @@ def test_the_axis_of_every_tip_of_a_row_is_written(tmp_path: Path) -> None:
         "frames/a_transit.jpg"
     ]
     assert (rows[0]["collar_x"], rows[0]["orifice_y"]) == ("60.00", "131.00")
+
+
+def test_positions_are_written_and_read_back(tmp_path: Path) -> None:
+    places = {KeyframeKind.TRANSIT: (132.5, 90.25, 61.0), KeyframeKind.ASPIRATE: (0.0, -3.5, 12.0)}
+    with DatasetWriter(tmp_path / "set", {}) as writer:
+        writer.add(replace(sample("a", plate="p"), positions=places))
+        writer.add(sample("b", plate="p"))
+    first, second = load_dataset(tmp_path / "set").samples(TrueBoxes({}))
+    assert first.positions == places
+    assert second.positions == {}
+
+
+def test_faults_of_positions_are_named(folder: Path) -> None:
+    rows = ["trajectory_id,keyframe,x,y,z", "p1-a,transit,1,2,3", "p1-a,transit,1,2,3"]
+    rows += ["nobody,transit,1,2,3", "p1-b,landing,1,2,3", "p1-b,transit,1,far,3"]
+    (folder / "positions.csv").write_text("\n".join(rows) + "\n")
+    with pytest.raises(DatasetError) as error:
+        load_dataset(folder)
+    for told in (
+        "row 3, column keyframe: 'transit' of 'p1-a' stands in an earlier row already",
+        "row 4, column trajectory_id: 'nobody' is in no row of manifest.csv",
+        "row 5, column keyframe: 'landing' must be one of",
+        "row 6, column y: 'far'",
+    ):
+        assert told in str(error.value)

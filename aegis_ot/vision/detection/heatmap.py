@@ -155,6 +155,23 @@ class HeatmapDetector:
             found, view = again
         return _detection(found, view, score, image.shape[1], image.shape[0])
 
+    def look_at(self, image: Image, axis: Axis) -> TipDetection | None:
+        """The likeliest tip in a close-up of the place where one should hang, however unlikely.
+
+        Args:
+            image: BGR, ``uint8``, shape ``(height, width, 3)``.
+            axis: Collar and orifice as they are expected, px.
+
+        Raises:
+            ValueError: The image has another shape or type.
+        """
+        check_image(image)
+        view = close_up(image, *axis)
+        found = next(iter(candidates(_maps(self._session, [view])[0], 0.01, 1)), None)
+        if found is None:
+            return None
+        return _detection(found, view, found.score, image.shape[1], image.shape[0])
+
     def ends(self, image: Image, tip: TipDetection, reach: float) -> Ends:
         """All that looks like an end of a tip up to ``reach`` px beside ``tip``.
 
