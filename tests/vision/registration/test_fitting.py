@@ -69,7 +69,7 @@ def errors(found: Registration, camera: CameraModel, rng: np.random.Generator) -
     return np.array(rows)
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(camera=cameras, seed=st.integers(0, 10_000))
 def test_six_wells_show_where_the_others_will_be(camera: CameraModel, seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -80,7 +80,7 @@ def test_six_wells_show_where_the_others_will_be(camera: CameraModel, seed: int)
     assert (off[:, 0] < 6.0 * off[:, 1] + 2.0).all(), "the error told is no promise"
 
 
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=4, deadline=None)
 @given(camera=cameras, seed=st.integers(0, 10_000))
 def test_without_noise_the_camera_is_exact(camera: CameraModel, seed: int) -> None:
     rng = np.random.default_rng(seed)
