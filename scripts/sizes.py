@@ -10,7 +10,7 @@ BUDGETS = {
     "aegis_ot": 65_500,
     "aegis_ot_lab": 10_500,
     "aegis_ot/preflight": 11_800,
-    "aegis_ot/vision": 12_600,
+    "aegis_ot/vision": 13_000,
     "aegis_ot/sidecar": 7_700,
     "aegis_ot/runtime": 4_400,
 }
