@@ -1,6 +1,9 @@
 from __future__ import annotations
 
+import json
 from pathlib import Path
+
+import pytest
 
 from .commands import Command
 from .test_check_command import protocol
@@ -53,3 +56,26 @@ def test_a_wrong_call_says_what_is_wrong(aegis: Command, tmp_path: Path) -> None
         assert result.code == 2
         assert words in result.err
     assert not (tmp_path / "r.csv").exists()
+
+
+def test_a_ci_is_told_by_the_exit_code_and_a_project_is_heard(
+    aegis: Command, tmp_path: Path
+) -> None:
+    pytest.importorskip("tomllib")
+    protocol(tmp_path / "shelf" / "pcr.py", tips="once")
+    protocol(tmp_path / "good" / "pcr.py")
+    for folder, option, code in [
+        ("shelf", "never", 0),
+        ("shelf", "error", 1),
+        ("good", "warning", 0),
+        ("shelf", "often", 2),
+    ]:
+        assert aegis("corpus", folder, "--out", "r.csv", "--fail-on", option).code == code
+    (tmp_path / "shelf" / "pyproject.toml").write_text(
+        '[tool.aegis-ot.severity]\nPCR-3 = "warning"\n', encoding="utf-8"
+    )
+    assert aegis("corpus", "shelf", "--out", "r.csv", "--fail-on", "error").code == 0
+    assert aegis("corpus", "shelf", "--out", "r.csv", "--fail-on", "warning").code == 1
+    summary = json.loads((tmp_path / "r.summary.json").read_text(encoding="utf-8"))
+    assert summary["verdicts"] == {"warn": 1}
+    assert summary["protocols_by_rule"]["decided"]["PCR-3"] == 1
