@@ -6,6 +6,7 @@ The four canvases make one trajectory vector.
 
 from __future__ import annotations
 
+import functools
 import weakref
 from collections.abc import Callable
 from typing import Any, TypeVar
@@ -93,5 +94,7 @@ def remember(sample: TrajectorySample, what: str, make: Callable[[TrajectorySamp
     if known is not None and known[0]() is sample:
         return known[1]  # type: ignore[no-any-return]
     value = make(sample)
-    _memory[key] = (weakref.ref(sample, lambda _: _memory.pop(key, None)), value)
+    # Bound now: samples may outlive this module's names when the interpreter ends.
+    forget = functools.partial(_memory.pop, key, None)
+    _memory[key] = (weakref.ref(sample, lambda _: forget()), value)
     return value

@@ -55,7 +55,7 @@ def _judge_rule(rule: RuleSpec, case: Case, so_far: bool) -> _Outcome:
         if any(cannot_break.issuperset(need.split("|")) for need in missing):
             return [], None
         return [], missing_roles(rule, case, missing)
-    if not case.confident and not case.family.default:
+    if not case.confident and not case.family.default and rule.scope == "family":
         return [], undecided_by(UNKNOWN_ASSAY, rule, case)
     violations: list[Violation] = []
     doubts: list[Doubt] = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import weakref
 from collections.abc import Hashable, Mapping
 from typing import Any
@@ -36,7 +37,8 @@ def _taken_in(image: Image) -> _Taken:
     place = id(image)
     known = _taken.get(place)
     if known is None or known[0]() is not image:
-        known = _taken[place] = (weakref.ref(image, lambda _: _taken.pop(place, None)), {})
+        forget = functools.partial(_taken.pop, place, None)
+        known = _taken[place] = (weakref.ref(image, lambda _: forget()), {})
     return known[1]
 
 
