@@ -196,7 +196,7 @@ def read_positions(
         note = Note(problems, "positions.csv", line)
         name, kind = row["trajectory_id"], row["keyframe"]
         if name not in known:
-            note("trajectory_id", f"{name!r} is in no row of manifest.csv")
+            continue  # of a trajectory that was taken out of the set
         if kind not in FRAME_COLUMNS:
             note("keyframe", f"{kind!r} must be one of {', '.join(FRAME_COLUMNS)}")
             continue

@@ -109,7 +109,7 @@ def test_no_answer_is_undecided_by_name_with_exit_code_2(
     assert protocol["model"]["state"] == state
     reasons = {u["rule"]: u["reason"] for u in protocol["undecided"]}
     assert f"gave no answer ({state})" in reasons["MODEL"]
-    assert len(reasons) == 7, "what the checks left open stays open"
+    assert len(reasons) == 8, "what the checks left open stays open"
     assert KEY not in result.out + result.err
 
 

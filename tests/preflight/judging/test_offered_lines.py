@@ -31,6 +31,8 @@ def test_what_is_offered_hides_nothing(path: Path) -> None:
     database, options = load_database(), Options()
     before = judge(Reading(recording, database, options))
     for line in {one.paste for one in before.undecided if one.paste.startswith(OFFER)}:
+        if "= ..." in line:
+            continue  # concentrations are left to write, and without them it is refused
         roles = json.loads(line[len(OFFER) : -1])
         after = judge(Reading(recording, database, replace(options, roles=roles)))
         assert _errors(before) <= _errors(after), line
